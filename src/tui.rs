@@ -30,6 +30,7 @@ mod theme;
 mod update;
 mod variants;
 mod view;
+mod whine;
 mod worker;
 
 mod baseline;

@@ -181,6 +181,24 @@ impl ReliefReport<'_> {
     }
 }
 
+/// The reliefs as values of the fields of a case, rounded as the report prints them.
+#[must_use]
+pub fn settings(reliefs: &TipReliefs) -> Vec<(&'static str, String)> {
+    const KEYS: [[&str; 2]; 2] = [
+        ["driver.tip_relief", "driver.tip_relief_length"],
+        ["driven.tip_relief", "driven.tip_relief_length"],
+    ];
+    let shape = shape(reliefs.shape).to_owned();
+    let mut settings = vec![("model.relief_shape", shape)];
+    for (at, [amount, length]) in KEYS.into_iter().enumerate() {
+        let has_relief = reliefs.amounts[at] > 0.0;
+        let in_mm = format!("{} mm", mm(reliefs.lengths[at]));
+        settings.push((amount, format!("{} um", um(reliefs.amounts[at]))));
+        settings.push((length, if has_relief { in_mm } else { String::new() }));
+    }
+    settings
+}
+
 fn record(name: &str, reliefs: &TipReliefs, error: f64, margin: f64) -> [String; 8] {
     let [driver, driven] = reliefs.amounts;
     let [driver_length, driven_length] = reliefs.lengths;

@@ -2,6 +2,7 @@
 //! greatest load, and among those the least transmission error over the loads.
 
 mod bench;
+pub mod demand;
 mod figures;
 mod search;
 

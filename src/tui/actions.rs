@@ -7,7 +7,7 @@ use ratatui::layout::{Position, Size};
 
 use super::benchmark::{Measured, Measuring};
 use super::commands::{self, Command};
-use super::jobs::{Explained, ExportFault, Job};
+use super::jobs::{Explained, ExportFault, Job, ReliefAnswer};
 use super::keys::{Chord, Place};
 use super::session::recovery::Claim;
 use super::session::save::{Next, SaveFault, Saving, Written};
@@ -19,6 +19,7 @@ use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
 use super::study::{StudyPart, StudyRequest};
 use super::variants::Variants;
+use super::whine::{WhinePart, WhineRequest};
 use crate::case::Document;
 use crate::report::digest::Digest;
 
@@ -52,6 +53,8 @@ pub enum Action {
     Compared(Box<Variants>),
     /// The next results of a study.
     Studied(Box<StudyPart>),
+    /// The next values of a chart of whine.
+    Whined(Box<WhinePart>),
     /// The worker failed on the request of that serial.
     SolverFailed(u64),
     /// Long work goes on, or is over.
@@ -78,6 +81,8 @@ pub enum Action {
     Examples(Vec<Digest>),
     /// Where a result comes from.
     Explained(Box<Explained>),
+    /// The tip relief to specify.
+    Relieved(Box<ReliefAnswer>),
     /// Something that was asked for, or that keeps what is typed, did not succeed.
     Failed(String),
 }
@@ -113,6 +118,10 @@ pub enum Effect {
     CancelWork,
     /// Compute a study, and send its results as [`Action::Studied`].
     Study(Box<StudyRequest>),
+    /// Compute a chart of whine, and send its values as [`Action::Whined`].
+    Whine(Box<WhineRequest>),
+    /// Stop the chart of whine.
+    CancelWhine,
     /// Stop the study.
     CancelStudy,
     /// Stop what is being solved.

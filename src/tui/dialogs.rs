@@ -9,6 +9,7 @@ pub(crate) mod export;
 pub(crate) mod page;
 pub(crate) mod picker;
 pub(crate) mod question;
+mod relief;
 pub(crate) mod save_as;
 
 use std::path::PathBuf;
@@ -31,6 +32,7 @@ use export::ExportTo;
 use page::Page;
 use picker::{Pick, Picker};
 use question::{Choice, Question};
+pub(crate) use relief::ReliefDialog;
 use save_as::SaveAs;
 
 /// What every dialog does. By default it ignores a key.
@@ -114,6 +116,8 @@ pub(crate) enum Outcome {
     Choose(Choice),
     /// Save under that name, then go on.
     SaveAs(String, Next),
+    /// Take these values of fields into the case.
+    Relief(Vec<(&'static str, String)>),
     /// Export to the file of that name.
     Export(String),
     /// Move the cursor to that angle, in rad before E; or why there is none.
@@ -149,6 +153,8 @@ pub enum Prompt {
     Read(Page),
     /// The explanation of a result.
     Explain(Explanation),
+    /// The tip relief to specify.
+    Relief(Box<ReliefDialog>),
     /// A list to pick from.
     Pick(Picker),
 }
@@ -164,6 +170,7 @@ impl Prompt {
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
             Prompt::Explain(dialog) => dialog,
+            Prompt::Relief(dialog) => &**dialog,
             Prompt::Pick(dialog) => dialog,
         }
     }
@@ -178,6 +185,7 @@ impl Prompt {
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
             Prompt::Explain(dialog) => dialog,
+            Prompt::Relief(dialog) => &mut **dialog,
             Prompt::Pick(dialog) => dialog,
         }
     }

@@ -48,6 +48,8 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         | Effect::CancelSolve
         | Effect::Study(_)
         | Effect::CancelStudy
+        | Effect::Whine(_)
+        | Effect::CancelWhine
         | Effect::Redraw
         | Effect::Suspend
         | Effect::Quit => None,

@@ -8,6 +8,7 @@ use crate::case::units::System;
 use crate::case::{Case, Document};
 use crate::model::{Inputs, Quantity};
 use crate::report::explain::Page;
+use crate::study::relief::{Demand, Specification};
 
 /// A job. Its result is an action.
 #[derive(Debug, Clone)]
@@ -28,6 +29,8 @@ pub enum Job {
     Export(Box<Exporting>),
     /// What the variants of a case give.
     Variants(Box<VariantsRequest>),
+    /// The tip relief to specify.
+    Relief(Box<ReliefRequest>),
 }
 
 /// A result to be explained.
@@ -39,6 +42,18 @@ pub struct Asked {
     /// The pair that it describes.
     pub(crate) inputs: Inputs,
 }
+
+/// A search for the tip relief to specify.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReliefRequest {
+    /// What it must serve.
+    pub(crate) demand: Demand,
+    /// The pair.
+    pub(crate) inputs: Inputs,
+}
+
+/// A search and its answer, or why there is none.
+pub(crate) type ReliefAnswer = (ReliefRequest, Result<Box<Specification>, String>);
 
 /// Results to be written to a file.
 #[derive(Debug, Clone)]
@@ -84,7 +99,7 @@ pub struct Explained {
 
 impl Job {
     /// How many kinds there are.
-    pub(super) const KINDS: usize = 8;
+    pub(super) const KINDS: usize = 9;
 
     /// The kind and its name. Of a kind the latest job replaces the others.
     pub(super) const fn kind(&self) -> (usize, &'static str) {
@@ -97,6 +112,7 @@ impl Job {
             Job::Below(..) => (5, "search"),
             Job::Export(_) => (6, "export"),
             Job::Variants(_) => (7, "variants"),
+            Job::Relief(_) => (8, "relief"),
         }
     }
 }

@@ -14,6 +14,7 @@ use super::session::recovery::{Access, OpenCase};
 use super::solver::{Answer, Values};
 use super::study::Study;
 use super::variants::Variants;
+use super::whine::Whine;
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
 
@@ -78,6 +79,8 @@ pub struct Tab {
     pub(crate) variants_asked: u64,
     /// The study of the case.
     pub study: Study,
+    /// The chart of whine of the case.
+    pub whine: Whine,
     /// Selection and scrolling of the results.
     pub results: ResultsState,
 }
@@ -131,6 +134,7 @@ impl Tab {
             variants: None,
             variants_asked: 0,
             study: Study::default(),
+            whine: Whine::default(),
             results: ResultsState::default(),
         }
     }

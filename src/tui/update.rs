@@ -18,6 +18,7 @@ mod page;
 mod panes;
 mod pointer;
 mod recovery;
+mod relief;
 mod reload;
 mod selection;
 mod study;
@@ -25,6 +26,7 @@ mod tabs;
 mod teeth;
 mod trade;
 mod variants;
+mod whine;
 
 use std::mem;
 use std::path::PathBuf;
@@ -77,6 +79,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     chart::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
     effects.extend(study::ask(app));
+    effects.extend(whine::ask(app));
     effects.extend(variants::request(app));
     effects.extend(trade::stop_unseen(app));
     effects
@@ -124,6 +127,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         }
         Action::Measured(measured) => trade::measured(app, *measured),
         Action::Studied(part) => study::take(app, *part),
+        Action::Whined(part) => whine::take(app, &part),
         Action::Compared(found) => variants::take(app, *found),
         Action::SolverFailed(serial) => solver_failed(app, serial),
         Action::Solving(serial, part) => {
@@ -143,7 +147,8 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         | Action::Previewed(..)
         | Action::Recents(_)
         | Action::Examples(_)
-        | Action::Explained(_)) => dialogs::receive(app, result),
+        | Action::Explained(_)
+        | Action::Relieved(_)) => dialogs::receive(app, result),
     }
     Vec::new()
 }
@@ -154,6 +159,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Save => files::save(app, Next::Stay),
         Command::SaveAs => files::ask_where(app, Next::Stay),
         Command::Reload => reload::ask(app),
+        Command::Relief => relief::ask(app),
         Command::Export => export::ask(app),
         Command::Open => browse::open(app, false),
         Command::Recent => browse::recent(app),

@@ -188,6 +188,8 @@ impl Workbench {
                     Effect::CancelWork => self.workers.stop_benchmark(),
                     Effect::Study(request) => self.workers.study(*request)?,
                     Effect::CancelStudy => self.workers.stop_study(),
+                    Effect::Whine(request) => self.workers.whine(*request)?,
+                    Effect::CancelWhine => self.workers.stop_whine(),
                     Effect::CancelSolve => self.workers.stop_solve(),
                     Effect::Job(job) => self.workers.job(job)?,
                     Effect::Keep(settings) => self.chosen = Some(settings),

@@ -7,6 +7,7 @@ pub(crate) mod measuring;
 pub(crate) mod solving;
 pub(crate) mod studying;
 mod watching;
+pub(crate) mod whining;
 
 use std::io;
 use std::path::PathBuf;
@@ -18,6 +19,7 @@ use super::benchmark::Measuring;
 use super::jobs::Job;
 use super::solver::Request;
 use super::study::StudyRequest;
+use super::whine::WhineRequest;
 
 /// The threads. Those of the benchmark and the jobs start with their first request.
 pub struct Workers {
@@ -25,6 +27,7 @@ pub struct Workers {
     solver: Worker<Request>,
     benchmark: Option<Worker<Measuring>>,
     study: Option<Worker<StudyRequest>>,
+    whine: Option<Worker<WhineRequest>>,
     jobs: [Option<Worker<Job>>; Job::KINDS],
     watcher: Watcher,
 }
@@ -39,6 +42,7 @@ impl Workers {
             solver: solving::start(Send::clone(&send))?,
             benchmark: None,
             study: None,
+            whine: None,
             jobs: [const { None }; Job::KINDS],
             watcher: Watcher::start(Send::clone(&send))?,
             send,
@@ -86,6 +90,23 @@ impl Workers {
         };
         worker.request(request);
         Ok(())
+    }
+
+    /// Computes a chart of whine, in place of one that is being computed.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn whine(&mut self, request: WhineRequest) -> io::Result<()> {
+        let worker = match &self.whine {
+            Some(worker) => worker,
+            None => self.whine.insert(whining::start(Send::clone(&self.send))?),
+        };
+        worker.request(request);
+        Ok(())
+    }
+
+    pub(crate) fn stop_whine(&self) {
+        self.whine.iter().for_each(Worker::stop);
     }
 
     pub(crate) fn stop_study(&self) {

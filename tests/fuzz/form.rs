@@ -305,7 +305,7 @@ impl Bench {
             Prompt::Export(_) => "export",
             Prompt::CursorTo(_) => "aim",
             Prompt::Ask(_) => "ask",
-            Prompt::Read(_) | Prompt::Explain(_) => "page",
+            Prompt::Read(_) | Prompt::Explain(_) | Prompt::Relief(_) => "page",
             Prompt::Pick(_) => "pick",
         });
         let invalid = (!self.app.tab.problems.is_empty()).then_some("invalid");
@@ -418,7 +418,8 @@ impl Bench {
                 exporting.path = self.within(&exporting.path);
                 done(Job::Export(exporting))
             }
-            Effect::Job(job) => done(job),
+            // A search for a relief takes seconds, and no key needs its answer.
+            Effect::Job(job) if !matches!(job, Job::Relief(_)) => done(job),
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
                 None
@@ -427,7 +428,8 @@ impl Bench {
                 assert!(!text.is_empty() && text.len() <= 48 * 1024);
                 None
             }
-            Effect::Remember(_)
+            Effect::Job(_)
+            | Effect::Remember(_)
             | Effect::Adopt(_)
             | Effect::Forget(_)
             | Effect::Keep(_)
@@ -438,7 +440,9 @@ impl Bench {
             | Effect::Suspend
             | Effect::Measure(_)
             | Effect::Study(_)
-            | Effect::CancelStudy => None,
+            | Effect::CancelStudy
+            | Effect::Whine(_)
+            | Effect::CancelWhine => None,
         }
     }
 

@@ -29,10 +29,12 @@ use tipstrike::tui::testing::store::recents;
 use tipstrike::tui::testing::study::StudyRequest;
 use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::update::update;
+use tipstrike::tui::testing::whine::WhineRequest;
 use tipstrike::tui::testing::worker::Running;
 use tipstrike::tui::testing::worker::jobs;
 use tipstrike::tui::testing::worker::measure;
 use tipstrike::tui::testing::worker::study;
+use tipstrike::tui::testing::worker::whine;
 use tipstrike::tui::testing::{effects, solver, store, update, view};
 
 pub(crate) const SMALL: Size = Size {
@@ -160,11 +162,15 @@ impl Desk {
                     }
                     Effect::Measure(measuring) => actions.extend(measured(*measuring)),
                     Effect::Study(request) => actions.extend(studied(&request)),
+                    Effect::Whine(request) => actions.extend(whined(&request)),
                     Effect::Quit => self.has_quit = true,
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
                     Effect::Play(plays) => self.ticks = plays,
-                    Effect::CancelWork | Effect::CancelSolve | Effect::CancelStudy => {
+                    Effect::CancelWork
+                    | Effect::CancelSolve
+                    | Effect::CancelStudy
+                    | Effect::CancelWhine => {
                         self.has_cancelled = true;
                     }
                     Effect::Redraw => self.has_redrawn = true,
@@ -296,6 +302,19 @@ fn studied(request: &StudyRequest) -> Vec<Action> {
         send: &|action| sent.borrow_mut().push(action),
     };
     study(request, running);
+    let mut sent = sent.into_inner();
+    sent.reverse();
+    sent
+}
+
+/// All that the worker of the charts of whine sends, the last first.
+fn whined(request: &WhineRequest) -> Vec<Action> {
+    let sent = RefCell::new(Vec::new());
+    let running = Running {
+        is_wanted: &|| true,
+        send: &|action| sent.borrow_mut().push(action),
+    };
+    whine(request, running);
     let mut sent = sent.into_inner();
     sent.reverse();
     sent

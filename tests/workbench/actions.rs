@@ -53,6 +53,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2", "v", "", "the case has no variants"),
     ("", ":variant", "", "Commands"),
     ("X", ":reload", "", "[> Cancel <]"),
+    ("", ":relief", "", "Load range and tolerance"),
     // Chart and teeth.
     ("Esc 3", "Space", "", "[ticks]"),
     ("Esc 3 l l", "h", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),

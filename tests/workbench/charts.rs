@@ -12,7 +12,8 @@ use ratatui::layout::{Position, Rect, Size};
 use tipstrike::case::units::System;
 use tipstrike::model::{ContactState, Outcome};
 use tipstrike::report::graphs::{GRAPHS, Graph};
-use tipstrike::tui::testing::actions::Action;
+use tipstrike::study::speeds::speeds;
+use tipstrike::tui::testing::actions::{self, Action, Effect};
 use tipstrike::tui::testing::chart::Frame;
 use tipstrike::tui::testing::chart::curves::{self, Whose};
 use tipstrike::tui::testing::chart::{self, raster};
@@ -20,6 +21,8 @@ use tipstrike::tui::testing::pane::Pane;
 use tipstrike::tui::testing::solver::Answer;
 use tipstrike::tui::testing::teeth::readings;
 use tipstrike::tui::testing::theme::{Look, MONO};
+use tipstrike::tui::testing::update::update;
+use tipstrike::tui::testing::whine::{WhineFound, WhinePart};
 
 const HUGE: Size = Size {
     width: 240,
@@ -120,11 +123,16 @@ fn assert_title(desk: &Desk, graph: &Graph) {
 #[test]
 fn charts_are_selected_by_key_and_by_name() {
     let mut desk = at_method(SMALL, "static");
-    for graph in GRAPHS.iter().chain([&GRAPHS[0]]) {
+    for graph in &GRAPHS {
         assert_title(&desk, graph);
         desk.keys(&["j"]);
     }
-    desk.keys(&["Up", "k"]);
+    assert!(desk.shows("Harmonics of the transmission error"));
+    desk.keys(&["j"]);
+    assert!(desk.shows("Dynamic factor of a tooth over speed"));
+    desk.keys(&["j"]);
+    assert_title(&desk, &GRAPHS[0]);
+    desk.keys(&["Up", "k", "k"]);
     assert_title(&desk, &GRAPHS[GRAPHS.len() - 1]);
     for graph in &GRAPHS {
         desk.keys(&[
@@ -225,6 +233,69 @@ fn no_title_is_cut_in_any_chart_at_any_size() {
             }
         }
     }
+}
+
+/// The bars at each harmonic at rest and in motion; the runs up and down with present speed and
+/// resonances; in ASCII, and while the form is invalid.
+#[test]
+fn the_charts_of_whine() {
+    let mut desk = at_method(LARGE, "dynamic");
+    desk.keys(&[":", "chart: spectrum", "Enter", "3"]);
+    assert_snapshot!("spectrum_140x45", chart(&desk).join("\n"));
+    desk.keys(&["j"]);
+    assert_snapshot!("speed_140x45", chart(&desk).join("\n"));
+    let mut small = at_method(SMALL, "exact");
+    small.keys(&["k"]);
+    assert_snapshot!("speed_80x24", chart(&small).join("\n"));
+    small.keys(&["k"]);
+    assert_snapshot!("spectrum_80x24", chart(&small).join("\n"));
+    small.app.look = Look {
+        theme: &MONO,
+        ascii: true,
+    };
+    assert_snapshot!("spectrum_ascii", chart(&small).join("\n"));
+}
+
+/// A chart of whine is requested once for a pair, its growing values are shown, and the values of an
+/// earlier request are not.
+#[test]
+fn the_latest_request_for_a_chart_of_whine_wins() {
+    let mut desk = at_method(SMALL, "exact");
+    let press = |desk: &mut Desk, key| {
+        let place = desk.app.place();
+        let action = actions::of_key(harness::event(key), place).expect("a key of the table");
+        update(&mut desk.app, action)
+    };
+    let request = |effects: Vec<Effect>| {
+        effects.into_iter().find_map(|effect| match effect {
+            Effect::Whine(request) => Some(request),
+            _ => None,
+        })
+    };
+    let first = request(press(&mut desk, "k")).expect("a request");
+    assert!(desk.shows("computing"), "{}", desk.screen());
+    assert!(request(press(&mut desk, "l")).is_none(), "the same pair");
+    let part = |serial, found, is_over| {
+        Action::Whined(Box::new(WhinePart {
+            serial,
+            found,
+            is_over,
+        }))
+    };
+    let curve = speeds(&first.inputs, &mut |_| true).expect("a curve");
+    let mut so_far = curve.clone();
+    so_far.up[60..].fill(None);
+    so_far.down.fill(None);
+    let found = WhineFound::Speeds(Box::new(so_far));
+    update(&mut desk.app, part(first.serial, Some(found), false));
+    assert!(desk.shows("computing: Dynamic factor"), "{}", desk.screen());
+    update(&mut desk.app, part(first.serial + 1000, None, true));
+    assert!(desk.app.tab.whine.is_running);
+    let found = WhineFound::Speeds(Box::new(curve));
+    update(&mut desk.app, part(first.serial, Some(found), true));
+    assert!(!desk.shows("computing") && desk.shows("N=1") && desk.shows("now"));
+    let stopped = press(&mut desk, "j");
+    assert!(request(stopped).is_none());
 }
 
 #[test]
@@ -500,7 +571,7 @@ fn the_baseline_is_drawn_in_the_same_chart() {
         assert!(desk.shows("+ baseline"), "{}", desk.screen());
         desk.keys(&["j", "j"]);
     }
-    desk.keys(&["jjjj", "l", "L"]);
+    desk.keys(&["jjjjjj", "l", "L"]);
     assert!(desk.shows("baseline "), "{}", desk.screen());
 }
 
@@ -675,6 +746,9 @@ fn assert_charts(desk: &mut Desk) {
                 assert_round(&beside, desk);
             }
             desk.keys(&["j"]);
+            if desk.app.chart.whine.take().is_some() {
+                desk.app.chart.graph = 0;
+            }
         }
     }
     desk.act(Action::Resize(SMALL));

@@ -32,6 +32,7 @@ mod picture;
 mod pointer;
 mod prompts;
 mod readme_session;
+mod relief_dialog;
 mod screens;
 mod study_pane;
 mod teeth;

@@ -7,9 +7,9 @@
 use super::changes::Changes;
 use super::quantities::QuantityList;
 use super::{Format, Listing};
-use crate::case::units::{self, Dimension};
 use crate::model::Quantity;
 use crate::report::sweep::TableFormat;
+use crate::study::relief::demand;
 use crate::study::seek::USUAL_SCAN;
 use crate::study::shard::Shard;
 use crate::study::tolerance::USUAL_SAMPLES;
@@ -121,10 +121,10 @@ pub struct Relief {
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
     /// Loads that the relief must serve, in parts of the load of the case
-    #[arg(long, value_name = "A..B", default_value = "25..110%", value_parser = loads)]
+    #[arg(long, value_name = "A..B", default_value = "25..110%", value_parser = demand::loads)]
     pub load: (f64, f64),
     /// How far manufacturing may miss each relief on both sides, such as '5 um'
-    #[arg(long, value_name = "LENGTH", default_value = "5 um", value_parser = tolerance)]
+    #[arg(long, value_name = "LENGTH", default_value = "5 um", value_parser = demand::tolerance)]
     pub tolerance: f64,
     /// What differs from the case
     #[command(flatten)]
@@ -135,35 +135,6 @@ pub struct Relief {
     /// File to write, in place of an older one; else standard output
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
-}
-
-/// A range of loads in percent, such as `25..110%`, or one load.
-fn loads(text: &str) -> Result<(f64, f64), String> {
-    const FIX: &str = "write a range above 0 % and up to 1000 %, such as 25..110%";
-    let number = |text: &str| {
-        let number = text.trim().trim_end_matches('%').trim_end();
-        let percent: f64 = number.parse().map_err(|_| FIX.to_owned())?;
-        let is_possible = percent > 0.0 && percent <= 1000.0;
-        is_possible.then_some(percent / 100.0).ok_or(FIX.to_owned())
-    };
-    let (from, to) = text.split_once("..").unwrap_or((text, text));
-    let (from, to) = (number(from)?, number(to)?);
-    if from > to {
-        return Err(format!("the range is reversed: {FIX}"));
-    }
-    Ok((from, to))
-}
-
-/// A length from 0 to 1 mm.
-fn tolerance(text: &str) -> Result<f64, String> {
-    const MOST: f64 = 1e-3;
-    let length = units::parse(text, Dimension::Length, "um")
-        .map_err(|error| format!("{}: {}", error.cause, error.fix))?;
-    if (0.0..=MOST).contains(&length) {
-        Ok(length)
-    } else {
-        Err("write a length from 0 um to 1 mm, such as '5 um'".to_owned())
-    }
 }
 
 /// The options of `tolerance`.

@@ -17,11 +17,20 @@ pub const SPEED: &str = "speed";
 /// A curve over speed with the name of its case, empty where there is one case.
 pub type NamedCurve<'a> = (&'a str, &'a SpeedCurve);
 
+/// Spectra by their names in the legend.
+pub type NamedSpectra = Vec<(String, Spectrum)>;
+
 /// Harmonics of the transmission error at rest and in steady motion as a picture; none where no case
 /// has them.
 #[must_use]
 pub fn spectrum(cases: &[Drawn]) -> Option<String> {
-    let all: Vec<(String, Spectrum)> = cases.iter().flat_map(spectra).collect();
+    let all: NamedSpectra = cases.iter().flat_map(of_case).collect();
+    spectrum_chart(all).map(|drawn| chart(&drawn))
+}
+
+/// The chart of harmonics; none without a spectrum.
+#[must_use]
+pub fn spectrum_chart(all: NamedSpectra) -> Option<Chart> {
     let slots = all.len();
     let bars = all.into_iter().enumerate().map(|(slot, (name, spectrum))| {
         let amplitudes = (1..).zip(spectrum.amplitudes);
@@ -32,38 +41,38 @@ pub fn spectrum(cases: &[Drawn]) -> Option<String> {
             kind: Kind::Bars(slot, slots),
         }
     });
-    (slots > 0).then(|| {
-        chart(&Chart {
-            title: "Harmonics of the transmission error".to_owned(),
-            across: Labelled::linear("harmonic of the mesh frequency"),
-            up: Labelled::linear("amplitude, µm"),
-            series: bars.collect(),
-            marks: Vec::new(),
-        })
+    (slots > 0).then(|| Chart {
+        title: "Harmonics of the transmission error".to_owned(),
+        across: Labelled::linear("harmonic of the mesh frequency"),
+        up: Labelled::linear("amplitude, µm"),
+        series: bars.collect(),
+        marks: Vec::new(),
     })
 }
 
-/// The spectra of a case: at rest and, where the motion is steady, in motion; of a case among others
-/// the last of them alone.
-fn spectra(case: &Drawn) -> Vec<(String, Spectrum)> {
+fn of_case(case: &Drawn) -> NamedSpectra {
     let has_mesh = |report: &&Report| matches!(report.solution.static_spectrum, Some(Ok(_)));
-    let Some(report) = case.reports.iter().find(has_mesh) else {
-        return Vec::new();
-    };
-    let solution = &report.solution;
+    let report = case.reports.iter().find(has_mesh);
+    report.map_or_else(Vec::new, |report| spectra(case.name, &report.solution))
+}
+
+/// The spectra of a case: at rest and, where the motion is steady, in motion; of a case with a name
+/// the last of them alone.
+#[must_use]
+pub fn spectra(case: &str, solution: &Solution) -> NamedSpectra {
     let at_rest = solution
         .static_spectrum
         .and_then(Result::ok)
         .map(|found| ("at rest", found.spectrum));
     let moving = in_motion(solution).map(|spectrum| ("in steady motion", spectrum));
-    if case.name.is_empty() {
+    if case.is_empty() {
         let both = at_rest.into_iter().chain(moving);
         return both
             .map(|(name, spectrum)| (name.to_owned(), spectrum))
             .collect();
     }
     let one = moving.or(at_rest).into_iter();
-    one.map(|(name, spectrum)| (format!("{}, {name}", case.name), spectrum))
+    one.map(|(name, spectrum)| (format!("{case}, {name}"), spectrum))
         .collect()
 }
 
@@ -74,6 +83,12 @@ fn in_motion(solution: &Solution) -> Option<Spectrum> {
 /// The dynamic factor of a tooth over speed as a picture; none without a curve.
 #[must_use]
 pub fn speed(curves: &[NamedCurve]) -> Option<String> {
+    speed_chart(curves).map(|drawn| chart(&drawn))
+}
+
+/// The chart over speed, with the present speed and the resonances; none without a curve.
+#[must_use]
+pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
     let (_, first) = curves.first()?;
     let series: Vec<Series> = curves.iter().flat_map(|curve| runs(*curve)).collect();
     let has_points = series.iter().any(|series| !series.pieces.is_empty());
@@ -83,14 +98,12 @@ pub fn speed(curves: &[NamedCurve]) -> Option<String> {
             .into();
     marks.push((rpm(first.present), "now"));
     marks.sort_by(|one, other| one.0.total_cmp(&other.0));
-    has_points.then(|| {
-        chart(&Chart {
-            title: "Dynamic factor of a tooth over speed".to_owned(),
-            across: Labelled::linear("speed of the driver, rpm"),
-            up: Labelled::linear("largest tooth force / that at rest"),
-            series,
-            marks,
-        })
+    has_points.then(|| Chart {
+        title: "Dynamic factor of a tooth over speed".to_owned(),
+        across: Labelled::linear("speed of the driver, rpm"),
+        up: Labelled::linear("largest tooth force / that at rest"),
+        series,
+        marks,
     })
 }
 

@@ -147,6 +147,7 @@ impl App {
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
             is_stale: self.tab.shows_last_valid(),
+            whine: &self.tab.whine,
             undone: self.tab.undone,
             units: self.settings.units,
             marker: self.settings.marker,

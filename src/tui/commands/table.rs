@@ -178,6 +178,7 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::WORK, &[alt('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to compare with, or unpin them."),
     listed(Place::OUTSIDE, &[letter('%')], Do::ShowCost, "cost", "Show the stages and the microseconds of the last solve beside the results."),
     listed(Place::WORK, &[function(8), alt('m')], Do::CycleMarker, "marker", "Switch the chart marker: Braille, blocks or dots."),
+    listed(Place::WORK, &[], Do::Relief, "relief", "Find the tip relief to specify on both gears, and take it into the case."),
     listed(Place::WORK, &[], Do::CycleTheme, "theme", "Switch the colours: quiet, contrast, mono."),
     listed(Place::WORK, &[], Do::ToggleAscii, "ascii", "Switch between ASCII and Unicode."),
     listed(Place::WORK, &[], Do::CycleUnits, "units", "Switch results, hints, charts and teeth between metric and inch units."),

@@ -9,6 +9,7 @@ pub(crate) mod range;
 pub(crate) mod raster;
 pub(crate) mod readout;
 mod way;
+mod whine;
 
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
@@ -19,6 +20,7 @@ use crate::report::graphs::GRAPHS;
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 use crate::tui::theme::Look;
+use crate::tui::whine::{Whine, WhineChart};
 
 use curves::curves;
 use range::{ChartView, Frame, Occasion, Refit, Scale};
@@ -39,10 +41,38 @@ const AFTER_E: f64 = 0.5;
 pub struct ChartPane {
     /// The chosen chart, as an index of the table.
     pub graph: usize,
+    /// The chart of whine in place of it.
+    pub whine: Option<WhineChart>,
     /// Whether the x axis is the time after E.
     pub(crate) by_time: bool,
     /// The visible roll angles.
     pub view: ChartView,
+}
+
+/// The number of charts: those of the table, and those of whine.
+const CHARTS: usize = GRAPHS.len() + WhineChart::ALL.len();
+
+impl ChartPane {
+    /// The place of the chosen chart among all.
+    fn place(&self) -> usize {
+        let of_whine = |chart| WhineChart::ALL.iter().position(|own| *own == chart);
+        let place = self.whine.and_then(of_whine);
+        place.map_or(self.graph, |place| GRAPHS.len() + place)
+    }
+
+    /// Chooses the chart at a place among all.
+    fn select(&mut self, at: usize) {
+        self.whine = at.checked_sub(GRAPHS.len()).map(|at| WhineChart::ALL[at]);
+        if self.whine.is_none() {
+            self.graph = at;
+        }
+    }
+
+    /// The key of the chosen chart, as `plot --chart` has it.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        self.whine.map_or(GRAPHS[self.graph].key, WhineChart::key)
+    }
 }
 
 /// A command of the pane.
@@ -50,7 +80,7 @@ pub struct ChartPane {
 pub enum ChartCommand {
     /// Selects the chart so many places further, wrapping around.
     Step(isize),
-    /// Selects the chart at an index of the table.
+    /// Selects the chart at an index of the table, or behind it a chart of whine.
     Select(usize),
     /// Zooms in by steps around the cursor, or around D without a cursor; out if negative.
     Zoom(i32),
@@ -77,6 +107,8 @@ pub struct Charts<'a> {
     pub(crate) cursor: Option<f64>,
     /// Whether the results are older than the form.
     pub(crate) is_stale: bool,
+    /// The chart of whine of the case.
+    pub whine: &'a Whine,
     /// The first request after the last undo.
     pub(crate) undone: u64,
     /// The display units.
@@ -124,11 +156,12 @@ impl Charts<'_> {
         let mut pane = *self.pane;
         let message = match command {
             ChartCommand::Step(by) => {
-                pane.graph = (pane.graph + GRAPHS.len()).saturating_add_signed(by) % GRAPHS.len();
+                let at = (pane.place() + CHARTS).saturating_add_signed(by) % CHARTS;
+                pane.select(at);
                 None
             }
-            ChartCommand::Select(graph) => {
-                pane.graph = graph.min(GRAPHS.len() - 1);
+            ChartCommand::Select(at) => {
+                pane.select(at.min(CHARTS - 1));
                 None
             }
             ChartCommand::Zoom(steps) => {

@@ -256,7 +256,7 @@ pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
 }
 
 /// Draws the lines left of the cells and below them. Returns their column and their row.
-fn draw_axes(cells: Rect, rule: Style, buffer: &mut Buffer) -> (u16, u16) {
+pub(super) fn draw_axes(cells: Rect, rule: Style, buffer: &mut Buffer) -> (u16, u16) {
     let (left, bottom) = (cells.x - 1, cells.bottom());
     for y in cells.top()..bottom {
         buffer.set_string(left, y, "│", rule);

@@ -1,6 +1,6 @@
 //! Keys, mouse and results for the topmost dialog, and what follows from its outcome.
 
-use super::{catalogue, cursor, export, files, panes, run, solve, study, tabs, variants};
+use super::{catalogue, cursor, export, files, panes, relief, run, solve, study, tabs, variants};
 use crate::model::Quantity;
 use crate::tui::actions::{Action, Effect};
 use crate::tui::app::App;
@@ -49,6 +49,7 @@ fn decided(app: &mut App, outcome: Outcome) -> Vec<Effect> {
         Outcome::Open(path) => files::open(app, path),
         Outcome::Choose(choice) => files::choose(app, choice),
         Outcome::SaveAs(name, next) => files::save_under(app, &name, next),
+        Outcome::Relief(values) => relief::take(app, &values),
         Outcome::Export(name) => export::begin(app, name.trim().into(), false),
         Outcome::CursorTo(angle) => cursor::move_to(app, angle),
         Outcome::Pick(chosen) => pick(app, chosen),

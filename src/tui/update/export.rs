@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::report::graphs::GRAPHS;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::dialogs::Prompt;
@@ -50,7 +49,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
         figure: if is_of_teeth {
             Figure::Teeth
         } else {
-            Figure::Chart(GRAPHS[app.chart.graph].key)
+            Figure::Chart(app.chart.key())
         },
     };
     app.say("exporting");

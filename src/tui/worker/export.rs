@@ -7,6 +7,7 @@ use crate::report::charts::{Drawn, find, picture, with_other_method};
 use crate::report::export::Format;
 use crate::report::page::Subject;
 use crate::report::svg::teeth::teeth;
+use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use crate::report::{Report, Selection};
 use crate::study::speeds::speeds;
 use crate::tui::jobs::{ExportFault, Exporting, Figure};
@@ -53,7 +54,7 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
     )
     .map_err(|refusal| format!("{refusal}: {}", refusal.fix()))?;
     let Some(format) = format else {
-        return drawn(report, exporting.figure);
+        return drawn(report, exporting.figure, go_on);
     };
     let reports = if format.is_page() {
         with_other_method(report)
@@ -72,19 +73,28 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
     format.render(&[subject]).map_err(|error| error.to_string())
 }
 
-fn drawn(report: Report, figure: Figure) -> Result<String, String> {
+fn drawn(report: Report, figure: Figure, go_on: &dyn Fn(f64) -> bool) -> Result<String, String> {
     let key = match figure {
         Figure::Teeth => return Ok(teeth(&report.inputs, &report.solution)),
         Figure::Chart(key) => key,
     };
+    if key == SPEED {
+        let curve = speeds(&report.inputs, &mut |_| go_on(0.0));
+        let curve = curve.map_err(|refusal| format!("{refusal}: {}", refusal.fix()))?;
+        return speed(&[("", &curve)])
+            .ok_or_else(|| "no motion becomes steady: give a greater damping ratio".to_owned());
+    }
     let reports = with_other_method(report);
     let drawn = Drawn {
         name: "",
         reports: &reports,
     };
-    find(key)
-        .and_then(|graph| picture(graph, &[drawn]))
-        .ok_or_else(|| {
-            format!("the chart {key} has no curve: no corner contact is found: show another chart")
-        })
+    let found = if key == SPECTRUM {
+        spectrum(&[drawn])
+    } else {
+        find(key).and_then(|graph| picture(graph, &[drawn]))
+    };
+    found.ok_or_else(|| {
+        format!("the chart {key} has no curve: no corner contact is found: show another chart")
+    })
 }

@@ -9,8 +9,9 @@ use crate::case::{Case, EXAMPLES, Evaluator};
 use crate::model::{self, Inputs, Refusal, Stages};
 use crate::report::digest::Digest;
 use crate::report::explain;
+use crate::study::relief::{NoRelief, specify};
 use crate::tui::actions::Action;
-use crate::tui::jobs::{Asked, Explained, Job};
+use crate::tui::jobs::{Asked, Explained, Job, ReliefAnswer, ReliefRequest};
 use crate::tui::store::{case_search, folder, preview, recents};
 use crate::tui::variants::{Variants, VariantsRequest};
 
@@ -51,6 +52,7 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
             Action::Exported(path, result)
         }
         Job::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
+        Job::Relief(request) => Action::Relieved(Box::new(relieved(*request, go_on)?)),
         Job::Variants(request) => Action::Compared(Box::new(compared(*request, go_on)?)),
     })
 }
@@ -85,6 +87,16 @@ fn compared(request: VariantsRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Var
         serial: request.serial,
         columns: columns.collect::<Option<_>>()?,
     })
+}
+
+// As `tipstrike relief` does it.
+fn relieved(request: ReliefRequest, go_on: &dyn Fn(f64) -> bool) -> Option<ReliefAnswer> {
+    let found = match specify(&request.inputs, &request.demand, go_on) {
+        Ok(found) => Ok(Box::new(found)),
+        Err(NoRelief::Refused(Refusal::Stopped)) => return None,
+        Err(none) => Err(none.to_string()),
+    };
+    Some((request, found))
 }
 
 // As `tipstrike explain` does it.

@@ -8,6 +8,7 @@ use crate::tui::ascii::symbol;
 use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::materials::Material;
 use crate::tui::panes::chart::ChartCommand;
+use crate::tui::whine::WhineChart;
 
 /// Stands before the name of a variant in the list of commands.
 pub(crate) const VARIANT: &str = "variant";
@@ -70,6 +71,15 @@ pub(super) fn graph((place, graph): (usize, &Graph)) -> Item {
         pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
         name: format!("chart: {}", graph.label.to_lowercase()),
         about: format!("Show {} over the driver's roll angle.", symbols.join(", ")),
+        keys: String::new(),
+    }
+}
+
+pub(super) fn whine((place, chart): (usize, WhineChart)) -> Item {
+    Item {
+        pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
+        name: format!("chart: {}", chart.label().to_lowercase()),
+        about: chart.about().to_owned(),
         keys: String::new(),
     }
 }

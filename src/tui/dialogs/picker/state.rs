@@ -13,10 +13,11 @@ use crate::report::graphs::GRAPHS;
 use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::{materials, search, search_results};
 use crate::tui::line::Line;
+use crate::tui::whine::WhineChart;
 
 use super::item::{
     DESCRIBED, Item, Pick, VARIANT, command, example, field, graph, of_material, quantity, rank,
-    result, variant,
+    result, variant, whine,
 };
 
 /// The least similarity of a name that is offered when no name contains the typed words.
@@ -229,7 +230,8 @@ impl Picker {
             List::Commands => {
                 let mut listed: Vec<_> = commands::commands().collect();
                 listed.sort_by_key(|binding| self.distance(binding.command));
-                let charts = GRAPHS.iter().enumerate().map(graph);
+                let of_whine = (GRAPHS.len()..).zip(WhineChart::ALL).map(whine);
+                let charts = GRAPHS.iter().enumerate().map(graph).chain(of_whine);
                 listed.into_iter().map(command).chain(charts).collect()
             }
             List::Places => Vec::new(),

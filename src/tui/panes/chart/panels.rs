@@ -10,7 +10,7 @@ use super::Charts;
 use super::axes::{self, Axes, Ruler};
 use super::curves::{self, Curve, Whose, curves};
 use super::legend::Legend;
-use super::raster;
+use super::{raster, whine};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Solution};
 use crate::report::absence::without_contact;
@@ -23,6 +23,9 @@ const USUAL_COLUMNS: u16 = 71;
 
 /// The title of the first chart, in a given room.
 pub(crate) fn first_title(charts: &Charts, room: usize) -> String {
+    if let Some(chart) = charts.pane.whine {
+        return whine::title(charts, chart, room);
+    }
     let panels = panels(charts);
     let Some((graph, axes)) = panels.first().filter(|_| charts.answer.is_some()) else {
         return "Chart".to_owned();
@@ -35,6 +38,9 @@ pub(crate) fn first_title(charts: &Charts, room: usize) -> String {
 /// Draws the charts with their axes, below the title of the first chart.
 pub(crate) fn draw(charts: &Charts, buffer: &mut Buffer) {
     let area = charts.area;
+    if let Some(chart) = charts.pane.whine {
+        return whine::draw(charts, chart, buffer);
+    }
     for (at, (graph, axes)) in panels(charts).iter().enumerate() {
         let graph = &GRAPHS[*graph];
         if at > 0 {
@@ -63,6 +69,9 @@ pub(crate) fn columns(charts: &Charts) -> u16 {
 
 /// The driver's roll angle before E at a cell of a plot, in rad.
 pub(crate) fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
+    if charts.pane.whine.is_some() {
+        return None;
+    }
     let panels = panels(charts);
     let (_, axes) = panels.iter().find(|(_, axes)| axes.plot.contains(at))?;
     Some(0.0 - axes.angle(at.x).to_radians()).filter(|angle| angle.is_finite())

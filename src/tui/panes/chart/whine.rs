@@ -1,0 +1,329 @@
+//! A chart of whine, as `plot` draws it: bars of harmonics, curves over speed.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style};
+use ratatui::symbols::Marker;
+use ratatui::widgets::Widget;
+use ratatui::widgets::canvas::{Canvas, Line, Points};
+use unicode_width::UnicodeWidthStr;
+
+use super::Charts;
+use super::axes::put_where_free;
+use crate::report::svg::{Chart, Kind, Series};
+use crate::tui::panes::study::draw_axes;
+use crate::tui::scale::{Span, bounds};
+use crate::tui::text;
+use crate::tui::whine::WhineChart;
+
+/// Marks the cells of a curve until they get its style.
+const OWN: Color = Color::Indexed(1);
+/// The smallest plot.
+const LEAST: (u16, u16) = (12, 2);
+/// Columns between labels below the plot.
+const LABEL_ROOM: u16 = 12;
+/// The part of a whole number that its bars fill.
+const BARS: f64 = 0.7;
+
+/// The title: the chart and its axes.
+pub(super) fn title(charts: &Charts, chart: WhineChart, room: usize) -> String {
+    let state = match (charts.is_stale, charts.whine.is_running) {
+        (true, _) => "LAST VALID, ",
+        (false, true) => "computing: ",
+        (false, false) => "",
+    };
+    let Some(drawn) = charts.whine.drawn(chart) else {
+        return text::cut(&format!("{state}{}", chart.label()), room);
+    };
+    let (up, across) = (&drawn.up.label, &drawn.across.label);
+    let axes = format!("{state}{}: {up} over {across}", drawn.title);
+    let short = format!("{state}{}", drawn.title);
+    if axes.width() <= room {
+        axes
+    } else {
+        text::cut(&short, room)
+    }
+}
+
+/// Draws the chart below its title.
+pub(super) fn draw(charts: &Charts, chart: WhineChart, buffer: &mut Buffer) {
+    let area = charts.area;
+    if area.height < 2 {
+        return;
+    }
+    let inner = Rect {
+        y: area.y + 1,
+        height: area.height - 1,
+        ..area
+    };
+    let Some(drawn) = charts.whine.drawn(chart) else {
+        let words = charts.whine.missing(chart);
+        let room = usize::from(inner.width.saturating_sub(3));
+        let lines = text::wrap(&words, room);
+        for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
+            buffer.set_stringn(inner.x + 2, y, line, room, Style::new());
+        }
+        return;
+    };
+    if let Some(plot) = Plot::of(charts, &drawn, inner) {
+        plot.draw(buffer);
+    }
+}
+
+/// A chart with its axes on the screen.
+struct Plot<'a> {
+    charts: &'a Charts<'a>,
+    chart: &'a Chart,
+    legend: Rect,
+    cells: Rect,
+    across: Span,
+    upright: Span,
+    labels: Vec<(f64, String)>,
+}
+
+impl<'a> Plot<'a> {
+    /// None where there is no room.
+    fn of(charts: &'a Charts<'a>, chart: &'a Chart, inner: Rect) -> Option<Plot<'a>> {
+        let upright = Span::default().refit(ordinates(chart));
+        let ticks = upright.ticks(inner.height.saturating_sub(2) / 2);
+        let labels: Vec<(f64, String)> = ticks.labelled;
+        let widest = labels.iter().map(|(_, label)| label.width()).max();
+        let margin = widest.unwrap_or(0) as u16 + 3;
+        let cells = Rect {
+            x: inner.x + margin,
+            y: inner.y + 1,
+            width: inner.width.saturating_sub(margin + 2),
+            height: inner.height.saturating_sub(3),
+        };
+        let has_room = cells.width >= LEAST.0 && cells.height >= LEAST.1;
+        has_room.then(|| Plot {
+            charts,
+            chart,
+            legend: Rect { height: 1, ..inner },
+            cells,
+            across: across(chart),
+            upright,
+            labels,
+        })
+    }
+
+    fn draw(&self, buffer: &mut Buffer) {
+        self.frame(buffer);
+        for (at, series) in self.chart.series.iter().enumerate().rev() {
+            match series.kind {
+                Kind::Bars(slot, slots) => self.bars(at, series, (slot, slots), buffer),
+                Kind::Curve | Kind::Bound => self.curve(at, series, buffer),
+                Kind::Marks(_) => self.points(at, series, buffer),
+            }
+        }
+        self.marks(buffer);
+        self.legend(buffer);
+    }
+
+    fn column(&self, x: f64) -> Option<u16> {
+        let part = self.across.part(x);
+        let width = f64::from(self.cells.width.saturating_sub(1));
+        (-1e-9..=1.0 + 1e-9)
+            .contains(&part)
+            .then(|| self.cells.x + (width * part.clamp(0.0, 1.0)).round() as u16)
+    }
+
+    fn row(&self, y: f64) -> u16 {
+        let height = f64::from(self.cells.height) - 1e-6;
+        let part = (1.0 - self.upright.part(y)).clamp(0.0, 1.0);
+        self.cells.y + (part * height).floor() as u16
+    }
+
+    fn frame(&self, buffer: &mut Buffer) {
+        let (cells, rule) = (self.cells, self.charts.look.theme.rule);
+        let (left, bottom) = draw_axes(cells, rule, buffer);
+        for (value, label) in &self.labels {
+            let y = self.row(*value);
+            buffer.set_string(left, y, "┤", rule);
+            let start = left.saturating_sub(1 + label.width() as u16);
+            buffer.set_string(start, y, label, Style::new());
+        }
+        let ticks = self.across.ticks(cells.width / LABEL_ROOM);
+        let is_whole = |value: f64| (value - value.round()).abs() < 1e-9;
+        let has_bars = self.chart.series.iter().any(is_bars);
+        for (value, label) in ticks.labelled {
+            let Some(column) = self.column(value).filter(|_| !has_bars || is_whole(value)) else {
+                continue;
+            };
+            let label = if ticks.power == 0 {
+                label
+            } else {
+                format!("{value}")
+            };
+            let start = column.saturating_sub(label.width() as u16 / 2);
+            if start + label.width() as u16 <= cells.right() + 2 {
+                buffer.set_string(column, bottom, "┴", rule);
+                buffer.set_string(start, bottom + 1, &label, Style::new());
+            }
+        }
+    }
+
+    fn bars(&self, at: usize, series: &Series, (slot, slots): (usize, usize), buffer: &mut Buffer) {
+        let (sign, style) = (self.sign(at), self.style(at));
+        let width = BARS / slots as f64;
+        for (x, y) in series.pieces.iter().flatten() {
+            let from = x - BARS / 2.0 + width * slot as f64;
+            let (Some(from), Some(to)) = (self.column(from), self.column(from + width)) else {
+                continue;
+            };
+            let bottom = self.row(0.0).min(self.cells.bottom() - 1);
+            for column in from..to.max(from + 1) {
+                for row in self.row(*y)..=bottom {
+                    buffer.set_string(column, row, &sign, style);
+                }
+            }
+        }
+    }
+
+    fn curve(&self, at: usize, series: &Series, buffer: &mut Buffer) {
+        let marker = match at {
+            0 if self.charts.look.ascii => Marker::Custom('*'),
+            0 => self.charts.marker,
+            _ => Marker::Custom('+'),
+        };
+        let widened = |span: Span| {
+            let rounding = 1e-8 * span.length();
+            bounds(span.from - rounding, span.to + rounding)
+        };
+        let canvas = Canvas::default()
+            .marker(marker)
+            .x_bounds(widened(self.across))
+            .y_bounds(widened(self.upright))
+            .paint(|context| {
+                for piece in &series.pieces {
+                    for pair in piece.windows(2) {
+                        let ((x1, y1), (x2, y2)) = (pair[0], pair[1]);
+                        context.draw(&Line::new(x1, y1, x2, y2, OWN));
+                    }
+                    context.draw(&Points {
+                        coords: piece,
+                        color: OWN,
+                    });
+                }
+            });
+        canvas.render(self.cells, buffer);
+        self.restyle(self.style(at), buffer);
+    }
+
+    /// Gives the drawn cells their style.
+    fn restyle(&self, style: Style, buffer: &mut Buffer) {
+        for position in self.cells.positions() {
+            if let Some(cell) = buffer
+                .cell_mut(position)
+                .filter(|cell| cell.fg == OWN || cell.bg == OWN)
+            {
+                if cell.bg == OWN {
+                    cell.set_symbol("█");
+                }
+                (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
+                cell.set_style(style);
+            }
+        }
+    }
+
+    fn points(&self, at: usize, series: &Series, buffer: &mut Buffer) {
+        for (x, y) in series.pieces.iter().flatten() {
+            if let Some(column) = self.column(*x) {
+                buffer.set_string(column, self.row(*y), self.sign(at), self.style(at));
+            }
+        }
+    }
+
+    /// The named places on the axis: a line through the plot with the name at its top.
+    fn marks(&self, buffer: &mut Buffer) {
+        let theme = self.charts.look.theme;
+        let mut free = self.cells.x;
+        for (x, name) in &self.chart.marks {
+            let Some(column) = self.column(*x) else {
+                continue;
+            };
+            for y in self.cells.top()..self.cells.bottom() {
+                put_where_free((column, y), "┊", theme.faint, buffer);
+            }
+            let width = name.width() as u16;
+            let start = column.saturating_sub(width / 2).max(free);
+            if start + width <= self.cells.right() + 2 {
+                buffer.set_string(start, self.cells.y, name, theme.focus);
+                free = start + width + 1;
+            }
+        }
+    }
+
+    fn legend(&self, buffer: &mut Buffer) {
+        let mut x = self.legend.x + 1;
+        for (at, series) in self.chart.series.iter().enumerate() {
+            let sign = match series.kind {
+                Kind::Curve | Kind::Bound if at == 0 && !self.charts.look.ascii => "━".to_owned(),
+                _ => self.sign(at),
+            };
+            let name = series.name.split(',').next().unwrap_or_default();
+            let words = format!("{sign} {name}");
+            let width = words.width() as u16;
+            if x + width < self.legend.right() {
+                buffer.set_string(x, self.legend.y, words, self.style(at));
+                x += width + 2;
+            }
+        }
+    }
+
+    fn style(&self, at: usize) -> Style {
+        let theme = self.charts.look.theme;
+        match self.chart.series.get(at).map(|series| series.kind) {
+            Some(Kind::Marks(_)) => theme.note,
+            _ if at == 0 => theme.active,
+            _ => theme.other,
+        }
+    }
+
+    fn sign(&self, at: usize) -> String {
+        let ascii = self.charts.look.ascii;
+        let sign = match (self.chart.series.get(at).map(|series| series.kind), at) {
+            (Some(Kind::Bars(..)), 0) => ["█", "#"],
+            (Some(Kind::Bars(..)), _) => ["▒", "="],
+            (Some(Kind::Marks(_)), _) => ["×", "x"],
+            (_, 0) => ["*", "*"],
+            _ => ["+", "+"],
+        };
+        sign[usize::from(ascii)].to_owned()
+    }
+}
+
+fn is_bars(series: &Series) -> bool {
+    matches!(series.kind, Kind::Bars(..))
+}
+
+/// The horizontal axis: the points and, of bars, half a number at each end.
+fn across(chart: &Chart) -> Span {
+    let half = if chart.series.iter().any(is_bars) {
+        0.5
+    } else {
+        0.0
+    };
+    let marks = chart.marks.iter().map(|(x, _)| *x);
+    let points = chart
+        .series
+        .iter()
+        .flat_map(|series| series.pieces.iter().flatten());
+    let all = points.map(|(x, _)| *x).chain(marks);
+    let span = all.fold(Span::NONE, Span::with);
+    Span::new(span.from - half, span.to + half)
+}
+
+/// The values, and 0 below bars.
+fn ordinates(chart: &Chart) -> Span {
+    let points = chart
+        .series
+        .iter()
+        .flat_map(|series| series.pieces.iter().flatten());
+    let start = if chart.series.iter().any(is_bars) {
+        Span::NONE.with(0.0)
+    } else {
+        Span::NONE
+    };
+    points.fold(start, |span, (_, y)| span.with(*y))
+}

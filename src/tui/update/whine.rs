@@ -1,0 +1,46 @@
+//! The chart of whine in sight: what the worker computes for it.
+
+use crate::tui::actions::Effect;
+use crate::tui::app::App;
+use crate::tui::pane::Pane;
+use crate::tui::whine::{WhinePart, WhineRequest};
+
+/// Requests the visible chart, if another one was requested last; stops the one out of sight.
+pub(super) fn ask(app: &mut App) -> Vec<Effect> {
+    let is_visible = !app.layout.plan().area(Pane::Chart).is_empty();
+    let Some(chart) = app.chart.whine.filter(|_| is_visible) else {
+        return stop(app);
+    };
+    let Some(inputs) = app.tab.inputs().cloned() else {
+        return stop(app);
+    };
+    let asked = app.tab.whine.asked.as_ref();
+    if asked.is_some_and(|asked| asked.chart == chart && asked.inputs == inputs) {
+        return Vec::new();
+    }
+    app.last_serial += 1;
+    let request = WhineRequest {
+        serial: app.last_serial,
+        chart,
+        inputs,
+    };
+    app.tab.whine.asked = Some(request.clone());
+    app.tab.whine.is_running = true;
+    vec![Effect::Whine(Box::new(request))]
+}
+
+/// Stops a computation; its request is made again once the chart is visible.
+fn stop(app: &mut App) -> Vec<Effect> {
+    let whine = &mut app.tab.whine;
+    if !std::mem::take(&mut whine.is_running) {
+        return Vec::new();
+    }
+    whine.asked = None;
+    vec![Effect::CancelWhine]
+}
+
+/// The next values.
+pub(super) fn take(app: &mut App, part: &WhinePart) {
+    let tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
+    tabs.for_each(|tab| tab.whine.take(part.clone()));
+}

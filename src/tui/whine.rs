@@ -1,0 +1,135 @@
+//! The charts of whine in the workbench: harmonics of the transmission error, dynamic factor over
+//! speed. A worker computes them.
+
+use crate::model::Inputs;
+use crate::report::svg::Chart;
+use crate::report::whine::charts::{self, NamedSpectra};
+use crate::study::speeds::SpeedCurve;
+
+/// A chart of whine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhineChart {
+    /// Harmonics of the transmission error.
+    Spectrum,
+    /// Dynamic factor over speed.
+    Speed,
+}
+
+impl WhineChart {
+    /// Every chart, in the order behind the charts of the stations.
+    pub const ALL: [WhineChart; 2] = [WhineChart::Spectrum, WhineChart::Speed];
+
+    /// The key, as `plot --chart` has it.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            WhineChart::Spectrum => charts::SPECTRUM,
+            WhineChart::Speed => charts::SPEED,
+        }
+    }
+
+    /// The sentence in lists.
+    #[must_use]
+    pub fn about(self) -> &'static str {
+        match self {
+            WhineChart::Spectrum => {
+                "Show the harmonics of the transmission error at rest and in motion."
+            }
+            WhineChart::Speed => {
+                "Show the dynamic factor over speed, up and down, with the resonances."
+            }
+        }
+    }
+
+    /// The name in lists.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            WhineChart::Spectrum => "Spectrum",
+            WhineChart::Speed => "Dynamic factor over speed",
+        }
+    }
+}
+
+/// A request for a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WhineRequest {
+    /// Different for every request.
+    pub serial: u64,
+    /// The chart.
+    pub chart: WhineChart,
+    /// The pair.
+    pub inputs: Inputs,
+}
+
+/// The values of a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub enum WhineFound {
+    /// The spectra, by name.
+    Spectra(NamedSpectra),
+    /// The curve over speed as far as it is computed.
+    Speeds(Box<SpeedCurve>),
+    /// Why there is no chart.
+    Refused(String),
+}
+
+/// A part of the answer to a request.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WhinePart {
+    /// The request.
+    pub serial: u64,
+    /// The values so far; none at an end without values.
+    pub found: Option<WhineFound>,
+    /// Whether the computation is over.
+    pub is_over: bool,
+}
+
+/// The chart of a case: the last request and its values.
+#[derive(Debug, Clone, Default)]
+pub struct Whine {
+    /// The last request.
+    pub asked: Option<WhineRequest>,
+    /// The values, of an earlier request until the first of the last one come.
+    pub found: Option<(WhineChart, WhineFound)>,
+    /// Whether the last request is being computed.
+    pub is_running: bool,
+}
+
+impl Whine {
+    /// Takes a part of the answer to the last request.
+    pub fn take(&mut self, part: WhinePart) {
+        let Some(asked) = self
+            .asked
+            .as_ref()
+            .filter(|asked| asked.serial == part.serial)
+        else {
+            return;
+        };
+        if let Some(found) = part.found {
+            self.found = Some((asked.chart, found));
+        }
+        self.is_running = !part.is_over;
+    }
+
+    /// The chart as far as it is computed.
+    #[must_use]
+    pub fn drawn(&self, chart: WhineChart) -> Option<Chart> {
+        let (_, found) = self.found.as_ref().filter(|(own, _)| *own == chart)?;
+        match found {
+            WhineFound::Spectra(spectra) => charts::spectrum_chart(spectra.clone()),
+            WhineFound::Speeds(curve) => charts::speed_chart(&[("", curve)]),
+            WhineFound::Refused(_) => None,
+        }
+    }
+
+    /// Why there is no chart.
+    #[must_use]
+    pub fn missing(&self, chart: WhineChart) -> String {
+        match &self.found {
+            Some((own, WhineFound::Refused(reason))) if *own == chart => reason.clone(),
+            _ if self.is_running => "computing".to_owned(),
+            Some(_) => "No motion becomes steady: give a greater damping ratio.".to_owned(),
+            None => "The form is not valid: no chart.".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The search for the tip relief to specify, in the workbench.
+use crate::harness;
+
+use harness::{Desk, LARGE, TABLE_1};
+use tipstrike::case::fields::index_of;
+
+fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
+    let field = index_of(key).unwrap();
+    desk.app.tab.case.text(field).unwrap_or_default()
+}
+
+#[test]
+fn the_relief_to_specify_is_found_shown_and_taken_into_the_case_as_one_edit() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "relief", "Enter"]);
+    insta::assert_snapshot!("relief_140x45", desk.screen());
+    desk.keys(&["Enter"]);
+    let amounts = [
+        text(&desk, "driver.tip_relief"),
+        text(&desk, "driven.tip_relief"),
+    ];
+    assert!(
+        amounts
+            .iter()
+            .all(|amount| *amount != "0 um" && amount.ends_with(" um")),
+        "{amounts:?}"
+    );
+    assert!(text(&desk, "driven.tip_relief_length").ends_with(" mm"));
+    assert!(desk.shows("Ctrl-Z undoes"), "{}", desk.screen());
+    desk.keys(&["Ctrl-Z"]);
+    assert!(!desk.app.tab.is_unsaved(), "one edit");
+}
+
+#[test]
+fn a_typed_demand_is_searched_again_and_a_wrong_one_says_why() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "relief", "Enter"]);
+    assert!(desk.shows("for 25 to 110 %"), "{}", desk.screen());
+    desk.keys(&["Ctrl-U", "110..25 %", "Enter"]);
+    assert!(
+        desk.shows("! the range is reversed: write a range"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-U", "50..100 %, 2 um"]);
+    assert!(desk.shows("Enter searches again"), "{}", desk.screen());
+    desk.keys(&["Enter"]);
+    assert!(
+        desk.shows("for 50 to 100 %") && desk.shows("tolerance 2 um"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["PageDown", "Down", "Esc"]);
+    assert!(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
+}
