@@ -66,7 +66,10 @@ impl Exit {
             "a limit is exceeded, or its quantity has no value",
         ),
         (Exit::Usage, "wrong usage, or no terminal for the workbench"),
-        (Exit::BadCase, "a bad case"),
+        (
+            Exit::BadCase,
+            "an invalid case, or a case that cannot be solved",
+        ),
         (Exit::NewerFormat, "a case of a newer format"),
         (Exit::Unreadable, "a file cannot be read or written"),
     ];

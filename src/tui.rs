@@ -107,7 +107,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
         Err(_) => fail(
             PANICKED,
             &format!(
-                "a fault of the program: {}",
+                "internal error: {}",
                 terminal::last_panic().unwrap_or_default()
             ),
         ),

@@ -262,7 +262,7 @@ fn unit_wrong(unit: &str, dimension: Dimension) -> ParseError {
     );
     if !after.is_empty() && find(known.trim_end(), units_of(dimension)).is_some() {
         return ParseError::new(
-            format!("{after} stands after the unit"),
+            format!("{after} after the unit"),
             format!("write all digits before {}", known.trim_end()),
         );
     }

@@ -41,11 +41,11 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
-/// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
+/// Compute corner contact in spur gear pairs: position, force and duration of the tip impact
 #[derive(Debug, Parser)]
 #[command(name = "tipstrike", version = VERSION.as_str(), args_conflicts_with_subcommands = true, after_help = exit_codes())]
 pub struct Arguments {
-    /// Case to open in the workbench; else the last one, else Table 1 of Zhou & Chen 2014
+    /// Case to open in the workbench (default: the last case, or Table 1 of Zhou & Chen 2014)
     #[arg(value_hint = ValueHint::FilePath)]
     pub case: Option<PathBuf>,
     /// What to do without the workbench.
@@ -60,7 +60,7 @@ pub enum Command {
     Solve(Solve),
     /// Check each case's [limits] against its results, one verdict per line
     Check(Check),
-    /// Explain a quantity of a case: formula, numbers, source, range, and what it depends on
+    /// Explain a quantity of a case: formula, numbers, source, validity and sensitivity
     Explain(Explain),
     /// Measure accuracy against run time of every method on a case, on this machine
     Trade(Trading),
@@ -74,7 +74,7 @@ pub enum Command {
     Gather(Gather),
     /// Compare the variants of a case, or several cases, side by side with their differences
     Compare(Compare),
-    /// Find every value of a field at which a condition on the results changes
+    /// Find the values of a field at which a condition on the results changes
     Seek(Seek),
     /// Find the tip relief to specify on both gears: no corner contact, least transmission error
     Relief(Relief),
@@ -119,7 +119,7 @@ pub struct Plot {
     /// The chart to draw
     #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
     pub chart: String,
-    /// File to write, over an older one; else standard output
+    /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -146,10 +146,10 @@ pub struct Import {
     /// REXS model (.rexs, .rexsj or .rexsz); - is standard input
     #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]
     pub model: PathBuf,
-    /// Import the stage with this id; else the only spur stage of the model
+    /// Import the stage with this id (default: the only spur stage of the model)
     #[arg(long, value_name = "ID")]
     pub stage: Option<String>,
-    /// File to write, which must not exist yet; else standard output
+    /// File to write (default: standard output); must not exist yet
     #[arg(long, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -194,10 +194,10 @@ pub struct Check {
 /// What `explain` is asked.
 #[derive(Debug, Args)]
 pub struct Explain {
-    /// The quantity, by name or by a symbol of its own; `tipstrike fields --results` lists them
+    /// Name or symbol of the quantity; `tipstrike fields --results` lists all quantities
     #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = Quantities)]
     pub quantity: &'static Quantity,
-    /// The case file, - for standard input; else Table 1 of Zhou & Chen 2014
+    /// The case file, - for standard input (default: Table 1 of Zhou & Chen 2014)
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: Option<PathBuf>,
     /// What differs from the case
@@ -218,8 +218,8 @@ pub struct Trading {
     /// What differs from the case
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Greatest error of the recommended setting, such as 5% or 0.05; else model.within of the
-    /// case
+    /// Greatest error of the recommended setting, such as 5% or 0.05 (default: model.within of
+    /// the case)
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
     pub within: Option<f64>,
     /// Format of the output
@@ -265,7 +265,7 @@ pub struct New {
     /// List the examples instead, each with its pair and its verdict
     #[arg(long, conflicts_with_all = ["from", "file"])]
     pub list: bool,
-    /// File to write, which must not exist yet; else standard output
+    /// File to write (default: standard output); must not exist yet
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: Option<PathBuf>,
 }

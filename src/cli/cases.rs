@@ -155,7 +155,7 @@ pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), String>
         if let Some(other) = settings[..index].iter().find(is_partner) {
             let (written, key) = (setting.written(), &other.key);
             return Err(format!(
-                "{written}: {key} is set as well: leave one of them out"
+                "{written}: --set {key} excludes this field: remove one of the two --set options"
             ));
         }
         let set = document.case.set(&setting.key, &setting.value);

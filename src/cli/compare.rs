@@ -25,7 +25,7 @@ pub(super) fn run(options: &Compare, streams: &mut Streams) -> io::Result<Exit> 
     if columns.len() < 2 && worst == Exit::Done {
         let name = columns.first().map_or("", |column| column.name.as_str());
         streams.say(&format!(
-            "{name}: there is nothing to compare with: name another case, or add a table [variants.NAME]"
+            "{name}: the case has no variants: name a second case, or add a table [variants.NAME]"
         ));
         return Ok(Exit::Usage);
     }

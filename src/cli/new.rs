@@ -57,9 +57,9 @@ fn digest(example: &Example) -> Digest {
 
 fn refused(error: &SaveError, streams: &mut Streams) -> Exit {
     match error {
-        SaveError::AlreadyThere(name) => streams.say(&format!(
-            "{name}: it exists already: give a name that is free"
-        )),
+        SaveError::AlreadyThere(name) => {
+            streams.say(&format!("{name}: the file exists: choose another name"))
+        }
         other => streams.say(&other.to_string()),
     }
     Exit::Unreadable

@@ -288,7 +288,7 @@ impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "auto chose {}: {}", self.method.name(), self.reason)?;
         self.inertia.map_or(Ok(()), |inertia| {
-            write!(f, ", and inertia {inertia} of the shared load")
+            write!(f, "; inertia changes the shared load by {inertia}")
         })
     }
 }
@@ -297,10 +297,10 @@ impl fmt::Display for Inertia {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let percent = |part: f64| significant(100.0 * part, 2);
         match *self {
-            Inertia::AtMost(most) => write!(f, "changes at most {} %", percent(most)),
-            Inertia::AtLeast(least) => write!(f, "changes at least {} %", percent(least)),
-            Inertia::Between(least, _) => write!(f, "changes {} % or more", percent(least)),
-            Inertia::Tried(adds) => write!(f, "changes {} % (by trial)", percent(adds)),
+            Inertia::AtMost(most) => write!(f, "at most {} %", percent(most)),
+            Inertia::AtLeast(least) => write!(f, "at least {} %", percent(least)),
+            Inertia::Between(least, _) => write!(f, "{} % or more", percent(least)),
+            Inertia::Tried(adds) => write!(f, "{} % (trial motion)", percent(adds)),
         }
     }
 }
@@ -331,7 +331,7 @@ impl fmt::Display for Reason {
             Reason::Impulse(ratio) => write!(f, "the impulse ratio is {}", significant(*ratio, 4)),
             Reason::LoadShared(part) => write!(
                 f,
-                "the shared load is {} of the impact force",
+                "the shared load is {} times the impact force",
                 significant(*part, 3)
             ),
         }

@@ -42,7 +42,9 @@ pub struct Quantity {
     pub shown: &'static str,
     /// Significant digits that a person reads.
     pub digits: usize,
-    /// The equation or standard that defines the value.
+    /// The equation or standard that defines the value. A numbered equation, such as `Eq. 57`, must
+    /// also be in the source. Other words need their first word in the source, the meaning or the
+    /// assumptions, except `by the method`.
     pub equation: &'static str,
     /// The last stage that the value needs.
     pub stage: Stage,

@@ -69,7 +69,7 @@ impl Absence {
 #[must_use]
 pub fn without_contact(solution: &Solution) -> &'static str {
     match solution.method {
-        _ if solution.deviation.total <= 0.0 => "no contact before E",
+        _ if solution.deviation.total <= 0.0 => "the tip clears the flank before E",
         Method::Paper => "the printed equations find no contact before E",
         Method::Static => "the pairs in contact do not deflect so far at rest",
         _ => "no contact before E in motion",
@@ -146,7 +146,10 @@ impl fmt::Display for Absence {
                     .map(Method::name);
                 let methods = listed(&methods.collect::<Vec<_>>());
                 let own = method.name();
-                write!(f, "method {own} does not compute it, only {methods} do")
+                write!(
+                    f,
+                    "method {own} does not compute this quantity; {methods} do"
+                )
             }
             // A deviation above 0 is of the load at rest, and no reason.
             Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),

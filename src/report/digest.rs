@@ -159,9 +159,9 @@ pub fn short(solution: &Solution, system: System) -> String {
     };
     let force = Quantity::find("impact_force").and_then(|force| force.by(solution.method));
     match (force.and_then(|force| printed(force.key)), overall) {
-        (Some(force), Some(overall)) => format!("strikes with {force}, {overall} overall"),
-        (Some(force), None) => format!("strikes with {force}"),
-        (None, _) => "strikes".to_owned(),
+        (Some(force), Some(overall)) => format!("corner contact: {force}, {overall} overall"),
+        (Some(force), None) => format!("corner contact: {force}"),
+        (None, _) => "corner contact".to_owned(),
     }
 }
 
@@ -285,7 +285,7 @@ mod tests {
             digest.outcome,
             "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N."
         );
-        assert_eq!(digest.verdict(), "strikes with 2191.0 N; limit met");
+        assert_eq!(digest.verdict(), "corner contact: 2191.0 N; limit met");
         assert_eq!(digest.method, "exact");
         assert!(!digest.notes.is_empty());
     }
@@ -294,14 +294,14 @@ mod tests {
     fn a_limit_that_is_exceeded_and_a_tooth_that_does_not_strike_are_said() {
         assert_eq!(
             digest(&[("limits.impact_force", "2 kN")]).verdict(),
-            "strikes with 2191.0 N; 1 of 1 limit EXCEEDED"
+            "corner contact: 2191.0 N; 1 of 1 limit EXCEEDED"
         );
         let relieved = digest(&[("driven.tip_relief", "80 um"), ("limits.impact_force", "")]);
         assert_eq!(relieved.verdict(), "no corner contact");
         assert!(
             relieved
                 .outcome
-                .starts_with("No corner contact: no contact before E, Δ = ")
+                .starts_with("No corner contact: the tip clears the flank before E, Δ = ")
         );
     }
 
@@ -334,9 +334,9 @@ mod tests {
         let moving = "Corner contact: θ_d = 1.27924 deg before E; peak force 1410.8 N before E, 2003.0 N overall.";
         assert_eq!(forces[1].outcome, moving);
         let short = [
-            "strikes with 1466.2 N, 1524.3 N overall",
-            "strikes with 1410.8 N, 2003.0 N overall",
-            "strikes with 1410.8 N, 2003.0 N overall",
+            "corner contact: 1466.2 N, 1524.3 N overall",
+            "corner contact: 1410.8 N, 2003.0 N overall",
+            "corner contact: 1410.8 N, 2003.0 N overall",
         ];
         assert_eq!(forces.each_ref().map(|digest| digest.short.as_str()), short);
         assert_eq!(forces[2].method, "dynamic, chosen by auto");
@@ -365,7 +365,7 @@ mod tests {
             let inputs = case.inputs().unwrap();
             let digest = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
             assert!(
-                ["strikes with", "no corner contact"]
+                ["corner contact:", "no corner contact"]
                     .iter()
                     .any(|start| digest.short.starts_with(start)),
                 "{}: {digest:?}",

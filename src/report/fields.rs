@@ -13,7 +13,7 @@ const WIDTH: usize = 100;
 
 /// What follows the quantities.
 const TO_EXPLAIN: &str =
-    "`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.";
+    "`tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a case.";
 
 const FIELD_HEAD: [&str; 6] = ["key", "symbol", "unit", "range", "default", "meaning"];
 const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"];
@@ -183,7 +183,7 @@ fn default(field: &Field) -> &'static str {
     match field.absent {
         Absent::Refused => "required",
         Absent::Default(text) | Absent::Without(text) => text,
-        Absent::Either => "one of two",
+        Absent::Either => "or its alternative",
     }
 }
 

@@ -74,18 +74,19 @@ fn phrases(
     if has_relief {
         [
             format!(
-                "Relief to add at the driven tip: {own} {more}{others} {unit}; total {all} {unit}"
+                "Required additional tip relief, driven gear: {own} {more}{others} {unit}; total \
+                    {all} {unit}"
             ),
             format!("Relief to add: {own} {more}{others} {unit}; total {all} {unit}"),
-            format!("Relief needed: +{more}, total {all} {unit}"),
-            format!("Ca2 needed: {all} {unit}"),
+            format!("Required relief: +{more}, total {all} {unit}"),
+            format!("Required Ca2: {all} {unit}"),
         ]
     } else {
         [
-            format!("Relief needed at the driven tip: {own} {more}{others} {unit}"),
-            format!("Relief needed: {own} {more}{others} {unit}"),
-            format!("Relief needed: {own} {more} {unit}"),
-            format!("Ca2 needed: {all} {unit}"),
+            format!("Required tip relief of the driven gear: {own} {more}{others} {unit}"),
+            format!("Required tip relief: {own} {more}{others} {unit}"),
+            format!("Required relief: {own} {more} {unit}"),
+            format!("Required Ca2: {all} {unit}"),
         ]
     }
 }

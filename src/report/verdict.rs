@@ -110,7 +110,7 @@ impl Beside {
         match own {
             Some((own, Some(value))) => {
                 let value = shown_in(own, value, system);
-                format!("the free impact; {method} finds {} {value}", own.key)
+                format!("the free impact. Method {method}: {} {value}", own.key)
             }
             Some((own, None)) => {
                 format!("the free impact; {method} has {} instead", own.key)
@@ -229,9 +229,9 @@ impl Verdict<'_> {
         };
         let is_unlimited = beside.own.is_some() && !beside.is_limited;
         let also = match (self.is_exceeded_beside(), is_unlimited) {
-            (true, true) => ", which is above this limit and has no limit of its own",
-            (true, false) => ", which is above this limit",
-            (false, true) => ", which has no limit of its own",
+            (true, true) => ", above this limit; this quantity has no limit",
+            (true, false) => ", above this limit",
+            (false, true) => "; this quantity has no limit",
             (false, false) => "",
         };
         format!("{said} for {}{also}", beside.sentence(system))

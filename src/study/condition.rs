@@ -212,7 +212,7 @@ fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
     if !quantity.is_flag() {
         return Err(problem(
             key,
-            format!("{key} is a measured value and equals no number exactly"),
+            format!("= compares only flags and outcomes, and {key} is a number"),
             format!("write {key}<={}", value.trim()),
         ));
     }

@@ -67,7 +67,7 @@ impl Distribution {
                     end
                 ),
                 format!(
-                    "keep {} within {}; truncated ends at its width",
+                    "write a smaller width, or change {} so that the distribution is within {}",
                     spread.field,
                     FIELDS[field].range_text()
                 ),

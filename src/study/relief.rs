@@ -187,8 +187,9 @@ impl fmt::Display for NoRelief {
                 overlap,
             } => write!(
                 f,
-                "no tip relief serves: the {gear} tip is too thin, it can lose {}, and the teeth then \
-                 still overlap by {}; lower the greatest load or the tolerance",
+                "no tip relief prevents corner contact: the {gear} tip is thin, its relief is \
+                    limited to {}, and the teeth still overlap by {}; lower the greatest load or \
+                    the tolerance",
                 um(most),
                 um(overlap)
             ),
@@ -198,16 +199,16 @@ impl fmt::Display for NoRelief {
                 ratio,
             } => write!(
                 f,
-                "no tip relief serves: two pairs share the load over {} of the path (contact ratio \
-                 {ratio:.4}), and a longer relief, at least {}, brings the contact ratio below 1 under \
-                 light load; raise the addendum or the number of teeth",
+                "no tip relief prevents corner contact: two pairs share the load over {} of the path \
+                 (contact ratio {ratio:.4}), and the shortest permitted relief, {}, is longer and brings \
+                 the contact ratio below 1 under light load; raise the addendum or the number of teeth",
                 mm(length),
                 mm(least)
             ),
             NoRelief::Beyond { most, overlap } => write!(
                 f,
-                "no tip relief up to {} serves: the teeth still overlap by {}; lower the greatest load \
-                 or the tolerance",
+                "no tip relief up to {} prevents corner contact: the teeth still overlap by {}; lower \
+                 the greatest load or the tolerance",
                 um(most),
                 um(overlap)
             ),

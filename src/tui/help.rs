@@ -5,8 +5,11 @@ use crate::tui::keys::Place;
 
 const BEFORE: [&str; 6] = [
     "Every valid edit updates the results and the chart.",
-    "Enter a value with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg. A number without a unit takes the unit of its field.",
-    "The frame of a pane shows its keys: a digit outside a field, Esc and the digit in a field. In a field digits are part of the value; the status line announces the first digit, and Esc takes it back.",
+    "Enter a value with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg. To a \
+        number without a unit, the workbench adds the unit of the field.",
+    "The frame of a pane shows the keys that select the pane: a digit outside a field, Esc and \
+        the digit in a field. In a field, digits are part of the value. Esc after the first digit \
+        restores the value.",
     "In an empty or fully selected field, / and : start a command.",
     "An empty field shows its default in brackets; (required) marks a missing required value.",
     "D is the first contact of the driven tip, E the start of the normal path of contact. The method paper uses the printed Eqs. 7-20; exact solves for D.",
@@ -14,12 +17,21 @@ const BEFORE: [&str; 6] = [
 
 /// The signs, by the place where they appear.
 const SIGNS: [&str; 6] = [
-    "Before a field: * changed since the last save, - without effect here, ! an error or a missing required value, ▸ selected.",
-    "Behind a limit: ok or EXCEEDED (! in a narrow pane) and the used part; (!) the method finds more than the limit on the free impact.",
-    "Behind a result and its unit: ← changed by the last edit, ! above its limit; – no value. ▸ above a column: the method of the case.",
-    "vs baseline: the difference to the baseline (b pins one). was none: only this case has a value; was and a value: a percentage has no meaning.",
-    "In a chart: dots or * the method of the case, · paper, ∘ exact, × static, + the baseline, ╌ a value to compare with. On its axis: D first contact, E and B ends of the path of contact, L last contact, d the D of another method.",
-    "In the teeth: solid the flanks, bold those of the incoming pair; solid from E to B the path of contact, dashed the line of action, dotted the base circles and, before E, the path of the driven tip; crosses the named points, bold dots where flanks touch.",
+    "Signs before a field: * changed since the last save; - no effect in this case; ! error or \
+        missing required value; ▸ selected.",
+    "Signs after a limit: ok, or EXCEEDED (! in a narrow pane), with the value in percent of the \
+        limit; (!) the free impact meets the limit, but the force by the method exceeds the \
+        limit.",
+    "Signs after a result: ← changed by the last edit; ! above its limit; – no value. ▸ marks the \
+        column of the case's method.",
+    "Column vs baseline: the difference from the baseline; b pins the baseline. \"was none\": the \
+        baseline has no value. \"was\" and a value: the program prints no percentage.",
+    "Chart curves: dots or * the method of the case; · paper; ∘ exact; × static; + the baseline; \
+        ╌ a reference value, such as Δ in the gap chart. Points on the x axis: D first contact; E \
+        and B ends of the path of contact; L last contact; d first contact of another method.",
+    "Lines of the teeth: solid: flanks (bold: incoming pair) and, from E to B, the path of \
+        contact; dashed: line of action; dotted: base circles and the path of the driven tip \
+        before E. Crosses: named points. Bold dots: contacts.",
 ];
 
 const PLACES: [(&str, Place); 13] = [

@@ -299,9 +299,7 @@ fn solver_failed(app: &mut App, serial: u64) {
     (tab.has_failed, tab.is_settled, tab.solving) = (true, true, None);
     if app.tab.serial == serial {
         app.is_pinning = false;
-        app.complain(
-            "a fault of the program: the solver failed on this; undo or change the last edit",
-        );
+        app.complain("internal error: the solver failed on this; undo or change the last edit");
     }
 }
 

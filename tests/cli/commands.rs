@@ -156,7 +156,7 @@ fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
     assert_eq!(solved["quantities"]["total_deviation"]["value"], 0.0);
     assert!(
         stdout_of(&[&["solve", TABLE_1], &on_time[..]].concat())
-            .contains("No corner contact: no contact before E, Δ = 0 um")
+            .contains("No corner contact: the tip clears the flank before E, Δ = 0 um")
     );
 }
 
@@ -165,7 +165,8 @@ fn a_selected_quantity_without_a_value_gives_the_reason() {
     let without_motion = stdout_of(&["solve", TABLE_1, "--only", "F_d,max,F_S"]);
     assert!(
         without_motion.contains("  F_S impact force 2191.0 N")
-            && without_motion.contains("  F_d,max has no value: method exact does not compute it"),
+            && without_motion
+                .contains("  F_d,max has no value: method exact does not compute this quantity"),
         "{without_motion}"
     );
     let relief = "driven.tip_relief=80 um";
@@ -586,7 +587,7 @@ fn the_results_of_a_method_come_before_the_free_impact() {
             "{text}"
         );
         assert!(
-            free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact; "),
+            free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact. Method "),
             "{text}"
         );
         let page = stdout_of(&["explain", "impact_force", TABLE_1, "--method", method]);
@@ -629,7 +630,7 @@ fn the_printed_relief_prevents_contact_and_a_little_less_does_not() {
             .join(" ");
         let sentence = text
             .split(". ")
-            .find(|sentence| sentence.contains(" at the driven tip: "))
+            .find(|sentence| sentence.contains("driven gear: "))
             .unwrap_or_else(|| panic!("{method}: {text}"));
         let mut figures = sentence
             .split([' ', ','])
@@ -672,7 +673,7 @@ fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
 #[test]
 fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
     let dynamic = stdout_of(&["check", TABLE_1, "--method", "dynamic"]);
-    let beside = "for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own";
+    let beside = "for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity has no limit";
     let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
     assert_eq!(dynamic, held);
     let by_auto = stdout_of(&["check", TABLE_1, "--method", "auto"]);
@@ -852,8 +853,8 @@ fn a_quantity_is_known_by_a_symbol_of_its_own() {
 fn the_angle_of_the_verdict_is_a_row_of_the_table() {
     for (method, symbol, label) in [
         ("exact", "θ_1", "driver angle before E"),
-        ("static", "θ_st", "static: driver before E"),
-        ("dynamic", "θ_d", "dynamic: driver before E"),
+        ("static", "θ_st", "static: driver angle"),
+        ("dynamic", "θ_d", "dynamic: driver angle"),
     ] {
         let page = stdout_of(&["solve", TABLE_1, "--method", method]);
         let start = format!("Corner contact: {symbol} = ");
@@ -876,7 +877,7 @@ fn one_method_governs_and_the_others_follow_in_a_line() {
     let page = solve(&[]);
     for line in [
         "peak force 1410.8 N before E, 2003.0 N overall.",
-        "Relief needed at the driven tip: dynamic 38.9, static 40.1, exact 47.4 um.",
+        "Required tip relief of the driven gear: dynamic 38.9, static 40.1, exact 47.4 um.",
         "Free impact with the given deflection: exact 2191.0 N at θ_1 = 1.36628 deg; paper 84.649 N",
     ] {
         assert!(page.contains(line), "{line}: {page}");
@@ -922,14 +923,14 @@ fn a_new_case_starts_from_an_example_in_every_folder() {
         assert!(listed.contains(example.name));
     }
     assert!(
-        listed.contains("strikes with 2191.0 N; limit met")
+        listed.contains("corner contact: 2191.0 N; limit met")
             && listed.contains("no corner contact; 2 limits met"),
         "{listed}"
     );
     assert_eq!(code(&elsewhere(&["new", "--from", "fzg-type-c", path])), 0);
     assert!(stdout_of(&["solve", path]).contains("FZG type C"));
     let again = elsewhere(&["new", "--from", "fzg-type-c", path]);
-    assert!(code(&again) == 5 && err(&again).contains("it exists already"));
+    assert!(code(&again) == 5 && err(&again).contains("the file exists"));
     let slip = elsewhere(&["new", "--from", "fzg-type"]);
     assert!(
         code(&slip) == 2 && err(&slip).contains("fzg-type-c"),
@@ -1019,7 +1020,7 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
     let on_time = stdout_of(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
     assert!(on_time.contains("No value: no corner contact"), "{on_time}");
     assert!(stdout_of(&["fields", "--results"]).ends_with(
-        "`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.\n"
+        "`tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a case.\n"
     ));
 }
 

@@ -174,7 +174,7 @@ fn every_command_that_takes_a_case_takes_a_variant() {
 fn a_comparison_with_nothing_or_with_an_unknown_variant_is_wrong_usage() {
     let (code, _, errors) = run(&["compare", TABLE_1]);
     assert_eq!(code, 2);
-    assert!(errors.contains("nothing to compare with"), "{errors}");
+    assert!(errors.contains("the case has no variants"), "{errors}");
     let (_folder, case) = case();
     let (code, _, errors) = run(&["compare", &case, "--variant", "lsow"]);
     assert_eq!(code, 2);

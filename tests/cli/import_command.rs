@@ -204,7 +204,7 @@ fn import_writes_a_new_file_and_solve_takes_a_model_as_it_is() {
     assert_eq!((code, case.as_str()), (0, ""));
     let (again, _, message) = texts(&run(&["import", "spur-2.0.rexsj", "--out", out]));
     assert_eq!(again, 5);
-    assert!(message.contains("it exists already"), "{message}");
+    assert!(message.contains("the file exists"), "{message}");
     let quantity = ["--only", "impact_force", "--format", "csv"];
     let (_, of_case, _) = texts(&run(&[&["solve", out][..], &quantity].concat()));
     let (code, of_model, message) =

@@ -212,7 +212,7 @@ fn a_file_has_the_same_bytes_as_standard_output_for_any_number_of_jobs() {
     let to_nowhere = ["--out", missing.to_str().unwrap()];
     let (code, _, errors) = printed(&[&arguments[..], &to_nowhere].concat());
     assert!(
-        code == 5 && errors.contains("there is no folder"),
+        code == 5 && errors.contains("create the folder"),
         "{errors}"
     );
 }

@@ -459,7 +459,7 @@ fn a_search_that_exceeds_its_budget_prints_its_bracket_and_keeps_the_other_resul
         .expect("a refusal");
     assert_eq!(refusal.code(), "clearing-relief-not-found");
     let sentence = refusal.to_string();
-    assert!(sentence.starts_with("not found within ") && sentence.contains(" motions: "));
+    assert!(sentence.starts_with("the search stopped after ") && sentence.contains(" motions: "));
     assert!(sentence.contains("touches before E with "), "{sentence}");
 }
 
@@ -498,7 +498,7 @@ fn a_narrow_bracket_is_printed_with_ends_that_differ() {
     };
     assert_eq!(
         refusal.to_string(),
-        "not found within 400 motions: the tooth touches before E with 22.628104 um more tip \
+        "the search stopped after 400 motions: the tooth touches before E with 22.628104 um more tip \
          relief of the driven gear, and not with 22.628105 um more"
     );
 }

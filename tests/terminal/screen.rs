@@ -29,7 +29,7 @@ fn a_panic_of_the_screen_gives_the_terminal_back_and_keeps_what_was_typed() {
     assert_eq!(tty.wait_for_end().exit_code(), 101);
     tty.assert_restored();
     assert!(
-        tty.shows("a fault of the program") && tty.shows("unsaved edits are kept"),
+        tty.shows("internal error") && tty.shows("unsaved edits are kept"),
         "{}",
         tty.screen().contents()
     );

@@ -66,7 +66,7 @@ fn a_trade_shows_its_progress_and_ctrl_c_ends_it_without_a_trace() {
 #[test]
 fn keys_are_answered_while_a_slow_method_runs() {
     let mut tty = launch(&[]).size(45, 140).start();
-    tty.wait_for("dynamic to come");
+    tty.wait_for("dynamic pending");
     let mut times: Vec<Duration> = (1..=9)
         .map(|digit| {
             tty.type_in("\x15");
@@ -75,7 +75,7 @@ fn keys_are_answered_while_a_slow_method_runs() {
         })
         .collect();
     // That of the last edit runs.
-    tty.wait_for("dynamic to come");
+    tty.wait_for("dynamic pending");
     times.sort();
     warn_beyond(
         "key to echo while a slow method runs, median",
@@ -89,7 +89,7 @@ fn keys_are_answered_while_a_slow_method_runs() {
 #[test]
 fn esc_ends_a_measurement_at_once() {
     let mut tty = launch(&[]).size(45, 140).start();
-    tty.wait_for("dynamic to come");
+    tty.wait_for("dynamic pending");
     tty.type_in("\x1b");
     tty.settle(Duration::from_millis(100));
     tty.type_in("5m");

@@ -18,7 +18,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc", "l", "", "z1 driver number of teeth,"),
     ("Esc", "h", "", "title. A name"),
     ("Esc", "g", "", "title. A name"),
-    ("Esc", "G", "", "The greatest value that impact force may take"),
+    ("Esc", "G", "", "Upper limit of impact force"),
     ("Ctrl-U 2 Space m m Down Down Down", "Alt-E", "", "rh1 driver bore radius,"),
     // In the results.
     ("Esc 2", "Enter", "", "impact force, F_S (Eq. 57)"),
@@ -63,7 +63,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 3 l l l", "Home", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),
     ("Esc 3", "a", "peak", "= 1.3663 deg (113.9 us) before E"),
     ("Esc 3", "End", "", "At E: F_S 0 N"),
-    ("Esc 3 l", "c", "", "No cursor"),
+    ("Esc 3 l", "c", "", "Cursor hidden"),
     ("Esc 3", "j", "", "▸ 3 Gap S in um over driver roll angle"),
     ("Esc 3 j j", "k", "", "▸ 3 Gap S in um over driver roll angle"),
     ("Esc 3", "+", "", " 1.2           1.0           0.8 "),
@@ -145,7 +145,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", "PageDown", "", "z1 driver number of teeth,"),
     ("", "PageUp", "", "title. A name"),
     ("Esc 3", "Ctrl-Home", "", "title. A name"),
-    ("", "Ctrl-End", "", "The greatest value that impact force may take"),
+    ("", "Ctrl-End", "", "Upper limit of impact force"),
     // In a field of names.
     ("METHOD", "Right", "", "‹ static ›"),
     ("METHOD", "Left", "", "‹ paper ›"),
@@ -169,7 +169,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-P units", "Enter", "", "492.56"),
     ("F1", "Enter", "", "▸ Form"),
     ("Ctrl-P", "Esc", "", "▸ Form"),
-    ("", "Ctrl-C", "", "Ctrl-C again quits"),
+    ("", "Ctrl-C", "", "Ctrl-C again to quit"),
     // In an explanation.
     ("Esc 2 j j Enter", "Tab", "", "▸pair.module"),
     ("Esc 2 j j Enter", "BackTab", "", "▸model.accurate"),

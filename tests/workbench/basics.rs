@@ -139,7 +139,7 @@ fn the_palette_lists_commands_of_the_focused_pane_and_field_first() {
         ("model.method", &["Ctrl-P"], "method"),
         ("pair.module", &["Esc", "2", ":"], "explain"),
         ("pair.module", &["Esc", "3", ":"], "play"),
-        ("pair.module", &["Esc", "5", ":"], "take setting"),
+        ("pair.module", &["Esc", "5", ":"], "apply setting"),
     ] {
         let mut desk = Desk::new(LARGE);
         desk.go_to(field).keys(keys);
@@ -707,7 +707,7 @@ fn long_work_shows_how_far_it_is_and_esc_cancels_it() {
 fn the_least_relief_has_a_place_until_it_is_there() {
     let mut desk = Desk::new(LARGE);
     assert!(
-        desk.shows("Relief needed at the driven tip: exact 47.4 um"),
+        desk.shows("Required tip relief of the driven gear: exact 47.4 um"),
         "{}",
         desk.screen()
     );
@@ -729,7 +729,7 @@ fn the_least_relief_has_a_place_until_it_is_there() {
     }
     desk.act(Action::Solved(Box::new(first)));
     assert!(
-        desk.shows("Relief needed at the driven tip: static ..., exact 47.4 um"),
+        desk.shows("Required tip relief of the driven gear: static ..., exact 47.4 um"),
         "{}",
         desk.screen()
     );
@@ -746,7 +746,7 @@ fn the_least_relief_has_a_place_until_it_is_there() {
     );
     desk.act(Action::Solved(Box::new(whole)));
     assert!(
-        desk.shows("Relief needed at the driven tip: static 40.1, exact 47.4 um")
+        desk.shows("Required tip relief of the driven gear: static 40.1, exact 47.4 um")
             && !desk.shows("..."),
         "{}",
         desk.screen()
@@ -769,13 +769,13 @@ fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
     desk.act(Action::Solved(Box::new(half)));
     desk.act(Action::Solving(request.serial, 0.25));
     assert!(
-        desk.shows("25 % solving static; Esc cancels") && desk.shows("static to come"),
+        desk.shows("25 % solving static; Esc cancels") && desk.shows("static pending"),
         "{}",
         desk.screen()
     );
     desk.keys(&["Esc"]);
     assert!(
-        desk.has_cancelled && desk.shows("method static is stopped") && !desk.shows("to come"),
+        desk.has_cancelled && desk.shows("method static is stopped") && !desk.shows("pending"),
         "{}",
         desk.screen()
     );

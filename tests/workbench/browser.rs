@@ -117,7 +117,7 @@ fn the_case_under_the_cursor_shows_its_verdict() {
         (
             "c-rel",
             &[
-                "No corner contact: no contact before E, Δ = ",
+                "No corner contact: the tip clears the flank before E, Δ = ",
                 "ok impact_force does not occur: no corner contact",
             ],
         ),
@@ -243,9 +243,9 @@ fn recent_cases_stand_on_the_same_page_and_missing_ones_are_said_to_be() {
     desk.keys(&["Alt-R", "Down"]);
     assert!(preview(&desk).contains("The file does not exist any more."));
     desk.keys(&["Enter"]);
-    assert!(desk.shows("gone.toml cannot be opened") && desk.shows("there is no such file"));
+    assert!(desk.shows("gone.toml cannot be opened") && desk.shows("file not found"));
     desk.keys(&["Esc", "Alt-R"]);
-    assert!(!desk.shows("There is no such file"), "back in the folder");
+    assert!(!desk.shows("file not found"), "back in the folder");
     desk.keys(&["deep", "Enter"]);
     assert_eq!(
         desk.app.tab.short_name(),

@@ -95,7 +95,7 @@ fn a_file_that_exists_is_replaced_on_demand_alone() {
 fn what_cannot_be_exported_is_refused_in_words_and_writes_nothing() {
     let mut desk = edited();
     desk.keys(&["Alt-X", "Ctrl-U", &desk_path(&desk, "page.pdf"), "Enter"]);
-    assert!(desk.shows("not exported: the ending chooses"));
+    assert!(desk.shows("not exported: unknown file extension"));
     desk.keys(&["Ctrl-U", "Enter"]);
     assert!(desk.shows("a file needs a name"));
     desk.keys(&["Esc"]);

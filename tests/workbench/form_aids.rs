@@ -103,7 +103,7 @@ fn what_the_method_does_without_is_marked_and_says_why() {
     let idle = line(&desk, "Ca1");
     assert!(idle.starts_with("- Ca1"), "{idle}");
     desk.go_to("driver.tip_relief");
-    assert!(desk.shows("Not used: at run-in the driven tip meets the driver's root"));
+    assert!(desk.shows("Not used: this relief acts at run-out"));
 }
 
 #[test]

@@ -133,7 +133,7 @@ fn no_mark_touches_a_unit_and_no_name_is_cut_where_there_is_room() {
     assert!(desk.shows(" um mm/N ← "), "{}", desk.screen());
     desk.keys(&["Esc", "b", "Ctrl-T", "Ctrl-T"]);
     assert!(
-        desk.shows("m x'' + ΣF = F0") && !desk.shows("ΣF…") && !desk.shows("no touch b…"),
+        desk.shows("m x'' + ΣF = F0") && !desk.shows("ΣF…") && !desk.shows("no contact b…"),
         "{}",
         desk.screen()
     );
@@ -216,7 +216,7 @@ fn a_hint_beside_a_message_ends_with_a_sentence() {
         .find(|line| line.contains("= 0.34907 rad."))
         .expect("a hint");
     assert!(
-        desk.shows("method static") && hint.trim_end().ends_with("(else 20 deg)."),
+        desk.shows("method static") && hint.trim_end().ends_with("(default 20 deg)."),
         "{screen}"
     );
 }

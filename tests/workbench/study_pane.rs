@@ -207,7 +207,7 @@ fn a_hidden_study_is_not_computed_and_a_late_answer_is_left_out() {
     desk.fill("operation.speed", "2 kg");
     assert_eq!(
         desk.app.tab.study.obstacle.as_deref(),
-        Some("The form is not valid: no study.")
+        Some("No study: a field has an error. Alt-E goes to that field.")
     );
 }
 

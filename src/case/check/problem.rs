@@ -108,7 +108,7 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
         return Problem::new(
             field,
             "no quantity is named",
-            "name one, such as impact_force; commas stand between names alone",
+            "write names with commas between them, such as impact_force,contact_ratio",
         );
     }
     if quantity.trim().contains(' ') {

@@ -20,21 +20,24 @@ pub enum Reason {
     Partly(When, &'static str),
 }
 
-pub(super) const AT_RUN_OUT: &str = "at run-in the driven tip meets the driver's root: this relief acts at run-out, which this method does not follow";
-pub(super) const TIP_OF_DRIVER: &str = "the driver's tip leaves contact at B: at run-in it counts only by how many pairs carry the load";
+pub(super) const AT_RUN_OUT: &str = "this relief acts at run-out; this method computes only \
+    run-in, where the driven tip meets the driver's root";
+pub(super) const TIP_OF_DRIVER: &str = "the driver's tip ends contact at B; at run-in this field \
+    affects only the number of loaded pairs";
 pub(super) const IN_TIME: &str = "only the method dynamic follows the motion in time";
 pub(super) const CURVE: &str = "changes only how closely the curve is sampled";
 
 /// Of the root of a gear.
 pub(super) const ROOT: [Reason; 1] = [Partly(
     |inputs| !root_is_read(inputs),
-    "the tooth compliance does not read the root: only the stiffness spread changes, which tries the other models too",
+    "the tooth compliance ignores the root; only the stiffness spread changes, because the spread \
+        includes the other models",
 )];
 
 /// Of relief lengths and shapes.
 pub(super) const WHOLE_RELIEF: [Reason; 1] = [Idle(
     by_impact,
-    "this method takes the whole relief at the first contact, whatever its length and shape",
+    "this method applies the full relief at the first contact and ignores length and shape",
 )];
 
 /// Of the load.
@@ -46,7 +49,8 @@ pub(super) const LOAD: [Reason; 1] = [Partly(
 /// Of the masses.
 pub(super) const MASS: [Reason; 1] = [Partly(
     |inputs| inputs.method == Method::Static,
-    "the load at rest reads no masses: the free impact changes, and with the beam the stiffness",
+    "the static load does not depend on mass; only the free impact changes, and with `beam` the \
+        stiffness",
 )];
 
 pub(super) fn always(_: &Inputs) -> bool {

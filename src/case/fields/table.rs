@@ -38,7 +38,7 @@ const fn text(key: &'static str, label: &'static str, help: &'static str) -> Fie
 
 const HEAD: &[Field] = &[
     text("title", "title", "A name for the case.").reasons(&[Beside("a name for people")]),
-    text("notes", "notes", "Where the numbers come from.").reasons(&[Beside("words for people")]),
+    text("notes", "notes", "Sources of the data.").reasons(&[Beside("words for people")]),
     number!(
         "pair.module",
         "m",
@@ -49,7 +49,7 @@ const HEAD: &[Field] = &[
         "mm",
         Either,
         |inputs, value| inputs.module = value,
-        "Module of both gears; give it or the diametral pitch."
+        "Module of both gears; give either the module or the diametral pitch."
     )
     .with_example("5 mm")
     .instead_of("pair.diametral_pitch", |inputs| {
@@ -65,7 +65,7 @@ const HEAD: &[Field] = &[
         "1/in",
         Either,
         |inputs, value| inputs.module = 1.0 / value,
-        "Diametral pitch of both gears, the reciprocal of the module; give one of the two."
+        "Diametral pitch of both gears, the reciprocal of the module; replaces the module."
     )
     .with_example("8 1/in")
     .instead_of("pair.module", |inputs| {
@@ -124,7 +124,7 @@ const TAIL: &[Field] = &[
         "um",
         Default("0 um"),
         |inputs, value| inputs.backlash = value,
-        "Normal backlash, taken off the equivalent error (Eq. 1)."
+        "Normal backlash; reduces the equivalent error (Eq. 1)."
     ),
     number!(
         "operation.power",
@@ -169,7 +169,8 @@ const TAIL: &[Field] = &[
         "Speed of the driver."
     ).with_example("2000 rpm").reasons(&[Partly(
         |inputs| inputs.method == Method::Static && matches!(inputs.drive, Drive::Torque(_)),
-        "where the torque is given, the load at rest reads no speed: only the free impact changes",
+        "with a given torque, the static load does not depend on speed; only the free impact \
+            changes",
     )]),
     number!(
         "operation.friction_coefficient",
@@ -241,7 +242,8 @@ const TAIL: &[Field] = &[
         key: "model.inertia",
         symbol: "",
         label: "inertia model",
-        help: "outline: a gear's inertia is that of its true outline. base-circle: of a disc up to its base circle, Eq. 47; paper always.",
+        help: "outline: inertia of the true gear outline. base-circle: inertia of a disc up to \
+            the base circle, Eq. 47; method paper always uses the disc.",
         kind: Kind::Choice(&["outline", "base-circle"], |inputs, value| {
             inputs.inertia = InertiaModel::ALL[value];
         }),
@@ -282,7 +284,8 @@ const TAIL: &[Field] = &[
         key: "model.warmup_cycles",
         symbol: "",
         label: "warm-up cycles",
-        help: "Base pitches that pass before the incoming tooth reaches E, from the static balance on; dynamic alone.",
+        help: "Number of base pitches between the start of the motion, at static balance, and E; \
+            method dynamic only.",
         kind: Kind::Count(1, 10000, |inputs, value| inputs.warmup_cycles = value),
         absent: Default("20"),
         ..Field::PLAIN
@@ -302,7 +305,7 @@ const TAIL: &[Field] = &[
     .reasons(&[
         Idle(
             |inputs| inputs.method == Method::Auto,
-            "the method auto derives the tolerance from the field below",
+            "method auto derives the tolerance from model.within",
         ),
         Idle(always, IN_TIME),
         Partly(always, "changes results by no more than itself"),
@@ -310,7 +313,7 @@ const TAIL: &[Field] = &[
     number!(
         "model.within",
         "",
-        "good enough within",
+        "permitted error",
         Number,
         1e-6,
         1.0,
@@ -355,7 +358,8 @@ const TAIL: &[Field] = &[
         key: "model.accurate",
         symbol: "",
         label: "accurate",
-        help: "Computes geometry and position in double-double arithmetic: exact to the last digit, about 20 times slower.",
+        help: "Computes geometry and position in double-double arithmetic: relative error below \
+            1e-13 instead of 1e-12, with a longer run time.",
         kind: Kind::Choice(FLAG, |inputs, value| inputs.accurate = value == 1),
         absent: Default("false"),
         ..Field::PLAIN

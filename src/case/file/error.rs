@@ -12,7 +12,7 @@ use crate::case::sanitize::sanitize;
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// There is no such file.
-    #[error("{0}: there is no such file")]
+    #[error("{0}: file not found: check the path, or `tipstrike new` writes a case")]
     NotFound(String),
     /// It is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
@@ -60,7 +60,10 @@ pub enum SaveError {
     #[error("{0}: this is a folder: add the name of a file to it, such as {1}")]
     IsAFolder(String, String),
     /// The folder of the file is missing; the third text is its name as a shell reads it.
-    #[error("{0}: there is no folder {1}: make it first (mkdir -p {2}), or choose another name")]
+    #[error(
+        "{0}: the folder {1} does not exist: create the folder (mkdir -p {2}), or choose \
+        another name"
+    )]
     NoFolder(String, String, String),
     /// The path leads through a file as if it were a folder.
     #[error("{0}: {1} is not a folder: choose another name")]

@@ -178,7 +178,10 @@ pub(super) fn held(number: &str, value: f64) -> Result<f64, ParseError> {
         ))
     } else if nonzero && !value.is_normal() {
         Err(ParseError::new(
-            format!("{} is too near to zero to be held", quoted(number)),
+            format!(
+                "{} is too close to zero for a floating-point number",
+                quoted(number)
+            ),
             "write 0 or a larger number",
         ))
     } else {

@@ -24,7 +24,7 @@ pub struct Overrides {
 /// The method and the values that replace those of a case.
 #[derive(Debug, Args)]
 pub struct Changes {
-    /// Solve on this method instead of the case's
+    /// Use this method instead of the method of the case
     #[arg(long, value_parser = methods())]
     method: Option<Method>,
     /// The values

@@ -11,10 +11,12 @@ use crate::model::inputs::Method;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
-const COMPARE_SHAPE: &str = "A variant is a table [variants.NAME] of the case file with the keys that it changes, such as \
-    \"driven.tip_relief\" = \"48 um\". The first column is the reference of all differences. A difference has the unit of the quantity; \
-    it is in percent only where both values have the same sign and the quantity cannot be negative. A refused case or variant keeps its \
-    column, with the reason. CSV: one row per quantity in SI units. JSON: one object in SI units; missing values are absent.";
+const COMPARE_SHAPE: &str = "A variant is a table [variants.NAME] of the case file with the keys \
+    that it changes, such as \"driven.tip_relief\" = \"48 um\". The first column is the reference \
+    of all differences. A difference is in the unit of the quantity, or in percent if the \
+    quantity cannot be negative and its value is at most ten times the reference. A refused case \
+    or variant keeps its column, with the reason. CSV: one row per quantity in SI units. JSON: \
+    one object in SI units; missing values are absent.";
 
 /// The options of `compare`.
 #[derive(Debug, Args)]

@@ -25,10 +25,13 @@ const SEEK_SHAPE: &str = "A crossing is a value at which the condition changes, 
     are answers for the whole range. Without corner contact a quantity of the impact is below every limit. JSON is one object; its \
     numbers are in the unit of --vary, and those of the quantity in SI.";
 
-const TOLERANCE_SHAPE: &str = "A distribution is a line of [spread]: the field in quotes, then { normal = WIDTH } with the standard \
-    deviation, or { uniform = WIDTH }, { triangular = WIDTH } or { truncated = WIDTH } (a normal distribution cut off at three standard \
-    deviations) with half the span, or { grade = CLASS } for a base pitch deviation of ISO 1328-1. CSV has one row per solve in SI units: \
-    the samples (set a), then the points of the ranking (set b, and b:FIELD with the value of b in that field). JSON is one object in SI units.";
+const TOLERANCE_SHAPE: &str = "A distribution is a line of [spread]: the field in quotes, then { \
+    normal = WIDTH } with the standard deviation, or { uniform = WIDTH }, { triangular = WIDTH } \
+    or { truncated = WIDTH } (a normal distribution cut off at three standard deviations) with \
+    half the span, or { grade = CLASS } with a flank tolerance class of ISO 1328-1, for a base \
+    pitch deviation. CSV has one row per solve in SI units: the samples (set a), then the points \
+    of the ranking (set b, and b:FIELD with the value of b in that field). JSON is one object in \
+    SI units.";
 
 const RELIEF_SHAPE: &str = "Corner contact counts before the start and after the end of the path of contact, at the greatest load, with \
     each relief off by the tolerance to either side. Among the reliefs without corner contact the command chooses the one with the least \
@@ -39,13 +42,13 @@ const RELIEF_SHAPE: &str = "Corner contact counts before the start and after the
 /// How a study runs whose points can be divided among machines.
 #[derive(Debug, Args)]
 pub struct Running {
-    /// Number of threads; else one per core. The output does not depend on it
+    /// Number of threads (default: one per core); does not change the output
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
     /// Solve only part I of N equal parts, such as 3/8, for `tipstrike gather`
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
     pub shard: Option<Shard>,
-    /// File to write, in place of an older one; else standard output
+    /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -61,7 +64,7 @@ pub struct Sweep {
     /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
     #[arg(long, required = true, value_name = "KEY=FROM..TO")]
     pub vary: Vec<String>,
-    /// Number of points of each range, both ends included; else 101, or every whole number. Given
+    /// Number of points of each range, both ends included; default 101, or every whole number. Given
     /// once for all ranges, or once for each
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub points: Vec<usize>,
@@ -105,10 +108,10 @@ pub struct Seek {
     /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,
-    /// Number of threads; else one per core. The output does not depend on it
+    /// Number of threads (default: one per core); does not change the output
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// File to write, in place of an older one; else standard output
+    /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -132,7 +135,7 @@ pub struct Relief {
     /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// File to write, in place of an older one; else standard output
+    /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -150,8 +153,8 @@ pub struct Tolerance {
     /// Seed of the samples; the same seed gives the same samples
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Number of samples that rank the fields; each costs a solve per field and one more. Else 4096,
-    /// or all if they are fewer; 0 for no ranking
+    /// Number of samples for the ranking of the fields (default: 4096, at most --samples; 0: no
+    /// ranking). Each sample needs one solve per field, plus one
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub ranking: Option<usize>,
     /// What differs from the case
@@ -200,7 +203,7 @@ pub struct Gather {
     /// Files that --shard wrote, in any order
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub files: Vec<PathBuf>,
-    /// File to write, in place of an older one; else standard output
+    /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }

@@ -3,10 +3,11 @@
 pub(super) const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
 
-pub(super) const CHECK_SHAPE: &str = "A limit keeps its meaning in every method: a limit on impact_force applies to the free impact in closed \
-    form, and the verdict also gives the counterpart of static or dynamic, which can have a limit of its own. Without corner contact \
-    a limit on the impact is met. A limit on a quantity without a value is not met, and the line gives the reason. JSON: one object \
-    per verdict, in SI units.";
+pub(super) const CHECK_SHAPE: &str = "A limit on impact_force applies to the free impact in every \
+    method. With static and dynamic, the verdict also prints the force by the method; a separate \
+    limit can be set on that force. Without corner contact every limit on the impact is met. If a \
+    quantity has no value, the verdict is `unknown` with the reason, and the exit code is 1. \
+    JSON: one object per verdict, in SI units.";
 
 pub(super) const TRADE_SHAPE: &str = "Each setting is timed on this machine. Its total error is the greatest relative difference of first contact, \
     forces and curve from the finest setting of method dynamic. The model error is that of the finest setting of the same method; \
@@ -17,9 +18,11 @@ pub(super) const STIFFNESS_SHAPE: &str = "The finite elements are plane strain o
     not use them yet. CSV: one row per gear and radius, in SI units; an empty cell where a model does not cover the gear. JSON: one \
     object in SI units; missing values are absent, and gaps and refusal give the reason.";
 
-pub(super) const PLOT_SHAPE: &str = "The chart shows the method of the case. A chart that this method lacks shows another one: load_share of a \
-    closed form shows static, impact_energy of static or dynamic shows exact. The legend names the method. The chart speed shows method dynamic at the torque of \
-    the case, with the speed rising and falling. The picture follows the light or dark setting of the browser.";
+pub(super) const PLOT_SHAPE: &str = "The chart shows the method of the case. If the method has no \
+    such chart, the command draws another method: load_share of paper and exact shows static; \
+    impact_energy of static and dynamic shows exact. The legend names the method. The chart speed \
+    shows method dynamic at the torque of the case, with the speed rising and falling. The \
+    picture follows the light or dark setting of the browser.";
 
 pub(super) const REPORT_SHAPE: &str = "The HTML page is complete in itself: verdict, inputs, results, charts, teeth, limits, notes and the case \
     files; one case prints on two A4 pages. Markdown has the same without charts. CSV and JSON are those of `solve`, JSON with the \

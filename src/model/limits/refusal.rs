@@ -194,7 +194,8 @@ pub enum Refusal {
     BeyondReach,
     /// The compliances of neighbouring pairs contradict each other.
     #[error(
-        "the pairs have no load shares: a force would displace neighbouring teeth further than its own"
+        "no load sharing: the compliance matrix is not positive definite (a force displaces a \
+            neighbouring tooth more than the loaded tooth)"
     )]
     IndefiniteCompliance,
     /// Friction alone locks the gears.
@@ -222,7 +223,7 @@ pub enum Refusal {
     Unsettled,
     /// The motion exceeds its budget of work.
     #[error(
-        "the motion is too long to compute: {steps} steps, the most that the budget allows, are {} of it", percent(*.done)
+        "the motion needs too many steps: the limit of {steps} steps covers {} of the motion", percent(*.done)
     )]
     MotionTooLong {
         /// Steps.
@@ -255,7 +256,7 @@ pub enum Refusal {
         limit: usize,
     },
     /// The search for the required tip relief exceeds its budget of work.
-    #[error("not found within {tries} {}: {}", if *.in_motion { "motions" } else { "balances" }, Bracket(*.touching, *.clear))]
+    #[error("the search stopped after {tries} {}: {}", if *.in_motion { "motions" } else { "balances" }, Bracket(*.touching, *.clear))]
     SearchTooLong {
         /// Motions or balances tried.
         tries: u32,

@@ -87,7 +87,7 @@ impl Refusal {
             Refusal::NoFirstContact { .. } => (
                 "no-first-contact",
                 "deviations.base_pitch",
-                "give a smaller deviation or deflection",
+                "give a smaller deviation or deflection, or lower the load",
             ),
             Refusal::RoundingInsideBase { field, .. } => (
                 "tip-radius-inside-base",
@@ -110,7 +110,7 @@ impl Refusal {
             Refusal::BeyondDriverTip { .. } => (
                 "beyond-driver-tip",
                 "deviations.base_pitch",
-                "give a smaller deviation or deflection",
+                "give a smaller deviation or deflection, or lower the load",
             ),
             Refusal::TeethOutsideFit { .. } => (
                 "teeth-outside-fit",

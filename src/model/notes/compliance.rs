@@ -50,8 +50,9 @@ pub(super) fn without_coupling(inputs: &Inputs, solution: &Solution) -> Option<N
     let model = model_of(inputs).model();
     let message = || {
         format!(
-            "`{}` has no coupling of neighbouring teeth: over the cases in cases/, that places the \
-             first contact {} earlier and changes the peak force by {}",
+            "`{}` does not couple neighbouring teeth. Without coupling, the first contact is {} \
+                earlier and the peak force changes by {} (elastic field with and without \
+                coupling, cases/)",
             model.name, UNCOUPLED.0, UNCOUPLED.1
         )
     };

@@ -28,7 +28,7 @@ pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option
     );
     let method = solution.method.name();
     let message = format!(
-        "method {method} ignores the given deflection of {given} um and computes {found} um before E"
+        "method {method} ignores the given deflection of {given} um and uses its own, {found} um"
     );
     Some(Note::new("deflection-ignored", message))
 }
@@ -71,7 +71,8 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (period, time) = (four(period * 1e6), four(time * 1e6));
         format!(
-            "the mesh oscillates with a period of {period} us and the tooth takes over the load in {time} us: inertia, which this method ignores, may change the force by {:.0} %",
+            "method static ignores inertia, which may change the force by {:.0} %: the mesh period \
+             is {period} us, and the load on the tooth grows over {time} us",
             100.0 * part.min(1.0)
         )
     };

@@ -39,7 +39,8 @@ pub(super) const TABLE: &[Quantity] = &[
         formula: Made(mean_of_pairs),
         source: "Mean of b/q of a pair over its path of contact, times the contact ratio; with \
             coupled pairs the mean of their force per displacement. Compliances of Zhou & Chen \
-            2014, Eqs. 54-56, or by finite elements. The mean of ISO 6336-1 is c_γ.",
+            2014, Eqs. 54-56, or by finite elements. The mean mesh stiffness of ISO 6336-1 is \
+            c_γα.",
         corrections: &["Eq. 55", "Eq. 56"],
         assumptions: "The contact compliance is that under F_0, so the stiffness of a pair \
             depends on its place only.",
@@ -49,7 +50,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "static_first_contact_angle_driver",
         symbol: "θ_st",
-        label: "static: driver before E",
+        label: "static: driver angle",
         unit: "rad",
         shown: "deg",
         digits: 6,
@@ -68,7 +69,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "static_first_contact_angle",
         symbol: "u_st",
-        label: "static: driven before E",
+        label: "static: driven angle",
         unit: "rad",
         shown: "deg",
         digits: 6,
@@ -94,8 +95,8 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "ΣF = F0",
         stage: Static,
         value: |s| Some(s.static_load.as_ref()?.force_at_start),
-        meaning: "The force on the incoming tooth at E at rest: 0 with a good tip relief, a large \
-            part of the mesh force without relief.",
+        meaning: "The force on the incoming tooth at E at rest. A sufficient tip relief reduces \
+            this force to 0.",
         formula: Difference("max(k_E (x_E + Δf_0 - C_E), 0)"),
         source: BALANCE,
         corrections: &["Eq. 53", "Eq. 54"],
@@ -134,7 +135,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "static_last_contact_angle",
         symbol: "θ_st,B",
-        label: "static: driver after B",
+        label: "static: run-out angle",
         unit: "rad",
         shown: "deg",
         digits: 6,
@@ -185,16 +186,16 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "N",
         shown: "N",
         digits: 4,
-        equation: "μ reverses",
+        equation: "friction reverses",
         stage: Static,
         value: |s| s.static_load.as_ref()?.pitch_jump,
         meaning: "The change of the sum of all pair forces where the incoming tooth passes the \
-            pitch point. Before this point its friction μ drives the driver, after it friction \
-            brakes the driver.",
+            pitch point. Before the pitch point, friction drives the driver; after the pitch \
+            point, friction brakes the driver.",
         formula: PITCH_JUMP,
         source: "Friction in the balance of the driver, ΣF = F0 with weights. The introduction of \
-            Zhou & Chen 2014 names pitch corner contact as the third kind of contact; μ reverses \
-            there.",
+            Zhou & Chen 2014 names pitch corner contact as the third kind of contact; the \
+            friction force reverses at the pitch point.",
         corrections: &[],
         assumptions: AT_REST,
         checks: &[checks::at_rest],

@@ -196,12 +196,12 @@ pub(super) fn coulomb(k: &Context) -> Option<Finding> {
     }
 }
 
-/// D' lies before E.
+/// D' is before E.
 pub(super) fn before_start(k: &Context) -> Option<Finding> {
     let printed = k.solution.impact?.duration_printed;
     let transit = k.solution.velocity?.transit_time;
     Finding::new(
-        "T_S,32 <= t_DE: D' lies before E",
+        "T_S,32 <= t_DE: D' is before E",
         format!(
             "T_S,32 = {}, t_DE = {}",
             micro(printed, "us"),
@@ -274,8 +274,8 @@ pub(super) fn contact_kept(k: &Context) -> Option<Finding> {
         "the teeth stay in contact"
     };
     Finding::new(
-        "the teeth stay in contact; where they rattle, a small change of the case may change the \
-            value much",
+        "the teeth keep contact; if they lose contact, a small change of the case can change the \
+            value strongly",
         here,
         !lost,
     )

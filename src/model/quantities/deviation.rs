@@ -112,12 +112,12 @@ pub(super) const TABLE: &[Quantity] = &[
             (always, Made(deflection)),
         ]),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of \
-            the curve in Fig. 3. Table 1 takes 24.7 um from its reference 20.",
+            the curve in Fig. 3. Table 1 uses 24.7 um from reference 20 of the paper.",
         corrections: &["Eq. 55", "Eq. 56"],
-        assumptions: "Teeth and contacts deflect under the mesh force at rest and share the force. \
-            With finite-element compliance the force on a tooth displaces its neighbours, which \
-            takes the incoming pair part of the way; in the other models, and in method paper, \
-            each pair deflects alone. Shafts, bearings and housing are rigid.",
+        assumptions: "Teeth and contacts deflect under the mesh force at rest and share the \
+            force. With finite-element compliance, the force on a tooth also displaces the \
+            incoming pair, which reduces its lead. In the other models and in method paper, each \
+            pair deflects alone. Shafts, bearings and housing are rigid.",
         checks: &[checks::contact_ratio, checks::teeth_of_deflection],
         variants: &[
             Variant::meaning(
@@ -166,8 +166,8 @@ pub(super) const TABLE: &[Quantity] = &[
             Variant::words(
                 in_motion,
                 "The total distance by which the incoming tooth is early at rest. In motion the \
-                    mesh oscillates, and the tooth may touch before E with either sign: \
-                    dynamic_first_contact_angle has the answer.",
+                    mesh oscillates, so the tooth may touch before E whether Δ is positive or \
+                    negative; see dynamic_first_contact_angle.",
                 "Deviations and deflection add up along the line of action. The gears are at \
                     rest, and the pairs ahead are on flanks without relief.",
             ),
@@ -195,11 +195,11 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "m",
         shown: "um",
         digits: 5,
-        equation: "no touch before E",
+        equation: "no contact before E",
         stage: Clearing,
         value: |s| s.clearing?.relief,
-        meaning: "The required additional tip relief of the driven gear: with it the incoming \
-            tooth does not touch before E, by the method itself.",
+        meaning: "The required additional tip relief of the driven gear: the smallest increase \
+            with which the chosen method finds no contact before E.",
         formula: Cases(&[
             (
                 paper,
@@ -226,12 +226,12 @@ pub(super) const TABLE: &[Quantity] = &[
             (always, Text("Δ")),
         ]),
         source: "Zhou & Chen 2014, Eq. 5: the condition Δ <= 0. Methods static and dynamic apply \
-            the same condition, no touch before E, to the displacement of every pair.",
+            the same condition, no contact before E, to the displacement of every pair.",
         corrections: &["Eq. 1", "Eqs. 7-20"],
         assumptions: "Every tooth of the driven gear has the additional relief, with the length \
-            and shape of its tip relief. In motion the tooth touches with slightly less relief. \
-            It touches with none of 4 larger reliefs, up to twice this one (50 reliefs where \
-            contact is lost).",
+            and shape of its tip relief. With method dynamic, the search also tests 4 larger \
+            reliefs, up to twice this relief (50 if contact is lost), and finds no contact before \
+            E.",
         checks: &[checks::contact_kept],
         variants: &[],
     },

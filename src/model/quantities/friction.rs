@@ -33,8 +33,8 @@ pub(super) const TABLE: &[Quantity] = &[
             "section 6",
         ],
         assumptions: "The velocities change mostly by the geometry of the gears and only slightly \
-            by friction. The ratio is no material property, and Coulomb's coefficient does not \
-            limit it.",
+            by friction. The ratio is not a material property, and the Coulomb coefficient does \
+            not limit the ratio.",
         checks: &[checks::coulomb, checks::before_start],
         variants: &[Variant::meaning(
             paper,
@@ -75,9 +75,9 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "(2/π)F_S·T_S/(M·ΔV_n)",
         stage: Impact,
         value: |s| Some(s.impact?.impulse_ratio),
-        meaning: "The impulse of a half sine of force F_S and duration T_S over the momentum of \
-            the approach. An elastic impact gives 2, an impact without rebound gives 1. Outside 1 \
-            to 2, force and duration contradict each other.",
+        meaning: "The ratio of the impulse of a half-sine force, with peak F_S and duration T_S, \
+            to the approach momentum M ΔV_n. An elastic impact gives 2, an impact without rebound \
+            gives 1. Outside 1 to 2, force and duration contradict each other.",
         formula: Text("(2/π) F_S T_S/(M ΔV_n)"),
         source: "Balance of momentum over the impact, (2/π)F_S·T_S/(M·ΔV_n). It is a check and \
             not part of Zhou & Chen 2014.",

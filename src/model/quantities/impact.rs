@@ -13,8 +13,8 @@ const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes
     damping and without another pair in contact. The place and the stiffness of the pair stay \
     constant during the impact.";
 const BAND: &str = "Every tooth compliance that covers the pair is combined with every contact \
-    compliance, each with its own deflection if the case gives none. The models share the mass \
-    and the position, and no measurement shows which model is right.";
+    compliance. Each combination uses the given deflection, or else its own deflection. The mass \
+    is the same for all models. No measurement shows which model is correct.";
 const BAND_SHARED: &str = "Every tooth compliance that covers the pair is combined with every \
     contact compliance, each with its own deflection. The models share the mass, and \
     no measurement shows which model is right.";
@@ -49,7 +49,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "impact_force_low",
         symbol: "F_S,low",
-        label: "  stiffness band from",
+        label: "  lowest, all models",
         unit: "N",
         shown: "N",
         digits: 4,
@@ -74,7 +74,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "impact_force_high",
         symbol: "F_S,high",
-        label: "  stiffness band to",
+        label: "  highest, all models",
         unit: "N",
         shown: "N",
         digits: 4,
@@ -180,15 +180,15 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "impact_duration_spring",
         symbol: "T_S,q",
-        label: "  of the model's spring",
+        label: "  by pair compliance",
         unit: "s",
         shown: "us",
         digits: 4,
         equation: "π√(Mq/b)",
         stage: Impact,
         value: |s| Some(s.impact?.duration_spring),
-        meaning: "Half a period of the effective mass on the spring of the pair: the duration \
-            that belongs to the impact force.",
+        meaning: "Half a period of the effective mass on the pair compliance. The impact force \
+            uses the same mass and compliance.",
         formula: Text("π √(M q_s/b)"),
         source: "Free vibration of the mass and spring of Zhou & Chen 2014, Eqs. 50-57: π√(Mq/b).",
         corrections: &["Eq. 32"],

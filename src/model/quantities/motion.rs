@@ -25,7 +25,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "dynamic_first_contact_angle_driver",
         symbol: "θ_d",
-        label: "dynamic: driver before E",
+        label: "dynamic: driver angle",
         unit: "rad",
         shown: "deg",
         digits: 6,
@@ -44,7 +44,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "dynamic_first_contact_angle",
         symbol: "u_d",
-        label: "dynamic: driven before E",
+        label: "dynamic: driven angle",
         unit: "rad",
         shown: "deg",
         digits: 6,
@@ -120,7 +120,7 @@ pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "dynamic_last_contact_angle",
         symbol: "θ_d,B",
-        label: "dynamic: driver after B",
+        label: "dynamic: run-out angle",
         unit: "rad",
         shown: "deg",
         digits: 6,

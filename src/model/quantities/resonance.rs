@@ -22,7 +22,7 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "z1 n1",
         stage: Resonance,
         value: |s| Some(s.resonance?.mesh_frequency),
-        meaning: "The number of tooth pairs that come into contact per second. A pair whines at this frequency and at its multiples.",
+        meaning: "The number of tooth pairs that enter the mesh per second. A pair whines at this frequency and at its multiples.",
         formula: Text("z1 ω_1/(2 π)"),
         source: "Kinematics of the pair: z1 n1 tooth pairs per second.",
         corrections: &[],

@@ -183,7 +183,9 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "max F/max F_st",
         stage: SteadyMotion,
         value: |s| Some(steady(s)?.tooth_force / at_rest(s)?.tooth_force),
-        meaning: "The greatest force on a tooth in the steady motion over its greatest force at rest, without deviations. ISO 6336-1 estimates this ratio by K_v, with deviations.",
+        meaning: "The greatest force on a tooth in the steady motion over its greatest force at \
+            rest, without deviations. The dynamic factor K_v of ISO 6336-1 applies to the whole \
+            mesh and includes deviations; compare mesh_force_factor.",
         formula: Found("max F_k in the steady motion over max F_k at rest", STEADY),
         source: MOTION,
         corrections: &[],
@@ -202,7 +204,7 @@ pub(super) const TABLE: &[Quantity] = &[
         stage: SteadyMotion,
         value: |s| Some(f64::from(u8::from(steady(s)?.contact_lost))),
         meaning: "Whether no pair touches at some moment of the steady motion of a pair without deviations.",
-        formula: Found("taken from the steady motion", STEADY),
+        formula: Found("from the steady motion", STEADY),
         source: MOTION,
         corrections: &[],
         assumptions: IN_MOTION,

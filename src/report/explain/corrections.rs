@@ -106,8 +106,8 @@ pub static CORRECTIONS: &[Correction] = &[
     row(
         "Eq. 56",
         "is a cubic in z and diverges outside its range",
-        "refused outside z 12..100, \
-        |x| <= 0.6; another tooth compliance is used there",
+        "outside z 12..100 and |x| <= 0.6, kuang-yang is refused; the default is then another \
+            tooth compliance",
     ),
     row(
         "Eq. 64",

@@ -289,7 +289,7 @@ fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
         let lead = if lines.is_empty() {
             "Fields read:"
         } else {
-            "Other fields read (a choice, not given, or without effect here):"
+            "Other inputs (choices, defaults, or fields without effect in this case):"
         };
         lines.extend(paragraph(lead, 2, width));
         lines.extend(paragraph(

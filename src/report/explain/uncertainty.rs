@@ -54,7 +54,7 @@ fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
         Stage::SteadyMotion => "at most 1e-5 of the greatest amplitude".to_owned(),
         Stage::Static | Stage::StaticSpectrum => "at most 1e-11 of the value".to_owned(),
         _ if inputs.accurate => "at most 1e-13 of the value".to_owned(),
-        _ => "at most 1e-12 of the value".to_owned(),
+        _ => "below 1e-12 of the value in most cases, at most 1e-9".to_owned(),
     };
     let digits = quantity.digits;
     Some(format!("Numerical error: {error}; {digits} digits shown."))

@@ -39,7 +39,7 @@ fn a_limit_on_the_free_impact_is_followed_by_the_counterpart_in_the_method() {
     };
     assert_eq!(*standing, Standing::Within);
     assert!(
-        sentence.ends_with(" for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own"),
+        sentence.ends_with(" for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity has no limit"),
         "{sentence}"
     );
     let [(standing, sentence)] = &verdicts("static", "1 kN")[..] else {
@@ -47,7 +47,7 @@ fn a_limit_on_the_free_impact_is_followed_by_the_counterpart_in_the_method() {
     };
     assert_eq!(*standing, Standing::Exceeded);
     assert!(
-        sentence.ends_with(" for the free impact; static finds static_force_at_start 1466.2 N, which is above this limit and has no limit of its own"),
+        sentence.ends_with(" for the free impact. Method static: static_force_at_start 1466.2 N, above this limit; this quantity has no limit"),
         "{sentence}"
     );
 }

@@ -9,7 +9,9 @@ use crate::tui::keys::Place;
 use crate::tui::line::Line;
 
 /// How a name is given.
-const NAMING: &str = "A name or a path, ~ is the home folder. The ending chooses what is written: .html, .md, .csv or .json the report, .svg the shown chart or the teeth.";
+const NAMING: &str = "A name or a path; ~ is the home folder. The file extension selects the \
+    content: .html, .md, .csv and .json write the report, .svg writes the visible chart or the \
+    teeth.";
 
 /// The path to export to.
 #[derive(Debug, Clone)]

@@ -215,7 +215,7 @@ pub(crate) fn signs(pane: &TradePane<'_>) -> String {
         format!("; {LEVEL} tolerance {within} %")
     });
     format!(
-        "p paper, e exact, s static, d dynamic, a auto; CAPITAL, ·: no other setting is both faster and more accurate; \
-         (x) setting of the case, [x] selected{level}."
+        "p paper, e exact, s static, d dynamic, a auto. Capitals and ·: no other setting is both \
+            faster and more accurate. (x): setting of the case. [x]: selected setting{level}."
     )
 }

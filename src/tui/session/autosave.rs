@@ -266,9 +266,12 @@ impl Autosave {
             return Ok(());
         };
         if self.session.is_none() {
-            let begun = journals
-                .begin()
-                .map_err(|error| format!("a crash would lose unsaved edits: {error}: save soon"));
+            let begun = journals.begin().map_err(|error| {
+                format!(
+                    "the journal cannot be written: {error}: save the case, or a crash loses \
+                         the edits"
+                )
+            });
             self.session = Some(begun?);
         }
         let session = self

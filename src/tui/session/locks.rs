@@ -29,7 +29,8 @@ impl Locks {
             Ok(Taken::Unguarded(lock, error)) => {
                 self.0.insert(place, lock);
                 Err(format!(
-                    "{} is locked on this machine alone: {}: do not open it on others",
+                    "{}: the lock is valid on this machine only: {}: do not open this case on \
+                        another machine",
                     name_of(path),
                     brief(&error)
                 ))

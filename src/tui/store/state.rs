@@ -65,7 +65,7 @@ impl State {
         let folder = usual.filter(|_| is_usual).or_else(|| safe.pop_front());
         let notice = problem.map(|problem| match &folder {
             Some(place) => format!(
-                "{problem}; until then, unsaved edits are kept in {}, which a restart empties",
+                "{problem}. Until then the journals are in {}, and a restart deletes them",
                 shown(place)
             ),
             None => format!("{problem}; until then, a crash loses unsaved edits"),

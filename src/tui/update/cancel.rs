@@ -8,7 +8,8 @@ use crate::tui::pane::Pane;
 use crate::tui::tab::Tab;
 
 /// Said by Ctrl-C where there is nothing to cancel and nothing unsaved.
-pub(super) const LEAVING: &str = "nothing runs and nothing is unsaved: Ctrl-C again quits";
+pub(super) const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again to \
+    quit";
 
 /// Esc: what is topmost goes, and nothing is lost.
 pub(super) fn leave(app: &mut App) -> Vec<Effect> {

@@ -69,7 +69,9 @@ fn stop_unseen(app: &mut App) -> Vec<Effect> {
 /// Why there is none.
 fn question(app: &App) -> Result<Question, String> {
     let tab = &app.tab;
-    let inputs = tab.inputs().ok_or("The form is not valid: no study.")?;
+    let inputs = tab
+        .inputs()
+        .ok_or("No study: a field has an error. Alt-E goes to that field.")?;
     let quantity = results::marked(&app.results())
         .or_else(|| Quantity::find("impact_force"))
         .ok_or("No result is selected.")?;

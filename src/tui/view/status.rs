@@ -118,7 +118,7 @@ pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
     };
     let absent = match field.absent {
         Absent::Default("") | Absent::Refused | Absent::Either => String::new(),
-        Absent::Default(_) => format!(" (else {})", field.default_in(units)),
+        Absent::Default(_) => format!(" (default {})", field.default_in(units)),
         Absent::Without(_) => " (may be empty)".to_owned(),
     };
     format!("{}{bounds}{absent}. {}", name.trim_start(), field.help)
@@ -240,14 +240,14 @@ fn about_limit(app: &App, limit: &Limit) -> String {
         )
     });
     format!(
-        "{}The greatest value that {} may take; empty: none.",
+        "{}Upper limit of {}; empty: no limit.",
         sentence.unwrap_or_default(),
         rows::label(&app.tab.case, app.tab.form.focus)
     )
 }
 
 fn at_cursor(app: &App) -> String {
-    const NONE: &str = "No cursor: h and l show it, Space plays it.";
+    const NONE: &str = "Cursor hidden. h and l show the cursor; Space plays the motion.";
     const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's D.";
     const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {

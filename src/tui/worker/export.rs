@@ -37,7 +37,7 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
         .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
     if format.is_none() && !is_picture {
         return Err(format!(
-            "the ending chooses what is written: use {} for the report, .svg for the picture",
+            "unknown file extension: use {} for the report, or .svg for the picture",
             Format::ENDINGS
         ));
     }

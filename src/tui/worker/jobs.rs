@@ -30,7 +30,7 @@ pub(crate) fn start(name: &'static str, send: Send) -> io::Result<Worker<Job>> {
         },
         |job| {
             let (_, name) = job.kind();
-            Action::Failed(format!("a fault of the program: {name} cannot be shown"))
+            Action::Failed(format!("internal error: {name} cannot be shown"))
         },
     )
 }

@@ -17,7 +17,7 @@ pub(crate) fn start(send: Send) -> io::Result<Worker<Measuring>> {
         of(
             measuring,
             None,
-            Some(End::Failed("a fault of the program".to_owned())),
+            Some(End::Failed("internal error".to_owned())),
         )
     })
 }

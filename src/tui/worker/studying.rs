@@ -30,7 +30,7 @@ const PAGE_STEP: Duration = Duration::from_millis(250);
 /// When the system gives no thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<StudyRequest>> {
     Worker::start("study", send, study, |request| {
-        let reason = "a fault of the program: the study failed".to_owned();
+        let reason = "internal error: the study failed".to_owned();
         action(request, Found::Nothing, Some(End::Failed(reason)))
     })
 }

@@ -29,7 +29,7 @@ macro_rules! gear {
                 .instead_of(concat!(stringify!($gear), ".tip_diameter"), |inputs| has_size(inputs, &inputs.$gear).then(|| inputs.$gear.addendum_coefficient(inputs.module)))
                 .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(concat!(stringify!($gear), ".tip_diameter"), concat!("da", $i), "tip diameter", Length, 0.1, 100000.0, "mm", Without("from the addendum"),
-                |inputs, value| inputs.$gear.tip_diameter = Some(value), "Tip diameter without a chamfer, as a drawing gives it, in place of the addendum coefficient.")
+                |inputs, value| inputs.$gear.tip_diameter = Some(value), "Tip diameter from the drawing, without chamfer; replaces the addendum coefficient.")
                 .with_example("110 mm")
                 .instead_of(concat!(stringify!($gear), ".addendum"), |inputs| tip_diameter(inputs, &inputs.$gear))
                 .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
@@ -39,14 +39,14 @@ macro_rules! gear {
                 .instead_of(concat!(stringify!($gear), ".root_diameter"), |inputs| has_size(inputs, &inputs.$gear).then(|| inputs.$gear.dedendum_coefficient(inputs.module)))
                 .reasons(&ROOT),
             number!(concat!(stringify!($gear), ".root_diameter"), concat!("df", $i), "root diameter", Length, 0.1, 100000.0, "mm", Without("from the dedendum"),
-                |inputs, value| inputs.$gear.root_diameter = Some(value), "Root diameter that the cutting rack leaves, as a drawing gives it, in place of the dedendum coefficient.")
+                |inputs, value| inputs.$gear.root_diameter = Some(value), "Root diameter from the drawing, as cut by the rack; replaces the dedendum coefficient.")
                 .with_example("87.5 mm")
                 .instead_of(concat!(stringify!($gear), ".dedendum"), |inputs| root_diameter(inputs, &inputs.$gear))
                 .reasons(&ROOT),
             number!(concat!(stringify!($gear), ".face_width"), concat!("b", $i), "face width", Length, 0.1, 1000.0, "mm", Refused,
                 |inputs, value| inputs.$gear.face_width = value, "Face width; the smaller of the two carries the contact.").with_example("8 mm").reasons(&[Partly(
                 |inputs| is_wider(inputs, inputs.$gear.face_width),
-                "only the narrower width carries, and the load at rest reads no masses",
+                "only the narrower face width carries load, and the static load does not depend on mass",
             )]),
             number!(concat!(stringify!($gear), ".bore_radius"), concat!("rh", $i), "bore radius", Length, 0.0, 25000.0, "mm", Default("0 mm"),
                 |inputs, value| inputs.$gear.bore_radius = value, "Radius of the bore: a radius, not a diameter.").reasons(&MASS),
@@ -57,7 +57,7 @@ macro_rules! gear {
             number!(concat!(stringify!($gear), ".density"), concat!("ρ", $i), "density", Density, 1.0, 50000.0, "kg/m3", Default("7800 kg/m3"),
                 |inputs, value| inputs.$gear.density = value, "Density of the gear's material.").reasons(&MASS),
             number!(concat!(stringify!($gear), ".inertia"), concat!("J", $i), "moment of inertia", Inertia, 1e-15, 1e12, "kg m2", Without("computed"),
-                |inputs, value| inputs.$gear.inertia = Some(value), "Moment of inertia of all that turns with the gear; else of the gear's body, see model.inertia.").with_example("0.0006 kg m2").reasons(&MASS),
+                |inputs, value| inputs.$gear.inertia = Some(value), "Moment of inertia of the gear and all parts that rotate with the gear (default: gear body alone, see model.inertia).").with_example("0.0006 kg m2").reasons(&MASS),
             number!(concat!(stringify!($gear), ".tip_relief"), concat!("Ca", $i), "tip relief", Length, 0.0, 5000.0, "um", Default("0 um"),
                 |inputs, value| inputs.$gear.tip_relief = value, "Material removed at the tip, normal to the flank.").reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             number!(concat!(stringify!($gear), ".root_relief"), concat!("Cf", $i), "root relief", Length, 0.0, 5000.0, "um", Default("0 um"),
@@ -87,7 +87,7 @@ macro_rules! gear {
                 Idle(always, "method paper has sharp tips"),
                 Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER),
             ]),
-            number!(concat!(stringify!($gear), ".base_pitch"), concat!("f_pb", $i), "own pitch deviation", Length, -5000.0, 5000.0, "um", Without("common f_pb"),
+            number!(concat!(stringify!($gear), ".base_pitch"), concat!("f_pb", $i), "base pitch deviation", Length, -5000.0, 5000.0, "um", Without("common f_pb"),
                 |inputs, value| inputs.$gear.base_pitch = Some(value), "Base pitch deviation of this gear; else by its grade, or deviations.base_pitch.")
                 .with_example("12 um")
                 .derived(|inputs| (inputs.$gear.grade.is_none() || has_size(inputs, &inputs.$gear)).then(|| inputs.base_pitch_of(&inputs.$gear).0)),

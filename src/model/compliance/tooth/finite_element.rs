@@ -17,7 +17,7 @@ use crate::model::inputs::{Inputs, ToothCompliance};
 pub const MODEL: ToothModel = ToothModel {
     name: "finite-element",
     index: "fe",
-    help: "plane strain of the whole gear with its contact, the default but in paper",
+    help: "plane strain of the whole gear with its contact, the default except in method paper",
     range: "any gear whose teeth have a tip, a neck and an involute, with a rim below them",
     covers,
     why_outside: |inputs| refusal(inputs).map_or(String::new(), |refusal| refusal.to_string()),

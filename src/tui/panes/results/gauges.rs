@@ -112,7 +112,7 @@ fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
         _ => ("The printed equations give", "paper"),
     };
     Some(Gauge(vec![
-        format!("{in_full} {of_angle} of this angle and {of_force} of this force"),
+        format!("{in_full} {of_angle} this angle and {of_force} this force"),
         format!("{method}: {of_angle} {angle}, {of_force} {force}"),
         format!("{method}: {of_force} {force}"),
     ]))
@@ -123,8 +123,8 @@ fn times(ratio: f64) -> Option<String> {
     let line = match ratio {
         _ if !ratio.is_finite() || ratio <= 0.0 => return None,
         _ if ratio >= 2.0 => format!("{} times", rounded(ratio)),
-        _ if ratio <= 0.5 => format!("1/{}", rounded(1.0 / ratio)),
-        _ => format!("{:.1} %", 100.0 * ratio),
+        _ if ratio <= 0.5 => format!("1/{} of", rounded(1.0 / ratio)),
+        _ => format!("{:.1} % of", 100.0 * ratio),
     };
     Some(line)
 }

@@ -48,7 +48,7 @@ pub(super) fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
     let answer = pane.answer;
     let pending = answer
         .and_then(|answer| answer.pending)
-        .map_or_else(String::new, |method| format!(", {} to come", method.name()));
+        .map_or_else(String::new, |method| format!(", {} pending", method.name()));
     let cost = answer
         .filter(|_| pane.shows_cost)
         .map_or_else(String::new, |answer| {
