@@ -587,7 +587,9 @@ fn the_results_of_a_method_come_before_the_free_impact() {
             "{text}"
         );
         assert!(
-            free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact. Method "),
+            free.contains(
+                "ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact. Method "
+            ),
             "{text}"
         );
         let page = stdout_of(&["explain", "impact_force", TABLE_1, "--method", method]);

@@ -449,11 +449,15 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
     for (name, cause) in [
         (
             "far",
-            format!("the folder {here}/nodir does not exist: create the folder (mkdir -p {here}/nodir)"),
+            format!(
+                "the folder {here}/nodir does not exist: create the folder (mkdir -p {here}/nodir)"
+            ),
         ),
         (
             "my own/x",
-            format!("the folder {here}/my own does not exist: create the folder (mkdir -p '{here}/my own')"),
+            format!(
+                "the folder {here}/my own does not exist: create the folder (mkdir -p '{here}/my own')"
+            ),
         ),
         ("new/", format!("the folder {here}/new does not exist")),
         ("file/x/y", format!("{here}/file is not a folder")),

@@ -103,11 +103,7 @@ fn invalid_values_are_refused_with_a_fix() {
         ("16 mn", "unknown unit `mn`", "did you mean"),
         ("16 furlong", "unknown unit `furlong`", "use one of mm"),
         ("5 m m", "unknown unit `m m`", "did you mean mm"),
-        (
-            "5 mm1",
-            "1 after the unit",
-            "write all digits before mm",
-        ),
+        ("5 mm1", "1 after the unit", "write all digits before mm"),
         (
             "5 mm 2.5",
             "2.5 after the unit",
