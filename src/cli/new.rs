@@ -58,7 +58,7 @@ fn digest(example: &Example) -> Digest {
 fn refused(error: &SaveError, streams: &mut Streams) -> Exit {
     match error {
         SaveError::AlreadyThere(name) => {
-            streams.say(&format!("{name}: the file exists: choose another name"))
+            streams.say(&format!("{name}: the file exists: choose another name"));
         }
         other => streams.say(&other.to_string()),
     }
