@@ -20,7 +20,7 @@ const STEP: Duration = Duration::from_millis(150);
 /// When the system gives no thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<WhineRequest>> {
     Worker::start("whine", send, whine, |request| {
-        let reason = "a fault of the program: the chart failed".to_owned();
+        let reason = "internal error: the chart failed".to_owned();
         action(request, Some(WhineFound::Refused(reason)), true)
     })
 }
