@@ -145,6 +145,13 @@ impl Case {
         self.texts[field].as_deref()
     }
 
+    /// The title, as written; empty without one.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        let title = fields::index_of("title").and_then(|field| self.text(field));
+        title.unwrap_or_default()
+    }
+
     /// Write a field (empty text takes it out), whether or not the text is valid.
     pub fn write(&mut self, field: usize, text: &str) {
         Arc::make_mut(&mut self.texts)[field] = (!text.is_empty()).then(|| text.into());

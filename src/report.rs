@@ -155,7 +155,7 @@ impl Report {
     /// The case's title, empty without one; not yet safe for a terminal.
     #[must_use]
     pub fn title(&self) -> &str {
-        self.text("title")
+        self.case.title()
     }
 
     /// What the user wrote in a field, empty without it; not yet safe for a terminal.

@@ -2,6 +2,7 @@
 
 use super::fields::{self, FIELDS};
 use super::{Case, Override, Problem, Spread, Variant, spread, variant};
+use crate::model::Quantity;
 
 /// A text that differs between two cases.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,13 +60,22 @@ pub fn text_of(case: &Case, key: &str) -> Option<String> {
 }
 
 /// A key as a person reads it: the label of the field, and its table where other tables have a
-/// field of that name.
+/// field of that name; a limit with its quantity, a distribution with its field.
 #[must_use]
 pub fn label(key: &str) -> String {
-    let Some(field) = fields::index_of(key).map(|index| &FIELDS[index]) else {
-        return key.to_owned();
+    let of_field = |key: &str| fields::index_of(key).map(|field| FIELDS[field].full_label());
+    let of_limit = || {
+        let quantity = Quantity::find(key.strip_prefix("limits.")?)?;
+        Some(format!("limit of {}", quantity.label.trim_start()))
     };
-    field.full_label()
+    let of_spread = || {
+        let field = key.strip_prefix("spread.")?.trim_matches('"');
+        Some(format!("spread of {}", of_field(field)?))
+    };
+    of_field(key)
+        .or_else(of_limit)
+        .or_else(of_spread)
+        .unwrap_or_else(|| key.to_owned())
 }
 
 impl Case {

@@ -17,7 +17,7 @@ use crate::model::Quantity;
 use crate::report::graphs::GRAPHS;
 use crate::report::whine::charts::{SPECTRUM, SPEED};
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
-use changes::{Changes, Overrides, station_count};
+use changes::{Changes, station_count};
 pub use changes::{Edits, Setting};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -217,7 +217,7 @@ pub struct Trading {
     pub case: PathBuf,
     /// What differs from the case
     #[command(flatten)]
-    pub overrides: Overrides,
+    pub edits: Edits,
     /// Greatest error of the recommended setting, such as 5% or 0.05 (default: model.within of
     /// the case)
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
@@ -236,7 +236,7 @@ pub struct Stiffness {
     pub case: PathBuf,
     /// What differs from the case
     #[command(flatten)]
-    pub overrides: Overrides,
+    pub edits: Edits,
     /// Number of radii on each flank, from the form circle to the tip
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
     pub points: usize,

@@ -6,6 +6,7 @@ use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::rexs::{self, Imported};
 use crate::case::{Case, Document, Problem};
 use crate::model::{Inputs, Refusal};
+use crate::report::compare::Refused;
 use std::path::Path;
 
 /// A case that can be solved.
@@ -118,25 +119,46 @@ pub(super) fn changed(
     edits: &Edits,
     streams: &mut Streams,
 ) -> Result<Opened, Exit> {
-    let edited = edit(&mut document, edits);
-    edited.map_err(|line| {
+    edit(&mut document, edits).map_err(|line| {
         streams.say(&line);
         Exit::Usage
     })?;
-    let name = match &edits.variant {
-        Some(variant) => format!("{name}:{variant}"),
-        None => name,
-    };
     match document.case.inputs() {
-        // Nothing waits for a report, so it is given the digits.
         Ok(inputs) => Ok(Opened {
-            name,
+            name: named(name, edits),
             document,
             inputs,
             edits: edits.clone(),
         }),
-        Err(problems) => Err(unfit(&document, problems, edits, streams)),
+        Err(problems) => {
+            for refused in refused(&document, problems, edits) {
+                streams.say(&refused.line);
+            }
+            Err(Exit::BadCase)
+        }
     }
+}
+
+/// The name of a case with its variant.
+pub(super) fn named(name: String, edits: &Edits) -> String {
+    match &edits.variant {
+        Some(variant) => format!("{name}:{variant}"),
+        None => name,
+    }
+}
+
+/// The problems of a case in the order of their places, each with its line.
+pub(super) fn refused(
+    document: &Document,
+    mut problems: Vec<Problem>,
+    edits: &Edits,
+) -> Vec<Refused> {
+    problems.sort_by_key(|problem| document.place(&problem.field));
+    let placed = |problem: Problem| Refused {
+        line: placed(document, problem.clone(), edits),
+        problem,
+    };
+    problems.into_iter().map(placed).collect()
 }
 
 /// Puts the variant and the settings into the case, or returns what is wrong with them.
@@ -181,20 +203,6 @@ fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
             Exit::Unreadable
         }
     }
-}
-
-/// Report what is missing from the file, and what the settings make inconsistent.
-fn unfit(
-    document: &Document,
-    mut problems: Vec<Problem>,
-    edits: &Edits,
-    streams: &mut Streams,
-) -> Exit {
-    problems.sort_by_key(|problem| document.place(&problem.field));
-    for problem in problems {
-        streams.say(&placed(document, problem, edits));
-    }
-    Exit::BadCase
 }
 
 /// A problem at its place: a field that was set is wrong on the command line and not in the file;

@@ -1,6 +1,7 @@
 //! Cases and their variants side by side.
 
-use super::{Compare, CompareFormat, Exit, Streams, cases};
+use super::progress::follow;
+use super::{Compare, CompareFormat, Edits, Exit, Streams, cases};
 use crate::case::{Document, Problem};
 use crate::report::compare::{Column, Comparison};
 use crate::report::{Report, Selection};
@@ -13,15 +14,23 @@ pub(super) fn run(options: &Compare, streams: &mut Streams) -> io::Result<Exit> 
         only: distinct(options.only.iter().flatten().copied()),
         stations: false,
     };
-    let (mut columns, mut worst) = (Vec::new(), Exit::Done);
+    let (mut cases, mut worst) = (Vec::new(), Exit::Done);
     for path in &options.cases {
         let found = cases::read(path, streams)
-            .and_then(|document| of_case(options, path, &document, &selection, streams));
+            .and_then(|document| edited(options, path, &document, streams));
         match found {
-            Ok(found) => columns.extend(found),
+            Ok(found) => cases.extend(found),
             Err(exit) => worst = worst.max(exit),
         }
     }
+    let columns = follow("cases", |report| {
+        let count = cases.len();
+        let cases = cases.into_iter().enumerate();
+        let wanted = cases.take_while(|(at, _)| report(*at, count));
+        wanted
+            .map(|(_, case)| case.solve(&selection))
+            .collect::<Vec<_>>()
+    });
     if columns.len() < 2 && worst == Exit::Done {
         let name = columns.first().map_or("", |column| column.name.as_str());
         streams.say(&format!(
@@ -57,14 +66,20 @@ fn write(
     })
 }
 
-/// The columns of a case: the case itself, then its variants.
-fn of_case(
+/// A case, or one of its variants, with the changes of the command line.
+struct Edited {
+    file: String,
+    edits: Edits,
+    document: Document,
+}
+
+/// The case itself, then its variants.
+fn edited(
     options: &Compare,
     path: &Path,
     document: &Document,
-    selection: &Selection,
     streams: &mut Streams,
-) -> Result<Vec<Column>, Exit> {
+) -> Result<Vec<Edited>, Exit> {
     let all = document.case.variants.iter().map(|variant| &variant.name);
     let variants: Vec<&String> = if options.variants.is_empty() {
         all.collect()
@@ -72,41 +87,40 @@ fn of_case(
         options.variants.iter().collect()
     };
     let names = std::iter::once(None).chain(variants.into_iter().map(|name| Some(name.as_str())));
-    let columns = names.map(|variant| column(options, path, document, variant, selection));
-    columns.collect::<Result<_, String>>().map_err(|line| {
+    let edited = names.map(|variant| {
+        let (mut document, edits) = (document.clone(), options.edits(variant));
+        cases::edit(&mut document, &edits)?;
+        Ok(Edited {
+            file: path.display().to_string(),
+            edits,
+            document,
+        })
+    });
+    edited.collect::<Result<_, String>>().map_err(|line| {
         streams.say(&line);
         Exit::Usage
     })
 }
 
-fn column(
-    options: &Compare,
-    path: &Path,
-    document: &Document,
-    variant: Option<&str>,
-    selection: &Selection,
-) -> Result<Column, String> {
-    let mut document = document.clone();
-    cases::edit(&mut document, &options.edits(variant))?;
-    let (case, file) = (document.case, path.display().to_string());
-    let name = match variant {
-        Some(variant) => format!("{file}:{variant}"),
-        None => file.clone(),
-    };
-    let found = match case.inputs() {
-        Ok(inputs) => Report::solve(name.clone(), case.clone(), inputs, selection.clone())
-            .map_err(|refusal| Problem::from(&refusal).at_given(&case)),
-        Err(problems) => Err(problems.into_iter().next().unwrap_or_else(|| Problem {
-            field: String::new(),
-            cause: "the case is not valid".to_owned(),
-            fix: "check its values".to_owned(),
-        })),
-    };
-    Ok(Column {
-        name,
-        file,
-        variant: variant.map(str::to_owned),
-        case,
-        found,
-    })
+impl Edited {
+    fn solve(self, selection: &Selection) -> Column {
+        let Edited {
+            file,
+            edits,
+            document,
+        } = self;
+        let (case, name) = (&document.case, cases::named(file.clone(), &edits));
+        let solved = case.inputs().and_then(|inputs| {
+            Report::solve(name.clone(), case.clone(), inputs, selection.clone())
+                .map_err(|refusal| vec![Problem::from(&refusal).at_given(case)])
+        });
+        let found = solved.map_err(|problems| cases::refused(&document, problems, &edits));
+        Column {
+            name,
+            file,
+            variant: edits.variant,
+            case: document.case,
+            found,
+        }
+    }
 }

@@ -1,11 +1,11 @@
 //! Writes a chart of a case, or its teeth, as a picture.
 
 use super::cases::{self, Opened};
-use super::progress::{Bar, Interrupt};
+use super::progress::follow;
 use super::{Exit, Plot, Streams};
 use crate::case::file;
 use crate::model::{Inputs, Refusal};
-use crate::report::charts::{Drawn, find, picture, with_other_method};
+use crate::report::charts::{Drawn, find, no_curve, picture, with_other_method};
 use crate::report::svg::teeth::teeth;
 use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use crate::report::{Report, Selection};
@@ -43,39 +43,30 @@ fn draw(opened: &Opened, options: &Plot, streams: &mut Streams) -> Result<String
         return Ok(teeth(&report.inputs, &report.solution));
     }
     let reports = with_other_method(report);
-    let drawn = Drawn {
+    let subject = Drawn {
         name: "",
         reports: &reports,
     };
     let drawn = if options.chart == SPECTRUM {
-        spectrum(&[drawn])
+        spectrum(&[subject])
     } else {
-        find(&options.chart).and_then(|graph| picture(graph, &[drawn]))
+        find(&options.chart).and_then(|graph| picture(graph, &[subject]))
     };
     drawn.ok_or_else(|| {
-        streams.say(&format!(
-            "{}: the chart {} has no curve: no corner contact is found: choose another chart",
-            opened.name, options.chart
-        ));
+        let reason = no_curve(&options.chart, &reports);
+        streams.say(&format!("{}: {reason}", opened.name));
         Exit::BadCase
     })
 }
 
 /// The dynamic factor over speed, with a bar while it takes long.
 pub(super) fn speeds_of(inputs: &Inputs) -> Result<SpeedCurve, Refusal> {
-    let (bar, interrupt) = (Bar::new("speeds"), Interrupt::heeded());
-    let found = speeds(inputs, &mut |curve| {
-        let done = curve.up.iter().chain(&curve.down).flatten().count();
-        bar.set(done, 2 * SPEEDS);
-        interrupt.go_on()
-    });
-    if interrupt.go_on() {
-        bar.clear();
-    } else {
-        bar.clear_after_interrupt();
-        Interrupt::end();
-    }
-    found
+    follow("speeds", |report| {
+        speeds(inputs, &mut |curve| {
+            let done = curve.up.iter().chain(&curve.down).flatten().count();
+            report(done, 2 * SPEEDS)
+        })
+    })
 }
 
 /// Solves a case with every quantity, and the stations on request.

@@ -1,11 +1,9 @@
 //! The tip relief to specify for a case.
 
 use super::cases::{self, Opened};
-use super::progress::{Bar, Interrupt};
+use super::progress::follow;
 use super::sink::{Failure, Sink, overwrites};
 use super::{Exit, Format, Relief as Options, Streams};
-use crate::case::fields::index_of;
-use crate::model::Refusal;
 use crate::report::specification::ReliefReport;
 use crate::study::relief::{Demand, NoRelief, Specification, specify};
 use std::io;
@@ -24,18 +22,13 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> io::Result<Exit> 
         loads: options.load,
         tolerance: options.tolerance,
     };
-    let (bar, interrupt) = (Bar::new("% of the budget"), Interrupt::heeded());
-    let found = specify(&opened.inputs, &demand, &|part| {
-        bar.set((100.0 * part) as usize, 100);
-        interrupt.go_on()
+    let found = follow("% of the budget", |report| {
+        specify(&opened.inputs, &demand, &|part| {
+            report((100.0 * part) as usize, 100)
+        })
     });
-    bar.clear();
     let found = match found {
         Ok(found) => found,
-        Err(NoRelief::Refused(Refusal::Stopped)) => {
-            Interrupt::end();
-            return Err(io::ErrorKind::Interrupted.into());
-        }
         Err(NoRelief::Refused(refusal)) => return Ok(opened.refused(&refusal, streams)),
         Err(none) => {
             streams.say(&format!("{}: {none}", opened.name));
@@ -55,10 +48,8 @@ fn write(
 ) -> Result<(), Failure> {
     let report = ReliefReport {
         name: &opened.name,
-        title: index_of("title")
-            .and_then(|field| opened.document.case.text(field))
-            .unwrap_or_default(),
-        method: opened.inputs.method.name(),
+        title: opened.document.case.title(),
+        method: opened.inputs.method,
         found,
     };
     let out = options.out.as_deref();

@@ -4,7 +4,7 @@ use super::cases::{self, Opened};
 use super::progress::Running;
 use super::sink::{Failure, Sink, overwrites};
 use super::{Exit, Listing, Seek, Streams};
-use crate::case::fields::{FIELDS, index_of};
+use crate::case::fields::FIELDS;
 use crate::numeric::decimal::shortest;
 use crate::report::seek::SeekReport;
 use crate::study::axis::{AxisRange, with_unit};
@@ -93,9 +93,7 @@ fn write(
 ) -> Result<(), Failure> {
     let report = SeekReport {
         name: &opened.name,
-        title: index_of("title")
-            .and_then(|field| opened.document.case.text(field))
-            .unwrap_or_default(),
+        title: opened.document.case.title(),
         method: opened.inputs.method.name(),
         range,
         condition,

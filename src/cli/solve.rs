@@ -2,8 +2,9 @@
 
 use super::cases::{self, Opened};
 use super::{Edits, Exit, Format, Setting, Solve, Streams};
-use crate::model::{Quantity, Refusal};
+use crate::model::Refusal;
 use crate::report::{Report, Selection, csv, json, text};
+use crate::study::headline::distinct;
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
@@ -15,7 +16,7 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
             .and_then(|opened| solve(&opened, &selection, streams));
         match report {
             Ok(report) => {
-                tell(&report, options.format, first, streams.output.as_mut())?;
+                print(&report, options.format, first, streams.output.as_mut())?;
                 first = false;
             }
             Err(exit) => worst = worst.max(exit),
@@ -36,12 +37,7 @@ fn edits(options: &Solve) -> Edits {
 }
 
 fn selection(options: &Solve) -> Selection {
-    let mut only: Vec<&'static Quantity> = Vec::new();
-    for &quantity in options.only.iter().flatten() {
-        if only.iter().all(|known| known.key != quantity.key) {
-            only.push(quantity);
-        }
-    }
+    let only = distinct(options.only.iter().flatten().copied());
     let whole_json = options.format == Format::Json && only.is_empty();
     Selection {
         only,
@@ -77,7 +73,7 @@ fn in_full(report: Report) -> Result<Report, Refusal> {
     }
 }
 
-fn tell(report: &Report, format: Format, first: bool, out: &mut dyn Write) -> io::Result<()> {
+fn print(report: &Report, format: Format, first: bool, out: &mut dyn Write) -> io::Result<()> {
     match format {
         Format::Text if first => text::write(report, out),
         Format::Text => writeln!(out).and_then(|()| text::write(report, out)),

@@ -2,13 +2,12 @@
 
 use super::cases::{self, Opened};
 use super::{Exit, Format, Stiffness, Streams};
-use crate::case::fields::index_of;
 use crate::report::stiffness::{StiffnessReport, no_field, write, write_csv, write_json};
 use crate::study::stiffness::compare;
 use std::io;
 
 pub(super) fn run(options: &Stiffness, streams: &mut Streams) -> io::Result<Exit> {
-    let opened = match cases::open(&options.case, &options.overrides.edits(), streams) {
+    let opened = match cases::open(&options.case, &options.edits, streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };
@@ -19,9 +18,7 @@ pub(super) fn run(options: &Stiffness, streams: &mut Streams) -> io::Result<Exit
     let Opened { name, document, .. } = &opened;
     let report = StiffnessReport {
         name,
-        title: index_of("title")
-            .and_then(|field| document.case.text(field))
-            .unwrap_or_default(),
+        title: document.case.title(),
         comparison: &comparison,
     };
     match options.format {

@@ -1,16 +1,15 @@
 //! Speed against accuracy of every method on one case.
 
 use super::cases::{self, Opened};
-use super::progress::{Bar, Interrupt};
+use super::progress::follow;
 use super::{Exit, Listing, Streams, Trading};
-use crate::model::Refusal;
 use crate::report::trade::{TradeReport, write, write_json};
 use crate::study::trade::{Patience, Question, Trade, trade};
 use std::cell::Cell;
 use std::io;
 
 pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> {
-    let opened = match cases::open(&options.case, &options.overrides.edits(), streams) {
+    let opened = match cases::open(&options.case, &options.edits, streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };
@@ -18,26 +17,17 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
         within: options.within.unwrap_or(opened.inputs.within),
         patience: Patience::STEADY,
     };
-    let (bar, interrupt) = (Bar::new("settings"), Interrupt::heeded());
-    let (done, planned) = (Cell::new(0), Cell::new(1));
-    let go_on = || {
-        bar.set(done.get(), planned.get());
-        interrupt.go_on()
-    };
-    let mut show = |sofar: &Trade| {
-        done.set((sofar.part * sofar.planned as f64) as usize);
-        planned.set(sofar.planned);
-    };
-    let found = trade(&opened.inputs, &question, &go_on, &mut show);
-    if matches!(found, Err(Refusal::Stopped)) {
-        bar.clear_after_interrupt();
-        Interrupt::end();
-    }
-    bar.clear();
+    let found = follow("settings", |report| {
+        let (done, planned) = (Cell::new(0), Cell::new(1));
+        let mut show = |sofar: &Trade| {
+            done.set((sofar.part * sofar.planned as f64) as usize);
+            planned.set(sofar.planned);
+        };
+        let go_on = || report(done.get(), planned.get());
+        trade(&opened.inputs, &question, &go_on, &mut show)
+    });
     let Opened { name, document, .. } = &opened;
-    let title = crate::case::fields::index_of("title")
-        .and_then(|field| document.case.text(field))
-        .unwrap_or_default();
+    let title = document.case.title();
     match found {
         Err(refusal) => Ok(opened.refused(&refusal, streams)),
         Ok(trade) => {

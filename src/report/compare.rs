@@ -30,7 +30,16 @@ pub struct Column {
     /// The case with the overrides of the variant.
     pub case: Case,
     /// The results, or why there are none.
-    pub found: Result<Report, Problem>,
+    pub found: Result<Report, Vec<Refused>>,
+}
+
+/// A problem because of which a column has no results.
+#[derive(Debug)]
+pub struct Refused {
+    /// The problem.
+    pub problem: Problem,
+    /// The problem at its place in the file or on the command line, as one line.
+    pub line: String,
 }
 
 /// Columns to compare; the first one is the reference of the differences.
@@ -68,10 +77,11 @@ impl Comparison {
 
     /// The refused columns as lines of errors.
     pub fn refusals(&self) -> impl Iterator<Item = String> {
-        self.columns.iter().filter_map(|column| {
-            let problem = column.found.as_ref().err()?;
-            Some(format!("{}: {problem}", column.name))
-        })
+        let refused = self
+            .columns
+            .iter()
+            .filter_map(|column| column.found.as_ref().err());
+        refused.flatten().map(|refused| refused.line.clone())
     }
 
     /// The method of the first results, which defines the quantities.

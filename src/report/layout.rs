@@ -18,6 +18,18 @@ pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -
     lines
 }
 
+/// A text as Markdown that shows the text itself: the marks of Markdown and HTML are escaped.
+pub(super) fn plain_markdown(text: &str) -> String {
+    let mut plain = String::new();
+    for letter in text.chars() {
+        if "\\|*`<>[]#".contains(letter) {
+            plain.push('\\');
+        }
+        plain.push(letter);
+    }
+    plain
+}
+
 /// The sentence set into lines, those after the first moved in as far as the mark before it.
 pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
     let indent = count(mark);

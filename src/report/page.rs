@@ -48,7 +48,6 @@ struct Column {
     verdict: Vec<String>,
     limits: Vec<LimitLine>,
     notes: Vec<String>,
-    teeth: String,
     /// The file without its comments.
     lines: String,
     /// The whole file as an address.
@@ -86,53 +85,33 @@ struct ResultRow {
 #[derive(Template)]
 #[template(path = "report.html", config = "assets/askama.toml")]
 struct Html<'a> {
-    page: &'a Page,
+    page: &'a Page<'a>,
+    charts: Vec<String>,
+    /// The teeth of each case.
+    teeth: Vec<String>,
 }
 
-/// Everything that a page shows.
-pub struct Page {
+/// Everything that a page shows, but for its pictures.
+pub struct Page<'a> {
+    subjects: &'a [Subject],
     title: String,
     version: &'static str,
     columns: Vec<Column>,
     inputs: Vec<InputRow>,
     tables: Vec<Table>,
-    charts: Vec<String>,
 }
 
-impl Page {
+impl<'a> Page<'a> {
     /// The page of the cases; empty without a case.
     #[must_use]
-    pub fn of(subjects: &[Subject]) -> Page {
+    pub fn of(subjects: &'a [Subject]) -> Page<'a> {
         let own: Vec<&Report> = subjects
             .iter()
             .filter_map(|subject| subject.reports.first())
             .collect();
-        let is_single = own.len() == 1;
         let columns: Vec<Column> = subjects.iter().filter_map(column).collect();
-        let names: Vec<String> = columns
-            .iter()
-            .map(|column| {
-                if is_single {
-                    String::new()
-                } else {
-                    column.title.clone()
-                }
-            })
-            .collect();
-        let drawn: Vec<Drawn> = subjects
-            .iter()
-            .zip(&names)
-            .map(|(subject, name)| Drawn {
-                name,
-                reports: &subject.reports,
-            })
-            .collect();
-        let curves: Vec<(&str, &SpeedCurve)> = drawn
-            .iter()
-            .zip(subjects)
-            .filter_map(|(drawn, subject)| Some((drawn.name, subject.speeds.as_ref()?)))
-            .collect();
         Page {
+            subjects,
             title: match columns.as_slice() {
                 [] => String::new(),
                 [only] => only.title.clone(),
@@ -141,13 +120,6 @@ impl Page {
             version: env!("CARGO_PKG_VERSION"),
             inputs: inputs(&own),
             tables: tables(&own),
-            charts: GRAPHS
-                .iter()
-                .filter(|graph| !LEFT_OUT.contains(&graph.key))
-                .filter_map(|graph| picture(graph, &drawn))
-                .chain(spectrum(&drawn))
-                .chain(speed(&curves))
-                .collect(),
             columns,
         }
     }
@@ -157,7 +129,42 @@ impl Page {
     /// # Errors
     /// Where the page cannot be filled in.
     pub fn html(&self) -> Result<String, askama::Error> {
-        Html { page: self }.render()
+        let own = self
+            .subjects
+            .iter()
+            .filter_map(|subject| subject.reports.first());
+        let page = Html {
+            page: self,
+            charts: self.charts(),
+            teeth: own
+                .map(|report| teeth(&report.inputs, &report.solution))
+                .collect(),
+        };
+        page.render()
+    }
+
+    fn charts(&self) -> Vec<String> {
+        let drawn: Vec<Drawn> = self
+            .subjects
+            .iter()
+            .zip(&self.columns)
+            .map(|(subject, column)| Drawn {
+                name: if self.is_single() { "" } else { &column.title },
+                reports: &subject.reports,
+            })
+            .collect();
+        let curves: Vec<(&str, &SpeedCurve)> = drawn
+            .iter()
+            .zip(self.subjects)
+            .filter_map(|(drawn, subject)| Some((drawn.name, subject.speeds.as_ref()?)))
+            .collect();
+        GRAPHS
+            .iter()
+            .filter(|graph| !LEFT_OUT.contains(&graph.key))
+            .filter_map(|graph| picture(graph, &drawn))
+            .chain(spectrum(&drawn))
+            .chain(speed(&curves))
+            .collect()
     }
 
     /// As Markdown, without charts.
@@ -207,7 +214,6 @@ fn column(subject: &Subject) -> Option<Column> {
             .iter()
             .map(|note| sanitize(&note.message))
             .collect(),
-        teeth: teeth(&report.inputs, &report.solution),
         lines: without_comments(&subject.file),
         link: address(&subject.file),
         file_name: sanitize(file_name),

@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use super::layout::item;
 use crate::case::sanitize::sanitize;
 use crate::model::explanation::tidy;
+use crate::model::inputs::Method;
 use crate::study::relief::{Specification, TipReliefs};
 use numbers::{mm, percent, shape, um};
 use tables::{choices, harris, map};
@@ -20,8 +21,8 @@ pub struct ReliefReport<'a> {
     pub name: &'a str,
     /// The case's title.
     pub title: &'a str,
-    /// The name of the method of the case.
-    pub method: &'a str,
+    /// The method of the case.
+    pub method: Method,
     /// The answer.
     pub found: &'a Specification,
 }
@@ -80,13 +81,13 @@ impl ReliefReport<'_> {
         let found = self.found;
         let (from, to) = found.demand.loads;
         let words = format!(
-            "Tip relief for {} to {} % of {} N m, tolerance {} um on each relief; method {} decides{}.",
+            "Tip relief for {} to {} % of {} N m, tolerance {} um on each relief; computed by method {}{}.",
             percent(from),
             percent(to),
             tidy(found.torque, 4),
             tidy(found.demand.tolerance * 1e6, 3),
             found.method.name(),
-            if found.method.name() == self.method {
+            if found.method == self.method {
                 String::new()
             } else {
                 format!(", {}", self.reason())
@@ -95,12 +96,14 @@ impl ReliefReport<'_> {
         item("", &words)
     }
 
-    /// Why another method than that of the case decides.
+    /// Why the relief is computed by another method than that of the case.
     fn reason(&self) -> String {
-        if self.method == "auto" {
-            "chosen by auto".to_owned()
-        } else {
-            format!("since method {} shares no load", self.method)
+        match self.method {
+            Method::Auto => "chosen by auto".to_owned(),
+            method => format!(
+                "because method {} does not share the load among pairs",
+                method.name()
+            ),
         }
     }
 
@@ -156,6 +159,7 @@ impl ReliefReport<'_> {
         let mut rows = csv::Writer::from_writer(out);
         rows.write_record([
             "choice",
+            "best",
             "shape",
             "driver.tip_relief [m]",
             "driver.tip_relief_length [m]",
@@ -166,16 +170,13 @@ impl ReliefReport<'_> {
         ])?;
         let found = self.found;
         for (at, choice) in found.choices.iter().enumerate() {
-            let name = if at == found.best {
-                format!("{} (best)", choice.name)
-            } else {
-                choice.name.to_owned()
-            };
+            let name = (choice.name, if at == found.best { "true" } else { "false" });
             let error = choice.greatest_error();
-            rows.write_record(record(&name, &choice.reliefs, error, choice.margin))?;
+            rows.write_record(record(name, &choice.reliefs, error, choice.margin))?;
         }
         for point in found.map.iter().flatten() {
-            rows.write_record(record("map", &point.reliefs, point.error, point.margin))?;
+            let name = ("map", "");
+            rows.write_record(record(name, &point.reliefs, point.error, point.margin))?;
         }
         rows.flush()
     }
@@ -199,13 +200,19 @@ pub fn settings(reliefs: &TipReliefs) -> Vec<(&'static str, String)> {
     settings
 }
 
-fn record(name: &str, reliefs: &TipReliefs, error: f64, margin: f64) -> [String; 8] {
+fn record(
+    (name, is_best): (&str, &str),
+    reliefs: &TipReliefs,
+    error: f64,
+    margin: f64,
+) -> [String; 9] {
     let [driver, driven] = reliefs.amounts;
     let [driver_length, driven_length] = reliefs.lengths;
     let numbers = [driver, driver_length, driven, driven_length, error, margin];
     let [a, b, c, d, e, f] = numbers.map(|number| number.to_string());
     [
         name.to_owned(),
+        is_best.to_owned(),
         shape(reliefs.shape).to_owned(),
         a,
         b,

@@ -88,7 +88,13 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
     let (_folder, case) = case();
     let (code, text, errors) = run(&["compare", &case]);
     assert_eq!(code, 0);
-    assert!(errors.contains(":far: pair.centre_distance: the tips do not reach each other"));
+    let (place, reason) = errors.split_once(": ").unwrap();
+    assert_eq!(place, format!("{case}:66:19"), "{errors}");
+    assert!(
+        reason.starts_with("variants.far.pair.centre_distance: the tips do not reach each other"),
+        "{errors}"
+    );
+    assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
     assert!(text.contains("Refused: pair.centre_distance"), "{text}");
     assert!(
         text.lines().all(|line| line.chars().count() <= 80),

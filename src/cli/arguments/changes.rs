@@ -10,15 +10,15 @@ use super::misuse::misused;
 use crate::case::Case;
 use crate::model::inputs::Method;
 
-/// Values that replace those of a case.
-#[derive(Debug, Args)]
-pub struct Overrides {
+/// Values that replace those of a case: those of a variant first, then single fields.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct Edits {
     /// Use this variant of the case, a table [variants.NAME]
     #[arg(long, value_name = "NAME")]
-    variant: Option<String>,
+    pub variant: Option<String>,
     /// Change a field of the case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
-    settings: Vec<Setting>,
+    pub settings: Vec<Setting>,
 }
 
 /// The method and the values that replace those of a case.
@@ -29,34 +29,14 @@ pub struct Changes {
     method: Option<Method>,
     /// The values
     #[command(flatten)]
-    overrides: Overrides,
-}
-
-/// What the command line changes in a case: its variant first, then single fields.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Edits {
-    /// The variant.
-    pub variant: Option<String>,
-    /// The fields.
-    pub settings: Vec<Setting>,
-}
-
-impl Overrides {
-    /// The variant and the fields.
-    #[must_use]
-    pub fn edits(&self) -> Edits {
-        Edits {
-            variant: self.variant.clone(),
-            settings: self.settings.clone(),
-        }
-    }
+    edits: Edits,
 }
 
 impl Changes {
     /// The variant and the fields; the method is a field, and the last one.
     #[must_use]
     pub fn edits(&self) -> Edits {
-        let mut edits = self.overrides.edits();
+        let mut edits = self.edits.clone();
         edits.settings.extend(by_method(self.method));
         edits
     }
@@ -67,19 +47,19 @@ pub(super) fn by_method(method: Option<Method>) -> Option<Setting> {
     method.map(|method| Setting::by("--method", "model.method", method.name()))
 }
 
-/// A field and what is to stand in it.
+/// A field and its new value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Setting {
     /// The field's key, or a limit's.
     pub key: String,
     /// The text that a user would write.
     pub value: String,
-    /// The option that says so.
+    /// The option that sets it.
     option: &'static str,
 }
 
 impl Setting {
-    /// What an option puts into a field.
+    /// A field as an option sets it.
     #[must_use]
     pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
         Setting {
@@ -89,7 +69,7 @@ impl Setting {
         }
     }
 
-    /// As it stands on the command line.
+    /// The setting as on the command line.
     #[must_use]
     pub fn written(&self) -> String {
         match self.option {

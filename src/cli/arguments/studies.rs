@@ -34,9 +34,9 @@ const TOLERANCE_SHAPE: &str = "A distribution is a line of [spread]: the field i
     SI units.";
 
 const RELIEF_SHAPE: &str = "Corner contact counts before the start and after the end of the path of contact, at the greatest load, with \
-    each relief off by the tolerance to either side. Among the reliefs without corner contact the command chooses the one with the least \
-    greatest transmission error (peak to peak, at rest, without base pitch deviations) over six loads of the range. Amounts are in \
-    half micrometres, lengths in round steps. With method dynamic the motion must have no corner contact either. CSV has one row per choice \
+    each relief off by the tolerance to either side. Among the reliefs without corner contact the command chooses the one with the \
+    smallest maximum transmission error (peak to peak, at rest, without base pitch deviations) over six loads of the range. Amounts are \
+    multiples of 0.5 um, lengths are round numbers. With method dynamic the motion must have no corner contact either. CSV has one row per choice \
     and point of the map, JSON is one object; both are in SI units.";
 
 /// How a study runs whose points can be divided among machines.
@@ -123,10 +123,10 @@ pub struct Relief {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// Loads that the relief must serve, in parts of the load of the case
+    /// Loads that the relief must serve, in percent of the load of the case
     #[arg(long, value_name = "A..B", default_value = "25..110%", value_parser = demand::loads)]
     pub load: (f64, f64),
-    /// How far manufacturing may miss each relief on both sides, such as '5 um'
+    /// Manufacturing tolerance of each relief, plus and minus, such as '5 um'
     #[arg(long, value_name = "LENGTH", default_value = "5 um", value_parser = demand::tolerance)]
     pub tolerance: f64,
     /// What differs from the case

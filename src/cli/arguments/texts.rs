@@ -1,7 +1,7 @@
-//! What the help of a command says after its options.
+//! The text of a command's help after its options.
 
-pub(super) const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
-    instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
+pub(super) const CSV_SHAPE: &str = "CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
+    one row per station. JSON: one object per case and line, in SI units; missing values are absent.";
 
 pub(super) const CHECK_SHAPE: &str = "A limit on impact_force applies to the free impact in every \
     method. With static and dynamic, the verdict also prints the force by the method; a separate \
@@ -14,9 +14,9 @@ pub(super) const TRADE_SHAPE: &str = "Each setting is timed on this machine. Its
     the rest is numerical. Where no method finds corner contact, no setting is recommended. JSON is one object in SI units; missing \
     values are absent.";
 
-pub(super) const STIFFNESS_SHAPE: &str = "The finite elements are plane strain on the whole gear. They compare the stiffness models; `solve` does \
-    not use them yet. CSV: one row per gear and radius, in SI units; an empty cell where a model does not cover the gear. JSON: one \
-    object in SI units; missing values are absent, and gaps and refusal give the reason.";
+pub(super) const STIFFNESS_SHAPE: &str = "The finite elements are plane strain on the whole gear, as in tooth_compliance = \"finite-element\". CSV: one row \
+    per gear and radius, in SI units; a cell is empty where a model does not cover the gear. JSON: one object in SI units; missing \
+    values are absent, and gaps and refusal give the reason.";
 
 pub(super) const PLOT_SHAPE: &str = "The chart shows the method of the case. If the method has no \
     such chart, the command draws another method: load_share of paper and exact shows static; \

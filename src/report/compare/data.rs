@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 
-use super::{Column, Comparison, REFUSED};
+use super::{Column, Comparison, REFUSED, Refused};
 use crate::case::changes::between;
 use crate::case::file::FORMAT;
 use crate::case::sanitize::sanitize;
@@ -47,6 +47,8 @@ impl Comparison {
     fn csv_row(&self, quantity: &Quantity) -> Vec<String> {
         let values = self.values(quantity);
         let base = values.first().copied().flatten();
+        // Yes and no have no difference.
+        let base = base.filter(|_| !quantity.is_flag());
         let difference = |value: &Option<f64>| cell(value.zip(base).map(|(now, base)| now - base));
         let cells = values.iter().map(|value| cell(*value));
         [quantity.key, quantity.unit]
@@ -94,7 +96,10 @@ impl Comparison {
                 object["method"] = json!(method(column));
                 object["quantities"] = self.json_quantities(at);
             }
-            Err(problem) => {
+            Err(refused) => {
+                let Some(Refused { problem, .. }) = refused.first() else {
+                    return object;
+                };
                 object["refusal"] =
                     json!({"field": problem.field, "cause": problem.cause, "fix": problem.fix});
             }

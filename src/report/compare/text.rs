@@ -6,7 +6,7 @@ use super::{Column, Comparison, Group, NONE, REFUSED, Row};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::report::digest;
-use crate::report::layout::{WIDTH, count, item, widest};
+use crate::report::layout::{WIDTH, count, item, plain_markdown, widest};
 
 impl Comparison {
     /// Writes the comparison as text, at most 80 columns wide.
@@ -47,9 +47,8 @@ impl Comparison {
     /// What the writer refuses.
     pub fn write_markdown(&self, out: &mut dyn Write) -> io::Result<()> {
         for (at, column) in self.columns.iter().enumerate() {
-            let words = heading(at, column).join(" ");
-            let words: Vec<&str> = words.split_whitespace().skip(1).collect();
-            writeln!(out, "- **{}** {}", letter(at), plain(&words.join(" ")))?;
+            let (name, sentence) = (plain(&named(column)), plain(&described(column)));
+            writeln!(out, "- **{}** {name} {sentence}", letter(at))?;
         }
         let all = std::iter::once(self.inputs()).chain(self.groups());
         for group in all.filter(|group| !group.rows.is_empty()) {
@@ -88,17 +87,27 @@ impl Comparison {
 
 /// The column's letter, name, method and outcome.
 fn heading(at: usize, column: &Column) -> Vec<String> {
-    let name = sanitize(&column.name);
-    let (method, outcome) = match &column.found {
-        Ok(report) => (
-            format!(" ({})", report.solution.method.name()),
-            digest::sentence(&report.solution, System::Metric),
-        ),
-        Err(problem) => (String::new(), format!("Refused: {problem}.")),
-    };
-    let mut lines = item(&format!("{}  ", letter(at)), &format!("{name}{method}"));
-    lines.extend(item("   ", &outcome));
+    let mut lines = item(&format!("{}  ", letter(at)), &sanitize(&named(column)));
+    lines.extend(item("   ", &sanitize(&described(column))));
     lines
+}
+
+/// The name with the method.
+fn named(column: &Column) -> String {
+    let method = column.solution().map(|solution| solution.method.name());
+    let method = method.map_or_else(String::new, |method| format!(" ({method})"));
+    format!("{}{method}", column.name)
+}
+
+/// The outcome, or why there is none.
+fn described(column: &Column) -> String {
+    match &column.found {
+        Ok(report) => digest::sentence(&report.solution, System::Metric),
+        Err(refused) => {
+            let problems = refused.iter().map(|refused| refused.problem.to_string());
+            format!("Refused: {}.", problems.collect::<Vec<_>>().join("; "))
+        }
+    }
 }
 
 fn with_unit(value: &str, unit: &str) -> String {
@@ -109,9 +118,8 @@ fn with_unit(value: &str, unit: &str) -> String {
     }
 }
 
-/// A text without a sign of Markdown that would break a table.
 fn plain(text: &str) -> String {
-    sanitize(text).replace('|', "\\|").replace('*', "\\*")
+    plain_markdown(&sanitize(text))
 }
 
 /// A to Z, then AA and so on.

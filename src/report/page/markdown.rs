@@ -1,9 +1,10 @@
 //! A page in Markdown, without charts.
 
 use super::{Column, Page};
+use crate::report::layout::plain_markdown as plain;
 
 /// The page as Markdown.
-pub(super) fn render(page: &Page) -> String {
+pub(super) fn render(page: &Page<'_>) -> String {
     let sections = [
         heading(page),
         verdicts(page),
@@ -21,7 +22,7 @@ pub(super) fn render(page: &Page) -> String {
     sections.join("\n\n") + "\n"
 }
 
-fn heading(page: &Page) -> Vec<String> {
+fn heading(page: &Page<'_>) -> Vec<String> {
     vec![
         format!("# {}", plain(&page.title)),
         String::new(),
@@ -32,7 +33,7 @@ fn heading(page: &Page) -> Vec<String> {
     ]
 }
 
-fn verdicts(page: &Page) -> Vec<String> {
+fn verdicts(page: &Page<'_>) -> Vec<String> {
     let mut lines = vec!["## Verdict".to_owned()];
     for column in &page.columns {
         if !page.is_single() {
@@ -51,7 +52,7 @@ fn verdicts(page: &Page) -> Vec<String> {
     lines
 }
 
-fn limits(page: &Page) -> Vec<String> {
+fn limits(page: &Page<'_>) -> Vec<String> {
     list(page, "## Limits", |column| {
         let lines = column.limits.iter();
         lines
@@ -60,12 +61,12 @@ fn limits(page: &Page) -> Vec<String> {
     })
 }
 
-fn notes(page: &Page) -> Vec<String> {
+fn notes(page: &Page<'_>) -> Vec<String> {
     list(page, "## Notes", |column| column.notes.clone())
 }
 
 /// The lines of every case under a heading; nothing without lines.
-fn list(page: &Page, title: &str, of: impl Fn(&Column) -> Vec<String>) -> Vec<String> {
+fn list(page: &Page<'_>, title: &str, of: impl Fn(&Column) -> Vec<String>) -> Vec<String> {
     let mut lines = Vec::new();
     for column in &page.columns {
         for line in of(column) {
@@ -83,7 +84,7 @@ fn list(page: &Page, title: &str, of: impl Fn(&Column) -> Vec<String>) -> Vec<St
     lines
 }
 
-fn inputs(page: &Page) -> Vec<String> {
+fn inputs(page: &Page<'_>) -> Vec<String> {
     let mut lines = vec![
         "## Inputs that differ from their defaults".to_owned(),
         String::new(),
@@ -97,7 +98,7 @@ fn inputs(page: &Page) -> Vec<String> {
     lines
 }
 
-fn results(page: &Page) -> Vec<String> {
+fn results(page: &Page<'_>) -> Vec<String> {
     let mut lines = vec!["## Results".to_owned(), String::new()];
     lines.extend(header(page, &["quantity", ""], &["unit", "source"]));
     for row in page.tables.iter().flat_map(|table| &table.rows) {
@@ -109,7 +110,7 @@ fn results(page: &Page) -> Vec<String> {
 }
 
 /// The names of the columns, the cases to the right, and the line below them.
-fn header(page: &Page, before: &[&str], after: &[&str]) -> [String; 2] {
+fn header(page: &Page<'_>, before: &[&str], after: &[&str]) -> [String; 2] {
     let titles = page.columns.iter().map(|column| column.title.as_str());
     let names = before.iter().copied().chain(titles);
     let left = |count: usize| "---|".repeat(count);
@@ -129,7 +130,7 @@ fn table_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     format!("| {} |", cells.join(" | "))
 }
 
-fn files(page: &Page) -> Vec<String> {
+fn files(page: &Page<'_>) -> Vec<String> {
     let mut lines = vec!["## Case files".to_owned()];
     for column in &page.columns {
         let fence = fence(&column.lines);
@@ -143,18 +144,6 @@ fn files(page: &Page) -> Vec<String> {
         ]);
     }
     lines
-}
-
-/// A text without the marks of Markdown and HTML.
-fn plain(text: &str) -> String {
-    let mut plain = String::new();
-    for letter in text.chars() {
-        if "\\|*`<>[]#".contains(letter) {
-            plain.push('\\');
-        }
-        plain.push(letter);
-    }
-    plain
 }
 
 /// Backticks around a text that may have backticks itself.

@@ -8,7 +8,7 @@ use crate::study::relief::{Choice, MapPoint, Specification};
 /// A row per choice.
 pub(super) fn choices(found: &Specification) -> Vec<String> {
     let head = [
-        "  um, lengths in mm",
+        "  amount um, length mm",
         "C_a1",
         "L_1",
         "C_a2",

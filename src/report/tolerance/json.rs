@@ -5,7 +5,6 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::ToleranceReport;
-use crate::case::fields::index_of;
 use crate::report::json::write_line;
 use crate::study::batch::Points;
 use crate::study::statistics::{Estimate, Figures, PERCENTILES};
@@ -122,7 +121,7 @@ struct Share {
 pub(super) fn write(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
     let study = report.study;
     let summary = study.summary(report.samples);
-    let title = index_of("title").and_then(|field| report.case.text(field));
+    let title = Some(report.case.title()).filter(|title| !title.is_empty());
     let quantities = summary.quantities.iter().map(|of| {
         let value = serde_json::to_value(quantity(report, of))?;
         Ok((of.quantity.key.to_owned(), value))

@@ -28,7 +28,7 @@ pub(super) fn write(report: &ToleranceReport, out: &mut dyn Write) -> io::Result
 
 fn head(report: &ToleranceReport, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     let design = &report.study.design;
-    let title = crate::case::fields::index_of("title").and_then(|field| report.case.text(field));
+    let title = Some(report.case.title()).filter(|title| !title.is_empty());
     writeln!(out, "{}", sanitize(title.unwrap_or(report.name)))?;
     let refused = design.samples - summary.solved;
     let refused = if refused == 0 {
