@@ -8,8 +8,8 @@ use crate::case::units;
 use crate::model::compliance::model_of;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::spacing::Spacing;
-use crate::model::{Inputs, Solution, contact_state};
-use crate::study::stiffness::compare_path;
+use crate::model::{Inputs, Outcome, Refusal, Solution, contact_state};
+use crate::study::stiffness::{PATH_POINTS, compare_path};
 
 /// A longer interval between stations, in requested intervals, is a gap in the curve.
 const LEFT_OUT: f64 = 1.5;
@@ -69,8 +69,42 @@ pub fn picture(graph: &Graph, cases: &[Drawn]) -> Option<String> {
     }))
 }
 
-/// Places of the path of contact at which a stiffness is drawn.
-pub const STIFFNESS_POINTS: usize = 129;
+/// Why the chart of that key has no curve for a case, with the fix.
+#[must_use]
+pub fn no_curve(key: &str, reports: &[Report]) -> String {
+    let reason = reports.first().map_or_else(
+        || "no case is solved".to_owned(),
+        |report| absence(key, report, reports),
+    );
+    format!("the chart {key} has no curve: {reason}: choose another chart")
+}
+
+fn absence(key: &str, own: &Report, reports: &[Report]) -> String {
+    let graph = find(key);
+    if graph.is_some_and(|graph| graph.by_model.is_some()) {
+        return match compare_path(&own.inputs, PATH_POINTS) {
+            Err(refusal) => refusal.to_string(),
+            Ok(_) => "no compliance model covers the pair".to_owned(),
+        };
+    }
+    let has = |method: Method| {
+        graph.map_or_else(
+            || method.shares_load(),
+            |graph| graph.column(method).is_some(),
+        )
+    };
+    let solved = reports.iter().find(|report| has(report.solution.method));
+    match solved {
+        Some(report) if report.solution.outcome == Outcome::NoCornerContact => {
+            "no corner contact is found".to_owned()
+        }
+        Some(report) => format!("method {} finds no values", report.solution.method.name()),
+        None => match solve_by_other_method(own) {
+            Err(refusal) => format!("method {} refuses the case: {refusal}", other(own).name()),
+            Ok(_) => format!("method {} has no such values", own.solution.method.name()),
+        },
+    }
+}
 
 /// The stiffness of the mesh by every model for one case, by the model of each for several.
 fn stiffness(graph: &Graph, column: &Column, cases: &[Drawn]) -> Option<String> {
@@ -80,7 +114,7 @@ fn stiffness(graph: &Graph, column: &Column, cases: &[Drawn]) -> Option<String> 
         let Some(report) = case.reports.first() else {
             continue;
         };
-        let Ok(found) = compare_path(&report.inputs, STIFFNESS_POINTS) else {
+        let Ok(found) = compare_path(&report.inputs, PATH_POINTS) else {
             continue;
         };
         let own = model_of(&report.inputs);
@@ -221,20 +255,27 @@ pub fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
 /// `static` beside a closed form, `exact` beside a method that shares the load.
 #[must_use]
 pub fn with_other_method(report: Report) -> Vec<Report> {
-    let method = if report.solution.method.shares_load() {
+    let beside = solve_by_other_method(&report);
+    std::iter::once(report).chain(beside.ok()).collect()
+}
+
+fn other(report: &Report) -> Method {
+    if report.solution.method.shares_load() {
         Method::Exact
     } else {
         Method::Static
-    };
+    }
+}
+
+fn solve_by_other_method(report: &Report) -> Result<Report, Refusal> {
     let inputs = Inputs {
-        method,
+        method: other(report),
         ..report.inputs.clone()
     };
-    let beside = Report::solve(
+    Report::solve(
         report.name.clone(),
         report.case.clone(),
         inputs,
         report.selection.clone(),
-    );
-    std::iter::once(report).chain(beside.ok()).collect()
+    )
 }

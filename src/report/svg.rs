@@ -221,6 +221,15 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
         }
     };
     for piece in &series.pieces {
+        if let ([point], Kind::Curve | Kind::Bound) = (piece.as_slice(), series.kind) {
+            // A line of one point is invisible.
+            let (x, y) = place(*point);
+            let _ = writeln!(
+                text,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" class=\"f{look}\"/>"
+            );
+            continue;
+        }
         let points: Vec<String> = piece
             .iter()
             .map(|&point| place(point))
@@ -250,7 +259,7 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
     }
 }
 
-/// Bars from 0, a half of the room between two whole numbers wide together.
+/// Bars from 0. All bars at a number are [`BARS`] wide together.
 fn bars(
     text: &mut String,
     series: &Series,

@@ -17,6 +17,9 @@ use crate::model::{Inputs, Refusal};
 /// own.
 pub const FIELD: &str = "finite-element";
 
+/// Places of the path of contact at which a chart draws the stiffness.
+pub const PATH_POINTS: usize = 129;
+
 /// Least number of points on a flank.
 pub const LEAST_POINTS: usize = 2;
 /// Greatest number of points on a flank.

@@ -17,6 +17,17 @@ pub struct Grid {
 }
 
 impl Grid {
+    /// The grid of axes.
+    ///
+    /// # Errors
+    /// Where two axes vary one field, or fields that exclude each other.
+    pub fn of(axes: Vec<Axis>) -> Result<Grid, Problem> {
+        for (at, axis) in axes.iter().enumerate() {
+            apart(&axes[..at], axis)?;
+        }
+        Ok(Grid { axes })
+    }
+
     /// The grid of texts such as `operation.speed=500..3000 rpm`. `points` has one number for every
     /// range, or one for each in turn.
     ///

@@ -86,25 +86,33 @@ pub fn speed(curves: &[NamedCurve]) -> Option<String> {
     speed_chart(curves).map(|drawn| chart(&drawn))
 }
 
-/// The chart over speed, with the present speed and the resonances; none without a curve.
+/// The chart over speed, with the speed and the resonances of a single case; none without a curve.
 #[must_use]
 pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
-    let (_, first) = curves.first()?;
     let series: Vec<Series> = curves.iter().flat_map(|curve| runs(*curve)).collect();
     let has_points = series.iter().any(|series| !series.pieces.is_empty());
-    let mut marks: Vec<(f64, &'static str)> =
-        [(1.0, "N=1"), (1.0 / 2.0, "1/2"), (1.0 / 3.0, "1/3")]
-            .map(|(ratio, name)| (rpm(ratio * first.resonance), name))
-            .into();
-    marks.push((rpm(first.present), "now"));
-    marks.sort_by(|one, other| one.0.total_cmp(&other.0));
     has_points.then(|| Chart {
         title: "Dynamic factor of a tooth over speed".to_owned(),
         across: Labelled::linear("speed of the driver, rpm"),
         up: Labelled::linear("largest tooth force / that at rest"),
         series,
-        marks,
+        // Each of several cases has its own resonance and speed.
+        marks: match curves {
+            [(_, only)] => marks(only),
+            _ => Vec::new(),
+        },
     })
+}
+
+/// The resonance with its fractions, and the speed of the case.
+fn marks(curve: &SpeedCurve) -> Vec<(f64, &'static str)> {
+    let ratios = [(1.0, "N=1"), (1.0 / 2.0, "1/2"), (1.0 / 3.0, "1/3")];
+    let mut marks = ratios
+        .map(|(ratio, name)| (rpm(ratio * curve.resonance), name))
+        .to_vec();
+    marks.push((rpm(curve.present), "now"));
+    marks.sort_by(|one, other| one.0.total_cmp(&other.0));
+    marks
 }
 
 fn rpm(speed: f64) -> f64 {
@@ -122,12 +130,13 @@ fn runs((name, curve): NamedCurve) -> Vec<Series> {
     };
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
+    let up = called(if jumps.is_empty() {
+        "speed rising or falling"
+    } else {
+        "speed rising"
+    });
     let up = Series {
-        name: called(if jumps.is_empty() {
-            "speed rising or falling"
-        } else {
-            "speed rising"
-        }),
+        name: up,
         pieces: pieces(curve.up.iter().map(Option::as_ref)),
         kind: Kind::Curve,
     };
