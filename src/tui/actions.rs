@@ -83,6 +83,8 @@ pub enum Action {
     Explained(Box<Explained>),
     /// The tip relief to specify.
     Relieved(Box<ReliefAnswer>),
+    /// The report of the results, for the clipboard.
+    Reported(String),
     /// Something that was asked for, or that keeps what is typed, did not succeed.
     Failed(String),
 }

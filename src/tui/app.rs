@@ -66,6 +66,10 @@ pub struct App {
     pub study: StudyState,
     /// The serial of the study that runs.
     pub(crate) studying: Option<u64>,
+    /// The file of the export that runs.
+    pub(crate) exporting: Option<PathBuf>,
+    /// The serial of the case whose variants are being solved.
+    pub(crate) comparing: Option<u64>,
     /// Whether the run plays.
     pub is_playing: bool,
     /// Long work that goes on.
@@ -133,6 +137,8 @@ impl App {
             first_variant: None,
             study: StudyState::default(),
             studying: None,
+            exporting: None,
+            comparing: None,
             is_playing: false,
             progress: None,
             measuring: None,

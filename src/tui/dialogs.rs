@@ -203,6 +203,11 @@ impl Prompt {
         matches!(self, Prompt::SaveAs(_))
     }
 
+    /// Whether it asks what to do about an export that runs.
+    pub(crate) fn is_about_running_export(&self) -> bool {
+        matches!(self, Prompt::Ask(question) if question.is_about_running_export())
+    }
+
     /// Whether it asks for the name of a file to export to.
     pub(crate) fn is_export(&self) -> bool {
         matches!(self, Prompt::Export(_))

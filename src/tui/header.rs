@@ -12,7 +12,6 @@ use super::app::App;
 use super::commands::{Command, key_of};
 use super::tab::{Origin, Tab};
 use super::text;
-use crate::case::fields;
 
 /// What the header begins with.
 const HEAD: &str = "tipstrike";
@@ -57,9 +56,7 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
         &format!("{}{}", app.tab.name(), instead.unwrap_or_default()),
         room,
     );
-    let title = fields::index_of("title")
-        .and_then(|title| app.tab.case.text(title))
-        .unwrap_or_default();
+    let title = app.tab.case.title();
     let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
     let title = if title.is_empty() || left <= 8 {
         String::new()

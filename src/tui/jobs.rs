@@ -7,6 +7,7 @@ use super::variants::VariantsRequest;
 use crate::case::units::System;
 use crate::case::{Case, Document};
 use crate::model::{Inputs, Quantity};
+use crate::report::Report;
 use crate::report::explain::Page;
 use crate::study::relief::{Demand, Specification};
 
@@ -27,10 +28,12 @@ pub enum Job {
     Explain(Box<Asked>),
     /// Write results to a file.
     Export(Box<Exporting>),
-    /// What the variants of a case give.
+    /// The results of the variants.
     Variants(Box<VariantsRequest>),
     /// The tip relief to specify.
     Relief(Box<ReliefRequest>),
+    /// The report of the results as Markdown.
+    Markdown(Box<Reporting>),
 }
 
 /// A result to be explained.
@@ -54,6 +57,15 @@ pub struct ReliefRequest {
 
 /// A search and its answer, or why there is none.
 pub(crate) type ReliefAnswer = (ReliefRequest, Result<Box<Specification>, String>);
+
+/// Results for a report.
+#[derive(Debug, Clone)]
+pub struct Reporting {
+    /// The solved case.
+    pub report: Report,
+    /// The text of the case file.
+    pub file: String,
+}
 
 /// Results to be written to a file.
 #[derive(Debug, Clone)]
@@ -99,7 +111,7 @@ pub struct Explained {
 
 impl Job {
     /// How many kinds there are.
-    pub(super) const KINDS: usize = 9;
+    pub(super) const KINDS: usize = 10;
 
     /// The kind and its name. Of a kind the latest job replaces the others.
     pub(super) const fn kind(&self) -> (usize, &'static str) {
@@ -113,6 +125,7 @@ impl Job {
             Job::Export(_) => (6, "export"),
             Job::Variants(_) => (7, "variants"),
             Job::Relief(_) => (8, "relief"),
+            Job::Markdown(_) => (9, "report"),
         }
     }
 }

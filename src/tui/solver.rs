@@ -55,9 +55,12 @@ pub struct Answer {
     pub methods: Vec<(Method, Result<Solution, Refusal>)>,
     /// What a reader must know beside the active result.
     pub notes: Vec<Note>,
-    /// The mesh stiffness by every model, if it was asked for and is known.
-    pub stiffness: Option<Arc<PathComparison>>,
+    /// The mesh stiffness by every model, or why there is none; `None` until it is computed.
+    pub stiffness: Option<MeshStiffness>,
 }
+
+/// The mesh stiffness by every model, or why there is none.
+pub(crate) type MeshStiffness = Result<Arc<PathComparison>, Refusal>;
 
 /// A value of each quantity, in SI, in the order of [`QUANTITIES`].
 pub(crate) type Values = Box<[Option<f64>]>;

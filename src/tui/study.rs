@@ -1,5 +1,7 @@
 //! A study of the case in the form: a field over its range, two fields as a map, or the tolerance.
 
+use ratatui::layout::Rect;
+
 use crate::case::Case;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
@@ -116,20 +118,49 @@ pub struct LayerFound {
     pub(crate) refusals: Refusals,
 }
 
+/// The state that decides which study is requested.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StudyKey {
+    /// The request of the case.
+    pub serial: u64,
+    /// Whether the form is valid.
+    pub is_valid: bool,
+    /// The focused row of the form.
+    pub row: usize,
+    /// The key of the selected result.
+    pub quantity: Option<&'static str>,
+    /// The method of the shown results.
+    pub solved_by: Option<Method>,
+    /// The request of the baseline.
+    pub baseline: Option<u64>,
+    /// The second field of a map.
+    pub second: Option<usize>,
+    /// The zoom of the ranges.
+    pub zoom: i32,
+    /// Whether the pane shows the tolerance.
+    pub is_tolerance: bool,
+    /// The area of the pane.
+    pub area: Rect,
+}
+
 /// The study of an open case.
 #[derive(Debug, Clone, Default)]
 pub struct Study {
+    /// The state that the present request or the obstacle comes from.
+    pub key: Option<StudyKey>,
     /// The present request.
-    pub asked: Option<StudyRequest>,
+    pub request: Option<StudyRequest>,
+    /// The point of the cursor on the first and on the second axis.
+    pub cursor: Option<(usize, usize)>,
     /// Why there is no study.
     pub obstacle: Option<String>,
     /// The results in sight: of the present request, or of the one before until its first results.
-    pub shown: Option<Shown>,
+    pub shown: Option<StudyResults>,
 }
 
 /// The results of a study so far.
 #[derive(Debug, Clone)]
-pub struct Shown {
+pub struct StudyResults {
     /// The request.
     pub request: StudyRequest,
     /// The points of each layer.
@@ -150,16 +181,43 @@ impl Layer {
     }
 }
 
+impl Question {
+    /// The axes of a curve or a map.
+    #[must_use]
+    pub fn axes(&self) -> &[Axis] {
+        match self {
+            Question::Grid(grid) => &grid.axes,
+            Question::Tolerance(_) => &[],
+        }
+    }
+}
+
 impl Study {
+    /// Whether the present request has that serial.
+    #[must_use]
+    pub fn runs(&self, serial: u64) -> bool {
+        let request = self.request.as_ref();
+        request.is_some_and(|request| request.serial == serial)
+    }
+
+    /// Starts a request. The cursor stays on axes that are unchanged.
+    pub fn start(&mut self, request: StudyRequest) {
+        let shown = self.shown.as_ref().map(|shown| &shown.request);
+        let before = self.request.as_ref().or(shown);
+        if before.is_none_or(|before| before.question.axes() != request.question.axes()) {
+            self.cursor = None;
+        }
+        self.request = Some(request);
+    }
+
     /// Adds results; those of another request are left out.
     pub(crate) fn take(&mut self, part: StudyPart) {
-        let asked = self.asked.as_ref();
-        let Some(request) = asked.filter(|asked| asked.serial == part.serial) else {
+        let Some(request) = self.request.as_ref().filter(|_| self.runs(part.serial)) else {
             return;
         };
-        let is_shown = |shown: &Shown| shown.request.serial == part.serial;
+        let is_shown = |shown: &StudyResults| shown.request.serial == part.serial;
         if !self.shown.as_ref().is_some_and(is_shown) {
-            self.shown = Some(Shown::of(request.clone()));
+            self.shown = Some(StudyResults::of(request.clone()));
         }
         if let Some(shown) = self.shown.as_mut() {
             shown.add(part);
@@ -167,13 +225,22 @@ impl Study {
     }
 }
 
-impl Shown {
-    fn of(request: StudyRequest) -> Shown {
+impl StudyResults {
+    /// The quantity of the study, that of its first curve.
+    #[must_use]
+    pub fn quantity(&self) -> Option<&'static Quantity> {
+        match &self.request.question {
+            Question::Grid(grid) => grid.layers.first()?.quantity(),
+            Question::Tolerance(question) => Quantity::find(question.quantity),
+        }
+    }
+
+    fn of(request: StudyRequest) -> StudyResults {
         let layers = match &request.question {
             Question::Grid(grid) => vec![LayerFound::default(); grid.layers.len()],
             Question::Tolerance(_) => Vec::new(),
         };
-        Shown {
+        StudyResults {
             request,
             layers,
             page: Vec::new(),

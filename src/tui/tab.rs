@@ -75,8 +75,6 @@ pub struct Tab {
     pub traded: Option<Traded>,
     /// The solved variants.
     pub(crate) variants: Option<Variants>,
-    /// The request beside which they were asked for.
-    pub(crate) variants_asked: u64,
     /// The study of the case.
     pub study: Study,
     /// The chart of whine of the case.
@@ -132,7 +130,6 @@ impl Tab {
             fitted: Occasion::default(),
             traded: None,
             variants: None,
-            variants_asked: 0,
             study: Study::default(),
             whine: Whine::default(),
             results: ResultsState::default(),
@@ -255,12 +252,16 @@ impl Tab {
     }
 
     /// Show an answer to the present request.
-    pub(super) fn take(&mut self, answer: Answer) {
+    pub(super) fn take(&mut self, mut answer: Answer) {
         self.has_failed = false;
         self.is_settled = answer.pending.is_none();
         self.solving = self.solving.filter(|_| !self.is_settled);
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
+            if answer.stiffness.is_none() && self.asked_stiffness {
+                // The chart keeps its curves until the new ones are computed.
+                answer.stiffness = self.answer.take().and_then(|earlier| earlier.stiffness);
+            }
             self.answer = Some(answer);
         }
     }

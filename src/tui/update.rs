@@ -78,7 +78,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     settle(app);
     chart::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
-    effects.extend(study::ask(app));
+    effects.extend(study::request(app));
     effects.extend(whine::ask(app));
     effects.extend(variants::request(app));
     effects.extend(trade::stop_unseen(app));
@@ -140,6 +140,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::FileChanged(path, result) => return reload::changed(app, &path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
         Action::Exported(path, result) => export::done(app, &path, result),
+        Action::Reported(text) => return copy::report(app, text),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
         Action::Failed(reason) => app.complain(reason),
         result @ (Action::Listed(_)
@@ -186,7 +187,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Measure => trade::measure(app),
         Command::TakeSetting => trade::take(app),
         Command::SwitchTradeView => {
-            app.trade_view = app.trade_view.other();
+            trade::switch_view(app);
             Vec::new()
         }
         Command::CursorBy(columns) => cursor::step(app, columns),

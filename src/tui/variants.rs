@@ -5,7 +5,7 @@ use crate::model::{Inputs, Solution, Stages};
 /// Variants for the worker.
 #[derive(Debug, Clone)]
 pub struct VariantsRequest {
-    /// The request of the case beside which they stand.
+    /// The serial of the request with the case itself.
     pub(crate) serial: u64,
     /// The name of each variant, and its pair or the error in it.
     pub(crate) columns: Vec<(String, Result<Inputs, String>)>,

@@ -21,7 +21,7 @@ use super::solver::Request;
 use super::study::StudyRequest;
 use super::whine::WhineRequest;
 
-/// The threads. Those of the benchmark and the jobs start with their first request.
+/// The threads. Those of benchmark, study and jobs start with their first request.
 pub struct Workers {
     send: Send,
     solver: Worker<Request>,

@@ -57,8 +57,8 @@ fn echo_of(tty: &mut Tty, key: &str) -> Duration {
     start.elapsed()
 }
 
-/// In the title, on which nothing depends; the cursor moves with each key until the line is full.
-/// In the first field, which is emptied.
+/// The workbench in the title, which is emptied. No result depends on it, and the cursor moves with
+/// each key until the line is full.
 fn begin(text: &str) -> Tty {
     let launch = Launch::on_table_1().size(40, 240);
     fs::write(launch.case(), text).expect("room on the disk");

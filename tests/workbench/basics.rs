@@ -974,7 +974,7 @@ fn the_screens() {
 }
 
 #[test]
-fn no_range_is_notice_of_a_strike_that_is_denied() {
+fn no_stiffness_spread_without_corner_contact() {
     let mut desk = Desk::on(
         SMALL,
         "case.toml",
@@ -983,7 +983,7 @@ fn no_range_is_notice_of_a_strike_that_is_denied() {
     for method in ["static", "dynamic"] {
         desk.keys(&["Ctrl-T"]);
         assert!(
-            desk.shows(method) && desk.shows("No corner contact") && !desk.shows("stiffness"),
+            desk.shows(method) && desk.shows("No corner contact") && !desk.shows(" to +"),
             "{method}: {}",
             desk.screen()
         );

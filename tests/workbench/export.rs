@@ -5,6 +5,9 @@ use crate::harness;
 use std::fs;
 
 use harness::{Desk, LARGE, TABLE_1};
+use tipstrike::tui::testing::actions::{Effect, of_key};
+use tipstrike::tui::testing::jobs::Job;
+use tipstrike::tui::testing::update::update;
 
 /// A workbench on `pair.toml` with an edit that is not saved.
 fn edited() -> Desk {
@@ -52,7 +55,7 @@ fn the_ending_and_the_focused_pane_choose_what_is_written() {
         ("1", "a.csv", "case,"),
         ("1", "a.json", "{\"case\":"),
         ("3", "a.svg", "Force"),
-        ("4", "b.svg", "<path"),
+        ("4", "b.svg", "Teeth at the first contact D"),
     ];
     for (pane, name, part) in cases {
         let mut desk = edited();
@@ -87,7 +90,7 @@ fn a_file_that_exists_is_replaced_on_demand_alone() {
     desk.keys(&["Enter"]);
     assert_eq!(desk.read("pair.html"), "mine");
     assert!(desk.shows("Export"), "another name may be typed");
-    desk.keys(&["Enter", "r"]);
+    desk.keys(&["Enter", "o"]);
     assert!(desk.read("pair.html").contains("24 um") && desk.app.prompts.is_empty());
 }
 
@@ -103,4 +106,28 @@ fn what_cannot_be_exported_is_refused_in_words_and_writes_nothing() {
     desk.keys(&["Alt-X"]);
     assert!(desk.shows("not exported: complete the fields marked with !"));
     assert_eq!(names(&desk), ["pair.toml"]);
+}
+
+#[test]
+fn one_export_runs_at_a_time_and_quitting_asks_for_it() {
+    let mut desk = edited();
+    desk.keys(&["Alt-X"]);
+    // The export is requested and not performed.
+    let accept = of_key(harness::event("Enter"), desk.app.place()).expect("an action");
+    let effects = update(&mut desk.app, accept);
+    assert!(matches!(effects.first(), Some(Effect::Job(Job::Export(_)))));
+    desk.keys(&["Enter"]);
+    assert!(
+        desk.shows("still runs: wait for its end"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Esc", "Esc", "Ctrl-S", "Ctrl-Q"]);
+    assert!(
+        desk.shows("An export runs") && !desk.has_quit,
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["w", "Ctrl-Q", "q"]);
+    assert!(desk.has_quit);
 }

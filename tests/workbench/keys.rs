@@ -630,7 +630,7 @@ fn undo_tells_what_it_took_back() {
         desk.screen()
     );
     desk.keys(&["Esc", "2", "Alt-L", "Esc", "u"]);
-    assert!(desk.shows("undo: limits."), "{}", desk.screen());
+    assert!(desk.shows("undo: limit of "), "{}", desk.screen());
 }
 
 #[test]

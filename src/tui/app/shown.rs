@@ -8,11 +8,12 @@ use crate::tui::dialogs::Surroundings;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart::Charts;
 use crate::tui::panes::form::Form;
-use crate::tui::panes::results::{self, Results};
+use crate::tui::panes::results::Results;
 use crate::tui::panes::study::StudyPane;
 use crate::tui::panes::teeth::Picture;
 use crate::tui::panes::title::Title;
 use crate::tui::panes::trade::TradePane;
+use crate::tui::study::StudyResults;
 
 impl App {
     /// The title line of a pane.
@@ -121,7 +122,9 @@ impl App {
     pub(crate) fn study(&self) -> StudyPane<'_> {
         let tab = &self.tab;
         let answer = tab.answer.as_ref().filter(|_| !tab.is_stale());
-        let present = results::marked(&self.results())
+        let shown = tab.study.shown.as_ref();
+        let present = shown
+            .and_then(StudyResults::quantity)
             .zip(answer)
             .and_then(|(quantity, answer)| report::value(quantity, answer.of(answer.active)?));
         StudyPane {

@@ -69,7 +69,7 @@ pub static BINDINGS: &[Binding] = &[
     // Outside a field, where letters are commands.
     shown(Place::FIELD, &[key(KeyCode::Enter), letter('i')], Do::StartEdit, "edit", "Type into the focused field; Esc leaves it."),
     shown(Place::RESULTS, &[key(KeyCode::Enter)], Do::Explain, "explain", "Explain the selected result."),
-    shown(Place::RESULTS, &[letter('v')], Do::NextVariants, "variants", "Show the variants of the case beside it with their differences, the next ones, or the methods again."),
+    shown(Place::RESULTS, &[letter('v')], Do::NextVariants, "variants", "Show the variants of the case with their differences; again: the next variants, then the methods."),
     shown(Place::TRADE, &[key(KeyCode::Enter)], Do::TakeSetting, "apply setting", "Use the selected setting in the case."),
     shown(Place::TRADE, &[letter('m')], Do::Measure, "measure", "Benchmark every method and setting with this case on this machine."),
     shown(Place::TRADE, &[letter('v')], Do::SwitchTradeView, "chart/table", "Switch between the chart of all settings and the table of methods and compliances."),
@@ -172,7 +172,7 @@ pub static BINDINGS: &[Binding] = &[
     helped(Place::WORK, &[alt('7')], Do::Tab(6), ""),
     helped(Place::WORK, &[alt('8')], Do::Tab(7), ""),
     helped(Place::WORK, &[alt('9')], Do::Tab(8), ""),
-    listed(Place::WORK, &[], Do::Variant, "variant", "Keep the edits since the last save as a variant: variant and its name; without edits, show that variant in the form."),
+    listed(Place::WORK, &[], Do::Variant, "variant", "Save the edits since the last save as a variant: type variant NAME. Without edits, load that variant into the form."),
     listed(Place::WORK, &[alt('e')], Do::NextFault, "next error", "Go to the next field with an error or a missing required value."),
     listed(Place::WORK, &[ctrl('y'), ctrl('r')], Do::Redo, "redo", "Redo the last undone edit."),
     listed(Place::WORK, &[alt('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to compare with, or unpin them."),

@@ -20,6 +20,8 @@ use crate::tui::theme::Theme;
 /// Brackets, marks and the gap beside the name of a button.
 const BESIDE_NAME: u16 = 7;
 
+const EXPORT_RUNS: &str = "An export runs";
+
 /// A question with buttons.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Question {
@@ -45,6 +47,8 @@ pub(crate) enum Choice {
     Overwrite(PathBuf, Next),
     /// Export over what is in the file.
     ExportOver(PathBuf),
+    /// Quit at once.
+    Leave,
     /// Ask for another name.
     SaveAs(Next),
     /// Put kept edits into the form.
@@ -113,17 +117,36 @@ impl Question {
         }
     }
 
+    /// Asks before the workbench ends while an export runs.
+    pub(crate) fn export_runs(path: &Path) -> Question {
+        Question {
+            title: EXPORT_RUNS,
+            text: format!("The export to {} still runs.", path.display()),
+            details: Vec::new(),
+            buttons: vec![
+                ("Wait", Choice::Cancel),
+                ("Quit without the export", Choice::Leave),
+            ],
+            marked: 0,
+        }
+    }
+
+    /// Whether the question is about an export that runs.
+    pub(crate) fn is_about_running_export(&self) -> bool {
+        self.title == EXPORT_RUNS
+    }
+
     /// Asks before an export replaces an existing file.
     pub(crate) fn export_exists(path: &Path) -> Question {
         Question {
             title: "The file exists",
             text: format!(
-                "{} exists. Replace writes the export over it.",
+                "{} exists. Overwrite replaces it with the export.",
                 path.display()
             ),
             details: Vec::new(),
             buttons: vec![
-                ("Replace", Choice::ExportOver(path.to_owned())),
+                ("Overwrite", Choice::ExportOver(path.to_owned())),
                 ("Cancel", Choice::Cancel),
             ],
             marked: 1,

@@ -148,7 +148,7 @@ impl Dialog for ReliefDialog {
             Ok(found) => ReliefReport {
                 name: &self.name,
                 title: &self.title,
-                method: self.inputs.method.name(),
+                method: self.inputs.method,
                 found,
             }
             .lines(),

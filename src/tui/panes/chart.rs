@@ -171,14 +171,14 @@ impl Charts<'_> {
                 } else {
                     "the charts show the whole contact"
                 };
-                (pane.view == self.pane.view).then_some(end)
+                (pane.view == self.view()).then_some(end)
             }
             ChartCommand::Whole => {
                 pane.view = ChartView::whole();
                 Some("the charts show the whole contact")
             }
             ChartCommand::Strike => {
-                pane.view = self.pane.view.strike_or_whole(self.scale);
+                pane.view = self.view().strike_or_whole(self.scale);
                 Some(match pane.view.frame {
                     Frame::Strike if self.scale.strike.is_empty() => {
                         "no corner contact: no strike to show"
@@ -202,7 +202,7 @@ impl Charts<'_> {
     fn zoomed(&self, steps: i32) -> ChartView {
         let start = self.solution().and_then(first_contact);
         let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
-        self.pane.view.zoomed(steps, around, self.scale)
+        self.view().zoomed(steps, around, self.scale)
     }
 
     /// The state that the axes depend on.

@@ -13,9 +13,8 @@ use ratatui::style::Style;
 use super::title::Title;
 use crate::case::Case;
 use crate::case::units::System;
-use crate::model::Quantity;
 use crate::study::axis::Axis;
-use crate::tui::study::{Question, Shown, Study};
+use crate::tui::study::{End, Question, Study, StudyResults};
 use crate::tui::text;
 use crate::tui::theme::Look;
 use ratatui::symbols::Marker;
@@ -28,6 +27,9 @@ const MOST_CELLS: (u16, u16) = (60, 30);
 const MAP_MARGIN: (u16, u16) = (12, 6);
 /// Rows from which on the legend has one of its own.
 const TALL: u16 = 8;
+/// The signs of a point without contact and of a refused point.
+const NO_CONTACT: &str = "_";
+const REFUSED: &str = "!";
 
 /// The state of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,8 +40,6 @@ pub struct StudyState {
     pub(crate) second: Option<usize>,
     /// How often the ranges are halved; negative where they are doubled.
     pub(crate) zoom: i32,
-    /// The point of the cursor on the first and on the second axis.
-    pub cursor: Option<(usize, usize)>,
     /// The first visible line of the tolerance.
     pub(crate) top: usize,
 }
@@ -128,7 +128,7 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
         [up, across] => map::draw(pane, shown, (across, up), &rooms, buffer),
         _ => {}
     }
-    let lines = words::below(pane, shown, usize::from(inner.width).saturating_sub(2));
+    let lines = words::below(pane, shown, words::room(inner.width));
     for (line, y) in lines.iter().zip(rooms.words.top()..rooms.words.bottom()) {
         buffer.set_stringn(
             inner.x + 1,
@@ -174,7 +174,7 @@ pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(u
 }
 
 /// The first and the second axis.
-fn axes(shown: &Shown) -> (Option<&Axis>, Option<&Axis>) {
+fn axes(shown: &StudyResults) -> (Option<&Axis>, Option<&Axis>) {
     match &shown.request.question {
         Question::Grid(grid) => {
             let second = grid.axes.first().filter(|_| grid.axes.len() == 2);
@@ -185,26 +185,18 @@ fn axes(shown: &Shown) -> (Option<&Axis>, Option<&Axis>) {
 }
 
 /// The point of the cursor; without one that of the present case.
-fn cursor(pane: &StudyPane<'_>, shown: &Shown) -> (usize, usize) {
+fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
     let (across, up) = axes(shown);
     let at = |axis: Option<&Axis>, chosen: Option<usize>| {
         let own = || axis.and_then(|axis| range::nearest(axis, pane.case));
         let last = axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
         chosen.or_else(own).unwrap_or(0).min(last)
     };
-    let chosen = pane.state.cursor;
+    let chosen = pane.study.cursor;
     (
         at(across, chosen.map(|chosen| chosen.0)),
         at(up, chosen.map(|chosen| chosen.1)),
     )
-}
-
-/// The quantity of the first layer.
-fn quantity(shown: &Shown) -> Option<&'static Quantity> {
-    match &shown.request.question {
-        Question::Grid(grid) => grid.layers.first()?.quantity(),
-        Question::Tolerance(question) => Quantity::find(question.quantity),
-    }
 }
 
 fn rooms(inner: Rect) -> Rooms {
@@ -230,9 +222,14 @@ fn rooms(inner: Rect) -> Rooms {
 }
 
 /// The page of a tolerance study from its first visible line on.
-fn draw_page(pane: &StudyPane<'_>, shown: &Shown, inner: Rect, buffer: &mut Buffer) {
+fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) {
     if shown.page.is_empty() {
-        return text::draw_words("Sampling.", inner, buffer);
+        let words = match &shown.end {
+            Some(End::Failed(reason)) => reason.as_str(),
+            Some(End::Stopped) => "Stopped before the first samples.",
+            Some(End::Whole) | None => "Sampling.",
+        };
+        return text::draw_words(words, inner, buffer);
     }
     let last = shown.page.len().saturating_sub(usize::from(inner.height));
     let lines = shown.page.iter().skip(pane.state.top.min(last));

@@ -12,7 +12,7 @@ use crate::study::trade::Trade;
 use crate::tui::benchmark::{TradeView, Traded};
 use crate::tui::text;
 use pane::own;
-pub(crate) use pane::{TradePane, stepped};
+pub(crate) use pane::{TradePane, nearest, stepped};
 use plot::{LEVEL, draw_legend, draw_plot};
 
 /// Rows from which on the legend has one of its own.
@@ -21,7 +21,8 @@ const INVITATION: &str = "No benchmark yet: m runs every method with its setting
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
 
 pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
-    let inner = pane.title.draw(title(pane), pane.area, buffer);
+    let title = title(pane, pane.title.room(pane.area.width));
+    let inner = pane.title.draw(title, pane.area, buffer);
     if inner.is_empty() {
         return;
     }
@@ -94,16 +95,33 @@ fn draw_table(
     );
 }
 
-fn title(pane: &TradePane<'_>) -> &'static str {
+/// The longest title that fits, else the shortest one.
+fn title(pane: &TradePane<'_>, room: usize) -> &'static str {
     let is_stale = |traded: &Traded| pane.inputs.is_none_or(|inputs| traded.is_stale(inputs));
-    match (pane.traded.is_some_and(is_stale), pane.view) {
-        (true, TradeView::Chart) => {
-            "OUTDATED, m runs it again: Accuracy against run time, both logarithmic"
-        }
-        (false, TradeView::Chart) => "Accuracy against run time, both logarithmic",
-        (true, TradeView::Table) => "OUTDATED, m runs it again: Run time and difference in %",
-        (false, TradeView::Table) => "Run time and difference from the reference in %",
-    }
+    let titles = match (pane.traded.is_some_and(is_stale), pane.view) {
+        (true, TradeView::Chart) => [
+            "OUTDATED, m runs it again: Accuracy against run time, both logarithmic",
+            "OUTDATED (m): Accuracy against run time",
+            "OUTDATED (m): Accuracy",
+        ],
+        (false, TradeView::Chart) => [
+            "Accuracy against run time, both logarithmic",
+            "Accuracy against run time",
+            "Accuracy",
+        ],
+        (true, TradeView::Table) => [
+            "OUTDATED, m runs it again: Run time and difference in %",
+            "OUTDATED (m): Time and difference in %",
+            "OUTDATED (m): Methods",
+        ],
+        (false, TradeView::Table) => [
+            "Run time and difference from the reference in %",
+            "Run time and difference in %",
+            "Methods",
+        ],
+    };
+    let fits = |title: &&str| title.len() <= room;
+    titles.into_iter().find(fits).unwrap_or(titles[2])
 }
 
 /// The rooms of the legend, of the plot with its axes, and of the words below it.

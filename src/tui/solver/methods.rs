@@ -1,7 +1,6 @@
-//! What every method says of a request: the closed forms at once, then the method of the case, then
-//! the least relief.
+//! The answer of every method to a request: first the closed forms, then the method of the case, then
+//! the required relief.
 
-use std::cell::OnceCell;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -11,24 +10,12 @@ use crate::model::compliance::model_of;
 use crate::model::compliance::tooth::Compliance;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Refusal, Solution, Stage, Stages};
-use crate::report::charts::STIFFNESS_POINTS;
-use crate::study::stiffness::compare_path;
+use crate::study::stiffness::{PATH_POINTS, compare_path};
 
-/// Solve with the closed forms, which cost nothing, and the method of the case: their difference is
-/// what the engineer came for.
+/// Solves with the closed forms and with the method of the case, however long that takes.
 #[must_use]
 pub fn answer(request: &Request) -> Answer {
     answer_while(request, &|| true)
-}
-
-/// The same for a first picture: where the method of the case takes long, the closed forms alone,
-/// and where the least relief does, all but that.
-fn first_answer(request: &Request) -> Answer {
-    // The closed forms are done by then, and with them the fields of new gears.
-    let begun = OnceCell::new();
-    answer_while(request, &|| {
-        begun.get_or_init(Instant::now).elapsed() < PATIENCE
-    })
 }
 
 /// The same for the first frame of the program, which waits for no elastic field: without the
@@ -53,7 +40,8 @@ pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
         stiffness: false,
         ..request.clone()
     };
-    let answer = first_answer(&quick);
+    let start = Instant::now();
+    let answer = answer_while(&quick, &|| start.elapsed() < PATIENCE);
     Some(Answer {
         asked: request.stages,
         ..answer
@@ -69,13 +57,14 @@ fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
     with_stiffness(request, found)
 }
 
-/// The answer with the mesh stiffness by every model, if it is asked for.
+/// The answer with the mesh stiffness by every model, if it is requested.
 pub(in crate::tui) fn with_stiffness(request: &Request, answer: Answer) -> Answer {
-    let found = request
-        .stiffness
-        .then(|| compare_path(&request.inputs, STIFFNESS_POINTS).ok());
+    if !request.stiffness {
+        return answer;
+    }
+    let found = compare_path(&request.inputs, PATH_POINTS).map(Arc::new);
     Answer {
-        stiffness: found.flatten().map(Arc::new),
+        stiffness: Some(found),
         ..answer
     }
 }

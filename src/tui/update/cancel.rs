@@ -19,7 +19,8 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     if let Some(case) = app.before_digit.take() {
         return edit::take_back(app, case);
     }
-    let stopped = stop(app);
+    // A study beside the form is started by every edit, and Esc leaves the field.
+    let stopped = stop(app, app.layout.focus() == Pane::Study);
     if !stopped.is_empty() {
         return stopped;
     }
@@ -44,7 +45,7 @@ pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
     if app.prompts.pop().is_some() {
         return Vec::new();
     }
-    let stopped = stop(app);
+    let stopped = stop(app, true);
     if !stopped.is_empty() {
         return stopped;
     }
@@ -58,8 +59,8 @@ pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
     Vec::new()
 }
 
-// What takes its time ends; what is known of it stays.
-fn stop(app: &mut App) -> Vec<Effect> {
+/// Stops long work, with the study on request. Its results so far stay.
+fn stop(app: &mut App, has_study: bool) -> Vec<Effect> {
     let measuring = app.progress.as_ref().map(|_| Effect::CancelWork);
     let solving = app.tab.solving.take().map(|_| {
         app.tab.is_settled = true;
@@ -79,7 +80,7 @@ fn stop(app: &mut App) -> Vec<Effect> {
     });
     measuring
         .into_iter()
-        .chain(study::stop(app))
+        .chain(has_study.then(|| study::stop(app)).flatten())
         .chain(solving.or_else(|| stop_seeking(app)))
         .collect()
 }

@@ -1,10 +1,10 @@
 //! Copying to the clipboard of the user's own terminal.
 
-use crate::report::page::{Page, Subject};
 use crate::report::{self, Report, Selection};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
+use crate::tui::jobs::{Job, Reporting};
 use crate::tui::keys::Place;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart;
@@ -48,7 +48,8 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
     copy(app, text, quantity.label.trim())
 }
 
-/// The report of the active method as Markdown: title, verdict, inputs, results with their units.
+/// Requests the report of the active method as Markdown: title, verdict, inputs, results with their
+/// units.
 pub(super) fn results(app: &mut App) -> Vec<Effect> {
     let answer = app.tab.answer.as_ref().filter(|_| !app.tab.is_stale());
     let solved = answer.and_then(|answer| Some((answer, answer.of(answer.active)?)));
@@ -63,16 +64,17 @@ pub(super) fn results(app: &mut App) -> Vec<Effect> {
         solution.clone(),
         Selection::default(),
     );
-    let subject = Subject {
-        reports: vec![report],
-        speeds: None,
-        file: app.tab.as_edited().render(),
-    };
-    copy(
-        app,
-        Page::of(&[subject]).markdown(),
-        "the report of the results",
-    )
+    let file = app.tab.as_edited().render();
+    app.say("preparing the report of the results");
+    vec![Effect::Job(Job::Markdown(Box::new(Reporting {
+        report,
+        file,
+    })))]
+}
+
+/// Copies the prepared report.
+pub(super) fn report(app: &mut App, text: String) -> Vec<Effect> {
+    copy(app, text, "the report of the results")
 }
 
 fn copy(app: &mut App, text: String, what: &str) -> Vec<Effect> {

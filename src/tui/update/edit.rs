@@ -206,6 +206,15 @@ pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     checked(app)
 }
 
+/// The end of the message about an edit that puts this case into the form.
+pub(super) fn undone_by(app: &App, case: &Case) -> &'static str {
+    if *case == app.tab.case {
+        ", unchanged"
+    } else {
+        "; u undoes"
+    }
+}
+
 /// Put another case into the form as one edit of its own.
 pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
     if case == app.tab.case {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::ascii;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::export::ExportTo;
 use crate::tui::dialogs::question::Question;
@@ -39,6 +40,13 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
             return Vec::new();
         }
     };
+    if let Some(running) = &app.exporting {
+        let running = ascii::printable(&running.display().to_string()).into_owned();
+        app.complain(format!(
+            "the export to {running} still runs: wait for its end"
+        ));
+        return Vec::new();
+    }
     let is_of_teeth = app.layout.focus() == Pane::Teeth;
     let exporting = Exporting {
         path,
@@ -52,12 +60,21 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
             Figure::Chart(app.chart.key())
         },
     };
+    app.exporting = Some(exporting.path.clone());
     app.say("exporting");
     vec![Effect::Job(Job::Export(Box::new(exporting)))]
 }
 
 /// The export was written, or not.
 pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) {
+    app.exporting = None;
+    if app
+        .prompts
+        .last()
+        .is_some_and(Prompt::is_about_running_export)
+    {
+        app.prompts.pop();
+    }
     let is_asking = app.prompts.last().is_some_and(Prompt::is_export);
     match result {
         Ok(()) => {

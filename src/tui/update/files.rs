@@ -28,7 +28,7 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
         .map(|(at, _)| at)
         .collect();
     match unsaved[..] {
-        [] => vec![Effect::Quit],
+        [] => leave(app),
         [only] => {
             tabs::go_to(app, only);
             app.prompts
@@ -45,6 +45,16 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
             Vec::new()
         }
     }
+}
+
+/// Ends the workbench, or asks while an export runs.
+fn leave(app: &mut App) -> Vec<Effect> {
+    let Some(path) = &app.exporting else {
+        return vec![Effect::Quit];
+    };
+    let question = Question::export_runs(path);
+    app.prompts.push(Prompt::Ask(question));
+    Vec::new()
 }
 
 /// Close the current case, or ask when it is unsaved.
@@ -93,6 +103,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Save(next) => save(app, next),
         Choice::Proceed(next) => go(app, next),
         Choice::Overwrite(path, next) => vec![saving(app, path, Over::Anything, next)],
+        Choice::Leave => vec![Effect::Quit],
         Choice::ExportOver(path) => export::begin(app, path, true),
         Choice::Recover(offer) => recovery::recover(app, &offer),
         Choice::Forget(journal) => vec![Effect::Forget(journal)],
@@ -191,7 +202,7 @@ pub(super) fn saved(
 fn go(app: &mut App, next: Next) -> Vec<Effect> {
     match next {
         Next::Stay => Vec::new(),
-        Next::Quit => vec![Effect::Quit],
+        Next::Quit => leave(app),
         Next::Load(path) => vec![Effect::Load(path)],
         Next::Close => solve(tabs::close(app)),
         Next::SaveRest => save_rest(app),
@@ -201,7 +212,7 @@ fn go(app: &mut App, next: Next) -> Vec<Effect> {
 fn save_rest(app: &mut App) -> Vec<Effect> {
     let unsaved = app.tabs().position(Tab::is_unsaved);
     let Some(unsaved) = unsaved else {
-        return vec![Effect::Quit];
+        return leave(app);
     };
     tabs::go_to(app, unsaved);
     save(app, Next::SaveRest)

@@ -8,7 +8,7 @@ use crate::tui::app::App;
 use crate::tui::header;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart::{ChartCommand, panels};
-use crate::tui::panes::study::StudyCommand;
+use crate::tui::panes::study::{self as study_pane, StudyCommand};
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::panes::{form, results};
 
@@ -87,6 +87,9 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
         Some(Pane::Chart) => chart::run(app, ChartCommand::Zoom(nearer)),
         Some(Pane::Teeth) => teeth::run(app, TeethCommand::Zoom(nearer)),
+        Some(Pane::Study) if app.study.is_tolerance => {
+            app.study.top = study_pane::scrolled(&app.study(), by);
+        }
         Some(Pane::Study) => drop(study::run(app, StudyCommand::Zoom(nearer))),
         Some(Pane::Trade) | None => (),
     }

@@ -1,21 +1,24 @@
-//! The study pane: what it asks of the worker, its cursor, range and second field.
+//! The study pane: its requests to the worker, its cursor, range and second field.
 
-use super::{edit, solve};
+use super::edit;
 use crate::case::fields::FIELDS;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
+use crate::study::sweep::Grid;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::commands::{Command, key_of};
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::pane::Pane;
 use crate::tui::panes::results;
-use crate::tui::panes::study::range::{MOST_ZOOM, axis};
+use crate::tui::panes::study::range::{MOST_ZOOM, Steps, axis};
 use crate::tui::panes::study::{self, CURVE_POINTS, StudyCommand, map_points};
 use crate::tui::rows::{self, Row};
 use crate::tui::study::{
-    End, GridQuestion, Layer, Question, StudyPart, StudyRequest, ToleranceQuestion, Whose,
+    End, GridQuestion, Layer, Question, StudyKey, StudyPart, StudyRequest, ToleranceQuestion, Whose,
 };
+use crate::tui::tab::Tab;
 
 /// The methods of the overlaid curves.
 const METHODS: [Method; 4] = [
@@ -25,72 +28,116 @@ const METHODS: [Method; 4] = [
     Method::Dynamic,
 ];
 
-/// Asks for the study in sight, if it is another one than the last; stops the one out of sight.
-pub(super) fn ask(app: &mut App) -> Vec<Effect> {
+/// Requests the visible study where it differs from the last one; stops a hidden one.
+pub(super) fn request(app: &mut App) -> Vec<Effect> {
     if app.layout.plan().area(Pane::Study).is_empty() {
-        return stop_unseen(app);
+        return stop_running(app);
     }
-    let question = match question(app) {
-        Ok(question) => Some(question),
+    let quantity = quantity(app);
+    let key = key(app, quantity);
+    if app.tab.study.key.as_ref() == Some(&key) {
+        return Vec::new();
+    }
+    let question = match question(app, quantity) {
+        Ok(question) => question,
         Err(obstacle) => {
-            app.tab.study.obstacle = Some(obstacle);
-            None
+            let effects = stop_running(app);
+            (app.tab.study.obstacle, app.tab.study.key) = (Some(obstacle), Some(key));
+            return effects;
         }
     };
-    if question.is_some() {
-        app.tab.study.obstacle = None;
+    (app.tab.study.obstacle, app.tab.study.key) = (None, Some(key));
+    let request = app.tab.study.request.as_ref();
+    if request.is_some_and(|request| request.question == question) {
+        return Vec::new();
     }
-    let asked = app.tab.study.asked.as_ref();
-    match question {
-        Some(question) if asked.is_some_and(|asked| asked.question == question) => Vec::new(),
-        Some(question) => {
-            app.last_serial += 1;
-            let serial = app.last_serial;
-            let request = StudyRequest { serial, question };
-            app.tab.study.asked = Some(request.clone());
-            app.studying = Some(serial);
-            vec![Effect::Study(Box::new(request))]
-        }
-        None => stop_unseen(app),
+    forget_running(app);
+    app.last_serial += 1;
+    let serial = app.last_serial;
+    let request = StudyRequest { serial, question };
+    app.tab.study.start(request.clone());
+    app.studying = Some(serial);
+    vec![Effect::Study(Box::new(request))]
+}
+
+/// The state that the question is made of.
+fn key(app: &App, quantity: Option<&Quantity>) -> StudyKey {
+    let tab = &app.tab;
+    StudyKey {
+        serial: tab.serial,
+        is_valid: tab.problems.is_empty(),
+        row: tab.form.focus,
+        quantity: quantity.map(|quantity| quantity.key),
+        solved_by: tab.answer.as_ref().map(|answer| answer.active),
+        baseline: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
+        second: app.study.second,
+        zoom: app.study.zoom,
+        is_tolerance: app.study.is_tolerance,
+        area: app.layout.plan().area(Pane::Study),
     }
 }
 
-fn stop_unseen(app: &mut App) -> Vec<Effect> {
-    if app.studying.take().is_none() {
-        return Vec::new();
+fn stop_running(app: &mut App) -> Vec<Effect> {
+    if forget_running(app) {
+        vec![Effect::CancelStudy]
+    } else {
+        Vec::new()
     }
-    app.tab.study.asked = None;
-    vec![Effect::CancelStudy]
+}
+
+/// Forgets the study that runs, so that its tab requests it again once it is visible. Returns
+/// whether one runs.
+fn forget_running(app: &mut App) -> bool {
+    let Some(serial) = app.studying.take() else {
+        return false;
+    };
+    if let Some(tab) = tab_of(app, serial) {
+        (tab.study.request, tab.study.key) = (None, None);
+    }
+    true
+}
+
+/// The tab of a study.
+fn tab_of(app: &mut App, serial: u64) -> Option<&mut Tab> {
+    let mut tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
+    tabs.find(|tab| tab.study.runs(serial))
+}
+
+fn quantity(app: &App) -> Option<&'static Quantity> {
+    results::marked(&app.results()).or_else(|| Quantity::find("impact_force"))
 }
 
 /// The study of the focused field and the selected result.
 ///
 /// # Errors
 /// Why there is none.
-fn question(app: &App) -> Result<Question, String> {
+fn question(app: &App, quantity: Option<&'static Quantity>) -> Result<Question, String> {
     let tab = &app.tab;
     let inputs = tab
         .inputs()
         .ok_or("No study: a field has an error. Alt-E goes to that field.")?;
-    let quantity = results::marked(&app.results())
-        .or_else(|| Quantity::find("impact_force"))
-        .ok_or("No result is selected.")?;
+    let quantity = quantity.ok_or("No result is selected.")?;
     if app.study.is_tolerance {
         return tolerance(app, inputs, quantity);
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.layout.plan().area(Pane::Study));
     let second = app.study.second.filter(|second| *second != field);
-    let points = if second.is_some() {
-        across
-    } else {
-        CURVE_POINTS
-    };
-    let first = axis(&tab.case, field, app.study.zoom, points)?;
+    let axis_of = |field, steps| axis(&tab.case, field, app.study.zoom, steps);
     let axes = match second {
-        Some(second) => vec![axis(&tab.case, second, app.study.zoom, up)?, first],
-        None => vec![first],
+        Some(second) => vec![
+            axis_of(second, Steps::Round(up))?,
+            axis_of(field, Steps::Round(across))?,
+        ],
+        None => vec![axis_of(field, Steps::Equal(CURVE_POINTS))?],
     };
+    let axes = Grid::of(axes)
+        .map_err(|problem| {
+            let problem = problem.for_form();
+            let key = key_of(Command::Study(StudyCommand::Second));
+            format!("{}: {key} leaves the map.", problem.cause)
+        })?
+        .axes;
     let mut layers = layers(app, inputs, quantity);
     if axes.len() > 1 {
         layers.truncate(1);
@@ -123,18 +170,15 @@ fn field(app: &App) -> Option<usize> {
 /// The active method, the others, the baseline.
 fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer> {
     let active = inputs.method;
-    let found = app
-        .tab
-        .answer
-        .as_ref()
-        .map_or(active, |answer| answer.active);
+    let answer = app.tab.answer.as_ref();
+    let solved_by = answer.map_or(active, |answer| answer.active);
     let first = Layer {
         whose: Whose::Active(active),
         inputs: inputs.clone(),
         quantity: quantity.key,
     };
     let other = |method: Method| {
-        let own = counterpart(quantity, found, method)?;
+        let own = counterpart(quantity, solved_by, method)?;
         let inputs = Inputs {
             method,
             ..inputs.clone()
@@ -147,11 +191,14 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     };
     let others = METHODS
         .into_iter()
-        .filter(|method| *method != active && *method != found);
-    let pinned = app.baseline.as_ref().map(|baseline| Layer {
-        whose: Whose::Baseline,
-        inputs: baseline.answer.inputs.clone(),
-        quantity: quantity.key,
+        .filter(|method| *method != active && *method != solved_by);
+    let pinned = app.baseline.as_ref().and_then(|baseline| {
+        let answer = &baseline.answer;
+        Some(Layer {
+            whose: Whose::Baseline,
+            inputs: answer.inputs.clone(),
+            quantity: counterpart(quantity, solved_by, answer.active)?.key,
+        })
     });
     let others = others.filter_map(other);
     std::iter::once(first).chain(others).chain(pinned).collect()
@@ -185,7 +232,9 @@ pub(super) fn take(app: &mut App, part: StudyPart) {
             app.complain(reason);
         }
     }
-    app.tab.study.take(part);
+    if let Some(tab) = tab_of(app, part.serial) {
+        tab.study.take(part);
+    }
 }
 
 /// Esc: stops the study that runs.
@@ -202,14 +251,17 @@ pub(super) fn run(app: &mut App, command: StudyCommand) -> Vec<Effect> {
             app.study.top = study::scrolled(&app.study(), by);
         }
         StudyCommand::Move(across, up) => {
-            app.study.cursor = study::moved(&app.study(), across, up).or(app.study.cursor);
+            let cursor = study::moved(&app.study(), across, up);
+            app.tab.study.cursor = cursor.or(app.tab.study.cursor);
+        }
+        StudyCommand::Zoom(_) | StudyCommand::Reset if app.study.is_tolerance => {
+            app.say("the tolerance has no range to zoom");
         }
         StudyCommand::Zoom(by) => {
             app.study.zoom = (app.study.zoom + by).clamp(-MOST_ZOOM, MOST_ZOOM);
-            app.study.cursor = None;
         }
-        StudyCommand::Reset => (app.study.zoom, app.study.cursor) = (0, None),
-        StudyCommand::Second if app.study.second.take().is_some() => app.study.cursor = None,
+        StudyCommand::Reset => app.study.zoom = 0,
+        StudyCommand::Second if app.study.second.take().is_some() => (),
         StudyCommand::Second => app
             .prompts
             .push(Prompt::Pick(Picker::new(List::SecondField))),
@@ -228,7 +280,7 @@ pub(super) fn choose(app: &mut App, field: usize) {
         app.complain("the second field is the focused one: choose another");
         return;
     }
-    (app.study.second, app.study.cursor, app.study.is_tolerance) = (Some(field), None, false);
+    (app.study.second, app.study.is_tolerance) = (Some(field), false);
 }
 
 /// Takes the values under the cursor into the form, as one edit.
@@ -238,10 +290,14 @@ fn accept(app: &mut App) -> Vec<Effect> {
         app.say("no value under the cursor");
         return Vec::new();
     }
+    if app.tab.study.cursor.is_none() {
+        app.say("the cursor is at the present value: move it to another one");
+        return Vec::new();
+    }
     let mut case = app.tab.case.clone();
     for (field, text) in &values {
         if let Err(problem) = case.set(FIELDS[*field].key, text) {
-            app.complain(problem.to_string());
+            app.complain(problem.for_form().to_string());
             return Vec::new();
         }
     }
@@ -249,12 +305,9 @@ fn accept(app: &mut App) -> Vec<Effect> {
         .iter()
         .map(|(field, text)| format!("{} = {text}", FIELDS[*field].full_label()))
         .collect();
-    app.study.cursor = None;
+    app.tab.study.cursor = None;
+    let outcome = edit::undone_by(app, &case);
     let effects = edit::replace(app, case);
-    app.say(format!("{}; u undoes", worded.join(", ")));
-    if effects.is_empty() {
-        solve(None)
-    } else {
-        effects
-    }
+    app.say(format!("{}{outcome}", worded.join(", ")));
+    effects
 }

@@ -8,7 +8,7 @@ use crate::tui::actions::Progress;
 use crate::tui::app::App;
 use crate::tui::benchmark::{End, Measured, Measuring, Traded};
 use crate::tui::pane::Pane;
-use crate::tui::panes::trade::stepped;
+use crate::tui::panes::trade::{nearest, stepped};
 
 /// The work that the progress tells of.
 const MEASURING: &str = "measuring";
@@ -95,10 +95,19 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
     }
 }
 
-/// So many settings further, in the order of their times.
-pub(super) fn step(app: &mut App, by: isize) {
+/// Switches between chart and table. The selection moves to a setting that the view shows.
+pub(super) fn switch_view(app: &mut App) {
+    app.trade_view = app.trade_view.other();
     if let Some(traded) = app.tab.traded.as_mut() {
-        traded.marked = stepped(traded, by).or(traded.marked);
+        traded.marked = nearest(traded, app.trade_view).or(traded.marked);
+    }
+}
+
+/// So many settings further, in the order of the view.
+pub(super) fn step(app: &mut App, by: isize) {
+    let view = app.trade_view;
+    if let Some(traded) = app.tab.traded.as_mut() {
+        traded.marked = stepped(traded, view, by).or(traded.marked);
     }
 }
 
@@ -114,15 +123,8 @@ pub(super) fn take(app: &mut App) -> Vec<Effect> {
     };
     let mut case = app.tab.case.clone();
     setting.apply(&mut case);
-    let is_other = case != app.tab.case;
+    let outcome = edit::undone_by(app, &case);
     let effects = edit::replace(app, case);
-    app.say(format!(
-        "method {setting}{}",
-        if is_other {
-            "; u undoes"
-        } else {
-            ", unchanged"
-        }
-    ));
+    app.say(format!("method {setting}{outcome}"));
     effects
 }

@@ -38,26 +38,25 @@ pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
     }
     let count = variant.overrides.len();
     let edits = if count == 1 { "edit" } else { "edits" };
-    let is_known = app.tab.case.variant(name).is_ok();
     let mut case = app.tab.saved.clone();
     case.variants.clone_from(&app.tab.case.variants);
     case.keep_variant(variant);
     let effects = edit::replace(app, case);
-    let verb = if is_known { "replaced by" } else { "has" };
     app.say(format!(
-        "variant {name} {verb} {count} {edits}; the form shows the case without them; u undoes"
+        "variant {name} now has {count} {edits}; the form shows the case without them; u undoes"
     ));
     effects
 }
 
 fn recall(app: &mut App, name: &str) -> Vec<Effect> {
     let Ok(variant) = app.tab.case.variant(name).cloned() else {
-        app.say("no edit since the last save: change a field, then keep the edits as a variant");
+        app.say("no edits since the last save: change a field, then type :variant NAME");
         return Vec::new();
     };
     let case = app.tab.case.with(&variant);
+    let outcome = edit::undone_by(app, &case);
     let effects = edit::replace(app, case);
-    app.say(format!("the form shows variant {name}; u undoes"));
+    app.say(format!("the form shows variant {name}{outcome}"));
     effects
 }
 
@@ -65,7 +64,7 @@ fn recall(app: &mut App, name: &str) -> Vec<Effect> {
 pub(super) fn next(app: &mut App) {
     let count = app.tab.case.variants.len();
     if count == 0 {
-        app.say("the case has no variants: :variant and a name keep the edits as one");
+        app.say("the case has no variants: :variant NAME saves the edits as one");
         return;
     }
     let page = results::variants_page(&app.results());
@@ -76,7 +75,7 @@ pub(super) fn next(app: &mut App) {
     };
 }
 
-/// The variants to solve beside the present case, if they are in sight and not asked for yet.
+/// A request for the visible variants, unless they are solved or requested already.
 pub(super) fn request(app: &mut App) -> Option<Effect> {
     let is_shown = !app.layout.plan().area(Pane::Results).is_empty();
     app.first_variant = app
@@ -84,10 +83,15 @@ pub(super) fn request(app: &mut App) -> Option<Effect> {
         .filter(|first| *first < app.tab.case.variants.len());
     app.first_variant.filter(|_| is_shown)?;
     let tab = &mut app.tab;
-    if tab.variants_asked == tab.serial || !tab.problems.is_empty() {
+    let is_known = tab
+        .variants
+        .as_ref()
+        .is_some_and(|found| found.serial == tab.serial);
+    // A request of another tab replaces this one.
+    if is_known || app.comparing == Some(tab.serial) || !tab.problems.is_empty() {
         return None;
     }
-    tab.variants_asked = tab.serial;
+    app.comparing = Some(tab.serial);
     let column = |variant: &Variant| (variant.name.clone(), inputs(&tab.case, variant));
     let request = VariantsRequest {
         serial: tab.serial,
@@ -106,6 +110,7 @@ fn inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
 
 /// The solved variants.
 pub(super) fn take(app: &mut App, found: Variants) {
+    app.comparing = app.comparing.filter(|serial| *serial != found.serial);
     if let Some(tab) = app.tab_of(found.serial) {
         tab.variants = Some(found);
     }

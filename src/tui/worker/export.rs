@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::case::file::{self, SaveError};
-use crate::report::charts::{Drawn, find, picture, with_other_method};
+use crate::model::Refusal;
+use crate::report::charts::{Drawn, find, no_curve, picture, with_other_method};
 use crate::report::export::Format;
 use crate::report::page::Subject;
 use crate::report::svg::teeth::teeth;
@@ -20,6 +21,9 @@ pub(super) fn write(
 ) -> (PathBuf, Result<(), ExportFault>) {
     let path = at_home(&exporting.path);
     let path = std::path::absolute(&path).unwrap_or(path);
+    if !exporting.replaces && path.symlink_metadata().is_ok() {
+        return (path, Err(ExportFault::Exists));
+    }
     let written = text(exporting, &path, go_on).map_err(ExportFault::Failed);
     let written = written.and_then(|text| {
         file::write(&path, text.as_bytes(), exporting.replaces).map_err(|error| match error {
@@ -62,9 +66,11 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
         vec![report]
     };
     let file = exporting.document.render();
-    let speeds = (format == Format::Html)
-        .then(|| speeds(&exporting.inputs, &mut |_| go_on(0.0)))
-        .and_then(Result::ok);
+    let speeds = (format == Format::Html).then(|| speeds(&exporting.inputs, &mut |_| go_on(0.0)));
+    let speeds = match speeds {
+        Some(Err(Refusal::Stopped)) => return Err("the export is stopped".to_owned()),
+        found => found.and_then(Result::ok),
+    };
     let subject = Subject {
         reports,
         speeds,
@@ -94,7 +100,5 @@ fn drawn(report: Report, figure: Figure, go_on: &dyn Fn(f64) -> bool) -> Result<
     } else {
         find(key).and_then(|graph| picture(graph, &[drawn]))
     };
-    found.ok_or_else(|| {
-        format!("the chart {key} has no curve: no corner contact is found: show another chart")
-    })
+    found.ok_or_else(|| no_curve(key, &reports))
 }

@@ -9,9 +9,12 @@ use crate::case::{Case, EXAMPLES, Evaluator};
 use crate::model::{self, Inputs, Refusal, Stages};
 use crate::report::digest::Digest;
 use crate::report::explain;
+use crate::report::page::{Page, Subject};
 use crate::study::relief::{NoRelief, specify};
 use crate::tui::actions::Action;
-use crate::tui::jobs::{Asked, Explained, Job, ReliefAnswer, ReliefRequest};
+use crate::tui::jobs::{
+    Asked, Explained, ExportFault, Job, ReliefAnswer, ReliefRequest, Reporting,
+};
 use crate::tui::store::{case_search, folder, preview, recents};
 use crate::tui::variants::{Variants, VariantsRequest};
 
@@ -28,11 +31,18 @@ pub(crate) fn start(name: &'static str, send: Send) -> io::Result<Worker<Job>> {
                 (running.send)(action);
             }
         },
-        |job| {
-            let (_, name) = job.kind();
-            Action::Failed(format!("internal error: {name} cannot be shown"))
-        },
+        failed,
     )
+}
+
+fn failed(job: &Job) -> Action {
+    const FAULT: &str = "internal error";
+    if let Job::Export(exporting) = job {
+        let fault = ExportFault::Failed(FAULT.to_owned());
+        return Action::Exported(exporting.path.clone(), Err(fault));
+    }
+    let (_, name) = job.kind();
+    Action::Failed(format!("{FAULT}: {name} cannot be shown"))
 }
 
 /// Does a job. Returns `None` if `go_on` says that it is not wanted any more.
@@ -53,8 +63,18 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
         }
         Job::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
         Job::Relief(request) => Action::Relieved(Box::new(relieved(*request, go_on)?)),
+        Job::Markdown(reporting) => Action::Reported(markdown(*reporting)),
         Job::Variants(request) => Action::Compared(Box::new(compared(*request, go_on)?)),
     })
+}
+
+fn markdown(reporting: Reporting) -> String {
+    let subject = Subject {
+        reports: vec![reporting.report],
+        speeds: None,
+        file: reporting.file,
+    };
+    Page::of(&[subject]).markdown()
 }
 
 fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> {

@@ -49,6 +49,13 @@ fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> 
         (running.is_wanted)()
     };
     let answer = solved(evaluator, request, begun, &go_on)?;
+    if request.stiffness {
+        // The elastic fields of new gears take long, and results must not wait for them.
+        (running.send)(Action::Solved(Box::new(answer.clone())));
+        if !(running.is_wanted)() {
+            return None;
+        }
+    }
     let answer = with_stiffness(request, answer);
     if !answer.is_whole() && answer.refusal().is_none() {
         (running.send)(Action::Solved(Box::new(answer.clone())));

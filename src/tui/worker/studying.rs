@@ -90,9 +90,7 @@ fn solve_grid(
     question: &GridQuestion,
     running: Running<'_>,
 ) -> Result<(), Unfinished> {
-    let grid = Grid {
-        axes: question.axes.clone(),
-    };
+    let grid = Grid::of(question.axes.clone()).map_err(Unfinished::Refused)?;
     for (at, layer) in question.layers.iter().enumerate() {
         solve_layer(&grid, layer, running, &mut |found| {
             (running.send)(action(request, Found::Points(found, at), None));

@@ -98,7 +98,7 @@ impl Drawn<'_> {
 
     // The elastic field last, on top of the others.
     fn models(self, answer: &Answer, column: &'static Column) -> Vec<Curve> {
-        let Some(found) = &answer.stiffness else {
+        let Some(Ok(found)) = &answer.stiffness else {
             return Vec::new();
         };
         let unit = self.system.unit(column.shown);

@@ -243,9 +243,11 @@ fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
     }
     let label = graph.label.to_lowercase();
     if graph.by_model.is_some() {
-        return Some(format!(
-            "The {label} is being computed, or the pair has none."
-        ));
+        return Some(match &answer.stiffness {
+            Some(Err(refusal)) => format!("No {label}: {refusal}."),
+            Some(Ok(_)) => format!("No {label}: no model covers the pair."),
+            None => format!("Computing the {label}."),
+        });
     }
     let active = answer.active;
     if graph.column(active).is_none() {

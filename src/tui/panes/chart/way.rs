@@ -34,7 +34,7 @@ pub(super) fn way(answer: &Answer) -> Span {
 
 /// The range of the path of contact with its mesh stiffness, in deg after E.
 pub(crate) fn path(answer: &Answer) -> Span {
-    let Some(found) = &answer.stiffness else {
+    let Some(Ok(found)) = &answer.stiffness else {
         return Span::NONE;
     };
     let ways = found

@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 use unicode_width::UnicodeWidthStr;
 
-use super::{Rooms, StudyPane, cursor, draw_axes, quantity, range};
+use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, draw_axes, range};
 use crate::model::Outcome;
 use crate::model::inputs::Method;
 use crate::report::unit_beside;
@@ -16,7 +16,7 @@ use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::tui::panes::chart::axes::put_where_free;
 use crate::tui::scale::{Span, bounds};
-use crate::tui::study::{Layer, LayerFound, Question, Shown, Whose};
+use crate::tui::study::{Layer, LayerFound, Question, StudyResults, Whose};
 
 /// Marks the cells of a curve until they get its style.
 const OWN: Color = Color::Indexed(1);
@@ -28,7 +28,7 @@ const LABEL_ROOM: u16 = 10;
 /// A plot with its axes.
 struct Plot<'a> {
     pane: &'a StudyPane<'a>,
-    shown: &'a Shown,
+    shown: &'a StudyResults,
     axis: &'a Axis,
     cells: Rect,
     across: Span,
@@ -38,7 +38,7 @@ struct Plot<'a> {
 
 pub(super) fn draw(
     pane: &StudyPane<'_>,
-    shown: &Shown,
+    shown: &StudyResults,
     axis: &Axis,
     rooms: &Rooms,
     buffer: &mut Buffer,
@@ -53,7 +53,9 @@ pub(super) fn draw(
             .iter()
             .flat_map(|(_, found)| found.values.iter().flatten().copied())
     };
-    let Some(known) = quantity(shown) else { return };
+    let Some(known) = shown.quantity() else {
+        return;
+    };
     let unit = unit_beside(known, all(), pane.units);
     let factor = crate::case::units::factor(unit).unwrap_or(1.0);
     let values = all().fold(Span::NONE, |span, value| span.with(value / factor));
@@ -85,11 +87,9 @@ pub(super) fn draw(
         factor,
     };
     plot.frame(&ticks.labelled, buffer);
-    if !values.is_empty() || all().next().is_some() {
-        // The active method lies on top.
-        for (layer, found) in layers.iter().rev() {
-            plot.curve(layer, found, buffer);
-        }
+    // The active method is drawn last, on top.
+    for (layer, found) in layers.iter().rev() {
+        plot.curve(layer, found, buffer);
     }
     if let Some((_, found)) = layers.first() {
         plot.gaps(found, buffer);
@@ -164,7 +164,6 @@ impl Plot<'_> {
                 .collect();
         }
         let ticks = self.across.ticks(self.cells.width / LABEL_ROOM);
-        let scale = 10f64.powi(ticks.power);
         let plain = |(value, label): (f64, String)| {
             let is_scaled = ticks.power != 0;
             let number = crate::numeric::decimal::significant(value, 6);
@@ -173,7 +172,6 @@ impl Plot<'_> {
                 .map_or(number, |number| number.to_string());
             (value, if is_scaled { shortest } else { label })
         };
-        debug_assert!(scale > 0.0);
         ticks.labelled.into_iter().map(plain).collect()
     }
 
@@ -226,8 +224,10 @@ impl Plot<'_> {
     fn gaps(&self, found: &LayerFound, buffer: &mut Buffer) {
         for (at, outcome) in found.outcomes.iter().enumerate() {
             let sign = match outcome {
-                PointOutcome::Refused => "×",
-                PointOutcome::Solved(Outcome::NoCornerContact) if found.values[at].is_none() => "·",
+                PointOutcome::Refused => REFUSED,
+                PointOutcome::Solved(Outcome::NoCornerContact) if found.values[at].is_none() => {
+                    NO_CONTACT
+                }
                 PointOutcome::Solved(_) => continue,
             };
             if let Some(column) = self.column(x(self.axis, at)) {
@@ -271,7 +271,7 @@ impl Plot<'_> {
     }
 
     fn limit(&self) -> Option<f64> {
-        let key = quantity(self.shown)?.key;
+        let key = self.shown.quantity()?.key;
         let limit = self
             .pane
             .case
@@ -343,9 +343,9 @@ fn draw_legend(
             .any(|(_, found)| found.outcomes.contains(&sought))
     };
     if has(PointOutcome::Solved(Outcome::NoCornerContact)) {
-        put("· no contact", pane.look.theme.note);
+        put(&format!("{NO_CONTACT} no contact"), pane.look.theme.note);
     }
     if has(PointOutcome::Refused) {
-        put("× refused", pane.look.theme.note);
+        put(&format!("{REFUSED} refused"), pane.look.theme.note);
     }
 }

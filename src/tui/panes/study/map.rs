@@ -5,19 +5,18 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::{Rooms, StudyPane, cursor, draw_axes, quantity, range};
+use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, draw_axes, range};
 use crate::model::{Outcome, Quantity};
 use crate::report::{shown_with, unit_beside};
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::tui::scale::Span;
-use crate::tui::study::{LayerFound, Shown};
+use crate::tui::study::{LayerFound, StudyResults};
 
-/// Shades from the least to the greatest value, with and without Unicode.
-const SHADES: [[&str; 5]; 2] = [[" ", "░", "▒", "▓", "█"], [".", ":", "=", "%", "#"]];
-const SHADES_WITH_DOT: [&str; 5] = ["∙", "░", "▒", "▓", "█"];
-/// The sign of a refused point, of the limit and of the edge of contact.
-const REFUSED: &str = "×";
+/// Shades from the least to the greatest value.
+const SHADES: [&str; 5] = ["∙", "░", "▒", "▓", "█"];
+const SHADES_ASCII: [&str; 5] = [".", ":", "=", "%", "#"];
+/// The sign of the limit and of the edge of contact.
 const LIMIT: &str = "+";
 const EDGE: &str = "o";
 
@@ -33,29 +32,27 @@ struct Map<'a> {
 
 pub(super) fn draw(
     pane: &StudyPane<'_>,
-    shown: &Shown,
+    shown: &StudyResults,
     (across, up): (&Axis, &Axis),
     rooms: &Rooms,
     buffer: &mut Buffer,
 ) {
-    let (Some(found), Some(known)) = (shown.layers.first(), quantity(shown)) else {
+    let (Some(found), Some(known)) = (shown.layers.first(), shown.quantity()) else {
         return;
     };
-    let labels = [0, up.points.len() - 1].map(|at| up.points[at].text.width());
-    let margin = labels.into_iter().max().unwrap_or(0).max(5) as u16 + 2;
+    let height = rooms.plot.height.saturating_sub(2);
+    let height = height.min(up.points.len() as u16);
+    let labels = labelled_rows(height).map(|row| {
+        let at = Map::at(row, height, up.points.len());
+        up.points[at].text.width()
+    });
+    let margin = labels.max().unwrap_or(0).max(5) as u16 + 2;
+    let width = rooms.plot.width.saturating_sub(margin + 1);
     let cells = Rect {
         x: rooms.plot.x + margin,
         y: rooms.plot.y,
-        width: rooms
-            .plot
-            .width
-            .saturating_sub(margin + 1)
-            .min(across.points.len() as u16),
-        height: rooms
-            .plot
-            .height
-            .saturating_sub(2)
-            .min(up.points.len() as u16),
+        width: width.min(across.points.len() as u16),
+        height,
     };
     if cells.width < 2 || cells.height < 2 {
         return;
@@ -85,6 +82,13 @@ pub(super) fn draw(
     map.marks(shown, buffer);
     let unit = unit_beside(known, all, pane.units);
     map.legend((known, unit), rooms.legend, buffer);
+}
+
+/// The rows with a label, counted from below.
+fn labelled_rows(height: u16) -> impl Iterator<Item = u16> {
+    let few = if height < 5 { 2 } else { 1 };
+    let rows = [0, height / 2, height.saturating_sub(1)];
+    rows.into_iter().step_by(few)
 }
 
 fn positions(cells: Rect) -> impl Iterator<Item = (u16, u16)> {
@@ -134,6 +138,7 @@ impl Map<'_> {
             Some(PointOutcome::Solved(outcome)) => match self.value(column, row) {
                 Some(value) => (self.shade(value), theme.active),
                 None if self.is_on_edge(column, row, outcome) => (EDGE, theme.note),
+                None if outcome == Outcome::NoCornerContact => (NO_CONTACT, theme.note),
                 None => (" ", Style::new()),
             },
         }
@@ -146,9 +151,9 @@ impl Map<'_> {
             self.values.part(value)
         };
         let shades = if self.pane.look.ascii {
-            &SHADES[1]
+            &SHADES_ASCII
         } else {
-            &SHADES_WITH_DOT
+            &SHADES
         };
         let last = shades.len() - 1;
         shades[((part * shades.len() as f64) as usize).min(last)]
@@ -190,9 +195,7 @@ impl Map<'_> {
     fn frame(&self, buffer: &mut Buffer) {
         let (cells, rule) = (self.cells, self.pane.look.theme.rule);
         let (left, bottom) = draw_axes(cells, rule, buffer);
-        let rows = [0, cells.height / 2, cells.height - 1];
-        let few = if cells.height < 5 { 2 } else { 1 };
-        for below in rows.into_iter().step_by(few) {
+        for below in labelled_rows(cells.height) {
             let label = &self.up.points[Map::at(below, cells.height, self.up.points.len())].text;
             let y = bottom - 1 - below;
             let start = left.saturating_sub(label.width() as u16);
@@ -216,7 +219,7 @@ impl Map<'_> {
     }
 
     /// The present values on the axes, and the cursor.
-    fn marks(&self, shown: &Shown, buffer: &mut Buffer) {
+    fn marks(&self, shown: &StudyResults, buffer: &mut Buffer) {
         let (cells, theme) = (self.cells, self.pane.look.theme);
         let column = |at| cells.x + Map::of(at, cells.width, self.across.points.len());
         let row = |at| cells.bottom() - 1 - Map::of(at, cells.height, self.up.points.len());
@@ -259,6 +262,7 @@ impl Map<'_> {
         let has = |sought| self.found.outcomes.contains(&sought);
         if has(PointOutcome::Solved(Outcome::NoCornerContact)) {
             put(&format!("{EDGE} edge of contact"), theme.note);
+            put(&format!("{NO_CONTACT} no contact"), theme.note);
         }
         if has(PointOutcome::Refused) {
             put(&format!("{REFUSED} refused"), theme.problem);

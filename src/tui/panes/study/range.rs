@@ -6,6 +6,7 @@ use crate::case::{Case, field_range};
 use crate::numeric::decimal::significant;
 use crate::study::axis::{Axis, AxisRange, Sampling};
 use crate::tui::rows;
+use crate::tui::scale::Span;
 
 /// The most halvings or doublings of a range.
 pub(crate) const MOST_ZOOM: i32 = 12;
@@ -19,12 +20,23 @@ const REACH_OF_NUMBER: f64 = 0.5;
 const REACH_OF_LIMITS: f64 = 0.01;
 /// Digits of the ends of a range.
 const DIGITS: usize = 6;
+/// Digits of round numbers; more are rounding errors.
+const ROUND_DIGITS: usize = 14;
 
-/// The axis of a field with at most so many points.
+/// The points of a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Steps {
+    /// So many equal steps between the ends.
+    Equal(usize),
+    /// At most about so many points, at multiples of 1, 2 or 5 times a power of ten.
+    Round(usize),
+}
+
+/// The axis of a field.
 ///
 /// # Errors
 /// Why the field has no range.
-pub(crate) fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Result<Axis, String> {
+pub(crate) fn axis(case: &Case, field: usize, zoom: i32, steps: Steps) -> Result<Axis, String> {
     let known = &FIELDS[field];
     match known.kind {
         Kind::Text => Err(format!(
@@ -37,6 +49,10 @@ pub(crate) fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Resul
         }
         Kind::Number(..) => {
             let range = number_range(case, field, zoom);
+            let (range, points) = match steps {
+                Steps::Equal(points) => (range, points),
+                Steps::Round(most) => round(&range, most).unwrap_or((range, most)),
+            };
             let sampling = Sampling {
                 points: Some(points.max(2)),
                 is_log: false,
@@ -46,11 +62,31 @@ pub(crate) fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Resul
                 .map_err(|problem| worded(known, &problem.cause))
         }
         Kind::Count(from, to, _) => {
+            let (Steps::Equal(points) | Steps::Round(points)) = steps;
             let range = count_range(case, field, zoom, points, (from, to));
             let axis = range.axis(Sampling::default());
             axis.map_err(|problem| worded(known, &problem.cause))
         }
     }
+}
+
+/// The round numbers within a range: their own range and their count.
+fn round(range: &AxisRange, most: usize) -> Option<(AxisRange, usize)> {
+    let intervals = u16::try_from(most).unwrap_or(u16::MAX).saturating_sub(1);
+    let ticks = Span::new(range.from, range.to).ticks(intervals).labelled;
+    let numbers = ticks.into_iter().map(|(number, _)| {
+        let text = significant(number, ROUND_DIGITS);
+        text.parse::<f64>().unwrap_or(number)
+    });
+    // A tick beside the end of the range may be outside the limits of the field.
+    let numbers: Vec<f64> = numbers.filter(|number| range.at(*number).is_ok()).collect();
+    let (from, to) = (*numbers.first()?, *numbers.last()?);
+    let own = AxisRange {
+        from,
+        to,
+        ..range.clone()
+    };
+    (numbers.len() > 1).then_some((own, numbers.len()))
 }
 
 fn worded(field: &Field, cause: &str) -> String {
@@ -186,7 +222,7 @@ mod tests {
 
     fn ends(key: &str, zoom: i32) -> (String, String) {
         let field = index_of(key).expect("a field");
-        let axis = axis(&Case::table_1(), field, zoom, 101).expect("a range");
+        let axis = axis(&Case::table_1(), field, zoom, Steps::Equal(101)).expect("a range");
         (axis.with_unit(0), axis.with_unit(axis.points.len() - 1))
     }
 
@@ -211,17 +247,46 @@ mod tests {
     }
 
     #[test]
+    fn the_points_of_a_map_are_round_numbers_within_the_range() {
+        let case = Case::table_1();
+        for (key, zoom, most, expected) in [
+            (
+                "operation.speed",
+                0,
+                30,
+                ["1000 rpm", "1100 rpm", "3000 rpm"],
+            ),
+            (
+                "operation.speed",
+                2,
+                30,
+                ["1750 rpm", "1800 rpm", "2250 rpm"],
+            ),
+            ("driven.tip_relief", 0, 60, ["0 um", "1 um", "50 um"]),
+            ("operation.power", 3, 7, ["14.5 kW", "14.5 kW", "14.5 kW"]),
+        ] {
+            let field = index_of(key).expect("a field");
+            let axis = axis(&case, field, zoom, Steps::Round(most)).expect("a range");
+            let last = axis.points.len() - 1;
+            assert!(last < most, "{key}: {last}");
+            assert_eq!([0, 1, last].map(|at| axis.with_unit(at)), expected, "{key}");
+        }
+    }
+
+    #[test]
     fn every_field_with_a_value_has_a_range_at_every_zoom() {
         let case = Case::table_1();
         for (at, field) in FIELDS.iter().enumerate() {
             for zoom in [-MOST_ZOOM, -1, 0, 5, MOST_ZOOM] {
                 for points in [2, 30, 101] {
-                    let found = axis(&case, at, zoom, points);
-                    assert_eq!(
-                        found.is_err(),
-                        matches!(field.kind, Kind::Text),
-                        "{found:?}"
-                    );
+                    for steps in [Steps::Equal(points), Steps::Round(points)] {
+                        let found = axis(&case, at, zoom, steps);
+                        assert_eq!(
+                            found.is_err(),
+                            matches!(field.kind, Kind::Text),
+                            "{found:?}"
+                        );
+                    }
                 }
             }
         }

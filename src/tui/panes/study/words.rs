@@ -2,7 +2,7 @@
 
 use unicode_width::UnicodeWidthStr;
 
-use super::{StudyPane, axes, cursor, quantity};
+use super::{NO_CONTACT, REFUSED, StudyPane, axes, cursor};
 use crate::case::FIELDS;
 use crate::model::Outcome;
 use crate::model::inputs::Method;
@@ -11,7 +11,7 @@ use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::study::refusals::Refused;
 use crate::tui::ascii::symbol;
-use crate::tui::study::{End, Layer, LayerFound, Question, Shown, Whose};
+use crate::tui::study::{End, Layer, LayerFound, Question, SAMPLES, StudyResults, Whose};
 use crate::tui::text;
 
 /// The title in a room of that width.
@@ -31,20 +31,16 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
             let fields = |label: fn(&Axis) -> String| -> Vec<String> {
                 grid.axes.iter().rev().map(label).collect()
             };
-            let name = quantity(shown).map_or("", |known| known.symbol);
-            let label = quantity(shown).map_or("", |known| known.label);
-            let unit = quantity(shown).map_or("", |known| {
-                let values = shown
-                    .layers
-                    .iter()
-                    .flat_map(|found| found.values.iter().flatten());
-                unit_beside(known, values.copied(), pane.units)
-            });
-            let unit = if unit == "1" { "" } else { unit };
-            let unit = if unit.is_empty() {
-                String::new()
-            } else {
-                format!(" in {unit}")
+            let Some(known) = shown.quantity() else {
+                return "Study".to_owned();
+            };
+            let layer = grid.layers.first();
+            let method = layer.map_or(Method::Exact, |layer| layer.inputs.method);
+            let (name, label) = (known.symbol_in(method), known.label_in(method).trim_start());
+            let values = shown.layers.iter().flat_map(|found| &found.values);
+            let unit = match unit_beside(known, values.flatten().copied(), pane.units) {
+                "" | "1" => String::new(),
+                unit => format!(" in {unit}"),
             };
             let long =
                 fields(|axis| format!("{}{}", FIELDS[axis.field].full_label(), in_unit(axis)));
@@ -75,7 +71,7 @@ fn in_unit(axis: &Axis) -> String {
 }
 
 /// How far an unfinished study is.
-fn progress(shown: &Shown) -> String {
+fn progress(shown: &StudyResults) -> String {
     match (&shown.end, &shown.request.question) {
         (Some(End::Whole), _) => String::new(),
         (Some(End::Stopped), _) => ", stopped".to_owned(),
@@ -91,7 +87,7 @@ fn progress(shown: &Shown) -> String {
 }
 
 /// The lines below the plot: the values at the cursor, then the refused points.
-pub(super) fn below(pane: &StudyPane<'_>, shown: &Shown, width: usize) -> Vec<String> {
+pub(super) fn below(pane: &StudyPane<'_>, shown: &StudyResults, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(End::Failed(reason)) = &shown.end {
         lines.extend(text::wrap(reason, width));
@@ -103,7 +99,7 @@ pub(super) fn below(pane: &StudyPane<'_>, shown: &Shown, width: usize) -> Vec<St
 }
 
 /// The varied values at the cursor, and the value of each curve.
-pub(super) fn at_cursor(pane: &StudyPane<'_>, shown: &Shown) -> String {
+pub(super) fn at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     let Question::Grid(grid) = &shown.request.question else {
         return String::new();
     };
@@ -135,13 +131,16 @@ pub(super) fn at_cursor(pane: &StudyPane<'_>, shown: &Shown) -> String {
 
 fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> Option<String> {
     let name = match layer.whose {
-        Whose::Active(Method::Auto) => "auto",
         Whose::Active(method) | Whose::Other(method) => method.name(),
         Whose::Baseline => "baseline",
     };
     let known = layer.quantity()?;
     let words = match (found.outcomes.get(at)?, found.values.get(at)?) {
-        (_, Some(value)) => format!("{} {}", known.symbol, shown_in(known, *value, pane.units)),
+        (_, Some(value)) => format!(
+            "{} {}",
+            known.symbol_in(layer.inputs.method),
+            shown_in(known, *value, pane.units)
+        ),
         (PointOutcome::Refused, None) => "refused".to_owned(),
         (PointOutcome::Solved(Outcome::NoCornerContact), None) => "no contact".to_owned(),
         (PointOutcome::Solved(_), None) => "no value".to_owned(),
@@ -150,7 +149,7 @@ fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> 
 }
 
 /// The refused points of the first curve that has some: how many, and why.
-fn refused(shown: &Shown) -> impl Iterator<Item = String> {
+fn refused(shown: &StudyResults) -> impl Iterator<Item = String> {
     let found = shown.layers.iter().find(|found| found.refusals.total() > 0);
     let refused = found
         .map(|found| found.refusals.0.clone())
@@ -165,19 +164,30 @@ fn refused(shown: &Shown) -> impl Iterator<Item = String> {
     })
 }
 
-/// The hint line while the pane has the focus.
+/// The hint line while the pane has the focus: the values at the cursor where the pane cuts them,
+/// else the signs.
 pub(super) fn hint(pane: &StudyPane<'_>) -> String {
-    const KEYS: &str = "h, l move the cursor, + and - zoom, Enter uses the value, s adds a second field, d shows the tolerance.";
-    let shown = pane
-        .study
-        .shown
-        .as_ref()
-        .filter(|_| pane.study.obstacle.is_none());
+    let shown = pane.study.shown.as_ref();
+    let shown = shown.filter(|_| pane.study.obstacle.is_none());
     match shown.map(|shown| (shown, &shown.request.question)) {
-        Some((shown, Question::Grid(_))) => format!("{}. {KEYS}", at_cursor(pane, shown)),
-        Some((_, Question::Tolerance(_))) => {
-            "j, k scroll the page, Esc stops the sampling, d shows the field again.".to_owned()
+        Some((shown, Question::Grid(_))) => {
+            let line = at_cursor(pane, shown);
+            if line.width() > room(pane.area.width) {
+                format!("{line}.")
+            } else {
+                format!(
+                    "● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point."
+                )
+            }
         }
-        None => KEYS.to_owned(),
+        Some((_, Question::Tolerance(_))) => {
+            format!("{SAMPLES} samples draw every field of [spread] from its distribution.")
+        }
+        None => "The study varies the focused field over a range.".to_owned(),
     }
+}
+
+/// Columns of a line in a pane of that width.
+pub(super) fn room(width: u16) -> usize {
+    usize::from(width).saturating_sub(2)
 }

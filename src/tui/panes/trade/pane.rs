@@ -3,6 +3,7 @@
 use ratatui::layout::Rect;
 
 use crate::model::Inputs;
+use crate::report::trade::compliances;
 use crate::study::trade::{Measured, Setting, Trade};
 use crate::tui::benchmark::{TradeView, Traded};
 use crate::tui::panes::title::Title;
@@ -37,14 +38,44 @@ pub(crate) fn ordered(trade: &Trade) -> Vec<&Measured> {
     found
 }
 
-/// The setting so many places from the selected one, in the order of their times.
+/// The visible settings in the order of the arrow keys: by their times in the chart, row by row in
+/// the table.
+fn visible(trade: &Trade, view: TradeView) -> Vec<Setting> {
+    match view {
+        TradeView::Chart => ordered(trade)
+            .into_iter()
+            .map(|measured| measured.setting)
+            .collect(),
+        TradeView::Table => {
+            let rows = compliances(trade).into_iter();
+            let cells = rows.flat_map(|(_, cells)| cells);
+            cells.flatten().map(|cell| cell.setting).collect()
+        }
+    }
+}
+
+/// The visible setting nearest to the selected one: that setting itself, else one of its method,
+/// and among those one with its compliance.
 #[must_use]
-pub(crate) fn stepped(traded: &Traded, by: isize) -> Option<Setting> {
+pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
+    let (marked, trade) = (traded.marked?, traded.trade.as_ref()?);
+    let distance = |setting: &Setting| {
+        (
+            *setting != marked,
+            setting.method != marked.method,
+            setting.models != marked.models,
+        )
+    };
+    visible(trade, view).into_iter().min_by_key(distance)
+}
+
+/// The setting so many places from the selected one, in the order of the view.
+#[must_use]
+pub(crate) fn stepped(traded: &Traded, view: TradeView, by: isize) -> Option<Setting> {
     let settings: Vec<Setting> = traded
         .trade
         .iter()
-        .flat_map(ordered)
-        .map(|measured| measured.setting)
+        .flat_map(|trade| visible(trade, view))
         .collect();
     let last = settings.len().checked_sub(1)?;
     let now = traded
