@@ -1,0 +1,363 @@
+//! The areas of the screen for every size of the terminal and every choice of panes.
+
+use ratatui::layout::{Rect, Size};
+
+use crate::tui::pane::Pane;
+
+/// The smallest useful terminal.
+pub(crate) const SMALLEST: Size = Size {
+    width: 60,
+    height: 16,
+};
+/// A lower terminal has no room for the lower area beside form and results.
+const LOWER_FROM: u16 = 20;
+/// From this size the teeth stand beside the chart.
+const BESIDE_FROM: Size = Size {
+    width: 120,
+    height: 36,
+};
+/// From this size form, results and the lower panes stand side by side.
+const THREE_FROM: Size = Size {
+    width: 200,
+    height: 50,
+};
+/// The form grows no wider than it can use, nor do the results beside others.
+const WIDEST: u16 = 66;
+const WIDEST_RESULTS: u16 = 90;
+/// The form between the results and the edge of a wide screen.
+const FORM_OF_THREE: u16 = 56;
+
+/// Where everything stands. An area without room is empty.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Plan {
+    /// The name of the case.
+    pub(crate) header: Rect,
+    /// The form, its title and its scroll bar.
+    pub(crate) form: Rect,
+    /// The results and their title.
+    pub(crate) results: Rect,
+    /// The chart and its title.
+    pub(crate) chart: Rect,
+    /// The teeth and their title.
+    pub(crate) teeth: Rect,
+    /// Error against time and its title.
+    pub trade: Rect,
+    /// The study and its title.
+    pub(crate) study: Rect,
+    /// What the focused field is, and messages.
+    pub(crate) hint: Rect,
+    pub(crate) keys: Rect,
+}
+
+/// What of the panes is on the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Panes {
+    /// The one that takes the keys.
+    pub(super) focus: Pane,
+    /// The one of the lower area that is shown where not all of them have room.
+    pub(super) lower: Pane,
+    /// Whether the focused one has the screen: of form and results both, of the lower area it
+    /// alone.
+    pub(super) is_zoomed: bool,
+}
+
+impl Default for Panes {
+    fn default() -> Panes {
+        Panes {
+            focus: Pane::Form,
+            lower: Pane::Chart,
+            is_zoomed: false,
+        }
+    }
+}
+
+/// The areas on a terminal of that size.
+pub(super) fn plan(size: Size, panes: Panes) -> Plan {
+    if is_too_small(size) {
+        return Plan::default();
+    }
+    let Size { width, height } = size;
+    let row = |y, height| Rect::new(0, y, width, height);
+    let mut plan = Plan {
+        header: row(0, 1),
+        hint: row(height - 3, 2),
+        keys: row(height - 1, 1),
+        ..Plan::default()
+    };
+    let body = row(1, height - 4);
+    if panes.is_zoomed || height < LOWER_FROM {
+        if panes.focus.is_lower() {
+            *plan.area_mut(panes.focus) = body;
+        } else {
+            plan.split_upper(body);
+        }
+    } else if holds(size, THREE_FROM) {
+        plan.three_columns(body, panes);
+    } else {
+        plan.two_rows(body, panes, holds(size, BESIDE_FROM));
+    }
+    plan
+}
+
+/// Whether a terminal is of no use.
+pub(crate) fn is_too_small(size: Size) -> bool {
+    !holds(size, SMALLEST)
+}
+
+fn holds(size: Size, least: Size) -> bool {
+    size.width >= least.width && size.height >= least.height
+}
+
+// Where the teeth have a place of their own, the rest of the lower area is for the others.
+fn beside_teeth(panes: Panes) -> Pane {
+    match panes.lower {
+        Pane::Trade | Pane::Study => panes.lower,
+        _ => Pane::Chart,
+    }
+}
+
+impl Plan {
+    /// The area of a pane; empty while it is not in sight.
+    #[must_use]
+    pub fn area(&self, pane: Pane) -> Rect {
+        match pane {
+            Pane::Form => self.form,
+            Pane::Results => self.results,
+            Pane::Chart => self.chart,
+            Pane::Teeth => self.teeth,
+            Pane::Trade => self.trade,
+            Pane::Study => self.study,
+        }
+    }
+
+    /// The panes that are not in sight.
+    pub(crate) fn hidden(&self) -> impl Iterator<Item = Pane> {
+        let plan = *self;
+        Pane::ALL
+            .into_iter()
+            .filter(move |&pane| plan.area(pane).is_empty())
+    }
+
+    /// The pane in whose title the hidden ones are named: the lowest in sight that they could take
+    /// the place of.
+    pub(crate) fn names_hidden(&self) -> Option<Pane> {
+        let lowest = [
+            Pane::Study,
+            Pane::Trade,
+            Pane::Chart,
+            Pane::Teeth,
+            Pane::Results,
+        ];
+        lowest.into_iter().find(|&pane| !self.area(pane).is_empty())
+    }
+
+    fn area_mut(&mut self, pane: Pane) -> &mut Rect {
+        match pane {
+            Pane::Form => &mut self.form,
+            Pane::Results => &mut self.results,
+            Pane::Chart => &mut self.chart,
+            Pane::Teeth => &mut self.teeth,
+            Pane::Trade => &mut self.trade,
+            Pane::Study => &mut self.study,
+        }
+    }
+
+    fn split_upper(&mut self, area: Rect) {
+        let form = (area.width * 57 / 100).clamp(34, WIDEST);
+        self.form = Rect {
+            width: form,
+            ..area
+        };
+        self.results = Rect {
+            x: area.x + form,
+            width: area.width - form,
+            ..area
+        };
+    }
+
+    fn two_rows(&mut self, body: Rect, panes: Panes, has_teeth_beside: bool) {
+        let lower = (body.height.saturating_add(4) / 3).clamp(7, 20);
+        let upper = body.height - lower;
+        self.split_upper(Rect {
+            height: upper,
+            ..body
+        });
+        let area = Rect {
+            y: body.y + upper,
+            height: lower,
+            ..body
+        };
+        if !has_teeth_beside {
+            *self.area_mut(panes.lower) = area;
+            return;
+        }
+        let left = area.width * 60 / 100;
+        *self.area_mut(beside_teeth(panes)) = Rect {
+            width: left,
+            ..area
+        };
+        self.teeth = Rect {
+            x: area.x + left,
+            width: area.width - left,
+            ..area
+        };
+    }
+
+    fn three_columns(&mut self, body: Rect, panes: Panes) {
+        let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
+        let right = FORM_OF_THREE + results;
+        self.form = Rect {
+            width: FORM_OF_THREE,
+            ..body
+        };
+        self.results = Rect {
+            x: FORM_OF_THREE,
+            width: results,
+            ..body
+        };
+        let area = Rect {
+            x: right,
+            width: body.width - right,
+            ..body
+        };
+        let upper = area.height / 2;
+        self.teeth = Rect {
+            height: upper,
+            ..area
+        };
+        *self.area_mut(beside_teeth(panes)) = Rect {
+            y: area.y + upper,
+            height: area.height - upper,
+            ..area
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seen(width: u16, height: u16, panes: Panes) -> Vec<Pane> {
+        let plan = plan(Size { width, height }, panes);
+        Pane::ALL
+            .into_iter()
+            .filter(|&pane| !plan.area(pane).is_empty())
+            .collect()
+    }
+
+    #[test]
+    fn what_is_in_sight_at_the_usual_sizes() {
+        use Pane::{Chart, Form, Results, Teeth, Trade};
+        let usual = Panes::default();
+        assert_eq!(seen(59, 16, usual), []);
+        assert_eq!(seen(60, 16, usual), [Form, Results]);
+        assert_eq!(
+            seen(
+                60,
+                16,
+                Panes {
+                    focus: Teeth,
+                    ..usual
+                }
+            ),
+            [Teeth]
+        );
+        assert_eq!(seen(80, 24, usual), [Form, Results, Chart]);
+        assert_eq!(
+            seen(
+                80,
+                24,
+                Panes {
+                    lower: Teeth,
+                    ..usual
+                }
+            ),
+            [Form, Results, Teeth]
+        );
+        assert_eq!(seen(140, 45, usual), [Form, Results, Chart, Teeth]);
+        assert_eq!(
+            seen(
+                140,
+                45,
+                Panes {
+                    lower: Trade,
+                    ..usual
+                }
+            ),
+            [Form, Results, Teeth, Trade]
+        );
+        assert_eq!(seen(240, 70, usual), [Form, Results, Chart, Teeth]);
+        assert_eq!(
+            seen(
+                240,
+                70,
+                Panes {
+                    is_zoomed: true,
+                    ..usual
+                }
+            ),
+            [Form, Results]
+        );
+        assert_eq!(
+            seen(
+                240,
+                70,
+                Panes {
+                    is_zoomed: true,
+                    focus: Trade,
+                    ..usual
+                }
+            ),
+            [Trade]
+        );
+    }
+
+    #[test]
+    fn at_every_size_the_areas_are_on_the_screen_and_apart() {
+        for (width, height) in
+            (0..=260).flat_map(|width| (0..=80).map(move |height| (width, height)))
+        {
+            for focus in Pane::ALL {
+                for (lower, is_zoomed) in Pane::LOWER
+                    .into_iter()
+                    .flat_map(|lower| [(lower, false), (lower, true)])
+                {
+                    let plan = plan(
+                        Size { width, height },
+                        Panes {
+                            focus,
+                            lower,
+                            is_zoomed,
+                        },
+                    );
+                    let areas = [
+                        plan.header,
+                        plan.form,
+                        plan.results,
+                        plan.chart,
+                        plan.teeth,
+                        plan.trade,
+                        plan.study,
+                        plan.hint,
+                        plan.keys,
+                    ];
+                    let used: u32 = areas.iter().map(|area| area.area()).sum();
+                    let screen = Rect::new(0, 0, width, height);
+                    assert!(
+                        areas
+                            .iter()
+                            .all(|area| area.is_empty() || screen.intersection(*area) == *area)
+                    );
+                    let apart = |(at, one): (usize, &Rect)| {
+                        areas[at + 1..].iter().all(|two| !one.intersects(*two))
+                    };
+                    assert!(areas.iter().enumerate().all(apart), "{plan:?}");
+                    assert!(
+                        used == screen.area() || is_too_small(Size { width, height }),
+                        "{plan:?}"
+                    );
+                }
+            }
+        }
+    }
+}
