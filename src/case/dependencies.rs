@@ -1,4 +1,5 @@
-//! Which stages read a field, and which fields a quantity depends on: both follow from changes of the
+//! Which stages read a field, and which fields a quantity depends on: both follow from changes of
+//! the
 //! field.
 
 #[cfg(test)]
@@ -66,7 +67,8 @@ pub fn fields_of(
         .collect()
 }
 
-/// The inputs without an elastic field, if the quantity does not depend on the tooth compliance; else
+/// The inputs without an elastic field, if the quantity does not depend on the tooth compliance;
+/// else
 /// the same inputs. The field of every changed gear would take longer than all other stages.
 fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs {
     // A value of 0, and a flag, may be that of any compliance until a field changes.

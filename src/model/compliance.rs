@@ -190,7 +190,8 @@ impl<'a> Teeth<'a> {
         })
     }
 
-    /// The contact's parts of driver and driven gear at a place; `None` for a model without contact.
+    /// The contact's parts of driver and driven gear at a place; `None` for a model without
+    /// contact.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.

@@ -102,7 +102,8 @@ impl ContactState {
     /// u = θ/i,   opening = max(0, S(u) − S₀),   S = 0 on the line of action
     /// ```
     /// where S₀ is the gap that is closed at the first contact: Δ in the methods `paper` and
-    /// `exact`, S at the first contact in `static` and `dynamic`. After B the same values are those of the
+    /// `exact`, S at the first contact in `static` and `dynamic`. After B the same values are those
+    /// of the
     /// driver's tip, by swapped gears, and S₀ is 0.
     ///
     /// # Source

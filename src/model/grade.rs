@@ -62,7 +62,8 @@ impl Inputs {
         [&self.driver, &self.driven].map(|gear| self.base_pitch_of(gear).0)
     }
 
-    /// The base pitch deviation that both gears would have to have for the same equivalent error, in
+    /// The base pitch deviation that both gears would have to have for the same equivalent error,
+    /// in
     /// m: the root mean square of both.
     #[must_use]
     pub fn mean_base_pitch(&self) -> f64 {

@@ -7,7 +7,8 @@ use crate::numeric::quadrature;
 /// Harmonics of the mesh frequency that a spectrum has.
 pub const HARMONICS: usize = 10;
 
-/// A transmission error over p mesh periods (p = 1 unless the motion repeats after several): amplitudes
+/// A transmission error over p mesh periods (p = 1 unless the motion repeats after several):
+/// amplitudes
 /// of the multiples of the mesh frequency, averaged over the periods. Subharmonics are left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spectrum {
@@ -42,7 +43,8 @@ impl Fourier {
         }
     }
 
-    /// Adds a smooth piece from one part of the period to another; `value` is a function of the part
+    /// Adds a smooth piece from one part of the period to another; `value` is a function of the
+    /// part
     /// of the piece.
     pub(super) fn add(&mut self, (from, to): (f64, f64), value: impl Fn(f64) -> f64) {
         /// Of the rule: so that it resolves the highest harmonic in each of them.

@@ -119,7 +119,8 @@ impl PairSet {
     /// ```
     ///
     /// # Source
-    /// The linear complementarity problem by its parameter x: Cottle, Pang & Stone 2009, "The Linear
+    /// The linear complementarity problem by its parameter x: Cottle, Pang & Stone 2009, "The
+    /// Linear
     /// Complementarity Problem", section 4.5.
     #[must_use]
     pub fn balance(&self, force: f64) -> Balance {

@@ -72,7 +72,8 @@ struct Ramp {
 impl Relief {
     /// The reliefs of the pair.
     ///
-    /// A relief whose length is not given reaches over [`Geometry::shared_length`]: for 1 < ε < 2 to
+    /// A relief whose length is not given reaches over [`Geometry::shared_length`]: for 1 < ε < 2
+    /// to
     /// the start of single contact, the long relief.
     #[must_use]
     pub fn of(reliefs: &Reliefs, geometry: &Geometry) -> Relief {
@@ -131,7 +132,8 @@ impl Relief {
         ends(&self.driven)
     }
 
-    /// By how much the rounding of a radius of curvature changes what both flanks lack, in m: a steep
+    /// By how much the rounding of a radius of curvature changes what both flanks lack, in m: a
+    /// steep
     /// relief is known no better.
     #[must_use]
     pub fn rounding(&self) -> f64 {

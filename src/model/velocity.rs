@@ -15,7 +15,8 @@ pub struct Velocity {
     pub stick_limit: f64,
 }
 
-/// Velocities of the tip against the flank, while the driven gear turns at `driven_speed`, in rad/s.
+/// Velocities of the tip against the flank, while the driven gear turns at `driven_speed`, in
+/// rad/s.
 ///
 /// # Formula
 /// ```text

@@ -238,7 +238,8 @@ fn pieces(
     (!pieces.is_empty()).then_some(pieces)
 }
 
-/// The longest interval between two stations of a curve without a gap, in deg. The closed forms leave
+/// The longest interval between two stations of a curve without a gap, in deg. The closed forms
+/// leave
 /// out stations whose force cannot be computed; the other methods have every station.
 #[must_use]
 pub fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {

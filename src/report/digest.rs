@@ -331,7 +331,8 @@ mod tests {
             forces[0].outcome,
             "Corner contact: θ_st = 1.25226 deg before E; force 1466.2 N at E, 1524.3 N overall."
         );
-        let moving = "Corner contact: θ_d = 1.27924 deg before E; peak force 1410.8 N before E, 2003.0 N overall.";
+        let moving = "Corner contact: θ_d = 1.27924 deg before E; peak force 1410.8 N before E, 2003.0 N \
+                overall.";
         assert_eq!(forces[1].outcome, moving);
         let short = [
             "corner contact: 1466.2 N, 1524.3 N overall",

@@ -16,7 +16,8 @@ pub struct Graph {
     pub columns: &'static [&'static str],
     /// The value that the curve is compared with.
     pub bound: Option<Bound>,
-    /// The value whose curves are those of the compliance models; `None` for a chart of the stations.
+    /// The value whose curves are those of the compliance models; `None` for a chart of the
+    /// stations.
     pub by_model: Option<&'static Column>,
 }
 

@@ -81,7 +81,8 @@ impl ReliefReport<'_> {
         let found = self.found;
         let (from, to) = found.demand.loads;
         let words = format!(
-            "Tip relief for {} to {} % of {} N m, tolerance {} um on each relief; computed by method {}{}.",
+            "Tip relief for {} to {} % of {} N m, tolerance {} um on each relief; computed by \
+                method {}{}.",
             percent(from),
             percent(to),
             tidy(found.torque, 4),

@@ -178,7 +178,8 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
         let below = bottom + 21.0;
         let _ = writeln!(
             text,
-            "<path d=\"M{x:.1} {top}V{bottom}\" class=\"grid\"/><text x=\"{x:.1}\" y=\"{below}\" text-anchor=\"middle\">{number}</text>"
+            "<path d=\"M{x:.1} {top}V{bottom}\" class=\"grid\"/><text x=\"{x:.1}\" y=\"{below}\" \
+                text-anchor=\"middle\">{number}</text>"
         );
     }
     for value in up.ticks(6) {
@@ -187,7 +188,8 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
         let (beside, base) = (left - 8.0, y + 5.0);
         let _ = writeln!(
             text,
-            "<path d=\"M{left} {y:.1}H{right}\" class=\"grid\"/><text x=\"{beside}\" y=\"{base:.1}\" text-anchor=\"end\">{number}</text>"
+            "<path d=\"M{left} {y:.1}H{right}\" class=\"grid\"/><text x=\"{beside}\" \
+                y=\"{base:.1}\" text-anchor=\"end\">{number}</text>"
         );
     }
     let _ = writeln!(
@@ -203,7 +205,8 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
             let above = top - 5.0;
             let _ = writeln!(
                 text,
-                "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/><text x=\"{x:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>"
+                "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/><text x=\"{x:.1}\" \
+                    y=\"{above}\" text-anchor=\"middle\">{name}</text>"
             );
         }
     }
@@ -274,7 +277,8 @@ fn bars(
         let (across, up) = (right - left, bottom - top);
         let _ = writeln!(
             text,
-            "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{across:.1}\" height=\"{up:.1}\" class=\"f{look}\"/>"
+            "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{across:.1}\" height=\"{up:.1}\" \
+                class=\"f{look}\"/>"
         );
     }
 }

@@ -96,7 +96,8 @@ impl Condition {
                 return Err(problem(
                     text,
                     "this is not a condition",
-                    "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or outcome=no-corner-contact",
+                    "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or \
+                        outcome=no-corner-contact",
                 ));
             }
         };

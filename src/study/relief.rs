@@ -107,12 +107,14 @@ pub struct Specification {
     pub torque: f64,
     /// The loads, over that of the case.
     pub loads: Vec<f64>,
-    /// The reliefs that the case has, then the best of each kind; [`Specification::best`] among them.
+    /// The reliefs that the case has, then the best of each kind; [`Specification::best`] among
+    /// them.
     pub choices: Vec<Choice>,
     /// The place of the one to specify.
     pub best: usize,
     /// The greatest load without corner contact at rest, over that of the case; at most three times
-    /// the greatest load of the demand. The motion is checked at the greatest load of the demand only.
+    /// the greatest load of the demand. The motion is checked at the greatest load of the demand
+    /// only.
     pub greatest_load: f64,
     /// Path of contact on unrelieved flanks, over the base pitch: the contact ratio without load.
     pub unloaded_contact_ratio: f64,

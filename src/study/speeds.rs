@@ -90,7 +90,8 @@ impl SpeedCurve {
     }
 }
 
-/// The steady motion of a pair at each of [`SPEEDS`] speeds, first with the speed rising from motion
+/// The steady motion of a pair at each of [`SPEEDS`] speeds, first with the speed rising from
+/// motion
 /// to motion, then falling. `show` receives the curve as it grows and says whether to go on.
 ///
 /// # Errors

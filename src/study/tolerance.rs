@@ -49,7 +49,8 @@ impl Tolerance {
     /// The study of a case with `[spread]`. Without `only` the quantities are the headline.
     ///
     /// # Errors
-    /// Where the case has no distributions, or one of them has no value or leaves its field's range.
+    /// Where the case has no distributions, or one of them has no value or leaves its field's
+    /// range.
     pub fn of(
         case: &Case,
         inputs: &Inputs,
@@ -60,7 +61,8 @@ impl Tolerance {
             return Err(Problem {
                 field: "spread".to_owned(),
                 cause: "the case has no distributions".to_owned(),
-                fix: "add [spread] with a line such as \"deviations.base_pitch\" = { normal = \"4 um\" }"
+                fix: "add [spread] with a line such as \"deviations.base_pitch\" = { normal = \"4 \
+                    um\" }"
                     .to_owned(),
             });
         }

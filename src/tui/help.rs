@@ -12,7 +12,8 @@ const BEFORE: [&str; 6] = [
         restores the value.",
     "In an empty or fully selected field, / and : start a command.",
     "An empty field shows its default in brackets; (required) marks a missing required value.",
-    "D is the first contact of the driven tip, E the start of the normal path of contact. The method paper uses the printed Eqs. 7-20; exact solves for D.",
+    "D is the first contact of the driven tip, E the start of the normal path of contact. The \
+        method paper uses the printed Eqs. 7-20; exact solves for D.",
 ];
 
 /// The signs, by the place where they appear.

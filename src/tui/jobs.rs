@@ -1,4 +1,5 @@
-//! Jobs that must not delay the screen: reading folders and files, explaining and exporting results.
+//! Jobs that must not delay the screen: reading folders and files, explaining and exporting
+//! results.
 
 use std::path::PathBuf;
 

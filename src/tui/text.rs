@@ -270,7 +270,8 @@ mod tests {
 
     #[test]
     fn wrapped_lines_keep_every_word_and_fit() {
-        let text = "cause: the value is out of its range -5000..5000 um: fix: averyverylongwordwithoutanybreak 歯車";
+        let text = "cause: the value is out of its range -5000..5000 um: fix: \
+                averyverylongwordwithoutanybreak 歯車";
         for width in 1..60 {
             let lines = wrap(text, width);
             assert!(

@@ -286,7 +286,11 @@ fn changed_variants_are_edited_in_place_and_keep_their_comments() {
     let expected = text
         .replace("48 um\" # amount", "30 um\" # amount")
         .replace("model.method = \"paper\"\n", "")
-        .replace("{ speed = \"500 rpm\" }\n", "{ speed = \"700 rpm\" }\n\"operation.torque\" = \"50 N m\"\n\"limits.impact_force\" = \"1 kN\"\n");
+        .replace(
+            "{ speed = \"500 rpm\" }\n",
+            "{ speed = \"700 rpm\" }\n\"operation.torque\" = \"50 N m\"\n\"limits.impact_force\" = \
+                \"1 kN\"\n",
+        );
     assert_eq!(document.render(), expected);
     assert_eq!(parsed(&document.render()).case, document.case);
 

@@ -655,7 +655,10 @@ fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(page.contains("method dynamic, chosen by auto"), "{page}");
     assert!(
-        page.contains("at most 1e-3 (chosen by auto for model.within = 0.05; model.tolerance = 1e-6 is not used)"),
+        page.contains(
+            "at most 1e-3 (chosen by auto for model.within = 0.05; model.tolerance = 1e-6 is not \
+                used)"
+        ),
         "{page}"
     );
     assert!(
@@ -675,7 +678,8 @@ fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
 #[test]
 fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
     let dynamic = stdout_of(&["check", TABLE_1, "--method", "dynamic"]);
-    let beside = "for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity has no limit";
+    let beside = "for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity \
+            has no limit";
     let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
     assert_eq!(dynamic, held);
     let by_auto = stdout_of(&["check", TABLE_1, "--method", "auto"]);
@@ -885,7 +889,8 @@ fn one_method_governs_and_the_others_follow_in_a_line() {
         assert!(page.contains(line), "{line}: {page}");
     }
     let differing = solve(&["--set", "driven.tip_relief=39 um"]);
-    let line = "static and exact find corner contact; dynamic governs: the case selects it, and it includes inertia.";
+    let line = "static and exact find corner contact; dynamic governs: the case selects it, and it \
+            includes inertia.";
     assert!(differing.contains(line), "{differing}");
     assert!(!page.contains("governs"), "{page}");
 }
@@ -1022,7 +1027,8 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
     let on_time = stdout_of(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
     assert!(on_time.contains("No value: no corner contact"), "{on_time}");
     assert!(stdout_of(&["fields", "--results"]).ends_with(
-        "`tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a case.\n"
+        "`tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a \
+            case.\n"
     ));
 }
 

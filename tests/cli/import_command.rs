@@ -135,8 +135,10 @@ fn of_several_spur_stages_one_must_be_chosen() {
 fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
     let unequal = edited(
         "two-stages-1.0.rexs",
-        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" unit=\"°\">20.0",
-        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" unit=\"°\">25.0",
+        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" \
+            unit=\"°\">20.0",
+        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" \
+            unit=\"°\">25.0",
     );
     let message = refusal_of(&unequal);
     assert!(
@@ -146,7 +148,8 @@ fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
     let cases = edited(
         "spur-2.0.rexsj",
         "\"load_cases\": [",
-        "\"load_cases\": [{\"id\": 2, \"components\": [{\"id\": 12, \"attributes\": [{\"id\": \"rotational_speed\", \"unit\": \"1 / min\", \"floating_point\": 500.0}]}]}, ",
+        "\"load_cases\": [{\"id\": 2, \"components\": [{\"id\": 12, \"attributes\": [{\"id\": \
+            \"rotational_speed\", \"unit\": \"1 / min\", \"floating_point\": 500.0}]}]}, ",
     );
     let imported = import(Path::new("m.rexsj"), &cases, None).unwrap();
     let speed = imported

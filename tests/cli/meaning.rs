@@ -171,7 +171,8 @@ fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
         "limits.impact_force=2.1 kN",
     ];
     let page = stdout_of(&limit);
-    let own = " for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity has no limit\n";
+    let own = " for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity \
+            has no limit\n";
     assert!(page.ends_with(own), "{page}");
     let line: Value =
         serde_json::from_str(&stdout_of(&[&limit[..], &["--format", "json"]].concat())).unwrap();
@@ -281,7 +282,8 @@ fn a_command_line_that_makes_no_sense_is_refused_in_one_line() {
         (
             &["solve", TABLE_1, "--only", "impact_force,"],
             2,
-            "error: --only: no quantity is named: write names with commas between them, such as impact_force",
+            "error: --only: no quantity is named: write names with commas between them, such as \
+                impact_force",
         ),
         (
             &[
@@ -293,7 +295,8 @@ fn a_command_line_that_makes_no_sense_is_refused_in_one_line() {
                 "operation.torque=70 N m",
             ],
             2,
-            "--set operation.torque=70 N m: --set operation.power excludes this field: remove one of the two --set options",
+            "--set operation.torque=70 N m: --set operation.power excludes this field: remove one \
+                of the two --set options",
         ),
         (
             &["solve", TABLE_1, "--set", "driver.young=205000"],
@@ -303,7 +306,8 @@ fn a_command_line_that_makes_no_sense_is_refused_in_one_line() {
         (
             &["solve", TABLE_1, "--set", "pair.centre_distance=200 mm"],
             3,
-            "cases/zhou-chen-2014.toml, --set pair.centre_distance=200 mm: the tips do not reach each other",
+            "cases/zhou-chen-2014.toml, --set pair.centre_distance=200 mm: the tips do not reach \
+                each other",
         ),
     ] {
         let (code, line) = refused(arguments);
@@ -355,7 +359,8 @@ fn the_printed_equations_say_what_they_miss() {
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         page.contains(
-            "exact finds no corner contact; paper governs: the case selects it. Required additional tip relief, driven gear: "
+            "exact finds no corner contact; paper governs: the case selects it. Required \
+                additional tip relief, driven gear: "
         ),
         "{page}"
     );

@@ -1,7 +1,8 @@
 //! How accurate every closed-form quantity is over the whole envelope, against an oracle of 90
 //! digits.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo test --test core accuracy::regenerate` makes the frozen rows and the
+//! `TIPSTRIKE_REGENERATE=1 cargo test --test core accuracy::regenerate` makes the frozen rows and
+//! the
 //! table again; `TIPSTRIKE_PAIRS=1000000` looks at ten times as many fresh pairs, `TIPSTRIKE_SEED`
 //! at those of an earlier run.
 use crate::oracle;
@@ -188,7 +189,8 @@ fn fresh_pairs_within_their_bounds() {
     worst_accurate.assert_none_beyond();
 }
 
-/// On request the rows are frozen again; else the first of each corner is made again and must be the
+/// On request the rows are frozen again; else the first of each corner is made again and must be
+/// the
 /// frozen one.
 #[test]
 fn regenerate() {

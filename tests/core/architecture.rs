@@ -345,7 +345,8 @@ fn every_file_opens_with_a_sentence_and_stays_short() {
 
 #[test]
 fn paths_are_read_in_every_way_they_are_written() {
-    let code = "use crate::{case::{Case, fields}, model, report::json}; use super::tui::App; tipstrike::cli::run(); mycrate::numeric";
+    let code = "use crate::{case::{Case, fields}, model, report::json}; use super::tui::App; \
+            tipstrike::cli::run(); mycrate::numeric";
     let source = Source {
         path: "src/report.rs".into(),
         code: code.to_owned(),

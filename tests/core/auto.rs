@@ -1,6 +1,7 @@
 //! The method `auto` takes what a trade would recommend, at about its cost.
 //!
-//! `TIPSTRIKE_PAIRS=600 cargo test --test core auto:: -- --nocapture` looks at 600 pairs in place of 60.
+//! `TIPSTRIKE_PAIRS=600 cargo test --test core auto:: -- --nocapture` looks at 600 pairs in place
+//! of 60.
 use crate::pairs;
 use crate::table;
 
@@ -175,7 +176,8 @@ fn over_other_pairs_it_is_never_wrong_and_seldom_takes_more_than_it_needs() {
         }
     }
     println!(
-        "the cheapest method within {WITHINS:?} for {agreed:?} of {looked_at} pairs; for the others a dearer one"
+        "the cheapest method within {WITHINS:?} for {agreed:?} of {looked_at} pairs; for the \
+            others a dearer one"
     );
     assert!(wrong.is_empty(), "not good enough: {wrong:#?}");
     assert!(

@@ -1,7 +1,8 @@
 //! The least tip relief that stops the corner contact: with it the method finds none, with a little
 //! less it does.
 //!
-//! `TIPSTRIKE_PAIRS=600 cargo test --test core clearing:: -- --nocapture` looks at 600 pairs in place of
+//! `TIPSTRIKE_PAIRS=600 cargo test --test core clearing:: -- --nocapture` looks at 600 pairs in
+//! place of
 //! 40.
 use crate::pairs;
 
@@ -173,7 +174,8 @@ fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_st
         }
     }
     println!(
-        "{looked_at} pairs in motion, {runs} motions tried, contact again with more relief in {returned}"
+        "{looked_at} pairs in motion, {runs} motions tried, contact again with more relief in \
+            {returned}"
     );
     assert!(
         looked_at >= 12 && runs <= 14 * looked_at,

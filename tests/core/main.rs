@@ -1,4 +1,5 @@
-//! The computation core and the case: figures, properties, speed against accuracy, and the architecture.
+//! The computation core and the case: figures, properties, speed against accuracy, and the
+//! architecture.
 #![allow(
     clippy::expect_used,
     clippy::panic,

@@ -106,7 +106,8 @@ fn source(source: &Source) -> String {
     let file = format!("tests/validation/{}.toml", source.case);
     let inputs = inputs(&file);
     let mut text = format!(
-        "\n## {}\n\nSource: {}. Inputs: `{file}`.\n\n| figure | published | tooth compliance | tipstrike | deviation |\n|---|---|---|---|---|\n",
+        "\n## {}\n\nSource: {}. Inputs: `{file}`.\n\n| figure | published | tooth compliance | \
+            tipstrike | deviation |\n|---|---|---|---|---|\n",
         source.title, source.from
     );
     for one in source.figures {

@@ -44,7 +44,8 @@ impact_force = "900 N"
 /// What stands on the right of a line.
 #[rustfmt::skip]
 const VALUES: [&str; 32] = [
-    "nan", "-inf", "1e400", "1e-400", "0x14", "0b1", "2_0", "+20", "-0.0", "99999999999999999999999999", "true", "1979-05-27",
+    "nan", "-inf", "1e400", "1e-400", "0x14", "0b1", "2_0", "+20", "-0.0",
+        "99999999999999999999999999", "true", "1979-05-27",
     "[]", "[1, [2]]", "{}", "{ a = 1 }", "{ normal = \"4 um\" }", "\"\"", "''", "'''\n20 mm'''", "\"\"\"20 mm\"\"\"", "\"20 mm",
     "20 mm", "\"20 mm\" # end", "\"20\\u0020mm\"", "\"\\u001b[2J\"", "\"\\u202e20 mm\"", "\"1e308 mm\"", "\"1e-320 mm\"",
     "\"−20 mm\"", "\"2,0 mm\"", "",
@@ -65,7 +66,8 @@ const PIECES: [&str; 40] = [
     "\n[driver]\n", "\n[[pair]]\n", "\n[pair.x]\n", "\n[limits]\nimpact_force = \"2 kN\"\n",
     "\n[spread]\n\"driven.teeth\" = { normal = 1 }\n", "\nformat = 2\n", "\n# a comment\n",
     "\n[spread.driver]\nyoung = { uniform = \"1 GPa\" }\n",
-    "\n[variants.a]\n\"driven.tip_relief\" = \"1 um\"\n", "\n[variants.\"ключ\"]\npair.module = \"4 mm\"\n",
+    "\n[variants.a]\n\"driven.tip_relief\" = \"1 um\"\n",
+        "\n[variants.\"ключ\"]\npair.module = \"4 mm\"\n",
 ];
 
 /// One change of a text.

@@ -8,10 +8,12 @@ use tipstrike::case::units::{self, Dimension};
 /// Texts that no field of a measure takes, or hardly.
 #[rustfmt::skip]
 pub(crate) const HOSTILE: [&str; 42] = [
-    "", " ", "nan", "-inf mm", "1e400 mm", "1e-400 mm", "1e308 mm", "-1e-320 um", "1e999999999999999999999 mm", "0", "-0",
+    "", " ", "nan", "-inf mm", "1e400 mm", "1e-400 mm", "1e308 mm", "-1e-320 um",
+        "1e999999999999999999999 mm", "0", "-0",
     "-0.0 um", "5", "5,0 mm", "−5 mm", "5 mm mm", "5 kg", "0x10", "1_000", "+.5e+1 mm", "5. mm", ".5", "1/2", "5µm",
     "5 \u{202e}mm", "5\u{a0}mm", "\u{1b}[2J", "\u{9b}2J", "5\u{200b} mm", "\u{feff}5 mm", "a\nb", "a\r\nb\t", "\"5 mm\"",
-    "\"\"\"", "# no", "\\u001b", "歯車 🦷", "e\u{301}\u{34f}", "\u{ffa0}a", "\u{180b}\u{1d173}\u{e0041}b", "👩\u{200d}🔧", "static",
+    "\"\"\"", "# no", "\\u001b", "歯車 🦷", "e\u{301}\u{34f}", "\u{ffa0}a",
+        "\u{180b}\u{1d173}\u{e0041}b", "👩\u{200d}🔧", "static",
 ];
 
 /// A field and a text for it: mostly a value that it takes, near its usual one or anywhere in its

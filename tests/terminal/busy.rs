@@ -138,7 +138,8 @@ fn esc_ends_long_work_and_keys_are_echoed_meanwhile() {
         slowest = slowest.max(start.elapsed());
     }
     println!(
-        "Esc ends the measurement within {slowest:.1?}, of which 50 ms are for what an escape sequence may take"
+        "Esc ends the measurement within {slowest:.1?}, of which 50 ms are for what an escape \
+            sequence may take"
     );
     assert!(slowest <= MOST_FOR_ESC, "{slowest:.1?}");
     leave(tty);

@@ -456,7 +456,8 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
         (
             "my own/x",
             format!(
-                "the folder {here}/my own does not exist: create the folder (mkdir -p '{here}/my own')"
+                "the folder {here}/my own does not exist: create the folder (mkdir -p '{here}/my \
+                    own')"
             ),
         ),
         ("new/", format!("the folder {here}/new does not exist")),

@@ -216,7 +216,8 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
     assert_eq!(tty.wait_for_end().exit_code(), 0);
     let written = tty.written.as_ref().map_or(0, Vec::len);
     println!(
-        "{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after the last key"
+        "{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after \
+            the last key"
     );
     // A picture a key would be 9 MB; 64 KiB wait in the system, and one more picture and the line's
     // own share are on their way.
@@ -494,7 +495,8 @@ fn a_typed_digit_costs_few_bytes() {
         tty.settle(QUIET);
         let whole = largest(each_key(&mut tty, "00123456789123456789"));
         println!(
-            "{columns}x{rows}: {alone} bytes for a field alone ({first} with the mark), {whole} with results and chart"
+            "{columns}x{rows}: {alone} bytes for a field alone ({first} with the mark), {whole} \
+                with results and chart"
         );
         assert!(
             alone <= 120,

@@ -365,7 +365,8 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
         .ok()
         .and_then(|count| count.parse().ok())
         .unwrap_or(FEW);
-    // What a thread frees stays in its arena of glibc: one arena shows what the program itself keeps.
+    // What a thread frees stays in its arena of glibc: one arena shows what the program itself
+    // keeps.
     let launch = Launch::on_table_1().variable("MALLOC_ARENA_MAX", "1");
     fs::write(launch.folder.path().join("other.toml"), TABLE_1).expect("room on the disk");
     let mut tty = launch.start();
@@ -415,10 +416,12 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
     } = soak;
     let rate = count as f64 / begun.elapsed().as_secs_f64();
     println!(
-        "{count} actions, {rate:.0}/s: {start} KiB at first, {early} in the first quarter, {most} at most, {end} at the end"
+        "{count} actions, {rate:.0}/s: {start} KiB at first, {early} in the first quarter, {most} \
+            at most, {end} at the end"
     );
     println!(
-        "{looks} files parsed, {saves} saves asked for, {suspensions} suspensions, {most_tabs} cases open at most"
+        "{looks} files parsed, {saves} saves asked for, {suspensions} suspensions, {most_tabs} \
+            cases open at most"
     );
     println!("{comparisons} comparisons of form and file, {values} values");
     assert!(

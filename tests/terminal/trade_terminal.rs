@@ -9,7 +9,8 @@ use tty::{Launch, TABLE_1, Tty};
 
 /// Table 1 by a method that takes seconds: nothing comes to rest.
 fn slow_case() -> String {
-    const SLOW: &str = "[model]\nmethod = \"dynamic\"\ndamping_ratio = 0.0\nwarmup_cycles = 10000\ntolerance = 1e-11\n";
+    const SLOW: &str = "[model]\nmethod = \"dynamic\"\ndamping_ratio = 0.0\nwarmup_cycles = 10000\ntolerance = \
+            1e-11\n";
     TABLE_1.replace("[model]\nmethod = \"exact\"\n", SLOW)
 }
 

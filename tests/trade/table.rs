@@ -144,7 +144,9 @@ impl Table {
 
     /// As Markdown.
     pub(crate) fn markdown(&self) -> String {
-        let mut text = "| setting | time | evaluations | numbers | curve | total |\n|---|---|---|---|---|---|\n".to_owned();
+        let mut text = "| setting | time | evaluations | numbers | curve | total \
+                |\n|---|---|---|---|---|---|\n"
+            .to_owned();
         for row in &self.0 {
             let time = row.seconds.map_or_else(|| "-".to_owned(), duration);
             let evaluations = row

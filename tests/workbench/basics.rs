@@ -868,7 +868,8 @@ fn a_keystroke_to_its_frame() {
         times.sort_by(f64::total_cmp);
         let (median, late) = (times[times.len() / 2], times[times.len() * 99 / 100]);
         println!(
-            "keystroke to frame at 200x60, method {method}: median {median:.2} ms, 99th percentile {late:.2} ms"
+            "keystroke to frame at 200x60, method {method}: median {median:.2} ms, 99th percentile \
+                {late:.2} ms"
         );
         assert!(median > 0.0);
     }

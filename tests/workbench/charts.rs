@@ -256,7 +256,8 @@ fn the_charts_of_whine() {
     assert_snapshot!("spectrum_ascii", chart(&small).join("\n"));
 }
 
-/// A chart of whine is requested once for a pair, its growing values are shown, and the values of an
+/// A chart of whine is requested once for a pair, its growing values are shown, and the values of
+/// an
 /// earlier request are not.
 #[test]
 fn the_latest_request_for_a_chart_of_whine_wins() {

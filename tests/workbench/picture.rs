@@ -35,7 +35,8 @@ fn the_pictures_of_the_readme() {
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(
             kept == picture,
-            "assets/{name}.svg is not what the workbench shows: draw it again with TIPSTRIKE_REGENERATE=1"
+            "assets/{name}.svg is not what the workbench shows: draw it again with \
+                TIPSTRIKE_REGENERATE=1"
         );
     }
 }

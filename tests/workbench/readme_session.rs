@@ -1,7 +1,8 @@
 //! README and guide show what the program does: the commands of the README print what it shows, and
 //! the keys of the guide's walk bring its sentences onto the screen.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo test --test workbench readme_session::` writes the output of the commands again.
+//! `TIPSTRIKE_REGENERATE=1 cargo test --test workbench readme_session::` writes the output of the
+//! commands again.
 use crate::harness;
 
 use std::fmt::Write as _;

@@ -15,7 +15,8 @@ use tipstrike::tui::testing::jobs::Job;
 use tipstrike::tui::testing::study::{End, Found, Question, StudyPart, StudyRequest};
 use tipstrike::tui::testing::update::update;
 
-const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n\"operation.power\" = { uniform = \"1 kW\" }\n";
+const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n\"operation.power\" = { \
+        uniform = \"1 kW\" }\n";
 
 /// The study of a field of Table 1, alone on the screen.
 fn study(size: Size, key: &str) -> Desk {
@@ -240,7 +241,8 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
 
 #[test]
 fn variants_stand_beside_the_case_with_their_differences() {
-    let variants = "\n[variants.relieved]\n\"driven.tip_relief\" = \"30 um\"\n[variants.far]\npair.centre_distance = \"200 mm\"\n";
+    let variants = "\n[variants.relieved]\n\"driven.tip_relief\" = \"30 \
+            um\"\n[variants.far]\npair.centre_distance = \"200 mm\"\n";
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = Desk::on(size, "case.toml", &format!("{TABLE_1}{variants}"));
         desk.keys(&["Esc", "2", "v"]);

@@ -42,7 +42,8 @@ pub enum SaveError {
     ChangedOnDisk(String),
     /// The system refuses to read the file, so that a change by someone else would go unseen.
     #[error(
-        "{0}: cannot be read to check for changes by others: {1}: try again, or save under another name"
+        "{0}: cannot be read to check for changes by others: {1}: try again, or save under another \
+            name"
     )]
     Unreadable(String, io::Error),
     /// Another file is there already.
@@ -50,7 +51,8 @@ pub enum SaveError {
     AlreadyThere(String),
     /// It is of a newer format, of which not everything is understood.
     #[error(
-        "{0}: the case has a newer format; saving it would lose fields that this version does not know"
+        "{0}: the case has a newer format; saving it would lose fields that this version does not \
+            know"
     )]
     NewerFormat(String),
     /// It is a folder, a pipe or a device.
@@ -73,7 +75,8 @@ pub enum SaveError {
     ReadOnly(String),
     /// The file has other names, which a save would separate from it.
     #[error(
-        "{0}: the file has {1} names (hard links), which a save would separate: save under another name"
+        "{0}: the file has {1} names (hard links), which a save would separate: save under another \
+            name"
     )]
     HardLinked(String, u64),
     /// The system refuses to write it.

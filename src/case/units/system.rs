@@ -251,7 +251,8 @@ mod tests {
             let dimension = Dimension::of_unit(metric).unwrap();
             let (number, unit) = shown(value, metric, 6, system);
             let read = parse(&format!("{number} {unit}"), dimension, unit).unwrap_or(f64::NAN);
-            prop_assert!((read / value - 1.0).abs() <= 5.001e-6, "{value:e} is shown as {number} {unit}, which is {read:e}");
+            prop_assert!((read / value - 1.0).abs() <= 5.001e-6,
+                "{value:e} is shown as {number} {unit}, which is {read:e}");
         }
     }
 }

@@ -64,7 +64,8 @@ pub struct Sweep {
     /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
     #[arg(long, required = true, value_name = "KEY=FROM..TO")]
     pub vary: Vec<String>,
-    /// Number of points of each range, both ends included; default 101, or every whole number. Given
+    /// Number of points of each range, both ends included; default 101, or every whole number.
+    /// Given
     /// once for all ranges, or once for each
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub points: Vec<usize>,

@@ -70,7 +70,8 @@ pub struct Start {
 ///
 /// # Errors
 /// [`Refusal::NoSteadyMotion`] where it never repeats itself, [`Refusal::MotionTooLong`] where the
-/// steps exceed the budget of the meter, [`Refusal::BeyondReach`] where the gears move apart further
+/// steps exceed the budget of the meter, [`Refusal::BeyondReach`] where the gears move apart
+/// further
 /// than the mesh is known, [`Refusal::Stopped`] where `go_on` says no.
 pub fn steady(
     mesh: &Mesh,
@@ -108,7 +109,8 @@ pub fn steady(
 fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32> {
     /// Over the state's scale.
     const NONE: f64 = 1e-9;
-    /// A motion that repeats itself after several base pitches so nearly repeats itself after fewer.
+    /// A motion that repeats itself after several base pitches so nearly repeats itself after
+    /// fewer.
     const NEARLY: f64 = 1e-6;
     let scale = motion.scale();
     let moved = |then: &Start| {

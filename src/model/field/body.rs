@@ -21,7 +21,8 @@ pub fn twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
         / (bore * root * bore * root)
 }
 
-/// Displacement of the body along the net force for each unit of ln(r_f/r_h), dimensionless: per force
+/// Displacement of the body along the net force for each unit of ln(r_f/r_h), dimensionless: per
+/// force
 /// and face width, times Young's modulus.
 ///
 /// # Formula

@@ -39,7 +39,8 @@ pub enum Refusal {
     },
     /// The cutting rack's flanks meet above its tip.
     #[error(
-        "the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for this pressure angle"
+        "the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for \
+            this pressure angle"
     )]
     PointedRack {
         /// h_fP*.
@@ -48,7 +49,9 @@ pub enum Refusal {
         limit: f64,
     },
     /// The base circles overlap.
-    #[error("the centre distance jams the mesh: it is {:.4} mm and must be above rb1 + rb2 = {:.4} mm", .distance / MILLIMETRE, .least / MILLIMETRE)]
+    #[error(
+        "the centre distance jams the mesh: it is {:.4} mm and must be above rb1 + rb2 = {:.4} \
+            mm", .distance / MILLIMETRE, .least / MILLIMETRE)]
     CentreDistanceJams {
         /// a, in m.
         distance: f64,
@@ -57,7 +60,8 @@ pub enum Refusal {
     },
     /// No centre distance without backlash exists.
     #[error(
-        "no mesh without backlash exists: x1 + x2 is {sum:.4}, too far below 0 for these tooth numbers"
+        "no mesh without backlash exists: x1 + x2 is {sum:.4}, too far below 0 for these tooth \
+            numbers"
     )]
     ShiftsLeaveNoMesh {
         /// x₁ + x₂.
@@ -90,7 +94,9 @@ pub enum Refusal {
         deviation: f64,
     },
     /// The centre of the tip's rounding is inside the base circle.
-    #[error("the tip radius is {:.4} mm and must be below {:.4} mm: the centre of the rounding must be outside the base circle", .radius / MILLIMETRE, .limit / MILLIMETRE)]
+    #[error(
+        "the tip radius is {:.4} mm and must be below {:.4} mm: the centre of the rounding must be \
+            outside the base circle", .radius / MILLIMETRE, .limit / MILLIMETRE)]
     RoundingInsideBase {
         /// The key of the gear's tip radius.
         field: &'static str,
@@ -122,7 +128,9 @@ pub enum Refusal {
         arm: f64,
     },
     /// The driver's flank ends before D.
-    #[error("D is beyond the end of the driver's involute: O1D is {:.4} mm and the involute ends at {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
+    #[error(
+        "D is beyond the end of the driver's involute: O1D is {:.4} mm and the involute ends at \
+            {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
     BeyondDriverTip {
         /// O₁D, in m.
         radius: f64,
@@ -147,7 +155,8 @@ pub enum Refusal {
     },
     /// Eq. 56 gives no stiffness so far out on the tooth.
     #[error(
-        "load point outside the Kuang-Yang fit: (r_x - r)/((1+x) m) is {height:.4}, where the fit's stiffness is not above 0"
+        "load point outside the Kuang-Yang fit: (r_x - r)/((1+x) m) is {height:.4}, where the \
+            fit's stiffness is not above 0"
     )]
     HeightOutsideFit {
         /// (r_x − r)/((1 + x) m).
@@ -161,7 +170,8 @@ pub enum Refusal {
     },
     /// The undercut leaves no neck below the tooth.
     #[error(
-        "the undercut cuts the tooth through: its profile shift is {shift} and must be greater for so few teeth"
+        "the undercut cuts the tooth through: its profile shift is {shift} and must be greater for \
+            so few teeth"
     )]
     CutThrough {
         /// x.
@@ -200,7 +210,8 @@ pub enum Refusal {
     IndefiniteCompliance,
     /// Friction alone locks the gears.
     #[error(
-        "the friction locks the gears: the coefficient is {friction} and must be below {limit:.4}, r_b1 over the greatest arm"
+        "the friction locks the gears: the coefficient is {friction} and must be below {limit:.4}, \
+            r_b1 over the greatest arm"
     )]
     FrictionLocks {
         /// μ.
@@ -210,7 +221,8 @@ pub enum Refusal {
     },
     /// The mesh swings too often while a tooth passes.
     #[error(
-        "too slow for method dynamic: the mesh oscillates {swings:.2e} times while a tooth passes, and the limit is {limit:.0e}"
+        "too slow for method dynamic: the mesh oscillates {swings:.2e} times while a tooth passes, \
+            and the limit is {limit:.0e}"
     )]
     TooSlow {
         /// Swings of the mesh on the way.
@@ -239,7 +251,8 @@ pub enum Refusal {
     },
     /// The steps of the motion exceed the memory of a solve.
     #[error(
-        "the speed is too low to compute the motion: the steps of a mesh exceed the memory of a solve, {} MB, after {} of the motion", .bytes / 1_000_000, percent(*.done)
+        "the speed is too low to compute the motion: the steps of a mesh exceed the memory of a \
+            solve, {} MB, after {} of the motion", .bytes / 1_000_000, percent(*.done)
     )]
     MotionTooLarge {
         /// The memory of the steps.
@@ -269,7 +282,8 @@ pub enum Refusal {
     },
     /// The force curve needs more stations than are computed.
     #[error(
-        "the force curve bends too often: it is computed in {limit} places, the limit, and needs more"
+        "the force curve bends too often: it is computed in {limit} places, the limit, and needs \
+            more"
     )]
     CurveTooRough {
         /// Places.
@@ -285,7 +299,9 @@ pub enum Refusal {
     #[error("stopped before the end")]
     Stopped,
     /// Eq. 55 leaves its range.
-    #[error("the Hertz half-width is not small against the tooth: it is {:.4} mm, and the contact formula ends at {:.4} mm", .half_width / MILLIMETRE, .limit / MILLIMETRE)]
+    #[error(
+        "the Hertz half-width is not small against the tooth: it is {:.4} mm, and the contact \
+            formula ends at {:.4} mm", .half_width / MILLIMETRE, .limit / MILLIMETRE)]
     HertzWidthTooLarge {
         /// Half-width, in m.
         half_width: f64,

@@ -78,7 +78,8 @@ impl Refusal {
                 if *is_deflection_taken {
                     "lengthen the addenda or bring the gears closer, or give model.deflection"
                 } else {
-                    "lengthen the addenda or bring the gears closer; only paper and exact use a given deflection"
+                    "lengthen the addenda or bring the gears closer; only paper and exact use a \
+                        given deflection"
                 },
             ),
             Refusal::BoreTooLarge { field, .. } => {
@@ -150,7 +151,8 @@ impl Refusal {
             Refusal::InterferenceAtEnd { .. } => (
                 "interference-at-end",
                 "driver.addendum",
-                "shorten the driver's addendum, or give the driven gear more teeth or more profile shift",
+                "shorten the driver's addendum, or give the driven gear more teeth or more profile \
+                    shift",
             ),
             Refusal::BeyondReach => (
                 "beyond-reach",
@@ -180,7 +182,8 @@ impl Refusal {
             Refusal::MotionTooLong { .. } => (
                 "motion-too-long",
                 "model.warmup_cycles",
-                "give fewer warm-up cycles or a greater damping ratio, or set model.method to static",
+                "give fewer warm-up cycles or a greater damping ratio, or set model.method to \
+                    static",
             ),
             Refusal::NoSteadyMotion { .. } => (
                 "no-steady-motion",
@@ -190,7 +193,8 @@ impl Refusal {
             Refusal::MotionTooLarge { .. } => (
                 "motion-too-large",
                 "operation.speed",
-                "give a higher speed, or set model.method to static: at this speed the pairs share the load nearly as at rest",
+                "give a higher speed, or set model.method to static: at this speed the pairs share \
+                    the load nearly as at rest",
             ),
             Refusal::TooManyPairs { .. } => (
                 "too-many-pairs",

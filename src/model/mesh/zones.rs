@@ -39,7 +39,8 @@ pub(super) struct End {
 }
 
 /// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen
-/// digits of their sizes; a gap grows from `edge`, with as many digits as the way from there and the
+/// digits of their sizes; a gap grows from `edge`, with as many digits as the way from there and
+/// the
 /// relief have.
 fn push_zones(
     borders: &mut Vec<f64>,

@@ -62,7 +62,8 @@ pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note>
         });
         let load = load.unwrap_or_default();
         format!(
-            "the tooth clears by only {clear} um: it strikes once f_pb exceeds {enough} um (now {now} um){load}"
+            "the tooth clears by only {clear} um: it strikes once f_pb exceeds {enough} um (now \
+                {now} um){load}"
         )
     };
     (enough < (1.0 + CLOSE) * now || more_load.is_some())
@@ -76,7 +77,8 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (closed, total) = (four(closed * MICRO), four(total * MICRO));
         format!(
-            "the printed equations leave the gap open: at D the tip has closed {closed} um of {total} um, so angle, velocity and force are too small; method exact closes the gap"
+            "the printed equations leave the gap open: at D the tip has closed {closed} um of \
+                {total} um, so angle, velocity and force are too small; method exact closes the gap"
         )
     };
     (solution.method == Method::Paper && closed < (1.0 - CLOSED) * total)
@@ -86,7 +88,10 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
 /// There is no end of the impact, and so no friction ratio.
 pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
     let is_without = solution.friction?.ratio.is_none();
-    let message = "the friction ratio is not computed: the triangle of Eq. 34 does not close, so the impact has no end D'".to_owned();
+    let message =
+        "the friction ratio is not computed: the triangle of Eq. 34 does not close, so the impact \
+            has no end D'"
+            .to_owned();
     (solution.method == Method::Paper && is_without).then(|| Note::new("no-end-of-impact", message))
 }
 
@@ -101,7 +106,8 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (lasts, way) = (four(duration), four(transit));
         format!(
-            "the impact lasts {lasts} us, longer than the {way} us from D to E: it continues in the normal mesh, which this method does not compute"
+            "the impact lasts {lasts} us, longer than the {way} us from D to E: it continues in \
+                the normal mesh, which this method does not compute"
         )
     };
     (duration > transit).then(|| Note::new("impact-outlasts-approach", message()))
@@ -143,7 +149,8 @@ pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (deflects, error) = (four(deflection), four(error));
         format!(
-            "the mesh force deflects the pair {deflects} um, less than the equivalent error of {error} um: the pair ahead loses contact"
+            "the mesh force deflects the pair {deflects} um, less than the equivalent error of \
+                {error} um: the pair ahead loses contact"
         )
     };
     (deflection < error).then(|| Note::new("contact-lost", message()))
@@ -172,7 +179,8 @@ pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
         (
             "sliding-throughout",
             format!(
-                "below the stick limit {limit}: the tip slides throughout the impact, and the tangential impulse is {friction} times the normal impulse"
+                "below the stick limit {limit}: the tip slides throughout the impact, and the \
+                    tangential impulse is {friction} times the normal impulse"
             ),
         )
     } else {

@@ -42,7 +42,8 @@ pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<N
             * 1e6,
     );
     let message = format!(
-        "the deflection of {given} um is given: power and torque change only F_0, not D or the impact"
+        "the deflection of {given} um is given: power and torque change only F_0, not D or the \
+            impact"
     );
     Some(Note::new("deflection-given", message))
 }

@@ -52,13 +52,15 @@ pub(super) fn centre_distance(inputs: &Inputs, solution: &Solution) -> Option<No
         Some(Note::new(
             "centre-distance-jams",
             format!(
-                "the centre distance jams the mesh: the normal backlash is {value} mm and must not be below 0"
+                "the centre distance jams the mesh: the normal backlash is {value} mm and must not \
+                    be below 0"
             ),
         ))
     } else if backlash > OPEN * inputs.module {
         let limit = four(OPEN * inputs.module * MILLI);
         let message = format!(
-            "the centre distance opens the mesh: the normal backlash is {value} mm, above a tenth of the module, {limit} mm"
+            "the centre distance opens the mesh: the normal backlash is {value} mm, above a tenth \
+                of the module, {limit} mm"
         );
         Some(Note::new("centre-distance-opens", message))
     } else {
@@ -71,7 +73,8 @@ pub(super) fn start_past_pitch(_: &Inputs, solution: &Solution) -> Option<Note> 
     let length = solution.geometry.approach_length;
     let message = || {
         format!(
-            "the path of approach is {} mm, below 0: contact starts past the pitch point, at the driven tip without its chamfer",
+            "the path of approach is {} mm, below 0: contact starts past the pitch point, at the \
+                driven tip without its chamfer",
             four(length * MILLI)
         )
     };
@@ -106,7 +109,8 @@ fn undercut(name: &str, inputs: &Inputs, gear: &Gear) -> Option<Note> {
     let below = shift < limit;
     let limit = four(limit);
     below.then(|| {
-        Note::new("undercut", format!("the {name} is undercut: its profile shift is {shift} and should be at least {limit}"))
+        Note::new("undercut", format!(
+            "the {name} is undercut: its profile shift is {shift} and should be at least {limit}"))
     })
 }
 
@@ -162,7 +166,8 @@ pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> 
         .find(|(_, radius)| *radius < form)?;
     let (radius, form) = (distinct_digits(radius, form), distinct_digits(form, radius));
     let message = format!(
-        "{point} is below the driver's form circle: O1{point} is {radius} mm and the involute starts at {form} mm"
+        "{point} is below the driver's form circle: O1{point} is {radius} mm and the involute \
+            starts at {form} mm"
     );
     Some(Note::new("below-form-circle", message))
 }

@@ -59,7 +59,8 @@ pub(in crate::model) fn first_contact(geometry: &Geometry, deviation: f64) -> Re
 /// S = S2 u²/2 (1 + A u + B u² + C u³),  A = S3/(3 S2),  B = S4/(12 S2),  C = S5/(60 S2)
 /// ρ1 ρ1' = a ra2 sin η,  rb1 χ' = ρ1' + rb2',  S' = rb2 − rb2',  rb2' = a cos χ − rb1
 /// ```
-/// where S2 to S5 are the derivatives of S at E, p0 to p3 below those of ρ1' and x1 to x4 those of χ.
+/// where S2 to S5 are the derivatives of S at E, p0 to p3 below those of ρ1' and x1 to x4 those of
+/// χ.
 fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
     let Geometry { driver, driven, .. } = geometry;
     let (curvature, tangent) = (geometry.start + driven.edge, geometry.tangent_length);
@@ -103,7 +104,8 @@ fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
         .min(LARGEST_ANGLE)
 }
 
-/// Step of ln u towards `S = deviation`, of fourth order, with the gap by quadrature where the terms
+/// Step of ln u towards `S = deviation`, of fourth order, with the gap by quadrature where the
+/// terms
 /// of its closed form outgrow their sum by more than the factor `loss`.
 ///
 /// # Formula

@@ -22,7 +22,8 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "z1 n1",
         stage: Resonance,
         value: |s| Some(s.resonance?.mesh_frequency),
-        meaning: "The number of tooth pairs that enter the mesh per second. A pair whines at this frequency and at its multiples.",
+        meaning: "The number of tooth pairs that enter the mesh per second. A pair whines at this \
+            frequency and at its multiples.",
         formula: Text("z1 ω_1/(2 π)"),
         source: "Kinematics of the pair: z1 n1 tooth pairs per second.",
         corrections: &[],
@@ -58,7 +59,10 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "ISO 6336-1",
         stage: Resonance,
         value: |s| Some(s.resonance?.ratio()),
-        meaning: "The mesh frequency over the natural frequency. The pair is in resonance at N = 1, and its second and third mesh harmonics are at N = 1/2 and 1/3. ISO 6336-1 calls N up to 0.85 subcritical (from 100 N per mm of width on), up to 1.15 the main resonance, up to 1.5 intermediate, and above it supercritical.",
+        meaning: "The mesh frequency over the natural frequency. The pair is in resonance at N = \
+            1, and its second and third mesh harmonics are at N = 1/2 and 1/3. ISO 6336-1 calls N \
+            up to 0.85 subcritical (from 100 N per mm of width on), up to 1.15 the main resonance, \
+            up to 1.5 intermediate, and above it supercritical.",
         formula: Text("f_z/f_n"),
         source: ISO,
         corrections: &[],
@@ -78,7 +82,8 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| {
             Some(s.resonance?.natural_frequency * s.geometry.base_pitch / s.geometry.driver.base)
         },
-        meaning: "The speed of the driver at which the mesh frequency equals the natural frequency, N = 1.",
+        meaning: "The speed of the driver at which the mesh frequency equals the natural \
+            frequency, N = 1.",
         formula: Text("2 π f_n/z1"),
         source: ISO,
         corrections: &[],

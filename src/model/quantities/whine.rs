@@ -31,7 +31,8 @@ const PERIODIC: Formula = Found(
     STEADY,
 );
 
-/// The row of a harmonic of the transmission error: its order, the order in words, and its frequency.
+/// The row of a harmonic of the transmission error: its order, the order in words, and its
+/// frequency.
 macro_rules! at_rest {
     ($order:literal, $word:literal, $frequency:literal) => {
         Quantity {
@@ -116,7 +117,9 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "max x − min x",
         stage: StaticSpectrum,
         value: |s| Some(at_rest(s)?.spectrum.peak_to_peak),
-        meaning: "The difference between the largest and the smallest transmission error over one base pitch at rest, of a pair in which no tooth deviates: the static excitation of whine.",
+        meaning: "The difference between the largest and the smallest transmission error over one \
+            base pitch at rest, of a pair in which no tooth deviates: the static excitation of \
+            whine.",
         formula: PERIODIC_AT_REST,
         source: SPECTRUM,
         corrections: &[],
@@ -139,7 +142,8 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "max x − min x",
         stage: SteadyMotion,
         value: |s| Some(steady(s)?.spectrum.peak_to_peak),
-        meaning: "The difference between the largest and the smallest transmission error in the steady motion of a pair in which no tooth deviates.",
+        meaning: "The difference between the largest and the smallest transmission error in the \
+            steady motion of a pair in which no tooth deviates.",
         formula: PERIODIC,
         source: MOTION,
         corrections: &[],
@@ -162,7 +166,8 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "max ΣF/F0",
         stage: SteadyMotion,
         value: |s| Some(steady(s)?.mesh_force / s.mesh_force),
-        meaning: "The greatest sum of the forces of all tooth pairs in the steady motion over the mesh force.",
+        meaning: "The greatest sum of the forces of all tooth pairs in the steady motion over the \
+            mesh force.",
         formula: Found(
             "max ΣF/F_0, ΣF over the base pitches after which the motion repeats",
             STEADY,
@@ -203,7 +208,8 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "no pair touches",
         stage: SteadyMotion,
         value: |s| Some(f64::from(u8::from(steady(s)?.contact_lost))),
-        meaning: "Whether no pair touches at some moment of the steady motion of a pair without deviations.",
+        meaning: "Whether no pair touches at some moment of the steady motion of a pair without \
+            deviations.",
         formula: Found("from the steady motion", STEADY),
         source: MOTION,
         corrections: &[],

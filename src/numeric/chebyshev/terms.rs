@@ -107,7 +107,8 @@ pub(super) fn values<const N: usize, const M: usize>(
     from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
 }
 
-/// The coefficients of the powers of t − `at`, by Horner's rule for all of them at once: no sum waits
+/// The coefficients of the powers of t − `at`, by Horner's rule for all of them at once: no sum
+/// waits
 /// for another of the same round.
 pub(super) fn about<const N: usize, const M: usize>(
     powers: &Terms<N>,

@@ -176,7 +176,8 @@ fn points(text: &mut String, solution: &Solution, view: &View) {
         let _ = writeln!(
             text,
             "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" class=\"f1\"/>\
-             <text x=\"{beside:.1}\" y=\"{base:.1}\" text-anchor=\"{anchor}\" class=\"title halo\">{name}</text>"
+             <text x=\"{beside:.1}\" y=\"{base:.1}\" text-anchor=\"{anchor}\" class=\"title \
+                 halo\">{name}</text>"
         );
     }
 }

@@ -39,7 +39,10 @@ fn a_limit_on_the_free_impact_is_followed_by_the_counterpart_in_the_method() {
     };
     assert_eq!(*standing, Standing::Within);
     assert!(
-        sentence.ends_with(" for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity has no limit"),
+        sentence.ends_with(
+            " for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this \
+                quantity has no limit"
+        ),
         "{sentence}"
     );
     let [(standing, sentence)] = &verdicts("static", "1 kN")[..] else {
@@ -47,7 +50,10 @@ fn a_limit_on_the_free_impact_is_followed_by_the_counterpart_in_the_method() {
     };
     assert_eq!(*standing, Standing::Exceeded);
     assert!(
-        sentence.ends_with(" for the free impact. Method static: static_force_at_start 1466.2 N, above this limit; this quantity has no limit"),
+        sentence.ends_with(
+            " for the free impact. Method static: static_force_at_start 1466.2 N, above this \
+                limit; this quantity has no limit"
+        ),
         "{sentence}"
     );
 }
@@ -68,7 +74,8 @@ fn a_limit_without_a_value_gives_the_reason_and_passes_only_without_contact() {
     assert_eq!(standing, Standing::Unknown);
     assert_eq!(
         sentence,
-        "dynamic_peak_force has no value (limit 2 kN): method exact does not compute it, only dynamic and auto do"
+        "dynamic_peak_force has no value (limit 2 kN): method exact does not compute it, only \
+            dynamic and auto do"
     );
     // The closed form decides nothing about the motion.
     assert_eq!(

@@ -20,7 +20,8 @@ pub type NamedCurve<'a> = (&'a str, &'a SpeedCurve);
 /// Spectra by their names in the legend.
 pub type NamedSpectra = Vec<(String, Spectrum)>;
 
-/// Harmonics of the transmission error at rest and in steady motion as a picture; none where no case
+/// Harmonics of the transmission error at rest and in steady motion as a picture; none where no
+/// case
 /// has them.
 #[must_use]
 pub fn spectrum(cases: &[Drawn]) -> Option<String> {

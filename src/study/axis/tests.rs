@@ -111,7 +111,8 @@ fn a_bad_axis_gets_place_cause_and_fix() {
             "operation.speed=3000..500 rpm",
             None,
             false,
-            "operation.speed: the range is reversed: 3000 rpm is above 500 rpm: write operation.speed=500 rpm..3000 rpm",
+            "operation.speed: the range is reversed: 3000 rpm is above 500 rpm: write \
+                operation.speed=500 rpm..3000 rpm",
         ),
         (
             "operation.speed=500..500 rpm",

@@ -143,7 +143,8 @@ impl Figures<'_> {
         })?)
     }
 
-    /// The greatest load at which nothing overlaps, over that of the case; three times the greatest of
+    /// The greatest load at which nothing overlaps, over that of the case; three times the greatest
+    /// of
     /// the range at the most.
     pub(super) fn greatest_load(
         &self,

@@ -12,7 +12,8 @@ use crate::model::inputs::ReliefShape;
 /// A relief in whole steps: amounts on driver and driven gear, then lengths.
 type Steps = [i32; 4];
 
-/// The kinds of relief in the order of the answer: the shape, its name, and its name where both gears
+/// The kinds of relief in the order of the answer: the shape, its name, and its name where both
+/// gears
 /// have the same relief.
 const KINDS: [(ReliefShape, &str, &str); 2] = [
     (ReliefShape::Linear, "linear", "linear, both alike"),
@@ -82,7 +83,8 @@ impl Grid {
     }
 }
 
-/// What a relief costs: the transmission error, or the overlap if it does not clear. Any overlap costs
+/// What a relief costs: the transmission error, or the overlap if it does not clear. Any overlap
+/// costs
 /// more than any error.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 enum Cost {
@@ -218,8 +220,10 @@ impl<'a> Search<'a> {
         Ok(starts)
     }
 
-    /// The least amount, the same on both gears, with which nothing overlaps; the greatest where none
-    /// clears. So great a relief that the pair ahead yields to it overlaps again, and so the amounts
+    /// The least amount, the same on both gears, with which nothing overlaps; the greatest where
+    /// none
+    /// clears. So great a relief that the pair ahead yields to it overlaps again, and so the
+    /// amounts
     /// are tried from the least up.
     fn least_clear(&self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
         const STRIDES: i32 = 24;
@@ -309,7 +313,8 @@ impl<'a> Search<'a> {
         Ok(cost)
     }
 
-    /// The greatest transmission error over the loads, and a thousandth of their mean, which decides
+    /// The greatest transmission error over the loads, and a thousandth of their mean, which
+    /// decides
     /// between equal ones.
     fn error(&self, reliefs: &TipReliefs) -> f64 {
         const MEAN: f64 = 1e-3;

@@ -20,7 +20,8 @@ pub struct Build {
 }
 
 impl Build {
-    /// Builds both fields without the kept ones, several times if there is patience; the least time counts.
+    /// Builds both fields without the kept ones, several times if there is patience; the least time
+    /// counts.
     ///
     /// # Errors
     /// The refusal of a gear without a field.

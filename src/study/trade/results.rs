@@ -167,8 +167,10 @@ impl Trade {
         self.cheapest = self.find_cheapest();
     }
 
-    /// The cheapest setting that qualifies among the methods from which `auto` chooses. `auto` itself
-    /// takes one of these, and `paper` repeats `exact`. Of settings whose times tie, the most accurate.
+    /// The cheapest setting that qualifies among the methods from which `auto` chooses. `auto`
+    /// itself
+    /// takes one of these, and `paper` repeats `exact`. Of settings whose times tie, the most
+    /// accurate.
     fn find_cheapest(&self) -> Option<usize> {
         let best = self.cheapest_where(|_| true)?;
         self.settings

@@ -80,7 +80,8 @@ impl Decoder {
         }
     }
 
-    /// Pastes arrive in bulk. In a paste without an end, a control character that arrives alone after
+    /// Pastes arrive in bulk. In a paste without an end, a control character that arrives alone
+    /// after
     /// a pause is a key, such as Ctrl-Q.
     fn is_key_after_a_paste(&self, bytes: &[u8]) -> bool {
         let has_paused = self.patience + SEQUENCE <= PASTE;

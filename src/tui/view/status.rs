@@ -248,8 +248,10 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 
 fn at_cursor(app: &App) -> String {
     const NONE: &str = "Cursor hidden. h and l show the cursor; Space plays the motion.";
-    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's D.";
-    const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
+    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's \
+            D.";
+    const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base \
+            circles, tip's path.";
     match app.cursor {
         Some(cursor) => chart::readout(&app.charts(), cursor),
         None if app.layout.focus() == Pane::Chart => format!("{NONE} {MARKS}"),

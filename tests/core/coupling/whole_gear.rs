@@ -16,7 +16,8 @@ const FLANK: usize = 7;
 const SPACE: usize = 2;
 const DEPTH: usize = 6;
 
-/// Tooth and body of a gear under a unit force on a flank, per unit width and for Young's modulus 1.
+/// Tooth and body of a gear under a unit force on a flank, per unit width and for Young's modulus
+/// 1.
 pub(crate) struct WholeGear {
     outline: Outline,
     sectors: usize,

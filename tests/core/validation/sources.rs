@@ -29,7 +29,8 @@ fn by(inputs: &Inputs, method: Method, key: &str) -> Option<f64> {
     value(&solved(inputs, method)?, key)
 }
 
-/// Mesh stiffness F_0/x of the load at rest at each station: way since E over the base pitch, and the
+/// Mesh stiffness F_0/x of the load at rest at each station: way since E over the base pitch, and
+/// the
 /// stiffness in N/um.
 fn mesh_stiffness(inputs: &Inputs) -> Option<Vec<(f64, f64)>> {
     let inputs = Inputs {
@@ -192,7 +193,8 @@ pub(super) const SOURCES: &[Source] = &[
                 published: 0.003_602_5,
                 ours: |inputs| by(inputs, Method::Exact, "inertia_driver"),
                 by_model: false,
-                fair: "partly. The source takes a disc to the reference circle; tipstrike integrates the outline.",
+                fair: "partly. The source takes a disc to the reference circle; tipstrike \
+                    integrates the outline.",
             },
         ],
     },
@@ -215,7 +217,8 @@ pub(super) const SOURCES: &[Source] = &[
                 published: 0.3493,
                 ours: |inputs| by(inputs, Method::Exact, "reduced_mass"),
                 by_model: false,
-                fair: "partly. The source's body is not known to us in full; the density is assumed.",
+                fair: "partly. The source's body is not known to us in full; the density is \
+                    assumed.",
             },
             Figure {
                 name: "relief of least dynamic load, on both gears",
@@ -332,7 +335,8 @@ pub(super) const SOURCES: &[Source] = &[
                     teeth_alone(inputs, |geometry| geometry.start + geometry.approach_length)
                 },
                 by_model: true,
-                fair: "yes. The same pair, bores and elasticity, by finite elements in plane strain.",
+                fair: "yes. The same pair, bores and elasticity, by finite elements in plane \
+                    strain.",
             },
             Figure {
                 name: "both teeth without contact at the wheel's tip",

@@ -282,8 +282,10 @@ impl Foundation {
 /// X = A/θ² + B h² + C h/θ + D/θ + E h + F,   q_T = r_b² (1 + ν)/(2π) (1/r_h² − 1/r_f²),
 /// q_V = (3 − 4ν)(1 + ν)/(4π (1 − ν)) ln h without a bore, else 0
 /// ```
-/// q_T is the twist of the body about its bore, which belongs to the shaft, and q_V the shift of the
-/// body. u is the distance from the root circle to the line of force along the centre line. S = 2 θ r_f
+/// q_T is the twist of the body about its bore, which belongs to the shaft, and q_V the shift of
+/// the
+/// body. u is the distance from the root circle to the line of force along the centre line. S = 2 θ
+/// r_f
 /// is the thickness at the root, θ half of the tooth's angle there, and h = r_f/r_bore.
 ///
 /// # Source

@@ -176,7 +176,8 @@ fn draw_curves(charts: &Charts, axes: &Axes, curves: &[Curve], buffer: &mut Buff
 }
 
 /// The longest title that has room: the name, the symbol with its unit, and the x axis with its
-/// unit. A title without room for all shortens the x axis, then leaves out the x axis, then the name.
+/// unit. A title without room for all shortens the x axis, then leaves out the x axis, then the
+/// name.
 fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
     let answer = charts.answer;
     let own = answer.and_then(|answer| graph.column(answer.active));

@@ -1,4 +1,5 @@
-//! The lines between outcome and table: methods that differ, the required relief, mesh frequency and
+//! The lines between outcome and table: methods that differ, the required relief, mesh frequency
+//! and
 //! resonance, the spread of the stiffness models, the error of the printed equations.
 
 use crate::model::inputs::Method;

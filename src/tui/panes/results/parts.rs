@@ -37,7 +37,8 @@ pub(super) struct Parts {
     pub(super) notes: Vec<Line<'static>>,
 }
 
-// With room every gauge and note is printed in full, else each gauge in a line and the notes in one.
+// With room every gauge and note is printed in full, else each gauge in a line and the notes in
+// one.
 pub(super) fn parts(pane: &Results<'_>) -> Parts {
     let area = pane.area;
     let width = usize::from(area.width.saturating_sub(1));

@@ -1,4 +1,5 @@
-//! Which columns the table of quantities has in a width: measured, so that nothing in them is cut and
+//! Which columns the table of quantities has in a width: measured, so that nothing in them is cut
+//! and
 //! no mark touches a unit.
 
 use ratatui::style::Style;
