@@ -245,6 +245,6 @@ mod tests {
             FIELDS[fields::index_of("pair.module").expect("a field")].label
         );
         assert_ne!(label("driver.teeth"), label("driven.teeth"));
-        assert_eq!(label("limits.impact_force"), "limits.impact_force");
+        assert_eq!(label("limits.impact_force"), "limit of impact force");
     }
 }

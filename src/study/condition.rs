@@ -284,7 +284,7 @@ mod tests {
             ("impact_force<=2500 mm", "unit of length"),
             (
                 "impact_force=2500 N",
-                "equals no number exactly: write impact_force<=2500 N",
+                "is a number: write impact_force<=2500 N",
             ),
             (
                 "outcome=contact",

@@ -3,7 +3,7 @@
 mod requests;
 mod shown;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ratatui::layout::Size;
 
@@ -24,6 +24,7 @@ use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
 use crate::case::fields::Kind;
+use crate::case::stamp::Stamp;
 use crate::case::{Case, Document};
 
 /// Everything that the screen shows.
@@ -166,10 +167,14 @@ impl App {
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
-    /// The files from which the open cases were read, or to which they were saved.
-    pub(super) fn files(&self) -> Vec<PathBuf> {
-        let files = self.tabs().filter_map(|tab| tab.document.path());
-        files.map(Path::to_owned).collect()
+    /// The files from which the open cases were read, or to which they were saved, with the stamps of
+    /// their texts.
+    pub(super) fn files(&self) -> Vec<(PathBuf, Stamp)> {
+        let files = self.tabs().filter_map(|tab| {
+            let path = tab.document.path()?;
+            Some((path.to_owned(), tab.document.stamp()))
+        });
+        files.collect()
     }
 
     /// What every open case makes of its file.

@@ -3,6 +3,7 @@
 
 pub(crate) mod chart;
 pub(crate) mod form;
+pub(crate) mod plot;
 pub(crate) mod results;
 pub(crate) mod study;
 pub(crate) mod teeth;

@@ -20,6 +20,7 @@ use super::jobs::Job;
 use super::solver::Request;
 use super::study::StudyRequest;
 use super::whine::WhineRequest;
+use crate::case::stamp::Stamp;
 
 /// The threads. Those of benchmark, study and jobs start with their first request.
 pub struct Workers {
@@ -60,7 +61,7 @@ impl Workers {
     }
 
     /// Watches these files for changes by other programs.
-    pub(super) fn watch(&self, files: Vec<PathBuf>) {
+    pub(super) fn watch(&self, files: Vec<(PathBuf, Stamp)>) {
         self.watcher.watch(files);
     }
 

@@ -588,7 +588,7 @@ fn the_results_of_a_method_come_before_the_free_impact() {
         );
         assert!(
             free.contains(
-                "ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact. Method "
+                "ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact. Method"
             ),
             "{text}"
         );

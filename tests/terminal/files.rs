@@ -497,7 +497,7 @@ fn a_path_to_save_to_is_completed_where_possible() {
         desk.screen()
     );
     desk.keys(&["Ctrl-U", &missing, "Enter"]);
-    assert!(desk.shows("there is no folder"), "{}", desk.screen());
+    assert!(desk.shows("does not exist: create"), "{}", desk.screen());
     assert!(
         desk.app
             .message
@@ -565,7 +565,9 @@ fn a_file_that_another_program_writes_is_read_again_where_nothing_is_edited() {
     fs::write(tty.case(), TABLE_1).expect("room on the disk");
     tty.wait_for("changed on disk: :reload reads it again");
     assert!(tty.shows("8 mm"));
-    tty.type_in("\x1b:reload\r");
+    tty.type_in("\x1b");
+    tty.settle(Duration::from_millis(200));
+    tty.type_in(":reload\r");
     tty.wait_for("has unsaved edits");
     tty.type_in("d");
     tty.wait_for("5 mm");

@@ -190,7 +190,7 @@ fn edits_that_cannot_be_written_to_a_journal_are_reported() {
     write(&mut app, "pair.module", "6 mm");
     let claims = autosave.follow(&app.sheets(), Instant::now());
     assert!(
-        matches!(&claims[..], [Err(text)] if text.contains("save soon")),
+        matches!(&claims[..], [Err(text)] if text.contains("save the case, or a crash loses the edits")),
         "{claims:?}"
     );
     drop(autosave);
@@ -253,7 +253,7 @@ fn a_folder_or_a_file_system_that_takes_no_locks_is_named() {
         (
             "flock",
             "EOPNOTSUPP",
-            "is locked on this machine alone: Operation not supported",
+            "the lock is valid on this machine only: Operation not supported",
         ),
     ] {
         let launch = Launch::on_table_1().size(24, 200);
@@ -300,7 +300,7 @@ fn journals_keep_away_from_a_folder_that_others_may_write() {
     let run = run.to_str().expect("UTF-8");
     let mut tty = launch.variable("XDG_RUNTIME_DIR", run).start();
     tty.wait_for("others may write in");
-    tty.wait_for("unsaved edits are kept in");
+    tty.wait_for("Until then the journals are in");
     tty.type_in("\x156 mm");
     tty.wait_for("6 mm");
     tty.send_signal("TERM");

@@ -254,7 +254,7 @@ fn a_motion_that_exceeds_its_work_is_refused_with_what_is_done() {
     };
     assert!(steps > 20 && done > 0.0 && done < 1.0, "{refused}");
     assert!(meter.spent() < 300 + 64, "{}", meter.spent());
-    let sentence = format!("{steps} steps, the most that the budget allows");
+    let sentence = format!("the limit of {steps} steps");
     assert!(refused.to_string().contains(&sentence), "{refused}");
 }
 

@@ -74,8 +74,8 @@ fn a_limit_without_a_value_gives_the_reason_and_passes_only_without_contact() {
     assert_eq!(standing, Standing::Unknown);
     assert_eq!(
         sentence,
-        "dynamic_peak_force has no value (limit 2 kN): method exact does not compute it, only \
-            dynamic and auto do"
+        "dynamic_peak_force has no value (limit 2 kN): method exact does not compute this \
+            quantity; dynamic and auto do"
     );
     // The closed form decides nothing about the motion.
     assert_eq!(
@@ -106,7 +106,7 @@ fn a_counterpart_with_a_limit_of_its_own_needs_no_hint() {
     let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
     let sentence = verdicts(&case, &solution)[0].to_string();
     assert!(
-        sentence.ends_with("static finds static_force_at_start 1466.2 N"),
+        sentence.ends_with("Method static: static_force_at_start 1466.2 N"),
         "{sentence}"
     );
 }

@@ -251,14 +251,3 @@ pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
     let top = pane.state.top.saturating_add_signed(by);
     top.min(lines.saturating_sub(rows))
 }
-
-/// Draws the lines left of the cells and below them. Returns their column and their row.
-pub(super) fn draw_axes(cells: Rect, rule: Style, buffer: &mut Buffer) -> (u16, u16) {
-    let (left, bottom) = (cells.x - 1, cells.bottom());
-    for y in cells.top()..bottom {
-        buffer.set_string(left, y, "│", rule);
-    }
-    buffer.set_string(left, bottom, "└", rule);
-    buffer.set_string(cells.x, bottom, "─".repeat(cells.width.into()), rule);
-    (left, bottom)
-}

@@ -263,7 +263,7 @@ mod tests {
             let place = path.join(exposed);
             let fix = format!("others may write in {}: chmod go-w it", place.display());
             assert!(notice.starts_with(&fix), "{notice}");
-            assert!(notice.contains(&format!("kept in {}", path.join("run").display())));
+            assert!(notice.contains(&format!("are in {}", path.join("run").display())));
             let nowhere = State::choose(Some(usual), Vec::new());
             assert_eq!(nowhere.folder, None);
             assert!(

@@ -1,19 +1,22 @@
 //! Watches the files of the open cases: another program may write them.
 
-use std::collections::HashMap;
+mod changes;
+
+use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
+use changes::{Bell, Changes};
+
 use super::latest::Send;
+use crate::case::stamp::Stamp;
 use crate::tui::actions::Action;
 use crate::tui::store;
 
-/// Time between two looks at the files: a second is soon enough for a person, and costs nothing.
-const PERIOD: Duration = Duration::from_secs(1);
 /// A file is read once its mark has stayed the same for this long, or after [`LOOKS`] looks.
 const QUIET: Duration = Duration::from_millis(60);
 const LOOKS: usize = 20;
@@ -25,25 +28,29 @@ pub(super) struct Watcher {
 }
 
 impl Watcher {
-    /// Starts the thread, which sleeps until there are files.
+    /// Starts the thread, which sleeps until a file changes.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// When the system gives no thread, or no means to wait.
     pub(super) fn start(send: Send) -> io::Result<Watcher> {
-        let watched = Arc::new(Watched::default());
+        let mut changes = Changes::new()?;
+        let watched = Arc::new(Watched {
+            list: Mutex::default(),
+            bell: Bell::new()?,
+        });
         let theirs = Arc::clone(&watched);
         thread::Builder::new()
             .name("watch".to_owned())
-            .spawn(move || theirs.look(&send))?;
+            .spawn(move || theirs.look(&mut changes, &send))?;
         Ok(Watcher { watched })
     }
 
-    /// Watches these files, and no others.
-    pub(super) fn watch(&self, files: Vec<PathBuf>) {
+    /// Watches these files, each with the stamp of its known text, and no others.
+    pub(super) fn watch(&self, files: Vec<(PathBuf, Stamp)>) {
         let mut list = self.watched.list();
         if list.files != files {
             list.files = files;
-            self.watched.bell.notify_one();
+            self.watched.bell.ring();
         }
     }
 }
@@ -51,28 +58,29 @@ impl Watcher {
 impl Drop for Watcher {
     fn drop(&mut self) {
         self.watched.list().is_closed = true;
-        self.watched.bell.notify_one();
+        self.watched.bell.ring();
     }
 }
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Watched {
     list: Mutex<List>,
-    bell: Condvar,
+    bell: Bell,
 }
 
 #[derive(Debug, Default)]
 struct List {
-    files: Vec<PathBuf>,
+    files: Vec<(PathBuf, Stamp)>,
     is_closed: bool,
 }
 
 impl Watched {
-    fn look(&self, send: &Send) {
+    fn look(&self, changes: &mut Changes, send: &Send) {
         let mut seen: HashMap<PathBuf, Option<Mark>> = HashMap::new();
-        while let Some(files) = self.next() {
-            seen.retain(|file, _| files.contains(file));
-            for file in files {
+        while let Some(files) = self.files() {
+            seen.retain(|file, _| files.iter().any(|(path, _)| path == file));
+            changes.follow(&folders(&files));
+            for (file, known) in files {
                 let mark = Mark::of(&file);
                 let before = seen.insert(file.clone(), mark);
                 // A deleted file leaves nothing to read, and a new one may come in its place.
@@ -82,33 +90,39 @@ impl Watched {
                 let settled = settled(&file, mark);
                 seen.insert(file.clone(), settled);
                 let found = store::load(&file);
-                if settled.is_some() && !send(Action::FileChanged(file, found)) {
+                let is_known = matches!(&found, Ok(document) if document.stamp() == known);
+                let is_news = settled.is_some() && !is_known;
+                if is_news && !send(Action::FileChanged(file, found)) {
                     return;
                 }
             }
+            changes.wait(&self.bell);
         }
     }
 
-    /// The files at the next look; `None` once the watcher is dropped.
-    fn next(&self) -> Option<Vec<PathBuf>> {
-        let mut list = self.list();
-        let had_files = !list.files.is_empty();
-        if had_files && !list.is_closed {
-            let (next, _) = self
-                .bell
-                .wait_timeout(list, PERIOD)
-                .unwrap_or_else(PoisonError::into_inner);
-            list = next;
-        }
-        while list.files.is_empty() && !list.is_closed {
-            list = self.bell.wait(list).unwrap_or_else(PoisonError::into_inner);
-        }
+    /// The files; `None` once the watcher is dropped.
+    fn files(&self) -> Option<Vec<(PathBuf, Stamp)>> {
+        let list = self.list();
         (!list.is_closed).then(|| list.files.clone())
     }
 
     fn list(&self) -> MutexGuard<'_, List> {
         self.list.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// The folders of the files, and those of the files to which links lead.
+fn folders(files: &[(PathBuf, Stamp)]) -> BTreeSet<PathBuf> {
+    let parent = |path: &Path| {
+        let parent = path.parent()?;
+        let is_here = parent.as_os_str().is_empty();
+        Some(if is_here { Path::new(".") } else { parent }.to_owned())
+    };
+    let target = |path: &PathBuf| fs::canonicalize(path).ok().and_then(|path| parent(&path));
+    let both = files
+        .iter()
+        .flat_map(|(path, _)| [parent(path), target(path)]);
+    both.flatten().collect()
 }
 
 /// What changes when a file is written: its time, its length, the file itself.

@@ -300,7 +300,7 @@ macro_rules! gear {
             number!(
                 concat!(stringify!($gear), ".base_pitch"),
                 concat!("f_pb", $i),
-                "base pitch deviation",
+                "own pitch deviation",
                 Length,
                 -5000.0,
                 5000.0,

@@ -7,6 +7,7 @@ use ratatui::style::Style;
 use super::Charts;
 use super::way::{first_contact, last_contact};
 use crate::model::Solution;
+use crate::tui::panes::plot::put_where_free;
 use crate::tui::scale::{Span, Ticks};
 
 /// The least columns of the labels beside the plot.
@@ -314,11 +315,4 @@ fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
         .flatten()
         .map(|(angle, name)| (0.0 - angle.to_degrees(), name))
         .collect()
-}
-
-/// Writes into a blank cell.
-pub(crate) fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffer) {
-    if buffer.cell(at).is_some_and(|cell| cell.symbol() == " ") {
-        buffer.set_string(at.0, at.1, symbol, style);
-    }
 }

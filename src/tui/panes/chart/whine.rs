@@ -9,9 +9,8 @@ use ratatui::widgets::canvas::{Canvas, Line, Points};
 use unicode_width::UnicodeWidthStr;
 
 use super::Charts;
-use super::axes::put_where_free;
 use crate::report::svg::{Chart, Kind, Series};
-use crate::tui::panes::study::draw_axes;
+use crate::tui::panes::plot::{draw_axes, put_where_free};
 use crate::tui::scale::{Span, bounds};
 use crate::tui::text;
 use crate::tui::whine::WhineChart;

@@ -8,13 +8,13 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 use unicode_width::UnicodeWidthStr;
 
-use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, draw_axes, range};
+use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, range};
 use crate::model::Outcome;
 use crate::model::inputs::Method;
 use crate::report::unit_beside;
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
-use crate::tui::panes::chart::axes::put_where_free;
+use crate::tui::panes::plot::{draw_axes, put_where_free};
 use crate::tui::scale::{Span, bounds};
 use crate::tui::study::{Layer, LayerFound, Question, StudyResults, Whose};
 

@@ -5,11 +5,12 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, draw_axes, range};
+use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, range};
 use crate::model::{Outcome, Quantity};
 use crate::report::{shown_with, unit_beside};
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
+use crate::tui::panes::plot::draw_axes;
 use crate::tui::scale::Span;
 use crate::tui::study::{LayerFound, StudyResults};
 

@@ -260,10 +260,10 @@ mod tests {
                 "operation.speed",
                 2,
                 30,
-                ["1750 rpm", "1800 rpm", "2250 rpm"],
+                ["1760 rpm", "1780 rpm", "2240 rpm"],
             ),
             ("driven.tip_relief", 0, 60, ["0 um", "1 um", "50 um"]),
-            ("operation.power", 3, 7, ["14.5 kW", "14.5 kW", "14.5 kW"]),
+            ("operation.power", 3, 7, ["14.5 kW", "15 kW", "15.5 kW"]),
         ] {
             let field = index_of(key).expect("a field");
             let axis = axis(&case, field, zoom, Steps::Round(most)).expect("a range");

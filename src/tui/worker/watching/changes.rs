@@ -1,0 +1,140 @@
+//! Waits for a change in the folders of the watched files, without waking up in between.
+
+#[cfg(target_os = "linux")]
+pub(super) use linux::{Bell, Changes};
+#[cfg(not(target_os = "linux"))]
+pub(super) use periodic::{Bell, Changes};
+
+#[cfg(target_os = "linux")]
+mod linux {
+    use std::collections::{BTreeSet, HashMap};
+    use std::io;
+    use std::os::fd::OwnedFd;
+    use std::path::PathBuf;
+
+    use rustix::event::{EventfdFlags, PollFd, PollFlags, eventfd, poll};
+    use rustix::fs::inotify::{self, CreateFlags, WatchFlags};
+
+    /// Ends a wait.
+    #[derive(Debug)]
+    pub(in super::super) struct Bell(OwnedFd);
+
+    impl Bell {
+        pub(in super::super) fn new() -> io::Result<Bell> {
+            Ok(Bell(eventfd(0, EventfdFlags::CLOEXEC)?))
+        }
+
+        pub(in super::super) fn ring(&self) {
+            // A bell that has rung too often rings already.
+            let _ = rustix::io::write(&self.0, &1_u64.to_ne_bytes());
+        }
+    }
+
+    /// The folders whose changes end a wait.
+    #[derive(Debug)]
+    pub(in super::super) struct Changes {
+        inotify: OwnedFd,
+        folders: HashMap<PathBuf, i32>,
+    }
+
+    impl Changes {
+        pub(in super::super) fn new() -> io::Result<Changes> {
+            Ok(Changes {
+                inotify: inotify::init(CreateFlags::CLOEXEC)?,
+                folders: HashMap::new(),
+            })
+        }
+
+        /// Follows these folders and no others. A folder that cannot be followed is left out.
+        pub(in super::super) fn follow(&mut self, folders: &BTreeSet<PathBuf>) {
+            let inotify = &self.inotify;
+            self.folders.retain(|folder, number| {
+                let stays = folders.contains(folder);
+                if !stays {
+                    // The folder may be gone, and its watch with it.
+                    let _ = inotify::remove_watch(inotify, *number);
+                }
+                stays
+            });
+            for folder in folders {
+                if self.folders.contains_key(folder) {
+                    continue;
+                }
+                let events = WatchFlags::CLOSE_WRITE | WatchFlags::MOVED_TO;
+                if let Ok(number) = inotify::add_watch(&self.inotify, folder, events) {
+                    self.folders.insert(folder.clone(), number);
+                }
+            }
+        }
+
+        /// Waits for a change in a folder, or for the bell.
+        pub(in super::super) fn wait(&self, bell: &Bell) {
+            let mut lines = [
+                PollFd::new(&self.inotify, PollFlags::IN),
+                PollFd::new(&bell.0, PollFlags::IN),
+            ];
+            if poll(&mut lines, None).is_err() {
+                return;
+            }
+            let ready = lines.map(|line| !line.revents().is_empty());
+            let mut events = [0; 4096];
+            if ready[0] {
+                let _ = rustix::io::read(&self.inotify, &mut events);
+            }
+            if ready[1] {
+                let _ = rustix::io::read(&bell.0, &mut events[..8]);
+            }
+        }
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+mod periodic {
+    use std::collections::BTreeSet;
+    use std::io;
+    use std::path::PathBuf;
+    use std::sync::{Condvar, Mutex, PoisonError};
+    use std::time::Duration;
+
+    /// Time between two looks at the files.
+    const PERIOD: Duration = Duration::from_secs(1);
+
+    /// Ends a wait.
+    #[derive(Debug, Default)]
+    pub(in super::super) struct Bell {
+        has_rung: Mutex<bool>,
+        condition: Condvar,
+    }
+
+    impl Bell {
+        pub(in super::super) fn new() -> io::Result<Bell> {
+            Ok(Bell::default())
+        }
+
+        pub(in super::super) fn ring(&self) {
+            *self.has_rung.lock().unwrap_or_else(PoisonError::into_inner) = true;
+            self.condition.notify_one();
+        }
+    }
+
+    /// Without events of folders, every wait ends after a second.
+    #[derive(Debug)]
+    pub(in super::super) struct Changes;
+
+    impl Changes {
+        pub(in super::super) fn new() -> io::Result<Changes> {
+            Ok(Changes)
+        }
+
+        pub(in super::super) fn follow(&mut self, _: &BTreeSet<PathBuf>) {}
+
+        pub(in super::super) fn wait(&self, bell: &Bell) {
+            let has_rung = bell.has_rung.lock();
+            let has_rung = has_rung.unwrap_or_else(PoisonError::into_inner);
+            let waited = bell
+                .condition
+                .wait_timeout_while(has_rung, PERIOD, |rung| !*rung);
+            *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
+        }
+    }
+}
