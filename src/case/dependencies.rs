@@ -1,6 +1,5 @@
 //! Which stages read a field, and which fields a quantity depends on: both follow from changes of
-//! the
-//! field.
+//! the field.
 
 #[cfg(test)]
 mod tests;
@@ -68,8 +67,7 @@ pub fn fields_of(
 }
 
 /// The inputs without an elastic field, if the quantity does not depend on the tooth compliance;
-/// else
-/// the same inputs. The field of every changed gear would take longer than all other stages.
+/// else the same inputs. The field of every changed gear would take longer than all other stages.
 fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs {
     // A value of 0, and a flag, may be that of any compliance until a field changes.
     let is_telling = !quantity.is_flag() && own.is_some_and(|own| own != 0.0);

@@ -19,14 +19,13 @@ pub const TOOTH_WORK: u64 = 8;
 
 /// Swings of the mesh while a motion lasts. Of slower motions the steps never fit into
 /// [`MOTION_BYTES`]: those of Table 1 with 71.6 N m fill them at 0.25 rpm, with 3e5 swings. The
-/// limit
-/// refuses such a motion at once.
+/// limit refuses such a motion at once.
 pub const MOTION_SWINGS: f64 = 4e5;
 
 /// Bytes in which a motion keeps its steps while the incoming tooth is near, of the 64 MiB that a
 /// solve may take. The list of steps grows by a quarter, and while it grows its old and its new
-/// room
-/// take 54 MiB. Later the rest is for the places of the curve (20 MB), the mesh and the stations.
+/// room take 54 MiB. Later the rest is for the places of the curve (20 MB), the mesh and the
+/// stations.
 pub const MOTION_BYTES: usize = 24 << 20;
 
 /// Pairs that may touch at a time: as many as a set of them has bits. Two gears of 1000 teeth have
@@ -48,8 +47,7 @@ pub const CURVE_WORK: usize = 400_000;
 pub const IMPACT_WORK: usize = 20;
 
 /// Stations before E, and as many after it: 5 MB each, beside the steps of the motion and the
-/// places
-/// of the curve.
+/// places of the curve.
 pub const STATIONS: usize = 50_000;
 
 /// Stations where the force turns, beside the number that the case gives: four times the greatest

@@ -103,8 +103,7 @@ impl ContactState {
     /// ```
     /// where S₀ is the gap that is closed at the first contact: Δ in the methods `paper` and
     /// `exact`, S at the first contact in `static` and `dynamic`. After B the same values are those
-    /// of the
-    /// driver's tip, by swapped gears, and S₀ is 0.
+    /// of the driver's tip, by swapped gears, and S₀ is 0.
     ///
     /// # Source
     /// Gap, velocities and force of the method `exact` stand in `paper` too, so that what is seen

@@ -40,8 +40,7 @@ pub struct Geometry<T = f64> {
     /// Contact ratio ε = EB/p_b.
     pub contact_ratio: T,
     /// γ₂: angle at O₂ between the centre line and the tip at E, in rad; of a rounded tip the
-    /// centre
-    /// of its arc.
+    /// centre of its arc.
     pub start_angle_driven: T,
     /// E seen from O₁, or the centre of the rounded tip's arc there, the centre line along x, in m.
     pub start_point: Vector2<T>,
@@ -58,8 +57,7 @@ pub struct Geometry<T = f64> {
 /// ```
 /// A tip that is rounded by an arc of radius re inside the tip circle, tangent to it and to the
 /// flank, ends the involute at the radius of curvature L_f in place of √(ra² − rb²), and γ₂ and E
-/// of
-/// the tip are those of the arc's centre C:
+/// of the tip are those of the arc's centre C:
 /// ```text
 /// rC = ra − re,  L_C = √(rC² − rb²),  L_f = L_C + re,  N1C = N1E + re
 /// ```

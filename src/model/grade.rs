@@ -63,8 +63,7 @@ impl Inputs {
     }
 
     /// The base pitch deviation that both gears would have to have for the same equivalent error,
-    /// in
-    /// m: the root mean square of both.
+    /// in m: the root mean square of both.
     #[must_use]
     pub fn mean_base_pitch(&self) -> f64 {
         let [driver, driven] = self.base_pitches();

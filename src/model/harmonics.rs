@@ -8,8 +8,8 @@ use crate::numeric::quadrature;
 pub const HARMONICS: usize = 10;
 
 /// A transmission error over p mesh periods (p = 1 unless the motion repeats after several):
-/// amplitudes
-/// of the multiples of the mesh frequency, averaged over the periods. Subharmonics are left out.
+/// amplitudes of the multiples of the mesh frequency, averaged over the periods. Subharmonics are
+/// left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spectrum {
     /// Amplitudes of the harmonics of the mesh frequency, the first one first, in m.
@@ -44,8 +44,7 @@ impl Fourier {
     }
 
     /// Adds a smooth piece from one part of the period to another; `value` is a function of the
-    /// part
-    /// of the piece.
+    /// part of the piece.
     pub(super) fn add(&mut self, (from, to): (f64, f64), value: impl Fn(f64) -> f64) {
         /// Of the rule: so that it resolves the highest harmonic in each of them.
         const PIECES_OF_PERIOD: f64 = 2.0 * HARMONICS as f64;

@@ -120,8 +120,7 @@ impl PairSet {
     ///
     /// # Source
     /// The linear complementarity problem by its parameter x: Cottle, Pang & Stone 2009, "The
-    /// Linear
-    /// Complementarity Problem", section 4.5.
+    /// Linear Complementarity Problem", section 4.5.
     #[must_use]
     pub fn balance(&self, force: f64) -> Balance {
         let incoming = self.pairs.iter().position(|pair| pair.ahead == 0);

@@ -73,8 +73,7 @@ impl Relief {
     /// The reliefs of the pair.
     ///
     /// A relief whose length is not given reaches over [`Geometry::shared_length`]: for 1 < ε < 2
-    /// to
-    /// the start of single contact, the long relief.
+    /// to the start of single contact, the long relief.
     #[must_use]
     pub fn of(reliefs: &Reliefs, geometry: &Geometry) -> Relief {
         let usual = geometry.shared_length();
@@ -133,8 +132,7 @@ impl Relief {
     }
 
     /// By how much the rounding of a radius of curvature changes what both flanks lack, in m: a
-    /// steep
-    /// relief is known no better.
+    /// steep relief is known no better.
     #[must_use]
     pub fn rounding(&self) -> f64 {
         let ramps = self.driver.iter().chain(&self.driven);

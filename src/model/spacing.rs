@@ -31,8 +31,7 @@ impl Spacing {
     /// What `at` gives at the stations from the first of `ends` to the last, both among them. `at`
     /// gives the height of the curve as well. Between two of the ends it should turn once at most:
     /// those in between are looked at, in no more places than `most`, and are stations only where
-    /// the
-    /// curve needs them.
+    /// the curve needs them.
     pub fn stations<T>(
         self,
         ends: &[f64],

@@ -51,8 +51,7 @@ pub struct TipContact<T = f64> {
 /// ```
 /// For a rounded tip ra2, N1E, γ2, E and D are those of the arc's centre C in Q, Δβ1 and Δψ, and
 /// then ρ1 = N1'C − re and O1D² = rb1² + ρ1². Here E and D are seen from O₁, D − E is the chord of
-/// the tip circle, EP is the path of approach
-/// and Δ the growth since E.
+/// the tip circle, EP is the path of approach and Δ the growth since E.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E; Eq. 27 corrected to the
@@ -209,8 +208,7 @@ pub(super) fn angle_at_curvature(geometry: &Geometry, curvature: f64) -> f64 {
 }
 
 /// The angle u at which O₁D² and ρ₁², of a rounded tip O₁C² and N₁'C², have grown by
-/// `grown_square`: the inverse of Q(u). NaN where
-/// the tip circle does not reach so far.
+/// `grown_square`: the inverse of Q(u). NaN where the tip circle does not reach so far.
 #[must_use]
 pub fn angle_by_growth(geometry: &Geometry, grown_square: f64) -> f64 {
     let tip = geometry.driven.tip - geometry.driven.edge;
@@ -247,8 +245,7 @@ pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
 
 impl TipContact {
     /// Distance of D from the driven gear's tangent to its base circle through D, √(O₂D² − r_b2²),
-    /// in
-    /// m: where the tooth's compliance is that of the load on the flank.
+    /// in m: where the tooth's compliance is that of the load on the flank.
     pub(super) fn load_arm_driven(&self, geometry: &Geometry) -> f64 {
         if geometry.driven.edge <= 0.0 {
             return geometry.driven.tip_curvature;

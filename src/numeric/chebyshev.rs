@@ -171,8 +171,7 @@ impl<const N: usize> Series<N> {
 
 impl<const N: usize> Piece<N> {
     /// `x` on the piece, from −1 to 1. A place beyond an end is there by its rounding: on a piece
-    /// as
-    /// narrow as that, the polynomial is not followed further.
+    /// as narrow as that, the polynomial is not followed further.
     fn inner(&self, x: f64) -> f64 {
         const BEYOND: f64 = 1.0 + 1e-3;
         (((x - self.from) - (self.to - x)) / (self.to - self.from)).clamp(-BEYOND, BEYOND)

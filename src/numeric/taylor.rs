@@ -44,8 +44,7 @@ impl<const N: usize> Oscillator<N> {
 }
 
 /// Adds the share of one term of the series to the sums of its order and of all later ones, which
-/// do
-/// not wait for each other.
+/// do not wait for each other.
 fn add_pull(pulls: &mut [f64], stiffness: &[f64], term: f64) {
     for (pull, stiffness) in pulls.iter_mut().zip(stiffness) {
         *pull += stiffness * term;

@@ -239,8 +239,7 @@ fn pieces(
 }
 
 /// The longest interval between two stations of a curve without a gap, in deg. The closed forms
-/// leave
-/// out stations whose force cannot be computed; the other methods have every station.
+/// leave out stations whose force cannot be computed; the other methods have every station.
 #[must_use]
 pub fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {

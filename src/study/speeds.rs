@@ -91,8 +91,7 @@ impl SpeedCurve {
 }
 
 /// The steady motion of a pair at each of [`SPEEDS`] speeds, first with the speed rising from
-/// motion
-/// to motion, then falling. `show` receives the curve as it grows and says whether to go on.
+/// motion to motion, then falling. `show` receives the curve as it grows and says whether to go on.
 ///
 /// # Errors
 /// The [`Refusal`] of the pair, and [`Refusal::Stopped`] where `show` says no.

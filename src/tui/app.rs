@@ -167,7 +167,8 @@ impl App {
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
-    /// The files from which the open cases were read, or to which they were saved, with the stamps of
+    /// The files from which the open cases were read, or to which they were saved, with the stamps
+    /// of
     /// their texts.
     pub(super) fn files(&self) -> Vec<(PathBuf, Stamp)> {
         let files = self.tabs().filter_map(|tab| {

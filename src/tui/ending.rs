@@ -1,12 +1,10 @@
 //! Ends from outside: the journal is written first, the terminal is given back, and the process
-//! ends
-//! by the signal that it got. A stuck workbench delays none of that for long.
+//! ends by the signal that it got. A stuck workbench delays none of that for long.
 //!
 //! Every signal that would end the process is blocked in every thread, and one thread reads them.
 //! Nothing catches a fault of the process itself: a real SIGSEGV, a stack that overflows, or an
 //! abort, as after a failed allocation, ends it at once and leaves the terminal as it is. The
-//! journal
-//! of the last two seconds is lost then. `reset` repairs the terminal.
+//! journal of the last two seconds is lost then. `reset` repairs the terminal.
 
 use std::io;
 use std::process;

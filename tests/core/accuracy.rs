@@ -2,9 +2,8 @@
 //! digits.
 //!
 //! `TIPSTRIKE_REGENERATE=1 cargo test --test core accuracy::regenerate` makes the frozen rows and
-//! the
-//! table again; `TIPSTRIKE_PAIRS=1000000` looks at ten times as many fresh pairs, `TIPSTRIKE_SEED`
-//! at those of an earlier run.
+//! the table again; `TIPSTRIKE_PAIRS=1000000` looks at ten times as many fresh pairs,
+//! `TIPSTRIKE_SEED` at those of an earlier run.
 use crate::oracle;
 
 use crate::envelope;
@@ -190,8 +189,7 @@ fn fresh_pairs_within_their_bounds() {
 }
 
 /// On request the rows are frozen again; else the first of each corner is made again and must be
-/// the
-/// frozen one.
+/// the frozen one.
 #[test]
 fn regenerate() {
     if regenerating() {

@@ -1,8 +1,8 @@
 //! Every solve ends within its budget of work, however extreme a valid case is.
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core budget:: -- --nocapture` draws a
-//! million cases
-//! in place of 2,000 and prints the costliest of them, by their counted work and by their time.
+//! million cases in place of 2,000 and prints the costliest of them, by their counted work and by
+//! their time.
 use crate::envelope;
 
 use std::collections::BTreeMap;

@@ -2,8 +2,7 @@
 //! less it does.
 //!
 //! `TIPSTRIKE_PAIRS=600 cargo test --test core clearing:: -- --nocapture` looks at 600 pairs in
-//! place of
-//! 40.
+//! place of 40.
 use crate::pairs;
 
 use tipstrike::case::EXAMPLES;

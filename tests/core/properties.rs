@@ -1,8 +1,7 @@
 //! What must hold for every pair of the envelope.
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` looks at a million pairs
-//! in
-//! place of 50,000.
+//! in place of 50,000.
 use crate::envelope;
 
 use std::collections::BTreeMap;

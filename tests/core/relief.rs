@@ -109,8 +109,7 @@ fn whole_solves_find_the_figures_of_the_relief_and_no_corner_contact() {
 }
 
 /// Every relief of a grid around the amounts of the answer and over all lengths: none that clears
-/// has
-/// a smaller transmission error, but for what round figures cost.
+/// has a smaller transmission error, but for what round figures cost.
 #[test]
 fn no_relief_of_a_grid_is_better() {
     const ROUND: f64 = 0.97;
@@ -213,8 +212,8 @@ fn where_no_relief_serves_the_reason_is_given() {
 }
 
 /// The source chooses 43.58 um on both gears, the deflection of its own teeth at 353.2 N/um. Kuang
-/// and
-/// Yang's teeth are stiffer; under as much more load they deflect as far and need the same relief.
+/// and Yang's teeth are stiffer; under as much more load they deflect as far and need the same
+/// relief.
 #[test]
 fn at_the_deflection_of_the_source_the_pair_of_dias_needs_the_published_relief() {
     const PUBLISHED: [f64; 2] = [353.2e6, 43.58e-6];

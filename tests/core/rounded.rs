@@ -170,8 +170,7 @@ fn a_tip_radius_beyond_its_limits_is_refused_by_name() {
 }
 
 /// A driven gear of five teeth: a large deviation turns the contact normal past its centre, where
-/// the
-/// contact leaves the arc of its tip.
+/// the contact leaves the arc of its tip.
 #[test]
 fn a_contact_beyond_the_arc_of_the_tip_is_refused() {
     let mut inputs = standard_pair(20, 5, 4e-3);

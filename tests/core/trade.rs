@@ -1,8 +1,7 @@
 //! Speed against accuracy: what the trade promises, and the stored errors of the cases in `cases/`.
 //!
 //! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table, the lines of
-//! docs/speed.md
-//! and its picture again.
+//! docs/speed.md and its picture again.
 use crate::table;
 
 use std::cell::Cell;

@@ -212,8 +212,7 @@ fn pair(given: &Given) -> Option<Pair> {
 }
 
 /// Radius of curvature at which the involute ends: an arc of radius r_e takes over where its centre
-/// is
-/// on the involute parallel to the flank.
+/// is on the involute parallel to the flank.
 fn involute_end(circles: &Circles) -> Option<Big> {
     Some(leg(&(&circles.tip - &circles.edge), &circles.base)? + &circles.edge)
 }

@@ -190,7 +190,8 @@ fn edits_that_cannot_be_written_to_a_journal_are_reported() {
     write(&mut app, "pair.module", "6 mm");
     let claims = autosave.follow(&app.sheets(), Instant::now());
     assert!(
-        matches!(&claims[..], [Err(text)] if text.contains("save the case, or a crash loses the edits")),
+        matches!(&claims[..], [Err(text)] if text.contains(
+            "save the case, or a crash loses the edits")),
         "{claims:?}"
     );
     drop(autosave);

@@ -257,8 +257,7 @@ fn the_charts_of_whine() {
 }
 
 /// A chart of whine is requested once for a pair, its growing values are shown, and the values of
-/// an
-/// earlier request are not.
+/// an earlier request are not.
 #[test]
 fn the_latest_request_for_a_chart_of_whine_wins() {
     let mut desk = at_method(SMALL, "exact");

@@ -1,6 +1,5 @@
 //! The circles of a gear must fit each other: tip and root diameters the coefficients of a rack,
-//! the
-//! bore the root.
+//! the bore the root.
 
 use super::problem::Problem;
 use super::value::field_range;

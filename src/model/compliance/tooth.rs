@@ -166,8 +166,7 @@ impl<'a> Tooth<'a> {
 
     /// Displacement of another tooth's flank at radius `measured`, along its own line of force, for
     /// a load of 1 N/m on this tooth at radius `loaded`, in m²/N. The other tooth is `pitches`
-    /// ahead,
-    /// to the side that the force pushes to; teeth behind count below 0.
+    /// ahead, to the side that the force pushes to; teeth behind count below 0.
     ///
     /// The twist of the body about its bore is left out; without a bore, so is its shift. 0 for a
     /// model of single teeth, for the loaded tooth itself, and for teeth more than two pitches

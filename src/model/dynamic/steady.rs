@@ -71,8 +71,7 @@ pub struct Start {
 /// # Errors
 /// [`Refusal::NoSteadyMotion`] where it never repeats itself, [`Refusal::MotionTooLong`] where the
 /// steps exceed the budget of the meter, [`Refusal::BeyondReach`] where the gears move apart
-/// further
-/// than the mesh is known, [`Refusal::Stopped`] where `go_on` says no.
+/// further than the mesh is known, [`Refusal::Stopped`] where `go_on` says no.
 pub fn steady(
     mesh: &Mesh,
     settings: &Settings,

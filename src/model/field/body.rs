@@ -22,8 +22,7 @@ pub fn twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
 }
 
 /// Displacement of the body along the net force for each unit of ln(r_f/r_h), dimensionless: per
-/// force
-/// and face width, times Young's modulus.
+/// force and face width, times Young's modulus.
 ///
 /// # Formula
 /// ```text

@@ -40,8 +40,7 @@ pub(super) struct End {
 
 /// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen
 /// digits of their sizes; a gap grows from `edge`, with as many digits as the way from there and
-/// the
-/// relief have.
+/// the relief have.
 fn push_zones(
     borders: &mut Vec<f64>,
     (size, edge, relief): ([f64; 4], f64, &Relief),

@@ -105,8 +105,7 @@ fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
 }
 
 /// Step of ln u towards `S = deviation`, of fourth order, with the gap by quadrature where the
-/// terms
-/// of its closed form outgrow their sum by more than the factor `loss`.
+/// terms of its closed form outgrow their sum by more than the factor `loss`.
 ///
 /// # Formula
 /// ```text

@@ -108,8 +108,7 @@ pub(super) fn values<const N: usize, const M: usize>(
 }
 
 /// The coefficients of the powers of t − `at`, by Horner's rule for all of them at once: no sum
-/// waits
-/// for another of the same round.
+/// waits for another of the same round.
 pub(super) fn about<const N: usize, const M: usize>(
     powers: &Terms<N>,
     first: usize,

@@ -21,8 +21,7 @@ pub type NamedCurve<'a> = (&'a str, &'a SpeedCurve);
 pub type NamedSpectra = Vec<(String, Spectrum)>;
 
 /// Harmonics of the transmission error at rest and in steady motion as a picture; none where no
-/// case
-/// has them.
+/// case has them.
 #[must_use]
 pub fn spectrum(cases: &[Drawn]) -> Option<String> {
     let all: NamedSpectra = cases.iter().flat_map(of_case).collect();

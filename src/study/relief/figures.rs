@@ -144,8 +144,7 @@ impl Figures<'_> {
     }
 
     /// The greatest load at which nothing overlaps, over that of the case; three times the greatest
-    /// of
-    /// the range at the most.
+    /// of the range at the most.
     pub(super) fn greatest_load(
         &self,
         bench: &Bench,

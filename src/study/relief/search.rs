@@ -13,8 +13,7 @@ use crate::model::inputs::ReliefShape;
 type Steps = [i32; 4];
 
 /// The kinds of relief in the order of the answer: the shape, its name, and its name where both
-/// gears
-/// have the same relief.
+/// gears have the same relief.
 const KINDS: [(ReliefShape, &str, &str); 2] = [
     (ReliefShape::Linear, "linear", "linear, both alike"),
     (ReliefShape::Parabolic, "parabolic", "parabolic, both alike"),
@@ -84,8 +83,7 @@ impl Grid {
 }
 
 /// What a relief costs: the transmission error, or the overlap if it does not clear. Any overlap
-/// costs
-/// more than any error.
+/// costs more than any error.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 enum Cost {
     Error(f64),
@@ -221,10 +219,8 @@ impl<'a> Search<'a> {
     }
 
     /// The least amount, the same on both gears, with which nothing overlaps; the greatest where
-    /// none
-    /// clears. So great a relief that the pair ahead yields to it overlaps again, and so the
-    /// amounts
-    /// are tried from the least up.
+    /// none clears. So great a relief that the pair ahead yields to it overlaps again, and so the
+    /// amounts are tried from the least up.
     fn least_clear(&self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
         const STRIDES: i32 = 24;
         let most = self.grid.most_amounts;
@@ -314,8 +310,7 @@ impl<'a> Search<'a> {
     }
 
     /// The greatest transmission error over the loads, and a thousandth of their mean, which
-    /// decides
-    /// between equal ones.
+    /// decides between equal ones.
     fn error(&self, reliefs: &TipReliefs) -> f64 {
         const MEAN: f64 = 1e-3;
         let errors: Vec<f64> = self.bench.errors(reliefs).collect();

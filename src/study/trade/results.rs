@@ -168,9 +168,8 @@ impl Trade {
     }
 
     /// The cheapest setting that qualifies among the methods from which `auto` chooses. `auto`
-    /// itself
-    /// takes one of these, and `paper` repeats `exact`. Of settings whose times tie, the most
-    /// accurate.
+    /// itself takes one of these, and `paper` repeats `exact`. Of settings whose times tie, the
+    /// most accurate.
     fn find_cheapest(&self) -> Option<usize> {
         let best = self.cheapest_where(|_| true)?;
         self.settings

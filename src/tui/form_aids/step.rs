@@ -25,9 +25,8 @@ pub(crate) fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> 
 }
 
 impl Case {
-    /// What [`step`] makes of a field as it stands: of its text, else of its default; a field that
-    /// its
-    /// alternative replaces has no step.
+    /// The text of a field after a step from its text, else from its default. A field that
+    /// its alternative replaces has no step.
     #[must_use]
     pub fn stepped(&self, field: usize, by: i32) -> Option<String> {
         let default = if let Absent::Default(text) = FIELDS[field].absent {

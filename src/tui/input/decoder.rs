@@ -81,8 +81,7 @@ impl Decoder {
     }
 
     /// Pastes arrive in bulk. In a paste without an end, a control character that arrives alone
-    /// after
-    /// a pause is a key, such as Ctrl-Q.
+    /// after a pause is a key, such as Ctrl-Q.
     fn is_key_after_a_paste(&self, bytes: &[u8]) -> bool {
         let has_paused = self.patience + SEQUENCE <= PASTE;
         let is_key = matches!(bytes, [0..=0x08 | 0x0b | 0x0c | 0x0e..=0x1a | 0x1c..=0x1f]);

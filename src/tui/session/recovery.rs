@@ -40,7 +40,7 @@ pub struct OpenCase<'a> {
 /// The result of opening a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
-    /// The [`OpenCase::id`].
+    /// The id of the open case.
     pub id: usize,
     /// Whether its file may be written.
     pub access: Access,

@@ -1,6 +1,5 @@
 //! The answer of every method to a request: first the closed forms, then the method of the case,
-//! then
-//! the required relief.
+//! then the required relief.
 
 use std::sync::Arc;
 use std::time::Instant;

@@ -257,8 +257,7 @@ fn completed(app: &App) -> String {
 }
 
 // Of two fields that exclude each other, the one being typed stays. Once it is empty again, the
-// other
-// returns. The status line reports it while typing.
+// other returns. The status line reports it while typing.
 fn take_turns(app: &mut App, field: usize, other: usize) {
     let Some(before) = app
         .tab

@@ -49,8 +49,7 @@ fn action(request: &WhineRequest, found: Option<WhineFound>, is_over: bool) -> A
 }
 
 /// The spectra at rest and, of the method `dynamic`, in steady motion. A closed form has no mesh:
-/// the
-/// method `static` serves.
+/// the method `static` serves.
 fn spectrum(inputs: &Inputs, running: Running<'_>) -> Result<WhineFound, Refusal> {
     let method = match inputs.method {
         Method::Dynamic => Method::Dynamic,

@@ -30,8 +30,7 @@ fn by(inputs: &Inputs, method: Method, key: &str) -> Option<f64> {
 }
 
 /// Mesh stiffness F_0/x of the load at rest at each station: way since E over the base pitch, and
-/// the
-/// stiffness in N/um.
+/// the stiffness in N/um.
 fn mesh_stiffness(inputs: &Inputs) -> Option<Vec<(f64, f64)>> {
     let inputs = Inputs {
         stations: Some(512),

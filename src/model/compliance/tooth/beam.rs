@@ -283,10 +283,8 @@ impl Foundation {
 /// q_V = (3 − 4ν)(1 + ν)/(4π (1 − ν)) ln h without a bore, else 0
 /// ```
 /// q_T is the twist of the body about its bore, which belongs to the shaft, and q_V the shift of
-/// the
-/// body. u is the distance from the root circle to the line of force along the centre line. S = 2 θ
-/// r_f
-/// is the thickness at the root, θ half of the tooth's angle there, and h = r_f/r_bore.
+/// the body. u is the distance from the root circle to the line of force along the centre line. S =
+/// 2 θ r_f is the thickness at the root, θ half of the tooth's angle there, and h = r_f/r_bore.
 ///
 /// # Source
 /// Sainsot, Velex & Duverger 2004, J. Mech. Des. 126(4), 748-752, in plane stress.

@@ -1,6 +1,5 @@
 //! The lines between outcome and table: methods that differ, the required relief, mesh frequency
-//! and
-//! resonance, the spread of the stiffness models, the error of the printed equations.
+//! and resonance, the spread of the stiffness models, the error of the printed equations.
 
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution, Stage};

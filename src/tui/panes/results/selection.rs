@@ -59,8 +59,7 @@ pub(crate) fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) 
 
 /// The state with a new answer: the selection stays on the quantity that was selected in the answer
 /// before, and on its line of the screen. Where nothing was selected, and while the quantity is
-/// gone
-/// or has no value any more, the top is shown.
+/// gone or has no value any more, the top is shown.
 #[must_use]
 pub(crate) fn followed(
     state: ResultsState,

@@ -1,6 +1,5 @@
 //! Which columns the table of quantities has in a width: measured, so that nothing in them is cut
-//! and
-//! no mark touches a unit.
+//! and no mark touches a unit.
 
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
