@@ -6,7 +6,7 @@ mod tables;
 
 use std::io::{self, Write};
 
-use super::layout::item;
+use super::layout::{WIDTH, item};
 use crate::case::sanitize::sanitize;
 use crate::model::explanation::tidy;
 use crate::model::inputs::Method;
@@ -40,26 +40,32 @@ impl ReliefReport<'_> {
         };
         writeln!(out, "{}", sanitize(title))?;
         for line in self.lines() {
-            writeln!(out, "{line}")?;
+            // Tables fit; sentences are wrapped.
+            let is_short = line.chars().count() <= WIDTH;
+            let parts = if is_short {
+                vec![line]
+            } else {
+                item("", &line)
+            };
+            for part in parts {
+                writeln!(out, "{part}")?;
+            }
         }
         Ok(())
     }
 
-    /// The answer in lines of at most 80 columns, without the title.
+    /// The answer without the title: rows of tables of at most 80 columns, and whole sentences.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         let found = self.found;
-        let mut lines = self.demand();
+        let mut lines = vec![self.demand()];
         lines.push(String::new());
         lines.extend(self.answer());
         lines.push(String::new());
-        lines.extend(item("", &self.margin()));
-        lines.extend(item("", &self.contact_ratio()));
+        lines.push(self.margin());
+        lines.push(self.contact_ratio());
         if found.is_cut {
-            lines.extend(item(
-                "",
-                "The search ended with its budget; a better relief may exist.",
-            ));
+            lines.push("The search ended with its budget; a better relief may exist.".to_owned());
         }
         lines.push(String::new());
         lines.push("Choices, with the transmission error peak to peak over the loads".to_owned());
@@ -68,19 +74,19 @@ impl ReliefReport<'_> {
         lines.push("Transmission error peak to peak over the load, um (Harris map)".to_owned());
         lines.extend(harris(found));
         lines.push(String::new());
-        lines.extend(item(
-            "",
+        lines.push(
             "Greatest transmission error over the loads by length and amount of the relief, um; \
-             - corner contact at the greatest load, * the relief to specify",
-        ));
+             - corner contact at the greatest load, * the relief to specify"
+                .to_owned(),
+        );
         lines.extend(map(found));
         lines
     }
 
-    fn demand(&self) -> Vec<String> {
+    fn demand(&self) -> String {
         let found = self.found;
         let (from, to) = found.demand.loads;
-        let words = format!(
+        format!(
             "Tip relief for {} to {} % of {} N m, tolerance {} um on each relief; computed by \
                 method {}{}.",
             percent(from),
@@ -93,8 +99,7 @@ impl ReliefReport<'_> {
             } else {
                 format!(", {}", self.reason())
             }
-        );
-        item("", &words)
+        )
     }
 
     /// Why the relief is computed by another method than that of the case.

@@ -1,7 +1,7 @@
 //! The search for the tip relief to specify, in the workbench.
 use crate::harness;
 
-use harness::{Desk, LARGE, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::case::fields::index_of;
 
 fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
@@ -52,4 +52,21 @@ fn a_typed_demand_is_searched_again_and_a_wrong_one_says_why() {
     );
     desk.keys(&["PageDown", "Down", "Esc"]);
     assert!(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
+}
+
+#[test]
+fn on_a_narrow_screen_sentences_are_wrapped_and_the_last_row_is_reached() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "relief", "Enter"]);
+    assert!(
+        desk.shows("because method exact does not share the load"),
+        "{}",
+        desk.screen()
+    );
+    assert!(!desk.shows("corner contact at the greatest load, *"));
+    desk.keys(&["PageDown"; 6]);
+    let end = desk.screen();
+    desk.keys(&["PageDown"]);
+    assert_eq!(desk.screen(), end, "the end stays");
+    assert!(end.contains("the relief to specify"), "{end}");
 }

@@ -95,9 +95,18 @@ impl ReliefDialog {
         }
     }
 
+    fn wrapped(&self, width: usize) -> impl Iterator<Item = String> {
+        let lines = self.lines.iter();
+        lines.flat_map(move |line| text::wrap(line, width))
+    }
+
     fn scroll(&mut self, by: isize, around: &Surroundings<'_>) {
-        let shown = usize::from(room(around.screen).height.saturating_sub(HEAD));
-        let last = self.lines.len().saturating_sub(shown);
+        let room = room(around.screen);
+        let shown = usize::from(room.height.saturating_sub(HEAD));
+        let last = self
+            .wrapped(room.width.into())
+            .count()
+            .saturating_sub(shown);
         self.top = self.top.saturating_add_signed(by).min(last);
     }
 }
@@ -161,9 +170,8 @@ impl Dialog for ReliefDialog {
         let theme = around.look.theme;
         let inner = frame("Tip relief", room(area.as_size()), area, theme, buffer);
         let width = usize::from(inner.width);
-        let lines = self.lines.iter().flat_map(|line| text::wrap(line, width));
         let below = inner.top() + HEAD.min(inner.height)..inner.bottom();
-        for (line, y) in lines.skip(self.top).zip(below) {
+        for (line, y) in self.wrapped(width).skip(self.top).zip(below) {
             buffer.set_stringn(inner.x, y, line, width, Style::new());
         }
         if inner.height > 1 {
