@@ -116,7 +116,7 @@ fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
 /// ```
 /// the power series of ln u in ln S.
 fn logarithmic_step(geometry: &Geometry, tip: &TipContact, deviation: f64, loss: f64) -> f64 {
-    /// Farther away the higher orders may lead astray.
+    /// Farther away the higher orders may diverge.
     const NEAR: f64 = 0.1;
     let closed = gap_without(loss, geometry, tip);
     let (angle, slope) = (tip.angle, tip.normal_radius_drop);

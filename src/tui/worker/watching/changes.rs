@@ -25,7 +25,7 @@ mod linux {
         }
 
         pub(in super::super) fn ring(&self) {
-            // A bell that has rung too often rings already.
+            // A full counter ends the wait as well.
             let _ = rustix::io::write(&self.0, &1_u64.to_ne_bytes());
         }
     }
@@ -102,7 +102,7 @@ mod periodic {
     /// Ends a wait.
     #[derive(Debug, Default)]
     pub(in super::super) struct Bell {
-        has_rung: Mutex<bool>,
+        rings: Mutex<bool>,
         condition: Condvar,
     }
 
@@ -112,7 +112,7 @@ mod periodic {
         }
 
         pub(in super::super) fn ring(&self) {
-            *self.has_rung.lock().unwrap_or_else(PoisonError::into_inner) = true;
+            *self.rings.lock().unwrap_or_else(PoisonError::into_inner) = true;
             self.condition.notify_one();
         }
     }
@@ -129,11 +129,11 @@ mod periodic {
         pub(in super::super) fn follow(&mut self, _: &BTreeSet<PathBuf>) {}
 
         pub(in super::super) fn wait(&self, bell: &Bell) {
-            let has_rung = bell.has_rung.lock();
-            let has_rung = has_rung.unwrap_or_else(PoisonError::into_inner);
+            let rings = bell.rings.lock();
+            let rings = rings.unwrap_or_else(PoisonError::into_inner);
             let waited = bell
                 .condition
-                .wait_timeout_while(has_rung, PERIOD, |rung| !*rung);
+                .wait_timeout_while(rings, PERIOD, |rings| !*rings);
             *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
         }
     }
