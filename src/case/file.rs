@@ -16,6 +16,7 @@ mod value;
 
 use std::path::PathBuf;
 
+use super::stamp::Stamp;
 use super::{Case, Problem};
 pub use disk::{Saved, read_bytes};
 pub use error::{ReadError, SaveError};
@@ -45,6 +46,8 @@ pub struct Document {
     /// The text of the file without its byte order mark.
     text: String,
     marked: bool,
+    /// The stamp of the whole text of the file.
+    stamp: Stamp,
     /// What the text says.
     loaded: Case,
     places: Places,
@@ -86,6 +89,7 @@ impl Document {
             name: name.to_owned(),
             text: unmarked.to_owned(),
             marked,
+            stamp: Stamp::of(text.as_bytes()),
             loaded,
             places,
             is_newer: false,
@@ -134,6 +138,7 @@ impl Document {
             name,
             text: unmarked.to_owned(),
             marked,
+            stamp: Stamp::of(text.as_bytes()),
             loaded,
             places,
             is_newer: true,
@@ -164,6 +169,7 @@ impl Document {
             loaded,
             case,
             name,
+            stamp: Stamp::of(text.as_bytes()),
             text,
             marked: false,
             places,
@@ -237,6 +243,7 @@ impl Document {
         text.strip_prefix(BYTE_ORDER_MARK)
             .unwrap_or(text)
             .clone_into(&mut self.text);
+        self.stamp = Stamp::of(text.as_bytes());
         let reading = tree::read(&self.text);
         if reading.is_draft() {
             self.case = reading.case;

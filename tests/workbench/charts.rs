@@ -299,6 +299,19 @@ fn the_latest_request_for_a_chart_of_whine_wins() {
 }
 
 #[test]
+fn a_chart_of_whine_left_by_another_tab_is_requested_again() {
+    let mut desk = at_method(SMALL, "exact");
+    let press = |desk: &mut Desk, key| {
+        let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
+        update(&mut desk.app, action)
+    };
+    let is_request = |effect: &Effect| matches!(effect, Effect::Whine(_));
+    assert!(press(&mut desk, "k").iter().any(is_request));
+    desk.keys(&["Ctrl-N"]);
+    assert!(press(&mut desk, "Alt-1").iter().any(is_request));
+}
+
+#[test]
 fn a_chart_of_the_free_impact_says_so_in_its_title() {
     for (method, is_free) in [("exact", false), ("static", true), ("dynamic", true)] {
         let mut desk = at_method(SMALL, method);

@@ -81,7 +81,7 @@ impl Document {
     /// What tells the text that was read or saved last from another one.
     #[must_use]
     pub fn stamp(&self) -> Stamp {
-        Stamp::of(self.as_read().as_bytes())
+        self.stamp
     }
 
     /// The case as the text that was read or saved last has it.

@@ -18,6 +18,7 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     if asked.is_some_and(|asked| asked.chart == chart && asked.inputs == inputs) {
         return Vec::new();
     }
+    forget_running(app);
     app.last_serial += 1;
     let request = WhineRequest {
         serial: app.last_serial,
@@ -31,12 +32,23 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
 
 /// Stops a computation; its request is made again once the chart is visible.
 fn stop(app: &mut App) -> Vec<Effect> {
-    let whine = &mut app.tab.whine;
-    if !std::mem::take(&mut whine.is_running) {
-        return Vec::new();
+    if forget_running(app) {
+        vec![Effect::CancelWhine]
+    } else {
+        Vec::new()
     }
-    whine.asked = None;
-    vec![Effect::CancelWhine]
+}
+
+/// Forgets the request that runs, of whichever tab: it ends, and the tab requests it again.
+fn forget_running(app: &mut App) -> bool {
+    let mut has_run = false;
+    for tab in std::iter::once(&mut app.tab).chain(&mut app.others) {
+        if std::mem::take(&mut tab.whine.is_running) {
+            tab.whine.asked = None;
+            has_run = true;
+        }
+    }
+    has_run
 }
 
 /// The next values.
