@@ -154,6 +154,16 @@ fn the_load_at_an_angle_is_that_of_the_stations() {
     }
 }
 
+/// The contact point and the sliding velocity are the same on both sides.
+fn assert_same_contact(inputs: &Inputs, before: &ContactState, after: &ContactState) {
+    let way = (before.point - after.point).norm();
+    let change = (before.sliding_velocity - after.sliding_velocity).abs();
+    assert!(
+        way < 1e-7 * inputs.module && change < 1e-6,
+        "{before:?} {after:?}"
+    );
+}
+
 #[test]
 fn nothing_jumps_at_b_and_the_tip_leaves_the_flank_after_it() {
     for (inputs, solution) in solved() {
@@ -162,14 +172,7 @@ fn nothing_jumps_at_b_and_the_tip_leaves_the_flank_after_it() {
         let at = |after: f64| ContactState::at(&inputs, &solution, last - after).unwrap();
         let (before, after) = (at(-1e-9), at(1e-9));
         assert_eq!((before.phase, after.phase), (Phase::Line, Phase::RunOut));
-        assert!(
-            (before.point - after.point).norm() < 1e-7 * inputs.module,
-            "{before:?} {after:?}"
-        );
-        assert!(
-            (before.sliding_velocity - after.sliding_velocity).abs() < 1e-6,
-            "{before:?} {after:?}"
-        );
+        assert_same_contact(&inputs, &before, &after);
         let gaps = [0.001, 0.01, 0.05].map(|after| at(after).gap);
         assert!(
             gaps[0] > 0.0 && gaps.is_sorted() && at(0.01).normal_velocity < 0.0,
@@ -186,14 +189,7 @@ fn nothing_jumps_at_e() {
             ContactState::at(&inputs, &solution, -1e-9),
         );
         let (before, after) = (before.unwrap(), after.unwrap());
-        assert!(
-            (before.point - after.point).norm() < 1e-7 * inputs.module,
-            "{before:?} {after:?}"
-        );
-        assert!(
-            (before.sliding_velocity - after.sliding_velocity).abs() < 1e-6,
-            "{before:?} {after:?}"
-        );
+        assert_same_contact(&inputs, &before, &after);
     }
 }
 

@@ -164,15 +164,7 @@ impl Plan {
 
     fn split_upper(&mut self, area: Rect) {
         let form = (area.width * 57 / 100).clamp(34, WIDEST);
-        self.form = Rect {
-            width: form,
-            ..area
-        };
-        self.results = Rect {
-            x: area.x + form,
-            width: area.width - form,
-            ..area
-        };
+        [self.form, self.results] = side_by_side(area, form);
     }
 
     fn two_rows(&mut self, body: Rect, panes: Panes, has_teeth_beside: bool) {
@@ -192,15 +184,8 @@ impl Plan {
             return;
         }
         let left = area.width * 60 / 100;
-        *self.area_mut(beside_teeth(panes)) = Rect {
-            width: left,
-            ..area
-        };
-        self.teeth = Rect {
-            x: area.x + left,
-            width: area.width - left,
-            ..area
-        };
+        let [beside, teeth] = side_by_side(area, left);
+        (*self.area_mut(beside_teeth(panes)), self.teeth) = (beside, teeth);
     }
 
     fn three_columns(&mut self, body: Rect, panes: Panes) {
@@ -231,6 +216,17 @@ impl Plan {
             ..area
         };
     }
+}
+
+/// The left part of an area, of this width, and the rest.
+fn side_by_side(area: Rect, width: u16) -> [Rect; 2] {
+    let left = Rect { width, ..area };
+    let right = Rect {
+        x: area.x + width,
+        width: area.width - width,
+        ..area
+    };
+    [left, right]
 }
 
 #[cfg(test)]

@@ -1,8 +1,91 @@
-//! Parts of every plot: axes and marks.
+//! Parts of every plot: places of values, curves, axes and marks.
 
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
-use ratatui::style::Style;
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::symbols::Marker;
+use ratatui::widgets::Widget;
+use ratatui::widgets::canvas::{Canvas, Line, Points};
+
+use crate::tui::scale::{Span, bounds};
+
+/// Marks the cells of a curve until they get its style.
+const OWN: Color = Color::Indexed(1);
+
+/// The cells of a plot and the ranges of its axes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlotArea {
+    pub(crate) cells: Rect,
+    pub(crate) across: Span,
+    pub(crate) upright: Span,
+}
+
+impl PlotArea {
+    /// The column of a value, if it is in the range.
+    pub(crate) fn column(&self, x: f64) -> Option<u16> {
+        let part = self.across.part(x);
+        let width = f64::from(self.cells.width.saturating_sub(1));
+        (-1e-9..=1.0 + 1e-9)
+            .contains(&part)
+            .then(|| self.cells.x + (width * part.clamp(0.0, 1.0)).round() as u16)
+    }
+
+    /// The row of a value, or the nearest one.
+    pub(crate) fn row(&self, y: f64) -> u16 {
+        let height = f64::from(self.cells.height) - 1e-6;
+        let part = (1.0 - self.upright.part(y)).clamp(0.0, 1.0);
+        self.cells.y + (part * height).floor() as u16
+    }
+
+    /// Draws the pieces of a curve; a piece of one point is a dot.
+    pub(crate) fn draw_pieces(
+        &self,
+        pieces: &[Vec<(f64, f64)>],
+        (marker, style): (Marker, Style),
+        buffer: &mut Buffer,
+    ) {
+        let canvas = Canvas::default()
+            .marker(marker)
+            .x_bounds(widened(self.across))
+            .y_bounds(widened(self.upright))
+            .paint(|context| {
+                for piece in pieces {
+                    context.draw(&Points {
+                        coords: if piece.len() == 1 { piece } else { &[] },
+                        color: OWN,
+                    });
+                    for ends in piece.windows(2) {
+                        context.draw(&Line::new(ends[0].0, ends[0].1, ends[1].0, ends[1].1, OWN));
+                    }
+                }
+            });
+        canvas.render(self.cells, buffer);
+        for position in self.cells.positions() {
+            if let Some(cell) = buffer.cell_mut(position) {
+                finish(cell, style);
+            }
+        }
+    }
+}
+
+// The bounds include points that lie on an end except for rounding.
+fn widened(span: Span) -> [f64; 2] {
+    let rounding = 1e-8 * span.length();
+    bounds(span.from - rounding, span.to + rounding)
+}
+
+// A half block has two colours, for its upper and its lower half.
+fn finish(cell: &mut Cell, style: Style) {
+    if cell.fg != OWN && cell.bg != OWN {
+        return;
+    }
+    if cell.bg == OWN {
+        cell.set_symbol("█");
+    }
+    (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
+    cell.modifier = Modifier::empty();
+    cell.set_style(style);
+}
 
 /// Draws the lines left of the cells and below them. Returns their column and their row.
 pub(crate) fn draw_axes(cells: Rect, rule: Style, buffer: &mut Buffer) -> (u16, u16) {

@@ -1,19 +1,16 @@
 //! Draws curves into cells, and keeps every peak that is narrower than a column.
 
-use ratatui::buffer::{Buffer, Cell};
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
-use ratatui::widgets::Widget;
-use ratatui::widgets::canvas::{Canvas, Line, Points};
 
 use super::Charts;
 use super::curves::{Curve, Point, Whose, is_field};
 use crate::model::inputs::{Method, ToothCompliance};
-use crate::tui::scale::{Span, bounds};
+use crate::tui::panes::plot::PlotArea;
+use crate::tui::scale::Span;
 
-/// Marks the cells of a curve until they get its style.
-const OWN: Color = Color::Indexed(1);
 /// From more points than this in a column, only the first, last, least and greatest are drawn.
 const MANY: usize = 8;
 
@@ -72,47 +69,13 @@ pub fn draw(
         .iter()
         .map(|piece| visible(piece, across, plot.width))
         .collect();
-    let canvas = Canvas::default()
-        .marker(marker(charts, curve.whose))
-        .x_bounds(widened(across))
-        .y_bounds(widened(upright))
-        .paint(|context| {
-            for piece in &pieces {
-                context.draw(&Points {
-                    coords: if piece.len() == 1 { piece } else { &[] },
-                    color: OWN,
-                });
-                for ends in piece.windows(2) {
-                    context.draw(&Line::new(ends[0].0, ends[0].1, ends[1].0, ends[1].1, OWN));
-                }
-            }
-        });
-    canvas.render(plot, buffer);
-    let style = style(charts, curve.whose);
-    for position in plot.positions() {
-        if let Some(cell) = buffer.cell_mut(position) {
-            finish(cell, style);
-        }
-    }
-}
-
-// The bounds include points that lie on an end except for rounding.
-fn widened(span: Span) -> [f64; 2] {
-    let rounding = 1e-8 * span.length();
-    bounds(span.from - rounding, span.to + rounding)
-}
-
-// A half block has two colours, for its upper and its lower half.
-fn finish(cell: &mut Cell, style: Style) {
-    if cell.fg != OWN && cell.bg != OWN {
-        return;
-    }
-    if cell.bg == OWN {
-        cell.set_symbol("█");
-    }
-    (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
-    cell.modifier = ratatui::style::Modifier::empty();
-    cell.set_style(style);
+    let area = PlotArea {
+        cells: plot,
+        across,
+        upright,
+    };
+    let look = (marker(charts, curve.whose), style(charts, curve.whose));
+    area.draw_pieces(&pieces, look, buffer);
 }
 
 // The visible points and their neighbours, thinned out if a column has many.

@@ -2,21 +2,17 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
-use ratatui::widgets::Widget;
-use ratatui::widgets::canvas::{Canvas, Line, Points};
 use unicode_width::UnicodeWidthStr;
 
 use super::Charts;
 use crate::report::svg::{Chart, Kind, Series};
-use crate::tui::panes::plot::{draw_axes, put_where_free};
-use crate::tui::scale::{Span, bounds};
+use crate::tui::panes::plot::{PlotArea, draw_axes, put_where_free};
+use crate::tui::scale::Span;
 use crate::tui::text;
 use crate::tui::whine::WhineChart;
 
-/// Marks the cells of a curve until they get its style.
-const OWN: Color = Color::Indexed(1);
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
 /// Columns between labels below the plot.
@@ -74,9 +70,7 @@ struct Plot<'a> {
     charts: &'a Charts<'a>,
     chart: &'a Chart,
     legend: Rect,
-    cells: Rect,
-    across: Span,
-    upright: Span,
+    area: PlotArea,
     labels: Vec<(f64, String)>,
 }
 
@@ -99,9 +93,11 @@ impl<'a> Plot<'a> {
             charts,
             chart,
             legend: Rect { height: 1, ..inner },
-            cells,
-            across: across(chart),
-            upright,
+            area: PlotArea {
+                cells,
+                across: across(chart),
+                upright,
+            },
             labels,
         })
     }
@@ -119,34 +115,24 @@ impl<'a> Plot<'a> {
         self.legend(buffer);
     }
 
-    fn column(&self, x: f64) -> Option<u16> {
-        let part = self.across.part(x);
-        let width = f64::from(self.cells.width.saturating_sub(1));
-        (-1e-9..=1.0 + 1e-9)
-            .contains(&part)
-            .then(|| self.cells.x + (width * part.clamp(0.0, 1.0)).round() as u16)
-    }
-
-    fn row(&self, y: f64) -> u16 {
-        let height = f64::from(self.cells.height) - 1e-6;
-        let part = (1.0 - self.upright.part(y)).clamp(0.0, 1.0);
-        self.cells.y + (part * height).floor() as u16
-    }
-
     fn frame(&self, buffer: &mut Buffer) {
-        let (cells, rule) = (self.cells, self.charts.look.theme.rule);
+        let (cells, rule) = (self.area.cells, self.charts.look.theme.rule);
         let (left, bottom) = draw_axes(cells, rule, buffer);
         for (value, label) in &self.labels {
-            let y = self.row(*value);
+            let y = self.area.row(*value);
             buffer.set_string(left, y, "┤", rule);
             let start = left.saturating_sub(1 + label.width() as u16);
             buffer.set_string(start, y, label, Style::new());
         }
-        let ticks = self.across.ticks(cells.width / LABEL_ROOM);
+        let ticks = self.area.across.ticks(cells.width / LABEL_ROOM);
         let is_whole = |value: f64| (value - value.round()).abs() < 1e-9;
         let has_bars = self.chart.series.iter().any(is_bars);
         for (value, label) in ticks.labelled {
-            let Some(column) = self.column(value).filter(|_| !has_bars || is_whole(value)) else {
+            let Some(column) = self
+                .area
+                .column(value)
+                .filter(|_| !has_bars || is_whole(value))
+            else {
                 continue;
             };
             let label = if ticks.power == 0 {
@@ -167,12 +153,13 @@ impl<'a> Plot<'a> {
         let width = BARS / slots as f64;
         for (x, y) in series.pieces.iter().flatten() {
             let from = x - BARS / 2.0 + width * slot as f64;
-            let (Some(from), Some(to)) = (self.column(from), self.column(from + width)) else {
+            let (Some(from), Some(to)) = (self.area.column(from), self.area.column(from + width))
+            else {
                 continue;
             };
-            let bottom = self.row(0.0).min(self.cells.bottom() - 1);
+            let bottom = self.area.row(0.0).min(self.area.cells.bottom() - 1);
             for column in from..to.max(from + 1) {
-                for row in self.row(*y)..=bottom {
+                for row in self.area.row(*y)..=bottom {
                     buffer.set_string(column, row, &sign, style);
                 }
             }
@@ -185,50 +172,14 @@ impl<'a> Plot<'a> {
             0 => self.charts.marker,
             _ => Marker::Custom('+'),
         };
-        let widened = |span: Span| {
-            let rounding = 1e-8 * span.length();
-            bounds(span.from - rounding, span.to + rounding)
-        };
-        let canvas = Canvas::default()
-            .marker(marker)
-            .x_bounds(widened(self.across))
-            .y_bounds(widened(self.upright))
-            .paint(|context| {
-                for piece in &series.pieces {
-                    for pair in piece.windows(2) {
-                        let ((x1, y1), (x2, y2)) = (pair[0], pair[1]);
-                        context.draw(&Line::new(x1, y1, x2, y2, OWN));
-                    }
-                    context.draw(&Points {
-                        coords: piece,
-                        color: OWN,
-                    });
-                }
-            });
-        canvas.render(self.cells, buffer);
-        self.restyle(self.style(at), buffer);
-    }
-
-    /// Gives the drawn cells their style.
-    fn restyle(&self, style: Style, buffer: &mut Buffer) {
-        for position in self.cells.positions() {
-            if let Some(cell) = buffer
-                .cell_mut(position)
-                .filter(|cell| cell.fg == OWN || cell.bg == OWN)
-            {
-                if cell.bg == OWN {
-                    cell.set_symbol("█");
-                }
-                (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
-                cell.set_style(style);
-            }
-        }
+        let look = (marker, self.style(at));
+        self.area.draw_pieces(&series.pieces, look, buffer);
     }
 
     fn points(&self, at: usize, series: &Series, buffer: &mut Buffer) {
         for (x, y) in series.pieces.iter().flatten() {
-            if let Some(column) = self.column(*x) {
-                buffer.set_string(column, self.row(*y), self.sign(at), self.style(at));
+            if let Some(column) = self.area.column(*x) {
+                buffer.set_string(column, self.area.row(*y), self.sign(at), self.style(at));
             }
         }
     }
@@ -236,18 +187,18 @@ impl<'a> Plot<'a> {
     /// The named places on the axis: a line through the plot with the name at its top.
     fn marks(&self, buffer: &mut Buffer) {
         let theme = self.charts.look.theme;
-        let mut free = self.cells.x;
+        let mut free = self.area.cells.x;
         for (x, name) in &self.chart.marks {
-            let Some(column) = self.column(*x) else {
+            let Some(column) = self.area.column(*x) else {
                 continue;
             };
-            for y in self.cells.top()..self.cells.bottom() {
+            for y in self.area.cells.top()..self.area.cells.bottom() {
                 put_where_free((column, y), "┊", theme.faint, buffer);
             }
             let width = name.width() as u16;
             let start = column.saturating_sub(width / 2).max(free);
-            if start + width <= self.cells.right() + 2 {
-                buffer.set_string(start, self.cells.y, name, theme.focus);
+            if start + width <= self.area.cells.right() + 2 {
+                buffer.set_string(start, self.area.cells.y, name, theme.focus);
                 free = start + width + 1;
             }
         }

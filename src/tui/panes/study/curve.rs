@@ -2,10 +2,8 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
-use ratatui::widgets::Widget;
-use ratatui::widgets::canvas::{Canvas, Line, Points};
 use unicode_width::UnicodeWidthStr;
 
 use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, range};
@@ -14,12 +12,10 @@ use crate::model::inputs::Method;
 use crate::report::unit_beside;
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
-use crate::tui::panes::plot::{draw_axes, put_where_free};
-use crate::tui::scale::{Span, bounds};
+use crate::tui::panes::plot::{PlotArea, draw_axes, put_where_free};
+use crate::tui::scale::Span;
 use crate::tui::study::{Layer, LayerFound, Question, StudyResults, Whose};
 
-/// Marks the cells of a curve until they get its style.
-const OWN: Color = Color::Indexed(1);
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
 /// Columns between labels below the plot.
@@ -30,9 +26,7 @@ struct Plot<'a> {
     pane: &'a StudyPane<'a>,
     shown: &'a StudyResults,
     axis: &'a Axis,
-    cells: Rect,
-    across: Span,
-    upright: Span,
+    area: PlotArea,
     factor: f64,
 }
 
@@ -81,9 +75,11 @@ pub(super) fn draw(
         pane,
         shown,
         axis,
-        cells,
-        across: across(axis),
-        upright,
+        area: PlotArea {
+            cells,
+            across: across(axis),
+            upright,
+        },
         factor,
     };
     plot.frame(&ticks.labelled, buffer);
@@ -117,31 +113,17 @@ fn x(axis: &Axis, at: usize) -> f64 {
 }
 
 impl Plot<'_> {
-    fn column(&self, x: f64) -> Option<u16> {
-        let part = self.across.part(x);
-        let width = f64::from(self.cells.width.saturating_sub(1));
-        (-1e-9..=1.0 + 1e-9)
-            .contains(&part)
-            .then(|| self.cells.x + (width * part.clamp(0.0, 1.0)).round() as u16)
-    }
-
-    fn row(&self, y: f64) -> u16 {
-        let height = f64::from(self.cells.height) - 1e-6;
-        let part = (1.0 - self.upright.part(y)).clamp(0.0, 1.0);
-        self.cells.y + (part * height).floor() as u16
-    }
-
     fn frame(&self, ticks: &[(f64, String)], buffer: &mut Buffer) {
-        let (cells, rule) = (self.cells, self.pane.look.theme.rule);
+        let (cells, rule) = (self.area.cells, self.pane.look.theme.rule);
         let (left, bottom) = draw_axes(cells, rule, buffer);
         for (value, label) in ticks {
-            let y = self.row(*value);
+            let y = self.area.row(*value);
             buffer.set_string(left, y, "┤", rule);
             buffer.set_string(left - 1 - label.len() as u16, y, label, Style::new());
         }
         let mut free = cells.x.saturating_sub(1);
         for (value, label) in self.labels() {
-            let Some(column) = self.column(value) else {
+            let Some(column) = self.area.column(value) else {
                 continue;
             };
             let width = label.width() as u16;
@@ -163,7 +145,7 @@ impl Plot<'_> {
                 .map(|(at, point)| (x(self.axis, at), point.text.clone()))
                 .collect();
         }
-        let ticks = self.across.ticks(self.cells.width / LABEL_ROOM);
+        let ticks = self.area.across.ticks(self.area.cells.width / LABEL_ROOM);
         let plain = |(value, label): (f64, String)| {
             let is_scaled = ticks.power != 0;
             let number = crate::numeric::decimal::significant(value, 6);
@@ -176,48 +158,17 @@ impl Plot<'_> {
     }
 
     fn curve(&self, layer: &Layer, found: &LayerFound, buffer: &mut Buffer) {
+        let is_joined = self.axis.points.iter().all(|point| point.number.is_some());
         let points = found.values.iter().enumerate();
         let points: Vec<Option<(f64, f64)>> = points
             .map(|(at, value)| Some((x(self.axis, at), (*value)? / self.factor)))
             .collect();
-        let (marker, style) = look(self.pane, layer.whose);
-        let joined = self.axis.points.iter().all(|point| point.number.is_some());
-        let widened = |span: Span| {
-            let rounding = 1e-8 * span.length();
-            bounds(span.from - rounding, span.to + rounding)
-        };
-        let canvas = Canvas::default()
-            .marker(marker)
-            .x_bounds(widened(self.across))
-            .y_bounds(widened(self.upright))
-            .paint(|context| {
-                for (at, point) in points.iter().enumerate() {
-                    let Some(point) = point else { continue };
-                    let next = points.get(at + 1).copied().flatten().filter(|_| joined);
-                    match next {
-                        Some(next) => {
-                            context.draw(&Line::new(point.0, point.1, next.0, next.1, OWN));
-                        }
-                        None => context.draw(&Points {
-                            coords: &[*point],
-                            color: OWN,
-                        }),
-                    }
-                }
-            });
-        canvas.render(self.cells, buffer);
-        for position in self.cells.positions() {
-            if let Some(cell) = buffer
-                .cell_mut(position)
-                .filter(|cell| cell.fg == OWN || cell.bg == OWN)
-            {
-                if cell.bg == OWN {
-                    cell.set_symbol("█");
-                }
-                (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
-                cell.set_style(style);
-            }
-        }
+        let pieces = points.chunk_by(|one, other| is_joined && one.is_some() && other.is_some());
+        let pieces: Vec<Vec<(f64, f64)>> = pieces
+            .map(|piece| piece.iter().copied().flatten().collect())
+            .collect();
+        let look = look(self.pane, layer.whose);
+        self.area.draw_pieces(&pieces, look, buffer);
     }
 
     /// Signs on the axis where the active method has no value: no contact, or refused.
@@ -230,9 +181,9 @@ impl Plot<'_> {
                 }
                 PointOutcome::Solved(_) => continue,
             };
-            if let Some(column) = self.column(x(self.axis, at)) {
+            if let Some(column) = self.area.column(x(self.axis, at)) {
                 let style = self.pane.look.theme.note;
-                buffer.set_string(column, self.cells.bottom() - 1, sign, style);
+                buffer.set_string(column, self.area.cells.bottom() - 1, sign, style);
             }
         }
     }
@@ -242,31 +193,31 @@ impl Plot<'_> {
         let theme = self.pane.look.theme;
         let limit = self
             .limit()
-            .filter(|limit| (0.0..=1.0).contains(&self.upright.part(*limit)));
+            .filter(|limit| (0.0..=1.0).contains(&self.area.upright.part(*limit)));
         if let Some(limit) = limit {
-            for x in self.cells.left()..self.cells.right() {
-                put_where_free((x, self.row(limit)), "╌", theme.rule, buffer);
+            for x in self.area.cells.left()..self.area.cells.right() {
+                put_where_free((x, self.area.row(limit)), "╌", theme.rule, buffer);
             }
         }
         let present = match range::present(self.axis, self.pane.case) {
             Some(number) => Some(number),
             None => range::nearest(self.axis, self.pane.case).map(|at| x(self.axis, at)),
         };
-        if let Some(column) = present.and_then(|present| self.column(present)) {
-            for y in self.cells.top()..self.cells.bottom() {
+        if let Some(column) = present.and_then(|present| self.area.column(present)) {
+            for y in self.area.cells.top()..self.area.cells.bottom() {
                 put_where_free((column, y), "│", theme.faint, buffer);
             }
             if let Some(value) = self.pane.present {
-                let y = self.row(value / self.factor);
+                let y = self.area.row(value / self.factor);
                 buffer.set_string(column, y, "●", theme.focus);
             }
         }
         let (at, _) = cursor(self.pane, self.shown);
-        if let Some(column) = self.column(x(self.axis, at)) {
-            for y in self.cells.top()..self.cells.bottom() {
+        if let Some(column) = self.area.column(x(self.axis, at)) {
+            for y in self.area.cells.top()..self.area.cells.bottom() {
                 put_where_free((column, y), "┊", theme.faint, buffer);
             }
-            buffer.set_string(column, self.cells.bottom(), "▴", theme.focus);
+            buffer.set_string(column, self.area.cells.bottom(), "▴", theme.focus);
         }
     }
 
