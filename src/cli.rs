@@ -1,85 +1,27 @@
 //! The headless commands: results to the output, everything else to the errors, and an exit code
-//! that scripts hold on to.
+//! for scripts.
 
 mod arguments;
 mod cases;
-mod check;
-mod compare;
-mod explain;
-mod gather;
-mod import;
-mod new;
-mod plot;
+mod commands;
+mod exit;
+mod options;
+mod output;
 mod progress;
-mod relief;
-mod report;
-mod seek;
 mod shards;
-mod shell;
-mod sink;
-mod solve;
-mod stiffness;
-mod sweep;
-mod tolerance;
-mod trade;
 
 use crate::case::sanitize::sanitize;
 use crate::case::suggest;
-use crate::report::{fields, schema};
-
-pub use arguments::{
-    Arguments, Check, Command, Compare, CompareFormat, Edits, Explain, Export, Fields, Format,
-    Gather, Import, Listing, New, Plot, Relief, RowFormat, Running, Seek, Setting, Solve,
-    Stiffness, Sweep, Tolerance, Trading,
-};
+pub use arguments::Arguments;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
+pub use commands::Command;
+pub use exit::Exit;
+use exit::Failure;
+use progress::Interrupt;
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
-use std::process::ExitCode;
-
-/// How a command ended; of several, the greatest counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u8)]
-pub enum Exit {
-    /// All is done.
-    Done = 0,
-    /// A case exceeds one of its limits, or has no value to hold against it.
-    Exceeded = 1,
-    /// The command line is wrong.
-    Usage = 2,
-    /// A case is wrong, or the model refuses it.
-    BadCase = 3,
-    /// A case is of a newer format.
-    NewerFormat = 4,
-    /// A file cannot be read or written.
-    Unreadable = 5,
-}
-
-impl Exit {
-    /// Every way to end, and its meaning.
-    const MEANINGS: [(Exit, &'static str); 6] = [
-        (Exit::Done, "done"),
-        (
-            Exit::Exceeded,
-            "a limit is exceeded, or its quantity has no value",
-        ),
-        (Exit::Usage, "wrong usage, or no terminal for the workbench"),
-        (
-            Exit::BadCase,
-            "an invalid case, or a case that cannot be solved",
-        ),
-        (Exit::NewerFormat, "a case of a newer format"),
-        (Exit::Unreadable, "a file cannot be read or written"),
-    ];
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> ExitCode {
-        ExitCode::from(exit as u8)
-    }
-}
 
 /// Where a command writes.
 pub struct Streams<'a> {
@@ -138,11 +80,11 @@ pub fn parse(
                 let _ = streams.errors.write_all(text.as_bytes());
                 return Exit::Usage;
             }
-            let printed = streams
-                .output
-                .write_all(text.as_bytes())
-                .map(|()| Exit::Done);
-            finish(printed, streams)
+            let printed = streams.output.write_all(text.as_bytes());
+            finish(
+                printed.map(|()| Exit::Done).map_err(Failure::Stream),
+                streams,
+            )
         })
 }
 
@@ -173,56 +115,34 @@ fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
 
 /// Run a command to its end.
 pub fn run(command: &Command, streams: &mut Streams) -> Exit {
-    let done = match command {
-        Command::Solve(options) => solve::run(options, streams),
-        Command::Check(options) => check::run(options, streams),
-        Command::Explain(options) => explain::run(options, streams),
-        Command::Trade(options) => trade::run(options, streams),
-        Command::Stiffness(options) => stiffness::run(options, streams),
-        Command::Sweep(options) => sweep::run(options, streams),
-        Command::Seek(options) => seek::run(options, streams),
-        Command::Compare(options) => compare::run(options, streams),
-        Command::Tolerance(options) => tolerance::run(options, streams),
-        Command::Gather(options) => gather::run(options, streams),
-        Command::Fields(options) => list_fields(options, streams.output.as_mut()),
-        Command::Schema { results: false } => {
-            schema::write_case(streams.output.as_mut()).map(|()| Exit::Done)
-        }
-        Command::Schema { results: true } => {
-            schema::write_results(streams.output.as_mut()).map(|()| Exit::Done)
-        }
-        Command::New(options) => new::run(options, streams),
-        Command::Relief(options) => relief::run(options, streams),
-        Command::Plot(options) => plot::run(options, streams),
-        Command::Report(options) => report::run(options, streams),
-        Command::Import(options) => import::run(options, streams),
-        Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),
-        Command::Man { command } => shell::man(command.as_deref(), streams),
-    };
+    let done = command.run(Arguments::command, streams);
     finish(done, streams)
 }
 
-fn list_fields(options: &Fields, out: &mut dyn Write) -> io::Result<Exit> {
-    match (options.results, options.format) {
-        (false, Listing::Text) => fields::write_fields(out),
-        (false, Listing::Json) => fields::write_fields_json(out),
-        (true, Listing::Text) => fields::write_quantities(out),
-        (true, Listing::Json) => fields::write_quantities_json(out),
-    }
-    .map(|()| Exit::Done)
-}
-
-/// A reader that went away (`| head -1`) ends a command quietly; an output that cannot be written
-/// does not.
-fn finish(done: io::Result<Exit>, streams: &mut Streams) -> Exit {
-    let written = done.and_then(|exit| streams.output.flush().map(|()| exit));
-    written.unwrap_or_else(|error| {
-        if error.kind() == io::ErrorKind::BrokenPipe {
-            return Exit::Done;
+/// The exit code, and a line for a failure that has none yet. A reader that closes the output
+/// (`| head -1`) is no failure.
+fn finish(done: Result<Exit, Failure>, streams: &mut Streams) -> Exit {
+    let flushed = done.and_then(|exit| Ok(streams.output.flush().map(|()| exit)?));
+    match flushed {
+        Ok(exit) | Err(Failure::Reported(exit)) => exit,
+        Err(Failure::Usage(line)) => {
+            streams.say(&line);
+            Exit::Usage
         }
-        streams.say(&format!("standard output: cannot be written: {error}"));
-        Exit::Unreadable
-    })
+        Err(Failure::File(error)) => {
+            streams.say(&error.to_string());
+            Exit::Unreadable
+        }
+        Err(Failure::Stream(error)) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Done,
+        Err(Failure::Stream(error)) => {
+            streams.say(&format!("standard output: cannot be written: {error}"));
+            Exit::Unreadable
+        }
+        Err(Failure::Interrupted) => {
+            Interrupt::end();
+            Exit::Unreadable
+        }
+    }
 }
 
 #[cfg(test)]

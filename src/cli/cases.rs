@@ -1,6 +1,8 @@
 //! Opens cases for a command and prints what is wrong with them.
 
-use super::{Edits, Exit, Setting, Streams};
+use super::Streams;
+use super::exit::{Exit, Failure};
+use super::options::{Edits, Setting};
 use crate::case::fields::FIELDS;
 use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::rexs::{self, Imported};
@@ -57,18 +59,20 @@ pub(super) fn open_varied(
     changed(path.display().to_string(), document, edits, streams)
 }
 
-/// Why a field cannot be set: a study varies it.
-pub(super) fn set_and_varied(settings: &[Setting], varied: &[&str]) -> Option<String> {
+/// Refuses to set a field that a study varies.
+pub(super) fn keep_varied(settings: &[Setting], varied: &[&str]) -> Result<(), Failure> {
     let is_varied = |setting: &&Setting| {
         varied
             .iter()
             .any(|key| *key == setting.key || Case::are_exclusive(key, &setting.key))
     };
-    let setting = settings.iter().find(is_varied)?;
-    let written = setting.written();
-    Some(format!(
-        "{written}: --vary replaces this value: leave one of them out"
-    ))
+    match settings.iter().find(is_varied) {
+        Some(setting) => Err(Failure::Usage(format!(
+            "{}: --vary replaces this value: leave one of them out",
+            setting.written()
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// Reads a case whose values may be missing yet, or the only spur stage of a model.

@@ -1,7 +1,7 @@
 //! What goes on while a command takes long: a progress bar on the error stream, where that is a
 //! terminal, and Ctrl-C.
 
-use crate::study::batch::{Control, Stopped};
+use crate::study::batch::Control;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use signal_hook::consts::SIGINT;
 use std::cell::Cell;
@@ -170,10 +170,7 @@ impl Running {
     }
 
     /// Runs a part of the study, and shows its progress.
-    pub(super) fn run<T>(
-        &self,
-        study: impl FnOnce(&Control) -> Result<T, Stopped>,
-    ) -> Result<T, Stopped> {
+    pub(super) fn run<T, E>(&self, study: impl FnOnce(&Control) -> Result<T, E>) -> Result<T, E> {
         let interrupt = &self.interrupt;
         let done = study(&Control {
             jobs: self.jobs,
@@ -186,11 +183,6 @@ impl Running {
             self.bar.clear();
         }
         done
-    }
-
-    /// Ends the program as Ctrl-C does.
-    pub(super) fn end() {
-        Interrupt::end();
     }
 }
 

@@ -1,9 +1,10 @@
 //! A part of a study as a file, for `gather`.
 
-use super::arguments;
+use super::Streams;
+use super::exit::{Exit, Failure};
+use super::options::StudyOptions;
+use super::output::Sink;
 use super::progress::Running;
-use super::sink::{Failure, Sink};
-use super::{Exit, Streams};
 use crate::study::batch::{Batch, solve_all};
 use crate::study::request::Request;
 use crate::study::shard::{Shard, ShardWriter};
@@ -14,33 +15,14 @@ pub(super) fn run(
     shard: Shard,
     request: &Request,
     batch: &Batch,
-    options: &arguments::Running,
+    options: &StudyOptions,
     streams: &mut Streams,
-) -> io::Result<Exit> {
-    match write(shard, request, batch, options, streams) {
-        Ok(()) => Ok(Exit::Done),
-        Err(failure) => failure.report(streams),
-    }
-}
-
-fn write(
-    shard: Shard,
-    request: &Request,
-    batch: &Batch,
-    options: &arguments::Running,
-    streams: &mut Streams,
-) -> Result<(), Failure> {
-    let mut sink =
-        Sink::open(options.out.as_deref(), streams.output.as_mut()).map_err(Failure::File)?;
+) -> Result<Exit, Failure> {
+    let mut sink = Sink::open(options.out.as_deref(), streams.output.as_mut())?;
     let running = Running::new("points", options.jobs);
-    let solved = body(shard, request, batch, &running, &mut sink);
-    match solved {
-        Ok(true) => sink.finish(),
-        Ok(false) => {
-            drop(sink);
-            Running::end();
-            Err(Failure::Stream(io::ErrorKind::Interrupted.into()))
-        }
+    match body(shard, request, batch, &running, &mut sink) {
+        Ok(true) => sink.finish().map(|()| Exit::Done),
+        Ok(false) => Err(Failure::Interrupted),
         Err(error) => Err(sink.failure(error)),
     }
 }

@@ -1,12 +1,13 @@
-//! The rooms of the house open only upstream, and every file keeps to the house's habits.
+//! The folders of `src` import only those of the plan, no files import each other in a circle, and
+//! every file is short and has its first sentence.
 // A test may stop at what it did not expect.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Each room and the rooms that it may see.
-const ROOMS: [(&str, &[&str]); 7] = [
+/// Each folder of `src` and the folders that it may import.
+const FOLDERS: [(&str, &[&str]); 7] = [
     ("numeric", &[]),
     ("model", &["numeric"]),
     ("case", &["numeric", "model"]),
@@ -69,16 +70,16 @@ impl Source {
         parts.skip_while(|part| part != "src").skip(1).collect()
     }
 
-    fn room(&self) -> Option<&'static str> {
+    fn folder(&self) -> Option<&'static str> {
         let first = self.modules().first()?.clone();
-        ROOMS
+        FOLDERS
             .iter()
-            .map(|&(room, _)| room)
-            .find(|room| *room == first)
+            .map(|&(folder, _)| folder)
+            .find(|folder| *folder == first)
     }
 
-    /// The rooms that the code names, by whatever way of naming them.
-    fn rooms_named(&self) -> BTreeSet<String> {
+    /// The folders that the code names, by whatever way of naming them.
+    fn folders_named(&self) -> BTreeSet<String> {
         let to_root = "super::".repeat(self.modules().len());
         let roots = ["crate::", "tipstrike::", to_root.as_str()];
         let named = roots
@@ -86,7 +87,7 @@ impl Source {
             .flat_map(|root| after(&self.code, root))
             .flat_map(heads);
         named
-            .filter(|name| ROOMS.iter().any(|(room, _)| room == name))
+            .filter(|name| FOLDERS.iter().any(|(folder, _)| folder == name))
             .map(str::to_owned)
             .collect()
     }
@@ -170,16 +171,18 @@ fn collect(folder: &Path, found: &mut Vec<Source>) {
 }
 
 #[test]
-fn rooms_open_only_upstream() {
+fn a_folder_imports_only_those_of_the_plan() {
     for source in sources("src") {
-        let Some((room, upstream)) = ROOMS.iter().find(|(room, _)| source.room() == Some(room))
+        let Some((folder, upstream)) = FOLDERS
+            .iter()
+            .find(|(folder, _)| source.folder() == Some(folder))
         else {
             continue;
         };
         let wrong: Vec<String> = source
-            .rooms_named()
+            .folders_named()
             .into_iter()
-            .filter(|name| name != room && !upstream.contains(&name.as_str()))
+            .filter(|name| name != folder && !upstream.contains(&name.as_str()))
             .collect();
         assert!(
             wrong.is_empty(),
@@ -200,7 +203,7 @@ fn folders() -> BTreeSet<Vec<String>> {
 
 /// A file and its own folder count as one.
 #[test]
-fn no_file_needs_one_that_needs_it() {
+fn no_files_import_each_other_in_a_circle() {
     for modules in &folders() {
         let folder = modules.join("/");
         let modules: Vec<_> = modules.iter().map(String::as_str).collect();
@@ -284,11 +287,15 @@ fn capitalized(word: &str) -> String {
 }
 
 #[test]
-fn every_file_of_the_library_is_in_a_layer() {
+fn every_file_of_the_library_is_in_a_folder_of_the_plan() {
     for source in sources("src") {
         let known =
-            source.room().is_some() || ["lib", "main"].contains(&source.modules()[0].as_str());
-        assert!(known, "{} belongs to no room", source.path.display());
+            source.folder().is_some() || ["lib", "main"].contains(&source.modules()[0].as_str());
+        assert!(
+            known,
+            "{} is in no folder of the plan",
+            source.path.display()
+        );
     }
 }
 
@@ -296,7 +303,7 @@ fn every_file_of_the_library_is_in_a_layer() {
 fn only_the_workbench_names_the_terminal() {
     for source in sources("src")
         .iter()
-        .filter(|source| source.room() != Some("tui"))
+        .filter(|source| source.folder() != Some("tui"))
     {
         let named: Vec<_> = TERMINAL.iter().filter(|name| source.names(name)).collect();
         assert!(
@@ -312,7 +319,7 @@ fn the_core_knows_no_files_no_threads_and_no_printing() {
     let is_test = |source: &Source| source.path.ends_with("tests.rs");
     for source in sources("src")
         .iter()
-        .filter(|source| matches!(source.room(), Some("numeric" | "model")) && !is_test(source))
+        .filter(|source| matches!(source.folder(), Some("numeric" | "model")) && !is_test(source))
     {
         let named: Vec<_> = OUTSIDE.iter().filter(|name| source.names(name)).collect();
         assert!(
@@ -324,7 +331,7 @@ fn the_core_knows_no_files_no_threads_and_no_printing() {
 }
 
 #[test]
-fn every_file_opens_with_a_sentence_and_stays_short() {
+fn every_file_begins_with_a_sentence_and_is_short() {
     for source in sources("src").iter().chain(&sources("tests")) {
         let path = source.path.display();
         assert!(
@@ -353,6 +360,6 @@ fn paths_are_read_in_every_way_they_are_written() {
         lines: 1,
         opening: String::new(),
     };
-    let named: Vec<String> = source.rooms_named().into_iter().collect();
+    let named: Vec<String> = source.folders_named().into_iter().collect();
     assert_eq!(named, ["case", "cli", "model", "report", "tui"]);
 }

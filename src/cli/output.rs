@@ -1,6 +1,6 @@
 //! The output of a study: a stream, or a file that appears only once it is complete.
 
-use super::{Exit, Streams};
+use super::exit::Failure;
 use crate::case::file::{Draft, SaveError, followed};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -63,36 +63,26 @@ impl Write for Sink<'_> {
     }
 }
 
-/// Why an output was not written.
-pub(super) enum Failure {
-    Stream(io::Error),
-    File(SaveError),
-}
-
-impl Failure {
-    /// Reports a file that cannot be written; the error of a stream goes to the caller.
-    pub(super) fn report(self, streams: &mut Streams) -> io::Result<Exit> {
-        match self {
-            Failure::Stream(error) => Err(error),
-            Failure::File(error) => {
-                streams.say(&error.to_string());
-                Ok(Exit::Unreadable)
-            }
-        }
+/// Refuses to write over one of the files that the command reads.
+pub(super) fn keep_inputs(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
+    let target = out.and_then(|out| followed(out).ok());
+    let is_input = |input: &&Path| followed(input).is_ok_and(|input| Some(input) == target);
+    match out.filter(|_| inputs.iter().any(is_input)) {
+        Some(out) => Err(Failure::Usage(format!(
+            "--out {}: this file is read by the command: choose another name",
+            out.display()
+        ))),
+        None => Ok(()),
     }
 }
 
-/// Refuses to write over one of the files that are read.
-pub(super) fn overwrites(out: Option<&Path>, inputs: &[&Path]) -> Option<String> {
-    let out = out?;
-    let target = followed(out).ok()?;
-    let is_input = inputs
-        .iter()
-        .any(|input| followed(input).is_ok_and(|input| input == target));
-    is_input.then(|| {
-        format!(
-            "--out {}: this file is read by the command: choose another name",
-            out.display()
-        )
-    })
+/// Writes results with `write` to a file, which appears once it is complete, or to the stream.
+pub(super) fn write_to(
+    out: Option<&Path>,
+    stream: &mut dyn Write,
+    write: impl FnOnce(&mut Sink) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let mut sink = Sink::open(out, stream)?;
+    write(&mut sink).map_err(|error| sink.failure(error))?;
+    sink.finish()
 }

@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::Error;
 use clap::{Arg, Args};
 
-use super::misuse::misused;
+use super::misused;
 use crate::case::Case;
 use crate::model::inputs::Method;
 
@@ -43,7 +43,7 @@ impl Changes {
 }
 
 /// `--method` as a field.
-pub(super) fn by_method(method: Option<Method>) -> Option<Setting> {
+pub(in crate::cli) fn by_method(method: Option<Method>) -> Option<Setting> {
     method.map(|method| Setting::by("--method", "model.method", method.name()))
 }
 
@@ -84,7 +84,7 @@ const SET: &str = "--set";
 
 /// A field and its value, each on its own as it should be.
 #[derive(Clone)]
-pub(super) struct Settings;
+pub(in crate::cli) struct Settings;
 
 impl TypedValueParser for Settings {
     type Value = Setting;
@@ -112,11 +112,11 @@ fn setting(text: &str) -> Result<Setting, String> {
 }
 
 /// A number of stations that fits its field.
-pub(super) fn station_count(text: &str) -> Result<String, String> {
+pub(in crate::cli) fn station_count(text: &str) -> Result<String, String> {
     setting(&format!("model.stations={text}")).map(|setting| setting.value)
 }
 
-pub(super) fn methods() -> impl TypedValueParser<Value = Method> {
+pub(in crate::cli) fn methods() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(|name| {
         Method::ALL
             .into_iter()

@@ -6,13 +6,13 @@ use clap::Arg;
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::error::Error;
 
-use super::misuse::misused;
+use super::misused;
 use crate::case::{Problem, unknown_quantity};
 use crate::model::{QUANTITIES, Quantity};
 
 /// A quantity by its name or its symbol.
 #[derive(Clone)]
-pub(super) struct Quantities;
+pub(in crate::cli) struct Quantities;
 
 impl TypedValueParser for Quantities {
     type Value = &'static Quantity;
@@ -44,7 +44,7 @@ impl TypedValueParser for Quantities {
 
 /// Quantities with commas between them; a comma may be part of a symbol, as in `F_d,max`.
 #[derive(Clone)]
-pub(super) struct QuantityList;
+pub(in crate::cli) struct QuantityList;
 
 impl TypedValueParser for QuantityList {
     type Value = Vec<&'static Quantity>;

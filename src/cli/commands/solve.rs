@@ -1,13 +1,43 @@
 //! `solve`: solves cases and prints the results.
 
-use super::cases::{self, Opened};
-use super::{Edits, Exit, Format, Setting, Solve, Streams};
+use crate::cli::Streams;
+use crate::cli::cases::{self, Opened};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Changes, Edits, Format, QuantityList, Setting, station_count};
+use crate::model::Quantity;
 use crate::model::Refusal;
 use crate::report::{Report, Selection, csv, json, text};
 use crate::study::headline::distinct;
+use clap::{Args, ValueHint};
 use std::io::{self, Write};
+use std::path::PathBuf;
 
-pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
+const AFTER_HELP: &str = "CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
+    one row per station. JSON: one object per case and line, in SI units; missing values are absent.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Print these quantities alone, by name or symbol, and run only the stages that they need;
+    /// `tipstrike fields --results` lists them
+    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
+    pub only: Vec<Vec<&'static Quantity>>,
+    /// Print the stations as well, in this many intervals between D and E, or auto
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
+    pub stations: Option<String>,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let edits = edits(options);
     let selection = selection(options);
     let (mut first, mut worst) = (true, Exit::Done);
@@ -26,7 +56,7 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
 }
 
 /// `--stations` is a field as well.
-fn edits(options: &Solve) -> Edits {
+fn edits(options: &Options) -> Edits {
     let stations = options
         .stations
         .clone()
@@ -36,7 +66,7 @@ fn edits(options: &Solve) -> Edits {
     edits
 }
 
-fn selection(options: &Solve) -> Selection {
+fn selection(options: &Options) -> Selection {
     let only = distinct(options.only.iter().flatten().copied());
     let whole_json = options.format == Format::Json && only.is_empty();
     Selection {

@@ -1,10 +1,13 @@
 //! A case solved over a grid of varied fields.
 
-use super::cases::{self, Opened};
-use super::progress::Running;
-use super::sink::{Failure, Sink, overwrites};
-use super::{Exit, Streams, Sweep, shards};
 use crate::case::{Acting, partial_relevance, relevance};
+use crate::cli::Streams;
+use crate::cli::cases::{self, Opened};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Changes, QuantityList, RowFormat, StudyOptions, count};
+use crate::cli::output::{Sink, keep_inputs};
+use crate::cli::progress::Running;
+use crate::cli::shards;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::report::sweep::SweepTable;
@@ -14,36 +17,57 @@ use crate::study::headline::{distinct, headline};
 use crate::study::refusals::Refusals;
 use crate::study::request::{PointsRequest, Request};
 use crate::study::sweep::Grid;
-use std::io;
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
 
-pub(super) fn run(options: &Sweep, streams: &mut Streams) -> io::Result<Exit> {
-    let grid = match Grid::parse(&options.vary, &options.points, options.log) {
-        Ok(grid) => grid,
-        Err((text, problem)) => {
-            streams.say(&format!(
-                "--vary {text}: {}: {}",
-                problem.cause, problem.fix
-            ));
-            return Ok(Exit::Usage);
-        }
-    };
+const AFTER_HELP: &str = "CSV has one row per point: the varied fields in the units of --vary, then the quantities in SI units, then the \
+    outcome. A cell is empty where a quantity has no value, such as an impact force without corner contact. A refused point has the outcome \
+    `refused` and no values; standard error counts the refused points and gives the reason. JSON is one object per line and point. \
+    Without --only the quantities are those of [limits], else the impact force of the method.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// Vary a field over a range, such as 'operation.speed=500..3000 rpm', or over a list, such as
+    /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
+    #[arg(long, required = true, value_name = "KEY=FROM..TO")]
+    pub vary: Vec<String>,
+    /// Number of points of each range, both ends included; default 101, or every whole number.
+    /// Given once for all ranges, or once for each
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
+    pub points: Vec<usize>,
+    /// Use equal ratios between the points of a range instead of equal steps
+    #[arg(long)]
+    pub log: bool,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Compute these quantities alone, by name or symbol; `tipstrike fields --results` lists them
+    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
+    pub only: Vec<Vec<&'static Quantity>>,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: RowFormat,
+    /// How the study runs
+    #[command(flatten)]
+    pub running: StudyOptions,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let grid = Grid::parse(&options.vary, &options.points, options.log)
+        .map_err(|(text, problem)| Failure::of_option("--vary", &text, &problem))?;
     let out = options.running.out.as_deref();
-    if let Some(refusal) = overwrites(out, &[&options.case]) {
-        streams.say(&refusal);
-        return Ok(Exit::Usage);
-    }
+    keep_inputs(out, &[&options.case])?;
     let edits = options.changes.edits();
     let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
-    if let Some(refusal) = cases::set_and_varied(&edits.settings, &keys) {
-        streams.say(&refusal);
-        return Ok(Exit::Usage);
-    }
+    cases::keep_varied(&edits.settings, &keys)?;
     let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
     let first: Vec<(usize, String)> = first.collect();
-    let opened = match cases::open_varied(&options.case, &edits, &first, streams) {
-        Ok(opened) => opened,
-        Err(exit) => return Ok(exit),
-    };
+    let opened = cases::open_varied(&options.case, &edits, &first, streams)?;
     for sentence in idle(&grid, &opened) {
         streams.say(&sentence);
     }
@@ -58,10 +82,8 @@ pub(super) fn run(options: &Sweep, streams: &mut Streams) -> io::Result<Exit> {
         let batch = batch(&opened, &table);
         return shards::run(shard, &request, &batch, &options.running, streams);
     }
-    match write(options, &opened, &table, streams) {
-        Ok(refusals) => Ok(report(&table, &refusals, &opened.name, streams)),
-        Err(failure) => failure.report(streams),
-    }
+    let refusals = write(options, &opened, &table, streams)?;
+    Ok(report(&table, &refusals, &opened.name, streams))
 }
 
 /// Reports the refused points of a sweep that is written.
@@ -83,7 +105,7 @@ pub(super) fn report(
 }
 
 /// The study for the files of its shards.
-fn request(options: &Sweep, opened: &Opened, table: &SweepTable) -> Request {
+fn request(options: &Options, opened: &Opened, table: &SweepTable) -> Request {
     Request {
         name: opened.name.clone(),
         case: opened.document.render(),
@@ -128,7 +150,7 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
 }
 
 /// The quantities that the user names, else the headline of every method of the grid.
-fn quantities(options: &Sweep, grid: &Grid, opened: &Opened) -> Vec<&'static Quantity> {
+fn quantities(options: &Options, grid: &Grid, opened: &Opened) -> Vec<&'static Quantity> {
     if !options.only.is_empty() {
         return distinct(options.only.iter().flatten().copied());
     }
@@ -138,13 +160,13 @@ fn quantities(options: &Sweep, grid: &Grid, opened: &Opened) -> Vec<&'static Qua
 
 /// Solves the points and writes their rows as they arrive.
 fn write(
-    options: &Sweep,
+    options: &Options,
     opened: &Opened,
     table: &SweepTable,
     streams: &mut Streams,
 ) -> Result<Refusals, Failure> {
     let out = options.running.out.as_deref();
-    let mut sink = Sink::open(out, streams.output.as_mut()).map_err(Failure::File)?;
+    let mut sink = Sink::open(out, streams.output.as_mut())?;
     let batch = batch(opened, table);
     let running = Running::new("points", options.running.jobs);
     let mut refusals = Refusals::default();
@@ -157,10 +179,6 @@ fn write(
     let solved =
         running.run(|control| solve_all(&batch, 0..table.grid.count(), control, &mut take));
     written.map_err(|error| sink.failure(error))?;
-    if solved.is_err() {
-        drop(sink);
-        Running::end();
-        return Err(Failure::Stream(io::ErrorKind::Interrupted.into()));
-    }
+    solved?;
     sink.finish().map(|()| refusals)
 }

@@ -1,8 +1,10 @@
 //! The shards of a study put together into the output of the whole.
 
-use super::sink::{Failure, Sink, overwrites};
-use super::{Exit, Gather, Streams, sweep, tolerance};
+use super::{sweep, tolerance};
 use crate::case::Problem;
+use crate::cli::Streams;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::output::{Sink, keep_inputs};
 use crate::report::sweep::{SweepTable, TableFormat};
 use crate::report::tolerance::ToleranceReport;
 use crate::study::batch::Points;
@@ -11,30 +13,33 @@ use crate::study::request::{Request, Restored, Study};
 use crate::study::shard::{Complete, Unfit, in_order};
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Tolerance};
+use clap::{Args, ValueHint};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-pub(super) fn run(options: &Gather, streams: &mut Streams) -> io::Result<Exit> {
+/// What the command line gives.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Files that --shard wrote, in any order
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub files: Vec<PathBuf>,
+    /// File to write (default: standard output); replaces an existing file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let files: Vec<&Path> = options.files.iter().map(AsRef::as_ref).collect();
     let out = options.out.as_deref();
-    if let Some(refusal) = overwrites(out, &files) {
-        streams.say(&refusal);
-        return Ok(Exit::Usage);
-    }
+    keep_inputs(out, &files)?;
     let shards = files.iter().map(|file| Complete::read(file));
-    let shards = match shards.collect::<Result<Vec<_>, _>>().and_then(in_order) {
-        Ok(shards) => shards,
-        Err(unfit) => return Ok(report(unfit, streams)),
-    };
+    let shards = shards.collect::<Result<Vec<_>, _>>().and_then(in_order);
+    let shards = shards.map_err(|unfit| report(unfit, streams))?;
     let request = shards[0].header.request.clone();
-    let restored = match request.restore() {
-        Ok(restored) => restored,
-        Err(problem) => return Ok(unrestored(&shards[0], &problem, streams)),
-    };
-    match write(&shards, &request, &restored, out, streams) {
-        Ok(exit) => Ok(exit),
-        Err(failure) => failure.report(streams),
-    }
+    let restored = request
+        .restore()
+        .map_err(|problem| unrestored(&shards[0], &problem, streams))?;
+    write(&shards, &request, &restored, out, streams)
 }
 
 fn report(unfit: Unfit, streams: &mut Streams) -> Exit {
@@ -58,7 +63,7 @@ fn write(
     out: Option<&Path>,
     streams: &mut Streams,
 ) -> Result<Exit, Failure> {
-    let mut sink = Sink::open(out, streams.output.as_mut()).map_err(Failure::File)?;
+    let mut sink = Sink::open(out, streams.output.as_mut())?;
     match &restored.study {
         Study::Sweep(grid) => {
             let table = SweepTable {
@@ -72,7 +77,7 @@ fn write(
             Ok(sweep::report(&table, &refusals, &request.name, streams))
         }
         Study::Tolerance(study) => {
-            let samples = samples(shards, study).map_err(Failure::Stream)?;
+            let samples = samples(shards, study)?;
             let report = ToleranceReport {
                 name: &request.name,
                 case: &restored.case,

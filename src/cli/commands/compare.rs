@@ -1,15 +1,76 @@
 //! Cases and their variants side by side.
 
-use super::progress::follow;
-use super::{Compare, CompareFormat, Edits, Exit, Streams, cases};
 use crate::case::{Document, Problem};
+use crate::cli::Streams;
+use crate::cli::cases;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Edits, QuantityList, Setting, Settings, by_method, methods};
+use crate::cli::progress::follow;
+use crate::model::Quantity;
+use crate::model::inputs::Method;
 use crate::report::compare::{Column, Comparison};
 use crate::report::{Report, Selection};
 use crate::study::headline::distinct;
-use std::io;
-use std::path::Path;
+use clap::{Args, ValueEnum, ValueHint};
+use std::path::{Path, PathBuf};
 
-pub(super) fn run(options: &Compare, streams: &mut Streams) -> io::Result<Exit> {
+const AFTER_HELP: &str = "A variant is a table [variants.NAME] of the case file with the keys \
+    that it changes, such as \"driven.tip_relief\" = \"48 um\". The first column is the reference \
+    of all differences. A difference is in the unit of the quantity, or in percent if the \
+    quantity cannot be negative and its value is at most ten times the reference. A refused case \
+    or variant keeps its column, with the reason. CSV: one row per quantity in SI units. JSON: \
+    one object in SI units; missing values are absent.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case files, each with its variants; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// Compare these variants alone
+    #[arg(long = "variant", value_name = "NAME,...", value_delimiter = ',')]
+    pub variants: Vec<String>,
+    /// Solve on this method instead of the cases'
+    #[arg(long, value_parser = methods())]
+    method: Option<Method>,
+    /// Change a field of every case and variant, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
+    settings: Vec<Setting>,
+    /// Compare these quantities alone, by name or symbol; `tipstrike fields --results` lists them
+    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
+    pub only: Vec<Vec<&'static Quantity>>,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: CompareFormat,
+}
+
+/// Format of a comparison.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum CompareFormat {
+    /// Tables for a person
+    #[default]
+    Text,
+    /// One row per quantity
+    Csv,
+    /// One object
+    Json,
+    /// Tables in Markdown
+    Md,
+}
+
+impl Options {
+    /// The changes of every case, on that variant or on the case itself.
+    fn edits(&self, variant: Option<&str>) -> Edits {
+        let settings = self.settings.iter().cloned();
+        Edits {
+            variant: variant.map(str::to_owned),
+            settings: settings.chain(by_method(self.method)).collect(),
+        }
+    }
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let selection = Selection {
         only: distinct(options.only.iter().flatten().copied()),
         stations: false,
@@ -33,10 +94,9 @@ pub(super) fn run(options: &Compare, streams: &mut Streams) -> io::Result<Exit> 
     });
     if columns.len() < 2 && worst == Exit::Done {
         let name = columns.first().map_or("", |column| column.name.as_str());
-        streams.say(&format!(
+        return Err(Failure::Usage(format!(
             "{name}: the case has no variants: name a second case, or add a table [variants.NAME]"
-        ));
-        return Ok(Exit::Usage);
+        )));
     }
     if columns.is_empty() {
         return Ok(worst);
@@ -48,7 +108,7 @@ fn write(
     comparison: &Comparison,
     format: CompareFormat,
     streams: &mut Streams,
-) -> io::Result<Exit> {
+) -> Result<Exit, Failure> {
     let out = streams.output.as_mut();
     match format {
         CompareFormat::Text => comparison.write(out)?,
@@ -75,7 +135,7 @@ struct Edited {
 
 /// The case itself, then its variants.
 fn edited(
-    options: &Compare,
+    options: &Options,
     path: &Path,
     document: &Document,
     streams: &mut Streams,

@@ -1,19 +1,42 @@
 //! Writes cases side by side as a page or as data, in the format of the file's ending.
 
-use super::{Exit, Export, Streams, cases, plot};
+use super::plot;
+use crate::cli::Streams;
+use crate::cli::cases;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::Changes;
 use crate::report::charts::with_other_method;
 use crate::report::export::Format;
 use crate::report::page::Subject;
-use std::io;
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
 
-pub(super) fn run(options: &Export, streams: &mut Streams) -> io::Result<Exit> {
+const AFTER_HELP: &str = "The HTML page is complete in itself: verdict, inputs, results, charts, teeth, limits, notes and the case \
+    files; one case prints on two A4 pages. Markdown has the same without charts. CSV and JSON are those of `solve`, JSON with the \
+    stations.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// What differs from each case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// File to write, over an older one; its ending chooses the format
+    #[arg(long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: PathBuf,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let Some(format) = Format::of(&options.out) else {
-        streams.say(&format!(
+        return Err(Failure::Usage(format!(
             "--out {}: the ending chooses the format: use {}",
             options.out.display(),
             Format::ENDINGS
-        ));
-        return Ok(Exit::Usage);
+        )));
     };
     let edits = options.changes.edits();
     let (mut subjects, mut worst) = (Vec::new(), Exit::Done);

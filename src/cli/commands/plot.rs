@@ -1,31 +1,57 @@
 //! Writes a chart of a case, or its teeth, as a picture.
 
-use super::cases::{self, Opened};
-use super::progress::follow;
-use super::{Exit, Plot, Streams};
 use crate::case::file;
+use crate::cli::Streams;
+use crate::cli::cases::{self, Opened};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::Changes;
+use crate::cli::progress::follow;
 use crate::model::{Inputs, Refusal};
 use crate::report::charts::{Drawn, find, no_curve, picture, with_other_method};
+use crate::report::graphs::GRAPHS;
 use crate::report::svg::teeth::teeth;
 use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use crate::report::{Report, Selection};
 use crate::study::speeds::{SPEEDS, SpeedCurve, speeds};
-use std::io::{self, Write};
-use std::path::Path;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueHint};
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// The chart that shows the teeth.
-pub(super) const TEETH: &str = "teeth";
+const TEETH: &str = "teeth";
 
-pub(super) fn run(options: &Plot, streams: &mut Streams) -> io::Result<Exit> {
-    let drawn = cases::open(&options.case, &options.changes.edits(), streams)
-        .and_then(|opened| draw(&opened, options, streams));
-    match drawn {
-        Ok(text) => write(options.out.as_deref(), &text, streams),
-        Err(exit) => Ok(exit),
-    }
+const AFTER_HELP: &str = "The chart shows the method of the case. If the method has no \
+    such chart, the command draws another method: load_share of paper and exact shows static; \
+    impact_energy of static and dynamic shows exact. The legend names the method. The chart speed \
+    shows method dynamic at the torque of the case, with the speed rising and falling. The \
+    picture follows the light or dark setting of the browser.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// The chart to draw
+    #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
+    pub chart: String,
+    /// File to write (default: standard output); replaces an existing file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
 }
 
-fn draw(opened: &Opened, options: &Plot, streams: &mut Streams) -> Result<String, Exit> {
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let opened = cases::open(&options.case, &options.changes.edits(), streams)?;
+    let text = draw(&opened, options, streams)?;
+    write(options.out.as_deref(), &text, streams)
+}
+
+fn draw(opened: &Opened, options: &Options, streams: &mut Streams) -> Result<String, Exit> {
     if options.chart == SPEED {
         let curve =
             speeds_of(&opened.inputs).map_err(|refusal| opened.refused(&refusal, streams))?;
@@ -89,18 +115,19 @@ pub(super) fn solve(
 }
 
 /// Writes a picture or a page, over an older one, or to standard output.
-pub(super) fn write(out: Option<&Path>, text: &str, streams: &mut Streams) -> io::Result<Exit> {
-    let Some(path) = out.filter(|path| path.as_os_str() != "-") else {
-        return streams
-            .output
-            .write_all(text.as_bytes())
-            .map(|()| Exit::Done);
-    };
-    match file::write(path, text.as_bytes(), true) {
-        Ok(()) => Ok(Exit::Done),
-        Err(error) => {
-            streams.say(&error.to_string());
-            Ok(Exit::Unreadable)
-        }
+pub(super) fn write(
+    out: Option<&Path>,
+    text: &str,
+    streams: &mut Streams,
+) -> Result<Exit, Failure> {
+    match out.filter(|path| path.as_os_str() != "-") {
+        Some(path) => file::write(path, text.as_bytes(), true)?,
+        None => streams.output.write_all(text.as_bytes())?,
     }
+    Ok(Exit::Done)
+}
+
+fn charts() -> PossibleValuesParser {
+    let names = GRAPHS.iter().map(|graph| graph.key);
+    PossibleValuesParser::new(names.chain([SPECTRUM, SPEED, TEETH]))
 }

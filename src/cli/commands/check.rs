@@ -1,16 +1,41 @@
 //! Each case held against its own limits.
 
-use super::cases::{self, Opened};
-use super::{Check, Exit, Listing, Streams};
 use crate::case::Case;
 use crate::case::sanitize::sanitize;
+use crate::cli::Streams;
+use crate::cli::cases::{self, Opened};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Changes, Listing};
 use crate::model::{self, Inputs, Refusal, Solution};
 use crate::report::verdict::{
     Standing, Verdict, refused, stages, stages_beside, verdicts, write_json,
 };
+use clap::{Args, ValueHint};
 use std::io::{self, Write};
+use std::path::PathBuf;
 
-pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
+const AFTER_HELP: &str = "A limit on impact_force applies to the free impact in every \
+    method. With static and dynamic, the verdict also prints the force by the method; a separate \
+    limit can be set on that force. Without corner contact every limit on the impact is met. If a \
+    quantity has no value, the verdict is `unknown` with the reason, and the exit code is 1. \
+    JSON: one object per verdict, in SI units.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let edits = options.changes.edits();
     let mut worst = Exit::Done;
     for path in &options.cases {
@@ -23,7 +48,7 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
     Ok(worst)
 }
 
-fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> io::Result<Exit> {
+fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit, Failure> {
     let case = &opened.document.case;
     let (verdicts, refusal, method) = match solve(case, &opened.inputs) {
         Ok(solution) => (

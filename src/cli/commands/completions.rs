@@ -1,0 +1,25 @@
+//! Writes a shell's completions.
+
+use crate::cli::Streams;
+use crate::cli::exit::{Exit, Failure};
+use clap::Args;
+use clap_complete::Shell;
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// The shell
+    pub shell: Shell,
+}
+
+pub(super) fn run(
+    options: &Options,
+    mut program: clap::Command,
+    streams: &mut Streams,
+) -> Result<Exit, Failure> {
+    // The generator panics where its writer fails, so it writes to memory.
+    let mut script = Vec::new();
+    clap_complete::generate(options.shell, &mut program, "tipstrike", &mut script);
+    streams.output.write_all(&script)?;
+    Ok(Exit::Done)
+}

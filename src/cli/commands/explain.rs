@@ -1,0 +1,54 @@
+//! A quantity of a case explained.
+
+use crate::case::Document;
+use crate::cli::Streams;
+use crate::cli::cases::{self, Opened};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Changes, Listing, Quantities};
+use crate::model::Quantity;
+use crate::model::{self, Stages};
+use crate::report::explain::{explain, render, write_json};
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+/// What the built-in case is called.
+const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Name or symbol of the quantity; `tipstrike fields --results` lists all quantities
+    #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = Quantities)]
+    pub quantity: &'static Quantity,
+    /// The case file, - for standard input (default: Table 1 of Zhou & Chen 2014)
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: Option<PathBuf>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let edits = options.changes.edits();
+    let opened = match &options.case {
+        Some(path) => cases::open(path, &edits, streams),
+        None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &edits, streams),
+    }?;
+    let Opened {
+        name,
+        document,
+        inputs,
+        ..
+    } = &opened;
+    let solution = model::solve(inputs, Stages::of(options.quantity.stage))
+        .map_err(|refusal| opened.refused(&refusal, streams))?;
+    let page = explain(options.quantity, &document.case, inputs, &solution);
+    match options.format {
+        Listing::Text => streams.output.write_all(render(&page, name).as_bytes())?,
+        Listing::Json => write_json(&page, name, &mut streams.output)?,
+    }
+    Ok(Exit::Done)
+}

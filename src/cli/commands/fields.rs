@@ -1,0 +1,29 @@
+//! Lists the fields of a case, or the quantities of the results.
+
+use crate::cli::Streams;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::Listing;
+use crate::report::fields;
+use clap::Args;
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// List the quantities instead: the names for --only and [limits]
+    #[arg(long)]
+    pub results: bool,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let out = streams.output.as_mut();
+    match (options.results, options.format) {
+        (false, Listing::Text) => fields::write_fields(out),
+        (false, Listing::Json) => fields::write_fields_json(out),
+        (true, Listing::Text) => fields::write_quantities(out),
+        (true, Listing::Json) => fields::write_quantities_json(out),
+    }?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,95 @@
+//! The values of a field at which a condition changes.
+
+use crate::case::fields::FIELDS;
+use crate::cli::Streams;
+use crate::cli::cases;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Changes, Listing, count};
+use crate::cli::output::{keep_inputs, write_to};
+use crate::cli::progress::Running;
+use crate::numeric::decimal::shortest;
+use crate::report::seek::SeekReport;
+use crate::study::axis::{AxisRange, with_unit};
+use crate::study::condition::Condition;
+use crate::study::seek::USUAL_SCAN;
+use crate::study::seek::{Unfound, seek};
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "A crossing is a value at which the condition changes, with a bracket of 1e-9 of the value. `always` and `never` \
+    are answers for the whole range. Without corner contact a quantity of the impact is below every limit. JSON is one object; its \
+    numbers are in the unit of --vary, and those of the quantity in SI.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// The field and its range, such as 'deviations.base_pitch=0..40 um'
+    #[arg(long, value_name = "KEY=FROM..TO")]
+    pub vary: String,
+    /// The condition, such as 'impact_force<=2500 N', 'dynamic_contact_lost=true' or
+    /// 'outcome=no-corner-contact'
+    #[arg(long, value_name = "CONDITION")]
+    pub until: String,
+    /// Number of points of the first scan; a finer scan finds narrower regions
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SCAN, value_parser = count)]
+    pub points: usize,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+    /// Number of threads (default: one per core); does not change the output
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// File to write (default: standard output); replaces an existing file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let (range, condition) = question(options)?;
+    let edits = options.changes.edits();
+    let key = FIELDS[range.field].key;
+    let out = options.out.as_deref();
+    cases::keep_varied(&edits.settings, &[key])?;
+    keep_inputs(out, &[&options.case])?;
+    let first = (range.field, with_unit(&shortest(range.from), &range.unit));
+    let opened = cases::open_varied(&options.case, &edits, &[first], streams)?;
+    condition
+        .check(opened.inputs.method)
+        .map_err(|problem| Failure::of_option("--until", &options.until, &problem))?;
+    let running = Running::new("points", options.jobs);
+    let found = running
+        .run(|control| seek(&opened.inputs, &range, &condition, options.points, control))
+        .map_err(|unfound| match unfound {
+            Unfound::Stopped => Failure::Interrupted,
+            Unfound::Bad(problem) => Failure::of_option("--vary", &options.vary, &problem),
+        })?;
+    let report = SeekReport {
+        name: &opened.name,
+        title: opened.document.case.title(),
+        method: opened.inputs.method.name(),
+        range: &range,
+        condition: &condition,
+        found: &found,
+    };
+    write_to(out, streams.output.as_mut(), |sink| match options.format {
+        Listing::Text => report.write(sink),
+        Listing::Json => report.write_json(sink),
+    })?;
+    Ok(Exit::Done)
+}
+
+/// The range and the condition.
+fn question(options: &Options) -> Result<(AxisRange, Condition), Failure> {
+    let range = AxisRange::parse(&options.vary)
+        .map_err(|problem| Failure::of_option("--vary", &options.vary, &problem))?;
+    let condition = Condition::parse(&options.until)
+        .map_err(|problem| Failure::of_option("--until", &options.until, &problem))?;
+    Ok((range, condition))
+}

@@ -1,0 +1,65 @@
+//! The stiffness models over both flanks of a case beside finite elements.
+
+use crate::cli::Streams;
+use crate::cli::cases::{self, Opened};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Edits, Format};
+use crate::report::stiffness::{StiffnessReport, no_field, write, write_csv, write_json};
+use crate::study::stiffness::compare;
+use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "The finite elements are plane strain on the whole gear, as in tooth_compliance = \"finite-element\". CSV: one row \
+    per gear and radius, in SI units; a cell is empty where a model does not cover the gear. JSON: one object in SI units; missing \
+    values are absent, and gaps and refusal give the reason.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// What differs from the case
+    #[command(flatten)]
+    pub edits: Edits,
+    /// Number of radii on each flank, from the form circle to the tip
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
+    pub points: usize,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let opened = cases::open(&options.case, &options.edits, streams)?;
+    let comparison = compare(&opened.inputs, options.points)
+        .map_err(|refusal| opened.refused(&refusal, streams))?;
+    let Opened { name, document, .. } = &opened;
+    let report = StiffnessReport {
+        name,
+        title: document.case.title(),
+        comparison: &comparison,
+    };
+    match options.format {
+        Format::Text => write(&report, streams.output.as_mut())?,
+        Format::Json => write_json(&report, streams.output.as_mut())?,
+        Format::Csv => {
+            write_csv(&comparison, streams.output.as_mut())?;
+            for gear in &comparison.gears {
+                if let Some(sentence) = no_field(gear) {
+                    streams.say(&format!("{name}: {}: {sentence}", gear.gear));
+                }
+            }
+        }
+    }
+    Ok(Exit::Done)
+}
+
+/// A number of radii on a flank.
+fn point_count(text: &str) -> Result<usize, String> {
+    let range = LEAST_POINTS..=MOST_POINTS;
+    let count = text.parse().ok().filter(|count| range.contains(count));
+    count.ok_or_else(|| format!("write a number from {LEAST_POINTS} to {MOST_POINTS}"))
+}

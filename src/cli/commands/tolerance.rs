@@ -1,0 +1,164 @@
+//! A case whose fields are spread around their values.
+
+use crate::case::Problem;
+use crate::cli::Streams;
+use crate::cli::cases::{self, Opened};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::{Changes, Format, QuantityList, StudyOptions, count};
+use crate::cli::output::{keep_inputs, write_to};
+use crate::cli::progress::Running;
+use crate::cli::shards;
+use crate::model::Quantity;
+use crate::report::tolerance::{ToleranceReport, is_all_refused};
+use crate::study::batch::Batch;
+use crate::study::request::{PointsRequest, Request};
+use crate::study::tolerance::USUAL_SAMPLES;
+use crate::study::tolerance::{MOST_SAMPLES, Size, Tolerance};
+use clap::{Args, ValueHint};
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "A distribution is a line of [spread]: the field in quotes, then { \
+    normal = WIDTH } with the standard deviation, or { uniform = WIDTH }, { triangular = WIDTH } \
+    or { truncated = WIDTH } (a normal distribution cut off at three standard deviations) with \
+    half the span, or { grade = CLASS } with a flank tolerance class of ISO 1328-1, for a base \
+    pitch deviation. CSV has one row per solve in SI units: the samples (set a), then the points \
+    of the ranking (set b, and b:FIELD with the value of b in that field). JSON is one object in \
+    SI units.";
+
+/// What the command line gives.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct Options {
+    /// Case file with [spread]; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// Number of samples
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SAMPLES, value_parser = count)]
+    pub samples: usize,
+    /// Seed of the samples; the same seed gives the same samples
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Number of samples for the ranking of the fields (default: 4096, at most --samples; 0: no
+    /// ranking). Each sample needs one solve per field, plus one
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
+    pub ranking: Option<usize>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Compute these quantities and those of [limits] alone, by name or symbol
+    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
+    pub only: Vec<Vec<&'static Quantity>>,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// How the study runs
+    #[command(flatten)]
+    pub running: StudyOptions,
+}
+
+pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let out = options.running.out.as_deref();
+    check_size(options)?;
+    keep_inputs(out, &[&options.case])?;
+    let opened = cases::open(&options.case, &options.changes.edits(), streams)?;
+    let study = study(options, &opened).map_err(|problem| {
+        opened.report_problem(problem, streams);
+        Exit::BadCase
+    })?;
+    if let Some(shard) = options.running.shard {
+        let request = request(options, &opened, &study);
+        let batch = Batch {
+            inputs: &opened.inputs,
+            points: &study.design,
+            quantities: &study.quantities,
+        };
+        return shards::run(shard, &request, &batch, &options.running, streams);
+    }
+    let running = Running::new("solves", options.running.jobs);
+    let samples = running.run(|control| study.run(&opened.inputs, control))?;
+    let whole = ToleranceReport {
+        name: &opened.name,
+        case: &opened.document.case,
+        method: opened.inputs.method.name(),
+        study: &study,
+        samples: &samples,
+    };
+    write_to(out, streams.output.as_mut(), |sink| {
+        write_as(name_of(options.format), &whole, sink)
+    })?;
+    Ok(report(&whole, streams))
+}
+
+/// Reports the refused samples of a study that is written.
+pub(super) fn report(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
+    for refused in &whole.samples.refusals.0 {
+        streams.say(&format!("{}: {}", whole.name, whole.refused(refused)));
+    }
+    if is_all_refused(whole.samples) {
+        Exit::BadCase
+    } else {
+        Exit::Done
+    }
+}
+
+/// The study for the files of its shards.
+fn request(options: &Options, opened: &Opened, study: &Tolerance) -> Request {
+    Request {
+        name: opened.name.clone(),
+        case: opened.document.render(),
+        quantities: study
+            .quantities
+            .iter()
+            .map(|known| known.key.to_owned())
+            .collect(),
+        format: name_of(options.format).to_owned(),
+        points: PointsRequest::Tolerance {
+            samples: study.design.samples,
+            seed: study.design.seed,
+            ranked: study.design.ranked,
+        },
+    }
+}
+
+/// The name of a format on the command line.
+fn name_of(format: Format) -> &'static str {
+    match format {
+        Format::Text => "text",
+        Format::Json => "json",
+        Format::Csv => "csv",
+    }
+}
+
+fn check_size(options: &Options) -> Result<(), Failure> {
+    let samples = options.samples;
+    if (2..=MOST_SAMPLES).contains(&samples) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "--samples {samples}: write a number from 2 to {MOST_SAMPLES}"
+    )))
+}
+
+fn study(options: &Options, opened: &Opened) -> Result<Tolerance, Problem> {
+    let only: Vec<_> = options.only.iter().flatten().copied().collect();
+    let size = Size {
+        samples: options.samples,
+        seed: options.seed,
+        ranked: options.ranking,
+    };
+    Tolerance::of(&opened.document.case, &opened.inputs, &only, size)
+}
+
+/// Writes a study in the format of that name.
+pub(super) fn write_as(
+    format: &str,
+    whole: &ToleranceReport,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        "json" => whole.write_json(out),
+        "csv" => whole.write_csv(out),
+        _ => whole.write(out),
+    }
+}
