@@ -59,7 +59,7 @@ pub struct Options {
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let grid = Grid::parse(&options.vary, &options.points, options.log)
-        .map_err(|(text, problem)| Failure::of_option("--vary", &text, &problem))?;
+        .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
     let out = options.running.out.as_deref();
     keep_inputs(out, &[&options.case])?;
     let edits = options.changes.edits();
