@@ -53,7 +53,7 @@ macro_rules! column {
 
 /// Every column, in the order of a row.
 #[rustfmt::skip]
-pub static COLUMNS: [Column; 13] = [
+pub const COLUMNS: &[Column] = &[
     column!("roll_angle_driver", "θ_1", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driver, |s| s.roll_angle_driver))),
     column!("roll_angle_driven", "u", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driven, |s| s.roll_angle_driven))),
     column!("time", "t", "s", "us", 5, DYNAMIC, |row| row.load()?.time),

@@ -123,7 +123,7 @@ fn assert_title(desk: &Desk, graph: &Graph) {
 #[test]
 fn charts_are_selected_by_key_and_by_name() {
     let mut desk = at_method(SMALL, "static");
-    for graph in &GRAPHS {
+    for graph in GRAPHS {
         assert_title(&desk, graph);
         desk.keys(&["j"]);
     }
@@ -134,7 +134,7 @@ fn charts_are_selected_by_key_and_by_name() {
     assert_title(&desk, &GRAPHS[0]);
     desk.keys(&["Up", "k", "k"]);
     assert_title(&desk, &GRAPHS[GRAPHS.len() - 1]);
-    for graph in &GRAPHS {
+    for graph in GRAPHS {
         desk.keys(&[
             "1",
             ":",
@@ -315,7 +315,7 @@ fn a_chart_of_whine_left_by_another_tab_is_requested_again() {
 fn a_chart_of_the_free_impact_says_so_in_its_title() {
     for (method, is_free) in [("exact", false), ("static", true), ("dynamic", true)] {
         let mut desk = at_method(SMALL, method);
-        for graph in &GRAPHS {
+        for graph in GRAPHS {
             let label = graph.label.to_lowercase();
             let closed_form = ["impact energy", "driver contact radius"];
             assert_eq!(
@@ -744,7 +744,7 @@ fn assert_charts(desk: &mut Desk) {
     for (size, keys) in [(SMALL, "0"), (TINY, "v"), (LARGE, "+"), (HUGE, "t")] {
         desk.act(Action::Resize(size));
         desk.keys(&[keys, "l"]);
-        for _ in &GRAPHS {
+        for _ in GRAPHS {
             let screen = desk.screen();
             assert!(
                 !["NaN", "inf ", "n/a"]
