@@ -5,7 +5,7 @@
 use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -69,15 +69,31 @@ pub(crate) struct Desk {
 }
 
 impl Desk {
-    /// On the built-in case.
+    /// On the built-in case, which is solved once per size.
     pub(crate) fn new(size: Size) -> Desk {
-        let app = update::opened(store::built_in(), None, Look::FULL, size);
+        static SOLVED: Mutex<Vec<App>> = Mutex::new(Vec::new());
+        let mut solved = SOLVED.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = solved.iter().find(|app| app.layout.size() == size).cloned();
+        let app = known.unwrap_or_else(|| {
+            let app = update::opened(store::built_in(), None, Look::FULL, size);
+            solved.push(app.clone());
+            app
+        });
+        Desk::with(app)
+    }
+
+    /// On that state, with an empty folder.
+    pub(crate) fn with(app: App) -> Desk {
+        Desk::in_folder(app, tempfile::tempdir().expect("a folder"))
+    }
+
+    fn in_folder(app: App, folder: TempDir) -> Desk {
         let state = tempfile::tempdir().expect("a folder");
         Desk {
             app,
             autosave: autosave(state.path()),
             state,
-            folder: tempfile::tempdir().expect("a folder"),
+            folder,
             has_quit: false,
             has_cancelled: false,
             has_mouse: false,
@@ -92,25 +108,21 @@ impl Desk {
 
     /// On a file of that text.
     pub(crate) fn on(size: Size, name: &str, text: &str) -> Desk {
-        let mut desk = Desk::new(size);
-        let path = desk.write(name, text);
-        desk.app = update::opened(
-            Document::read(&path).expect("a good case"),
-            Some(path),
-            Look::FULL,
-            size,
-        );
-        desk
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join(name), text).expect("room on the disk");
+        Desk::of_file(size, folder, name)
     }
 
     /// On a file that is in the folder already.
     pub(crate) fn at(folder: TempDir, name: &str) -> Desk {
-        let mut desk = Desk::new(SMALL);
+        Desk::of_file(SMALL, folder, name)
+    }
+
+    fn of_file(size: Size, folder: TempDir, name: &str) -> Desk {
         let path = folder.path().join(name);
         let document = Document::read(&path).expect("a good case");
-        desk.app = update::opened(document, Some(path), Look::FULL, SMALL);
-        desk.folder = folder;
-        desk
+        let app = update::opened(document, Some(path), Look::FULL, size);
+        Desk::in_folder(app, folder)
     }
 
     pub(crate) fn write(&self, name: &str, text: &str) -> PathBuf {
@@ -261,7 +273,6 @@ impl Desk {
     }
 }
 
-/// All that a measurement tells, the last first; each setting is run once.
 /// Times that are the same on every machine: each setting takes a tenth more than the one before.
 pub(crate) fn time_evenly(desk: &mut Desk) {
     let traded = desk.app.tab.traded.as_mut().expect("a measurement");
@@ -278,6 +289,7 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
     traded.marked = trade.recommended().map(|measured| measured.setting);
 }
 
+/// All that a measurement sends, the last first; each setting is run once.
 fn measured(measuring: Measuring) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
     let once = Measuring {

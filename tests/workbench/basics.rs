@@ -331,11 +331,11 @@ fn the_palette_finds_and_runs_every_command() {
 fn every_command_of_the_palette_works_on_every_screen() {
     for pane in Pane::ALL {
         let number = pane.number().to_string();
-        let mut desk = Desk::new(SMALL);
-        desk.keys(&["Esc", &number, ":"]);
-        for command in listed(&desk) {
-            let mut desk = Desk::new(SMALL);
-            desk.keys(&["Esc", &number, ":", &command.name]);
+        let mut palette = Desk::new(SMALL);
+        palette.keys(&["Esc", &number, ":"]);
+        for command in listed(&palette) {
+            let mut desk = Desk::with(palette.app.clone());
+            desk.keys(&[&command.name]);
             let place = listed(&desk).iter().position(|one| *one == command);
             for _ in 0..place.unwrap_or_else(|| panic!("{}", command.name)) {
                 desk.keys(&["Down"]);
