@@ -49,6 +49,15 @@ impl Streams<'_> {
     }
 }
 
+/// Reports that the workbench needs another system.
+pub fn refuse_workbench(streams: &mut Streams) -> Exit {
+    streams.say(
+        "tipstrike: the workbench needs Linux, macOS or another Unix; on this system: tipstrike \
+         solve CASE",
+    );
+    Exit::Usage
+}
+
 /// The command line taken apart.
 ///
 /// # Errors

@@ -23,6 +23,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`system`] | what differs between operating systems |
 //! | [`numeric`] | root finding, series and quadrature, without a word of gears |
 //! | [`model`] | the computation: one stage per file, without files, threads or printing |
 //! | [`case`](mod@case) | the case file: fields, units, reading, checking, saving |
@@ -38,7 +39,7 @@
 //!
 //! [Guide](docs::guide), [methods and limits](docs::methods), [numerical
 //! accuracy](docs::accuracy), [speed](docs::speed), [scripting](docs::scripting),
-//! [studies](docs::studies), [contributing](docs::contributing).
+//! [studies](docs::studies), [platforms](docs::platforms), [contributing](docs::contributing).
 //!
 //! [`Solution`]: model::Solution
 
@@ -49,7 +50,8 @@ pub mod model;
 pub mod numeric;
 pub mod report;
 pub mod study;
-#[cfg(feature = "tui")]
+pub mod system;
+#[cfg(all(unix, feature = "tui"))]
 pub mod tui;
 
 /// The pages of the folder `docs`, for people.
@@ -72,6 +74,9 @@ pub mod docs {
 
     #[doc = include_str!("../docs/studies.md")]
     pub mod studies {}
+
+    #[doc = include_str!("../docs/platforms.md")]
+    pub mod platforms {}
 
     #[doc = include_str!("../CONTRIBUTING.md")]
     pub mod contributing {}

@@ -1,15 +1,12 @@
 //! The program: a workbench in the terminal, and the same from scripts.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
 
-use signal_hook::consts::SIGXFSZ;
 use tipstrike::cli::{self, Arguments, Streams};
 
 fn main() -> ExitCode {
-    // With a handler, a limit on the size of files becomes an error of the write and does not end
-    // the program.
-    drop(signal_hook::flag::register(SIGXFSZ, Arc::default()));
+    tipstrike::system::report_file_limit_as_error();
     let mut streams = Streams::standard();
     match cli::parse(std::env::args_os(), &mut streams) {
         Err(exit) => exit.into(),
@@ -17,6 +14,16 @@ fn main() -> ExitCode {
             command: Some(command),
             ..
         }) => cli::run(&command, &mut streams).into(),
-        Ok(Arguments { case, .. }) => tipstrike::tui::run(case),
+        Ok(Arguments { case, .. }) => workbench(case, &mut streams),
     }
+}
+
+#[cfg(unix)]
+fn workbench(case: Option<PathBuf>, _: &mut Streams) -> ExitCode {
+    tipstrike::tui::run(case)
+}
+
+#[cfg(not(unix))]
+fn workbench(_: Option<PathBuf>, streams: &mut Streams) -> ExitCode {
+    cli::refuse_workbench(streams).into()
 }

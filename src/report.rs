@@ -35,7 +35,7 @@ use crate::case::{Case, units};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stages};
 use crate::numeric::decimal::significant;
-#[cfg(any(feature = "cli", feature = "tui"))]
+#[cfg(all(unix, feature = "tui"))]
 pub(crate) use layout::with_units;
 
 /// A value as a person reads it.

@@ -56,6 +56,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use crate::system::signals;
 use actions::Action;
 use ending::TERMINAL_LOST;
 use events::Events;
@@ -101,7 +102,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
     }
     keep_what_is_left(&journal_writer);
     match ended {
-        Ok(Ok(End::Signal(signal))) => ending::die_of(signal),
+        Ok(Ok(End::Signal(signal))) => signals::die_of(signal),
         Ok(Ok(End::Left | End::Lost)) => ExitCode::from(TERMINAL_LOST),
         Ok(Err(error)) => no_answer(&error),
         Err(_) => fail(
@@ -117,7 +118,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
 // Signals before any other thread starts, and before the terminal is taken: none of them must leave
 // the terminal in our modes.
 fn begin(events: &Events) -> io::Result<Arc<JournalWriter>> {
-    let signals = ending::hold_signals()?;
+    let signals = signals::hold()?;
     let send = events.action_sender();
     let journal_writer = JournalWriter::open(move |reason| {
         send(Action::Failed(reason));

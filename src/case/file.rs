@@ -1,6 +1,5 @@
 //! Reading and saving case files: a case together with the text it was read from.
 
-mod about;
 mod disk;
 mod edit;
 mod error;

@@ -2,13 +2,11 @@
 //! terminal, and Ctrl-C.
 
 use crate::study::batch::Control;
+use crate::system::interrupt::Interrupt;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use signal_hook::consts::SIGINT;
 use std::cell::Cell;
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
 /// How long nothing is shown.
@@ -80,58 +78,6 @@ impl Bar {
     }
 }
 
-/// The state of Ctrl-C in this process.
-struct CtrlC {
-    was_pressed: Arc<AtomicBool>,
-    /// Whether no work heeds it, so that it ends the program.
-    is_default: Arc<AtomicBool>,
-}
-
-static CTRL_C: LazyLock<CtrlC> = LazyLock::new(|| {
-    let state = CtrlC {
-        was_pressed: Arc::default(),
-        is_default: Arc::new(AtomicBool::new(true)),
-    };
-    let is_default = Arc::clone(&state.is_default);
-    // Where the system refuses, Ctrl-C ends the program as it always does.
-    if signal_hook::flag::register_conditional_default(SIGINT, is_default).is_ok() {
-        drop(signal_hook::flag::register(
-            SIGINT,
-            Arc::clone(&state.was_pressed),
-        ));
-    }
-    state
-});
-
-/// Ctrl-C, heeded where the work looks for it, so that no bar is left behind.
-pub(super) struct Interrupt(&'static CtrlC);
-
-impl Interrupt {
-    /// Ctrl-C does not end the program until this is dropped.
-    pub(super) fn heeded() -> Interrupt {
-        let state = &*CTRL_C;
-        state.was_pressed.store(false, Ordering::Relaxed);
-        state.is_default.store(false, Ordering::Relaxed);
-        Interrupt(state)
-    }
-
-    /// Whether the work goes on.
-    pub(super) fn go_on(&self) -> bool {
-        !self.0.was_pressed.load(Ordering::Relaxed)
-    }
-
-    /// End as a program that Ctrl-C ends, without a word: who called it then knows.
-    pub(super) fn end() {
-        drop(signal_hook::low_level::emulate_default_handler(SIGINT));
-    }
-}
-
-impl Drop for Interrupt {
-    fn drop(&mut self) {
-        self.0.is_default.store(true, Ordering::Relaxed);
-    }
-}
-
 /// Runs work that reports how many parts of how many are done, with a bar while it takes long. The
 /// work stops where the report returns false, and Ctrl-C then ends the program.
 pub(super) fn follow<T>(
@@ -183,23 +129,5 @@ impl Running {
             self.bar.clear();
         }
         done
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ctrl_c_ends_the_program_again_once_no_work_heeds_it() {
-        for _ in 0..2 {
-            let interrupt = Interrupt::heeded();
-            assert!(interrupt.go_on());
-            signal_hook::low_level::raise(SIGINT).expect("a signal");
-            assert!(!interrupt.go_on());
-            assert!(!CTRL_C.is_default.load(Ordering::Relaxed));
-            drop(interrupt);
-            assert!(CTRL_C.is_default.load(Ordering::Relaxed));
-        }
     }
 }

@@ -3,15 +3,13 @@
 mod decoder;
 mod sequence;
 
-use std::io;
+use std::io::{self, ErrorKind};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::io::{Errno, read};
 
-use super::terminal::is_in_foreground;
+use crate::system::terminal::{Input, is_in_foreground, read, wait_for_input};
 use decoder::Decoder;
 
 /// Less than the terminal's own buffer, so that a full read means that more bytes are ready.
@@ -28,22 +26,22 @@ pub(super) fn read_all(mut send: impl FnMut(Event) -> bool) {
     let mut inputs = Vec::new();
     loop {
         let start = Instant::now();
-        match wait(&stdin, decoder.patience()) {
-            Ok(None) => decoder.expire(&mut inputs),
+        match wait_for_input(&stdin, decoder.patience()) {
+            Ok(Input::None) => decoder.expire(&mut inputs),
             // The shell has the terminal: a read would stop the process.
-            Ok(Some(state)) if !state.contains(PollFlags::HUP) && !is_in_foreground() => {
+            Ok(Input::Ready) if !is_in_foreground() => {
                 thread::sleep(BACKGROUND);
             }
-            Ok(Some(state)) => {
+            Ok(state) => {
                 decoder.has_waited(start.elapsed());
                 match read(&stdin, &mut buffer) {
-                    Ok(0) if state.contains(PollFlags::HUP) => return,
+                    Ok(0) if state == Input::HungUp => return,
                     Ok(count) => decoder.feed(&buffer[..count], count == BUFFER, &mut inputs),
-                    Err(Errno::INTR | Errno::AGAIN) => {}
+                    Err(error) if is_passing(&error) => {}
                     Err(_) => return,
                 }
             }
-            Err(Errno::INTR) => {}
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(_) => return,
         }
         if !inputs.drain(..).all(&mut send) {
@@ -52,13 +50,6 @@ pub(super) fn read_all(mut send: impl FnMut(Event) -> bool) {
     }
 }
 
-/// The state of the terminal once it has bytes or hangs up; `None` after `patience`.
-fn wait(stdin: &io::Stdin, patience: Option<Duration>) -> Result<Option<PollFlags>, Errno> {
-    let patience = patience.and_then(|patience| Timespec::try_from(patience).ok());
-    let mut line = [PollFd::new(stdin, PollFlags::IN)];
-    match poll(&mut line, patience.as_ref()) {
-        Ok(0) => Ok(None),
-        Ok(_) => Ok(Some(line[0].revents())),
-        Err(error) => Err(error),
-    }
+fn is_passing(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::Interrupted | ErrorKind::WouldBlock)
 }

@@ -21,13 +21,12 @@ use crossterm::terminal::{
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Size;
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::process::getpgrp;
-use rustix::termios::tcgetpgrp;
 
 use super::app::App;
 use super::capped_backend::CappedBackend;
 use super::view;
+use crate::system::signals;
+use crate::system::terminal::{is_in_foreground, write_if_ready};
 
 /// One write a frame, where the standard buffer would make ten.
 const FRAME: usize = 64 * 1024;
@@ -95,11 +94,6 @@ fn ends_in_background() -> bool {
     IS_ENDING.load(Ordering::Relaxed)
 }
 
-/// Whether the terminal is ours rather than that of the shell.
-pub(super) fn is_in_foreground() -> bool {
-    tcgetpgrp(io::stdin()).map_or(true, |group| group == getpgrp())
-}
-
 // In the background the modes are those of the shell.
 fn restore_modes() -> io::Result<()> {
     if is_in_foreground() {
@@ -116,8 +110,6 @@ pub(super) fn give_back_by_force() {
         return;
     }
     drop(restore_modes());
-    let stdout = io::stdout();
-    let mut line = [PollFd::new(&stdout, PollFlags::OUT)];
     let mut sequences = Vec::new();
     let is_made = execute!(
         sequences,
@@ -127,9 +119,8 @@ pub(super) fn give_back_by_force() {
         Show,
         LeaveAlternateScreen
     );
-    // Past the lock of the standard output, which the workbench may hold.
-    if is_made.is_ok() && poll(&mut line, Some(&Timespec::default())) == Ok(1) {
-        let _ = rustix::io::write(&stdout, &sequences);
+    if is_made.is_ok() {
+        write_if_ready(&io::stdout(), &sequences);
     }
 }
 
@@ -189,7 +180,7 @@ impl Screen {
     /// When the terminal is gone.
     pub(super) fn suspend(&mut self) -> io::Result<()> {
         self.leave()?;
-        signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
+        signals::stop()?;
         self.is_back = true;
         if ends_in_background() {
             return Ok(());

@@ -5,8 +5,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
-
 use super::actions::{Action, Effect};
 use super::app::App;
 use super::effects::{claimed, perform};
@@ -22,6 +20,7 @@ use super::terminal::Screen;
 use super::theme::Look;
 use super::update::{self, update};
 use super::worker::Workers;
+use crate::system::signals::{SIGCONT, SIGTSTP, SIGWINCH};
 
 /// Time between two pictures of what plays.
 const TICK: Duration = Duration::from_millis(83);

@@ -7,18 +7,36 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each folder of `src` and the folders that it may import.
-const FOLDERS: [(&str, &[&str]); 7] = [
+const FOLDERS: [(&str, &[&str]); 8] = [
+    ("system", &[]),
     ("numeric", &[]),
     ("model", &["numeric"]),
-    ("case", &["numeric", "model"]),
+    ("case", &["system", "numeric", "model"]),
     ("study", &["numeric", "model", "case"]),
     ("report", &["numeric", "model", "case", "study"]),
-    ("cli", &["numeric", "model", "case", "study", "report"]),
-    ("tui", &["numeric", "model", "case", "study", "report"]),
+    (
+        "cli",
+        &["system", "numeric", "model", "case", "study", "report"],
+    ),
+    (
+        "tui",
+        &["system", "numeric", "model", "case", "study", "report"],
+    ),
 ];
 
 /// Names that stand for a terminal.
 const TERMINAL: [&str; 3] = ["ratatui", "crossterm", "tui_input"];
+
+/// Interfaces of Unix, which the folder `system` alone names outside of tests.
+const UNIX: [&str; 7] = [
+    "std::os",
+    "os::unix",
+    "rustix",
+    "nix",
+    "libc",
+    "signal_hook",
+    "xattr",
+];
 
 /// What the computation core does without: shapes of files, files, threads, printing.
 const OUTSIDE: [&str; 10] = [
@@ -306,6 +324,25 @@ fn only_the_workbench_names_the_terminal() {
         .filter(|source| source.folder() != Some("tui"))
     {
         let named: Vec<_> = TERMINAL.iter().filter(|name| source.names(name)).collect();
+        assert!(
+            named.is_empty(),
+            "{} names {named:?}",
+            source.path.display()
+        );
+    }
+}
+
+#[test]
+fn only_the_folder_system_names_an_interface_of_unix() {
+    for source in sources("src")
+        .iter()
+        .filter(|source| source.folder() != Some("system"))
+    {
+        let code = source.code.split("mod tests {").next().unwrap_or_default();
+        let named: Vec<_> = UNIX
+            .iter()
+            .filter(|word| after(code, word).any(|rest| rest.starts_with("::")))
+            .collect();
         assert!(
             named.is_empty(),
             "{} names {named:?}",

@@ -4,7 +4,6 @@
 use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
-use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
 use super::error::{ReadError, SaveError, shown};
@@ -12,6 +11,7 @@ use super::target::{followed, target_of};
 use super::{Document, Fault, FaultKind, MOST_BYTES};
 use crate::case::Case;
 use crate::case::stamp::Stamp;
+use crate::system::files;
 
 /// What a save did to the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl Document {
             return Document::parse_draft_bytes(&name, &bytes).map_err(refused);
         }
         let file = open(path, &name)?;
-        let mode = file.metadata().ok().map(|about| about.mode());
+        let mode = file.metadata().ok().and_then(|about| files::mode(&about));
         let bytes = capped(file, &name)?;
         let mut document = Document::parse_draft_bytes(&name, &bytes).map_err(refused)?;
         document.origin = followed(path).ok();
@@ -131,7 +131,7 @@ impl Document {
         let is_recreated = is_own && target.old.is_none();
         self.mode = fs::metadata(&target.path)
             .ok()
-            .map(|about| about.mode())
+            .and_then(|about| files::mode(&about))
             .or(mode);
         self.settle(&text, name, target.path);
         Ok(if is_recreated {

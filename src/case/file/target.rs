@@ -1,16 +1,14 @@
 //! The file that a save writes: links followed, its folder checked, replaced in one step.
 
-use std::fs::{self, File, OpenOptions, Permissions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
-use std::os::unix::ffi::OsStrExt;
-use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use tempfile::NamedTempFile;
 
-use super::about;
 use super::error::{SaveError, shown};
+use crate::system::files;
 
 /// Symbolic links that are followed, one after the other.
 const MOST_LINKS: usize = 40;
@@ -47,7 +45,7 @@ fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
     for _ in 0..MOST_LINKS {
         match fs::read_link(&path) {
             Ok(next) => path = path.parent().unwrap_or(&path).join(next),
-            Err(error) if is_no_link(&error) => {
+            Err(error) if is_no_link(&path, &error) => {
                 return place_of(&path).map_err(|error| (path, error));
             }
             Err(error) => return Err((path, error)),
@@ -56,11 +54,12 @@ fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
     Err((path, io::Error::other("too many symbolic links")))
 }
 
-fn is_no_link(error: &io::Error) -> bool {
+// Systems differ in the error for a file that is no link.
+fn is_no_link(path: &Path, error: &io::Error) -> bool {
     matches!(
         error.kind(),
         ErrorKind::InvalidInput | ErrorKind::NotFound | ErrorKind::NotADirectory
-    )
+    ) || fs::symlink_metadata(path).is_ok_and(|about| !about.is_symlink())
 }
 
 /// The path with its folder in full. The root, `.` and `..` are folders themselves.
@@ -94,7 +93,7 @@ pub(super) fn target_of(path: &Path) -> Result<Target, SaveError> {
                 old: Some(old),
             })
         }
-        Err(error) if error.kind() == ErrorKind::NotFound && names_a_folder(path) => {
+        Err(error) if error.kind() == ErrorKind::NotFound && files::names_a_folder(path) => {
             Err(no_folder(path, &path.join("file"), error))
         }
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target {
@@ -103,10 +102,6 @@ pub(super) fn target_of(path: &Path) -> Result<Target, SaveError> {
         }),
         Err(error) => Err(SaveError::Unwritable(name, error)),
     }
-}
-
-fn names_a_folder(path: &Path) -> bool {
-    path.as_os_str().as_bytes().ends_with(b"/")
 }
 
 /// Why `last`, to which the links of `path` lead, has no folder.
@@ -142,8 +137,8 @@ fn replaceable(target: &Path, old: &fs::Metadata, path: &Path) -> Result<(), Sav
     if !old.is_file() {
         return Err(SaveError::NotAFile(name));
     }
-    if old.nlink() > 1 {
-        return Err(SaveError::HardLinked(name, old.nlink()));
+    if files::links(old) > 1 {
+        return Err(SaveError::HardLinked(name, files::links(old)));
     }
     let closed = OpenOptions::new().write(true).open(target).err();
     match closed {
@@ -180,22 +175,19 @@ impl Target {
     fn begin(&self, mode: Option<u32>) -> io::Result<NamedTempFile> {
         // Others cannot read it before its own mode is set; the umask cuts that of a new file.
         let is_new = self.old.is_none() && mode.is_none();
-        let first = Permissions::from_mode(if is_new { 0o666 } else { 0o600 });
+        let first = if is_new { 0o666 } else { 0o600 };
         let prefix = format!("{TEMPORARY}{}-", std::process::id());
-        tempfile::Builder::new()
-            .prefix(&prefix)
-            .permissions(first)
-            .tempfile_in(folder_of(&self.path))
+        let mut builder = tempfile::Builder::new();
+        files::with_mode(builder.prefix(&prefix), first).tempfile_in(folder_of(&self.path))
     }
 
     /// Put the complete file into the place of the target.
     fn finish(&self, file: NamedTempFile, mode: Option<u32>) -> io::Result<()> {
         let folder = folder_of(&self.path);
         if let Some(old) = &self.old {
-            about::keep(old, &self.path, file.as_file())?;
+            files::keep(old, &self.path, file.as_file())?;
         } else if let Some(mode) = mode {
-            let mode = Permissions::from_mode(mode & 0o7777);
-            file.as_file().set_permissions(mode)?;
+            files::set_mode(file.as_file(), mode)?;
         }
         file.as_file().sync_all()?;
         match self.old {

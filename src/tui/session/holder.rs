@@ -6,6 +6,7 @@ use std::io::{Read, Seek};
 use toml_edit::{DocumentMut, Item, value};
 
 use super::clock;
+use crate::system::users;
 
 /// More than any holder writes.
 const MOST_BYTES: u64 = 4096;
@@ -91,10 +92,7 @@ impl Holder {
 }
 
 pub(super) fn host() -> String {
-    rustix::system::uname()
-        .nodename()
-        .to_string_lossy()
-        .into_owned()
+    users::host()
 }
 
 fn boot() -> String {

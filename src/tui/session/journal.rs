@@ -1,7 +1,5 @@
 //! The text of a journal: unsaved edits, with a checksum that shows whether the text is complete.
 
-use std::ffi::OsString;
-use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -9,6 +7,7 @@ use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike, value};
 
 use crate::case::changes::Change;
 use crate::case::stamp::{Stamp, hash};
+use crate::system::paths;
 
 /// The format of journals that this version reads and writes.
 pub(crate) const FORMAT: i64 = 1;
@@ -175,8 +174,7 @@ fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
 
 // A path need not be text.
 fn hex(path: &Path) -> String {
-    path.as_os_str()
-        .as_bytes()
+    paths::bytes(path)
         .iter()
         .fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
@@ -186,7 +184,7 @@ fn from_hex(text: &str) -> Option<PathBuf> {
     let bytes = pairs
         .map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
         .collect::<Option<Vec<u8>>>()?;
-    Some(OsString::from_vec(bytes).into())
+    Some(paths::from_bytes(bytes))
 }
 
 #[cfg(test)]
@@ -220,7 +218,7 @@ mod tests {
     #[test]
     fn a_journal_is_read_as_it_was_written() {
         let other = Journal {
-            case: Some(OsString::from_vec(vec![b'/', 0xff, b'a']).into()),
+            case: Some(paths::from_bytes(vec![b'/', 0xff, b'a'])),
             ..journal()
         };
         let fresh = Journal {

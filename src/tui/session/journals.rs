@@ -8,6 +8,7 @@ use super::journal::{Journal, JournalFault, MOST_BYTES};
 use super::lock::Lock;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::{Stamp, hash};
+use crate::system::paths;
 use crate::tui::store::state;
 
 /// What a journal's name ends with.
@@ -186,8 +187,5 @@ fn stem(case: Option<&Path>) -> String {
         .filter(char::is_ascii_alphanumeric)
         .take(MOST_LETTERS)
         .collect();
-    format!(
-        "case-{letters}-{:016x}-",
-        hash(std::os::unix::ffi::OsStrExt::as_bytes(case.as_os_str()))
-    )
+    format!("case-{letters}-{:016x}-", hash(paths::bytes(case)))
 }

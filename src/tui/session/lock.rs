@@ -1,14 +1,12 @@
 //! Locks that end with their process, however it ends, and that name their process to others.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Seek, Write};
-use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use rustix::fs::OFlags;
-
 use super::holder::Holder;
+use crate::system::locks;
 
 /// The file of a lock may vanish between opening and locking it, but not so often in a row.
 const ATTEMPTS: usize = 5;
@@ -107,14 +105,11 @@ impl Lock {
 
     // Its last holder takes the file away, perhaps while we were opening it.
     fn is_in_place(&self) -> bool {
-        let same = |ours: &fs::Metadata, there: &fs::Metadata| {
-            (ours.dev(), ours.ino()) == (there.dev(), there.ino())
-        };
         let both = self
             .file
             .metadata()
             .and_then(|ours| Ok((ours, fs::symlink_metadata(&self.path)?)));
-        both.is_ok_and(|(ours, there)| same(&ours, &there))
+        both.is_ok_and(|(ours, there)| locks::is_same(&ours, &there))
     }
 }
 
@@ -158,15 +153,7 @@ fn clear(folder: &Path) {
 }
 
 fn open(path: &Path) -> io::Result<File> {
-    let ours = open_with(
-        OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .mode(0o644),
-        path,
-    );
+    let ours = regular(locks::open_or_create(path), path);
     // Someone else's lock may be ours to read and to lock only.
     ours.or_else(|error| {
         if error.kind() == io::ErrorKind::PermissionDenied {
@@ -178,14 +165,12 @@ fn open(path: &Path) -> io::Result<File> {
 }
 
 fn look_at(path: &Path) -> io::Result<File> {
-    open_with(OpenOptions::new().read(true), path)
+    regular(locks::open(path), path)
 }
 
 // Someone else made a link or a pipe of that name: the link is not followed, and the pipe not
 // waited for.
-fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
-    let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK;
-    let file = options.custom_flags(flags.bits().cast_signed()).open(path);
+fn regular(file: io::Result<File>, path: &Path) -> io::Result<File> {
     let is_link = || fs::symlink_metadata(path).is_ok_and(|about| about.is_symlink());
     match file {
         Err(_) if is_link() => Err(io::Error::other("is a symbolic link")),

@@ -1,16 +1,15 @@
 //! The list of recent cases, the latest first, in the folder of state. It is a convenience, so its
 //! errors are ignored.
 
-use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
-use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use super::state::{self, State};
 use crate::case::sanitize::sanitize;
+use crate::system::paths;
 
 /// So many are remembered.
 const MOST: usize = 20;
@@ -90,7 +89,7 @@ fn parse(bytes: &[u8]) -> Vec<PathBuf> {
         .split(|&byte| byte == END)
         .filter(|path| !path.is_empty());
     paths
-        .map(|path| OsString::from_vec(path.to_vec()).into())
+        .map(|path| paths::from_bytes(path.to_vec()))
         .take(MOST)
         .collect()
 }
@@ -98,7 +97,7 @@ fn parse(bytes: &[u8]) -> Vec<PathBuf> {
 fn render(paths: &[PathBuf]) -> Vec<u8> {
     paths
         .iter()
-        .flat_map(|path| path.as_os_str().as_bytes().iter().copied().chain([END]))
+        .flat_map(|path| paths::bytes(path).iter().copied().chain([END]))
         .collect()
 }
 
@@ -125,7 +124,7 @@ mod tests {
 
     #[test]
     fn every_path_comes_back() {
-        let odd = PathBuf::from(OsString::from_vec(vec![b'/', 0xff, b'\n', b' ']));
+        let odd = paths::from_bytes(vec![b'/', 0xff, b'\n', b' ']);
         let paths = vec![odd, "/plain.toml".into()];
         assert_eq!(parse(&render(&paths)), paths);
         assert_eq!(

@@ -6,14 +6,14 @@ use std::collections::VecDeque;
 use std::env;
 use std::ffi::OsString;
 use std::fmt;
-use std::fs::{self, DirBuilder};
+use std::fs;
 use std::io;
-use std::os::unix::fs::{DirBuilderExt, MetadataExt};
 use std::path::{Component, Path, PathBuf};
 
 use directories::ProjectDirs;
 
 use crate::case::sanitize::sanitize;
+use crate::system::users::{self, Access};
 
 /// Folders inside the folder of state.
 const INSIDE: [&str; 2] = ["journals", "sessions"];
@@ -52,7 +52,7 @@ impl State {
     /// The first private folder of the usual one and those that can take its place.
     #[must_use]
     pub fn choose(usual: Option<PathBuf>, private: Vec<PathBuf>) -> State {
-        let user = rustix::process::geteuid().as_raw();
+        let user = users::user();
         let problem = match &usual {
             None => Some(NO_FOLDER.to_owned()),
             Some(folder) => check(folder, user).err().map(|why| why.to_string()),
@@ -80,12 +80,12 @@ impl State {
 
 /// Make a folder that only its owner looks into, and those above it.
 pub(in crate::tui) fn make(folder: &Path) -> io::Result<()> {
-    DirBuilder::new().recursive(true).mode(0o700).create(folder)
+    users::create_private(folder)
 }
 
 /// Refuse a folder of state that another user can change.
 pub(in crate::tui) fn require_private(folder: &Path) -> io::Result<()> {
-    let user = rustix::process::geteuid().as_raw();
+    let user = users::user();
     check(folder, user).map_err(|why| io::Error::other(why.to_string()))
 }
 
@@ -103,7 +103,7 @@ fn usual() -> Option<PathBuf> {
 }
 
 fn private() -> Vec<PathBuf> {
-    let user = rustix::process::geteuid().as_raw();
+    let user = users::user();
     let runtime = absolute("XDG_RUNTIME_DIR").map(|path| path.join("tipstrike"));
     let temporary = env::temp_dir().join(format!("tipstrike-{user}"));
     runtime.into_iter().chain([temporary]).collect()
@@ -128,7 +128,7 @@ fn check(folder: &Path, user: u32) -> Result<(), Exposed> {
 fn is_private(folder: &Path, user: u32) -> Result<(), Exposed> {
     let mut at = PathBuf::from("/");
     // In a container the files of the system may belong to another number than 0.
-    let system = fs::metadata(&at).map_or(0, |root| root.uid());
+    let system = fs::metadata(&at).map_or(0, |root| Access::of(&root).owner);
     let mut links = 0;
     let mut parts = parts_of(folder);
     while let Some(part) = parts.pop_front() {
@@ -141,8 +141,9 @@ fn is_private(folder: &Path, user: u32) -> Result<(), Exposed> {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
             about => about.map_err(|error| Exposed::Unknown(next.clone(), error))?,
         };
-        if ![user, 0, system].contains(&about.uid()) {
-            return Err(Exposed::Owner(next, about.uid()));
+        let owner = Access::of(&about).owner;
+        if ![user, 0, system].contains(&owner) {
+            return Err(Exposed::Owner(next, owner));
         }
         if about.is_symlink() {
             links += 1;
@@ -159,11 +160,11 @@ fn is_private(folder: &Path, user: u32) -> Result<(), Exposed> {
             continue;
         }
         let is_last = parts.is_empty();
-        if about.is_dir() && others_may_write(&about, is_last) {
+        if about.is_dir() && others_may_write(Access::of(&about), is_last) {
             return Err(Exposed::Writable(next));
         }
-        if is_last && about.uid() != user {
-            return Err(Exposed::Owner(next, about.uid()));
+        if is_last && owner != user {
+            return Err(Exposed::Owner(next, owner));
         }
         at = next;
     }
@@ -172,9 +173,8 @@ fn is_private(folder: &Path, user: u32) -> Result<(), Exposed> {
 
 /// In a sticky folder everybody writes, and nobody replaces the files of others. A group with the
 /// number of the owner is the owner's own, as most systems make one for each user.
-fn others_may_write(about: &fs::Metadata, is_last: bool) -> bool {
-    let mode = about.mode();
-    let is_own_group = !is_last && [about.uid(), 0].contains(&about.gid());
+fn others_may_write(Access { owner, group, mode }: Access, is_last: bool) -> bool {
+    let is_own_group = !is_last && [owner, 0].contains(&group);
     let by_group = mode & 0o020 != 0 && !is_own_group;
     let by_all = mode & 0o002 != 0;
     (by_group || by_all) && (is_last || mode & STICKY == 0)

@@ -1,7 +1,5 @@
 //! Watches the files of the open cases: another program may write them.
 
-mod changes;
-
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::io;
@@ -10,7 +8,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use changes::{Bell, Changes};
+use crate::system::changes::{Bell, Changes};
+use crate::system::files;
 
 use super::latest::Send;
 use crate::case::stamp::Stamp;
@@ -139,19 +138,9 @@ impl Mark {
         Some(Mark {
             modified: metadata.modified().ok()?,
             length: metadata.len(),
-            file: number(&metadata),
+            file: files::number(&metadata),
         })
     }
-}
-
-#[cfg(unix)]
-fn number(metadata: &fs::Metadata) -> u64 {
-    std::os::unix::fs::MetadataExt::ino(metadata)
-}
-
-#[cfg(not(unix))]
-fn number(_: &fs::Metadata) -> u64 {
-    0
 }
 
 /// The mark of a file once nobody writes it any more.

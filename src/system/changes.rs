@@ -1,9 +1,9 @@
 //! Waits for a change in the folders of the watched files, without waking up in between.
 
 #[cfg(target_os = "linux")]
-pub(super) use linux::{Bell, Changes};
+pub(crate) use linux::{Bell, Changes};
 #[cfg(not(target_os = "linux"))]
-pub(super) use periodic::{Bell, Changes};
+pub(crate) use periodic::{Bell, Changes};
 
 #[cfg(target_os = "linux")]
 mod linux {
@@ -17,14 +17,14 @@ mod linux {
 
     /// Ends a wait.
     #[derive(Debug)]
-    pub(in super::super) struct Bell(OwnedFd);
+    pub(crate) struct Bell(OwnedFd);
 
     impl Bell {
-        pub(in super::super) fn new() -> io::Result<Bell> {
+        pub(crate) fn new() -> io::Result<Bell> {
             Ok(Bell(eventfd(0, EventfdFlags::CLOEXEC)?))
         }
 
-        pub(in super::super) fn ring(&self) {
+        pub(crate) fn ring(&self) {
             // A full counter ends the wait as well.
             let _ = rustix::io::write(&self.0, &1_u64.to_ne_bytes());
         }
@@ -32,13 +32,13 @@ mod linux {
 
     /// The folders whose changes end a wait.
     #[derive(Debug)]
-    pub(in super::super) struct Changes {
+    pub(crate) struct Changes {
         inotify: OwnedFd,
         folders: HashMap<PathBuf, i32>,
     }
 
     impl Changes {
-        pub(in super::super) fn new() -> io::Result<Changes> {
+        pub(crate) fn new() -> io::Result<Changes> {
             Ok(Changes {
                 inotify: inotify::init(CreateFlags::CLOEXEC)?,
                 folders: HashMap::new(),
@@ -46,7 +46,7 @@ mod linux {
         }
 
         /// Follows these folders and no others. A folder that cannot be followed is left out.
-        pub(in super::super) fn follow(&mut self, folders: &BTreeSet<PathBuf>) {
+        pub(crate) fn follow(&mut self, folders: &BTreeSet<PathBuf>) {
             let inotify = &self.inotify;
             self.folders.retain(|folder, number| {
                 let stays = folders.contains(folder);
@@ -68,7 +68,7 @@ mod linux {
         }
 
         /// Waits for a change in a folder, or for the bell.
-        pub(in super::super) fn wait(&self, bell: &Bell) {
+        pub(crate) fn wait(&self, bell: &Bell) {
             let mut lines = [
                 PollFd::new(&self.inotify, PollFlags::IN),
                 PollFd::new(&bell.0, PollFlags::IN),
@@ -101,17 +101,17 @@ mod periodic {
 
     /// Ends a wait.
     #[derive(Debug, Default)]
-    pub(in super::super) struct Bell {
+    pub(crate) struct Bell {
         rings: Mutex<bool>,
         condition: Condvar,
     }
 
     impl Bell {
-        pub(in super::super) fn new() -> io::Result<Bell> {
+        pub(crate) fn new() -> io::Result<Bell> {
             Ok(Bell::default())
         }
 
-        pub(in super::super) fn ring(&self) {
+        pub(crate) fn ring(&self) {
             *self.rings.lock().unwrap_or_else(PoisonError::into_inner) = true;
             self.condition.notify_one();
         }
@@ -119,16 +119,16 @@ mod periodic {
 
     /// Without events of folders, every wait ends after a second.
     #[derive(Debug)]
-    pub(in super::super) struct Changes;
+    pub(crate) struct Changes;
 
     impl Changes {
-        pub(in super::super) fn new() -> io::Result<Changes> {
+        pub(crate) fn new() -> io::Result<Changes> {
             Ok(Changes)
         }
 
-        pub(in super::super) fn follow(&mut self, _: &BTreeSet<PathBuf>) {}
+        pub(crate) fn follow(&mut self, _: &BTreeSet<PathBuf>) {}
 
-        pub(in super::super) fn wait(&self, bell: &Bell) {
+        pub(crate) fn wait(&self, bell: &Bell) {
             let rings = bell.rings.lock();
             let rings = rings.unwrap_or_else(PoisonError::into_inner);
             let waited = bell

@@ -1,5 +1,4 @@
-//! What a file has beside its bytes, for the one that takes its place: owner, mode, access list,
-//! extended attributes.
+//! Owner, mode, access list and extended attributes of a file, for the file that replaces it.
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -15,15 +14,50 @@ use xattr::FileExt;
 /// hashes.
 const OF_THE_SYSTEM: &[u8] = b"security.";
 
-/// Give a new file all that the old one has, but for its bytes.
+/// Gives a new file every attribute of the old one.
 ///
 /// # Errors
-/// Where the new one cannot have it: [`ErrorKind::Unsupported`] when it is not for lack of room.
-pub(super) fn keep(old: &Metadata, path: &Path, new: &File) -> io::Result<()> {
+/// When the system refuses an attribute: [`ErrorKind::Unsupported`] unless the disk is full.
+pub(crate) fn keep(old: &Metadata, path: &Path, new: &File) -> io::Result<()> {
     keep_owner(old, new)?;
     keep_attributes(path, new)?;
     // The last, since a new owner takes bits away, and an access list sets them.
-    new.set_permissions(Permissions::from_mode(old.mode() & 0o7777))
+    set_mode(new, old.mode())
+}
+
+/// The mode of a file.
+#[expect(clippy::unnecessary_wraps, reason = "other systems have no mode")]
+pub(crate) fn mode(about: &Metadata) -> Option<u32> {
+    Some(about.mode())
+}
+
+/// The number of hard links to a file.
+pub(crate) fn links(about: &Metadata) -> u64 {
+    about.nlink()
+}
+
+/// The number of a file in its file system.
+#[cfg(feature = "tui")]
+pub(crate) fn number(about: &Metadata) -> u64 {
+    about.ino()
+}
+
+/// Whether the path ends like that of a folder.
+pub(crate) fn names_a_folder(path: &Path) -> bool {
+    path.as_os_str().as_bytes().ends_with(b"/")
+}
+
+/// Sets the permission bits of a file.
+pub(crate) fn set_mode(file: &File, mode: u32) -> io::Result<()> {
+    file.set_permissions(Permissions::from_mode(mode & 0o7777))
+}
+
+/// Gives a file that is created these permission bits, less the umask.
+pub(crate) fn with_mode<'b, 'p, 's>(
+    builder: &'b mut tempfile::Builder<'p, 's>,
+    mode: u32,
+) -> &'b mut tempfile::Builder<'p, 's> {
+    builder.permissions(Permissions::from_mode(mode))
 }
 
 fn keep_owner(old: &Metadata, new: &File) -> io::Result<()> {

@@ -1,0 +1,31 @@
+//! Everything that differs between operating systems: files, signals, terminal and users.
+//!
+//! No other module names an interface of Unix. The commands need [`files`] and Ctrl-C alone, which
+//! every system has in some form; the workbench needs Unix.
+
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) mod changes;
+pub(crate) mod files;
+#[cfg(feature = "cli")]
+pub(crate) mod interrupt;
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) mod locks;
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) mod paths;
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) mod signals;
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) mod terminal;
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) mod users;
+
+/// Makes a write beyond the limit on the size of files an error of the write: by default the
+/// signal of the limit ends the process.
+#[cfg(feature = "cli")]
+pub fn report_file_limit_as_error() {
+    #[cfg(unix)]
+    drop(signal_hook::flag::register(
+        signal_hook::consts::SIGXFSZ,
+        std::sync::Arc::default(),
+    ));
+}

@@ -1,0 +1,13 @@
+//! Attributes of a file besides its bytes, and how a new file gets them.
+
+#[cfg(not(unix))]
+mod other;
+#[cfg(unix)]
+mod unix;
+
+#[cfg(not(unix))]
+pub(crate) use other::{keep, links, mode, names_a_folder, set_mode, with_mode};
+#[cfg(all(unix, feature = "tui"))]
+pub(crate) use unix::number;
+#[cfg(unix)]
+pub(crate) use unix::{keep, links, mode, names_a_folder, set_mode, with_mode};

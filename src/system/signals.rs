@@ -1,0 +1,129 @@
+//! Signals of the workbench: blocked in every thread, read by threads of their own, and the end of
+//! the process by a signal.
+
+use std::io;
+use std::process;
+#[cfg(not(target_os = "linux"))]
+use std::sync::Arc;
+use std::thread;
+
+use nix::sys::signal::{SigSet, Signal};
+pub(crate) use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
+use signal_hook::low_level::{emulate_default_handler, raise};
+
+/// Signals that neither end the process nor inform it, or whose handler is elsewhere: those
+/// of a write beyond a limit and to a closed pipe.
+const OTHERS: [Signal; 6] = [
+    Signal::SIGCHLD,
+    Signal::SIGPIPE,
+    Signal::SIGTTIN,
+    Signal::SIGTTOU,
+    Signal::SIGURG,
+    Signal::SIGXFSZ,
+];
+/// Signals after which the workbench goes on.
+const PASSING: [Signal; 3] = [Signal::SIGTSTP, Signal::SIGCONT, Signal::SIGWINCH];
+/// A shell adds this to the number of the signal that ended a program.
+const SIGNALLED: i32 = 128;
+
+/// The signals that threads of this process do not get, so that one thread can read them.
+#[derive(Clone, Copy)]
+pub(crate) struct HeldSignals {
+    deadly: SigSet,
+    passing: SigSet,
+}
+
+/// Blocks the signals in this thread and in all that it starts later.
+pub(crate) fn hold() -> io::Result<HeldSignals> {
+    let passing: SigSet = PASSING.into_iter().collect();
+    let deadly = deadly();
+    deadly.thread_block()?;
+    passing.thread_block()?;
+    Ok(HeldSignals { deadly, passing })
+}
+
+fn deadly() -> SigSet {
+    let mut deadly = SigSet::all();
+    for signal in OTHERS.into_iter().chain(PASSING) {
+        deadly.remove(signal);
+    }
+    deadly
+}
+
+impl HeldSignals {
+    /// Runs `act` for each signal that ends the process, in a thread, until it returns false.
+    pub(crate) fn for_each_deadly(
+        self,
+        act: impl Fn(i32) -> bool + Send + 'static,
+    ) -> io::Result<()> {
+        for_each("signals", self.deadly, act)
+    }
+
+    /// Runs `act` for each signal after which the workbench goes on, in a thread, until it returns
+    /// false.
+    pub(crate) fn for_each_passing(
+        self,
+        act: impl Fn(i32) -> bool + Send + 'static,
+    ) -> io::Result<()> {
+        for_each("stops", self.passing, act)
+    }
+}
+
+/// Stops this process until the shell continues it.
+pub(crate) fn stop() -> io::Result<()> {
+    emulate_default_handler(SIGTSTP)
+}
+
+/// Ends the process by the signal, so that its parent sees the signal.
+pub(crate) fn die_of(signal: i32) -> ! {
+    // Rust's own handler takes the first SIGSEGV or SIGBUS, and then leaves the next to the system.
+    for _ in 0..2 {
+        drop(raise(signal));
+        let _ = deadly().thread_unblock();
+    }
+    // If the signal is ignored, as SIGHUP below `nohup`.
+    process::exit(SIGNALLED + signal)
+}
+
+#[cfg(target_os = "linux")]
+fn for_each(
+    name: &str,
+    signals: SigSet,
+    act: impl Fn(i32) -> bool + Send + 'static,
+) -> io::Result<()> {
+    use nix::sys::signalfd::{SfdFlags, SignalFd};
+
+    let queue = SignalFd::with_flags(&signals, SfdFlags::SFD_CLOEXEC)?;
+    let read = move || {
+        loop {
+            match queue.read_signal() {
+                Ok(Some(signal)) if !act(i32::try_from(signal.ssi_signo).unwrap_or(0)) => return,
+                Ok(_) | Err(nix::errno::Errno::EINTR) => {}
+                Err(_) => return,
+            }
+        }
+    };
+    thread::Builder::new().name(name.to_owned()).spawn(read)?;
+    Ok(())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn for_each(
+    name: &str,
+    signals: SigSet,
+    act: impl Fn(i32) -> bool + Send + 'static,
+) -> io::Result<()> {
+    // Some systems drop a signal that nobody handles even while it is blocked.
+    for signal in PASSING {
+        signal_hook::flag::register(signal as i32, Arc::default())?;
+    }
+    let read = move || {
+        while let Ok(signal) = signals.wait() {
+            if !act(signal as i32) {
+                return;
+            }
+        }
+    };
+    thread::Builder::new().name(name.to_owned()).spawn(read)?;
+    Ok(())
+}
