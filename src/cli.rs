@@ -12,13 +12,13 @@ mod shards;
 
 use crate::case::sanitize::sanitize;
 use crate::case::suggest;
+use crate::system::interrupt::Interrupt;
 pub use arguments::Arguments;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 pub use commands::Command;
 pub use exit::Exit;
 use exit::Failure;
-use progress::Interrupt;
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
