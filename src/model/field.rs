@@ -22,8 +22,12 @@ use super::profile::Profile;
 use boundary::Boundary;
 use fit::{Abscissa, CrossSeries, Flank, Interpolation, Series};
 use grading::Grading;
-use harmonics::{Displacements, PITCHES};
+use harmonics::Displacements;
 use load::Load;
+
+/// Pitches over which the force on one tooth displaces another: the pairs of a mesh whose contact
+/// ratio is below 4 are no further apart.
+pub const PITCHES: usize = 3;
 
 /// A gear whose field is to be computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -141,7 +145,7 @@ impl Field {
     /// loaded at radius `loaded`; ahead is where the force pushes to, and teeth behind it are
     /// counted below 0.
     ///
-    /// 0 for the loaded tooth itself, and for teeth more than two pitches away.
+    /// 0 for the loaded tooth itself, and for teeth more than [`PITCHES`] away.
     #[must_use]
     pub fn cross(&self, loaded: f64, measured: f64, pitches: i32) -> f64 {
         let at = |radius: f64| self.abscissas[1].at(self.flank.roll(radius));

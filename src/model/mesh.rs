@@ -139,7 +139,7 @@ impl Mesh {
     }
 
     /// Displacement of each of so many pairs from the one `first` pitches ahead on by the force on
-    /// the pair one and two pitches behind it, in m/N; empty if there are none.
+    /// the pairs 1, 2, .. pitches behind it, in m/N; empty if there are none.
     fn couplings_of(&self, first: i32, count: usize, s: f64, inside: f64) -> Vec<[f64; PITCHES]> {
         let Some(couplings) = &self.couplings else {
             return Vec::new();

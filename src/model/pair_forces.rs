@@ -5,7 +5,8 @@ mod compliances;
 mod tests;
 mod touching;
 
-pub use compliances::{Compliances, PITCHES};
+pub use super::field::PITCHES;
+pub use compliances::Compliances;
 pub use touching::Touching;
 
 /// A pair at a place of the mesh.
@@ -43,8 +44,8 @@ impl Pair {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSet {
     pairs: Vec<Pair>,
-    /// Displacement of each pair by the force on the pair one and two pitches behind, in m/N; empty
-    /// if the pairs are independent springs.
+    /// Displacement of each pair by the force on the pair 1, 2, .. pitches behind, in m/N; empty if
+    /// the pairs are independent springs.
     couplings: Vec<[f64; PITCHES]>,
 }
 

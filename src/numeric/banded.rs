@@ -1,35 +1,36 @@
-//! Symmetric positive definite matrices in which each row meets at most two before it.
+//! Symmetric positive definite matrices in which each row meets only a few before it.
 
-/// A matrix of the rows `[a_ii, a_(i,i−1), a_(i,i−2)]`, factored.
+/// A matrix of the rows `[a_ii, a_(i,i−1), a_(i,i−2), ..]`, factored.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Banded {
-    /// d_i, l_(i,i−1), l_(i,i−2).
-    rows: Vec<[f64; 3]>,
+pub struct Banded<const ROW: usize> {
+    /// d_i, l_(i,i−1), l_(i,i−2), ..
+    rows: Vec<[f64; ROW]>,
 }
 
-impl Banded {
+impl<const ROW: usize> Banded<ROW> {
     /// The factors of the matrix, A = L D Lᵀ. `None` if it is not positive definite.
     ///
     /// # Source
     /// Golub & Van Loan 2013, "Matrix Computations", section 4.3.6.
     #[must_use]
-    pub fn factored(mut rows: Vec<[f64; 3]>) -> Option<Banded> {
-        let (mut last, mut before) = ([0.0; 3], [0.0; 3]);
-        for row in &mut rows {
-            let [own, next, far] = *row;
-            let far_share = if before[0] > 0.0 {
-                far / before[0]
-            } else {
-                0.0
-            };
-            let rest = next - far * last[1];
-            let share = if last[0] > 0.0 { rest / last[0] } else { 0.0 };
-            let pivot = own - share * rest - far_share * far;
-            if pivot.is_nan() || pivot <= 0.0 {
+    pub fn factored(mut rows: Vec<[f64; ROW]>) -> Option<Banded<ROW>> {
+        for at in 0..rows.len() {
+            let (known, rest) = rows.split_at_mut(at);
+            let (row, reach) = (&mut rest[0], ROW.min(at + 1));
+            for distance in (1..reach).rev() {
+                let other = &known[at - distance];
+                for far in distance + 1..reach {
+                    row[distance] -= row[far] * other[far - distance];
+                }
+            }
+            for distance in 1..reach {
+                let share = row[distance] / known[at - distance][0];
+                row[0] -= share * row[distance];
+                row[distance] = share;
+            }
+            if row[0].is_nan() || row[0] <= 0.0 {
                 return None;
             }
-            *row = [pivot, share, far_share];
-            (before, last) = (last, *row);
         }
         Some(Banded { rows })
     }
@@ -49,7 +50,7 @@ impl Banded {
             for sum in sums.iter_mut() {
                 *sum /= row[0];
             }
-            for (distance, (known, row)) in (1..=2).zip(known.iter().zip(&rows[at + 1..])) {
+            for (distance, (known, row)) in (1..ROW).zip(known.iter().zip(&rows[at + 1..])) {
                 subtract(sums, row[distance], known);
             }
         }
@@ -66,12 +67,13 @@ fn subtract<const M: usize>(sums: &mut [f64; M], factor: f64, known: &[f64; M]) 
 mod tests {
     use super::*;
 
-    fn matrix(size: usize) -> Vec<[f64; 3]> {
+    fn matrix(size: usize) -> Vec<[f64; 4]> {
         let wave = |at: usize, speed: f64| (1.0 + at as f64 * speed).sin();
         let row = |at: usize| {
             let next = if at > 0 { 0.5 * wave(at, 1.3) } else { 0.0 };
             let far = if at > 1 { 0.3 * wave(at, 2.1) } else { 0.0 };
-            [2.0 + wave(at, 0.7), next, far]
+            let furthest = if at > 2 { 0.2 * wave(at, 1.7) } else { 0.0 };
+            [2.0 + wave(at, 0.7), next, far, furthest]
         };
         (0..size).map(row).collect()
     }
@@ -79,10 +81,10 @@ mod tests {
     #[test]
     fn the_solution_meets_the_equations_whatever_the_size() {
         for size in [1, 2, 3, 4, 17, 64] {
-            let rows: Vec<[f64; 3]> = matrix(size)
-                .into_iter()
-                .map(|[own, next, far]| [own + 1.0, next, far])
-                .collect();
+            let mut rows = matrix(size);
+            for row in &mut rows {
+                row[0] += 1.0;
+            }
             let expected: Vec<[f64; 2]> = (0..size)
                 .map(|at| [1.0 + at as f64, (at as f64).cos()])
                 .collect();

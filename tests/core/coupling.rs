@@ -1,4 +1,8 @@
-//! The load that coupled pairs share, held against a whole gear by other finite elements.
+//! The load that coupled pairs share, compared with a whole gear by other finite elements.
+//!
+//! The couplings are those of the whole gears. The gaps and the compliance of each pair alone are
+//! those of the program: `core::rounded` and `core::reference` check the gaps, `field::tests` the
+//! compliances.
 pub(crate) mod uncoupled;
 mod whole_gear;
 
@@ -193,10 +197,22 @@ impl Pairs {
     }
 }
 
+/// A pair with up to four pairs of teeth on the line of action, and with a thin rim.
+fn pair_of_high_contact_ratio() -> Inputs {
+    let mut inputs = pair([50, 55], 1.6, 600.0, 3e-6);
+    inputs.pressure_angle = 14.5f64.to_radians();
+    for (gear, ratio) in [(&mut inputs.driver, 1.3), (&mut inputs.driven, 3.0)] {
+        let root = inputs.module * (f64::from(gear.teeth) / 2.0 - gear.dedendum);
+        gear.bore_radius = root / ratio;
+    }
+    inputs
+}
+
 fn checks() -> Vec<Check> {
     let pairs = [
         pair([18, 25], 1.0, 90.0, 8e-6),
         pair([26, 34], 1.3, 250.0, 0.0),
+        pair_of_high_contact_ratio(),
     ];
     pairs.map(Check::of).into()
 }
@@ -205,6 +221,8 @@ fn checks() -> Vec<Check> {
 fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
     for check in checks() {
         let (mesh, name) = (&check.mesh, format!("z {}", check.inputs.driver.teeth));
+        let ratio = check.solution.geometry.contact_ratio;
+        println!("{name}: contact ratio {ratio:.3}");
         let load = check.solution.static_load.as_ref().expect("method static");
         let first = -load.first_contact_angle.expect("it strikes") * mesh.base_radii.1;
         let (mut low, mut high) = (2.0 * first, 0.0);
@@ -254,7 +272,7 @@ fn neighbours_yield_as_those_of_a_whole_gear() {
         let elasticity = check.inputs.elasticity();
         let teeth = Teeth::of(&elasticity, &check.solution.geometry).expect("teeth");
         let geometry = &check.solution.geometry;
-        for pitches in [1, 2] {
+        for pitches in [1, 2, 3] {
             let way = check.mesh.length - f64::from(pitches) * check.mesh.base_pitch;
             for step in 0..=4 {
                 let rear = 0.98 * way * f64::from(step) / 4.0 + 0.01 * way;

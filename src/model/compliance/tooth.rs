@@ -169,8 +169,8 @@ impl<'a> Tooth<'a> {
     /// ahead, to the side that the force pushes to; teeth behind count below 0.
     ///
     /// The twist of the body about its bore is left out; without a bore, so is its shift. 0 for a
-    /// model of single teeth, for the loaded tooth itself, and for teeth more than two pitches
-    /// away.
+    /// model of single teeth, for the loaded tooth itself, and for teeth more than
+    /// [`PITCHES`](crate::model::field::PITCHES) away.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.

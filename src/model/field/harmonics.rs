@@ -2,13 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use super::PITCHES;
 use super::envelope::{Envelope, dot};
 use super::load::Load;
 use super::mode::{Condensed, CondensedLoad};
 use crate::numeric::quadrature;
-
-/// Pitches between the loaded tooth and the furthest tooth that is measured.
-pub(super) const PITCHES: usize = 2;
 
 /// Displacements under unit loads, for Young's modulus 1.
 #[derive(Debug, Clone)]
@@ -17,7 +15,7 @@ pub(super) struct Displacements {
     pub(super) surface: Vec<f64>,
     /// On the loaded tooth on the centre line.
     pub(super) centre: Vec<f64>,
-    /// On the teeth one and two pitches clockwise, for a load on the right flank, averaged over
+    /// On the teeth up to so many pitches clockwise, for a load on the right flank, averaged over
     /// the patch: rows of loads, columns of measured places.
     pub(super) cross: [Vec<f64>; PITCHES],
 }

@@ -27,7 +27,7 @@ impl Mesh {
     /// where S is the normal gap with the reliefs of both flanks, x the displacement of the driver
     /// ahead along the line of action, and e_k the equivalent error, Δf without reliefs for the
     /// incoming pair and 0 for every other. Q_kj is the displacement of the pair k by the force on
-    /// the pair j, up to two pitches away; where the model of the teeth has none, the pairs are
+    /// the pair j, up to [`PITCHES`](crate::model::field::PITCHES) away; where the model of the teeth has none, the pairs are
     /// independent springs. On the line of action both flanks are met where the
     /// line crosses them; before E the driven tip is the load point, after B the driver's. A tip
     /// keeps its flank's own radius of curvature, or that of its edge where the case gives one.

@@ -1,4 +1,4 @@
-//! How the force on one pair displaces the pairs one and two pitches behind and ahead of it.
+//! How the force on one pair displaces the pairs a few pitches behind and ahead of it.
 
 use crate::model::Refusal;
 use crate::model::pair_forces::PITCHES;

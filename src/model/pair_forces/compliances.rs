@@ -1,16 +1,19 @@
 //! How far the forces on the pairs of a set displace each of them.
 
+use std::array::from_fn;
+
+use crate::model::field::PITCHES;
 use crate::numeric::banded::Banded;
 
-/// Pitches over which the force on one tooth displaces another.
-pub const PITCHES: usize = 2;
+/// A row of a matrix of compliances: a pair and those before it that displace it.
+const ROW: usize = 1 + PITCHES;
 
 /// The compliances of a set of pairs, Q/b.
 #[derive(Debug, Clone, Copy)]
 pub struct Compliances<'a> {
     /// Of each pair under its own force, in m/N.
     pub own: &'a [f64],
-    /// Displacement of each pair by the force on the pair one and two pitches behind, in m/N.
+    /// Displacement of each pair by the force on the pair 1, 2, .. pitches behind, in m/N.
     pub couplings: &'a [[f64; PITCHES]],
 }
 
@@ -29,12 +32,12 @@ impl Compliances<'_> {
     /// The factors of the matrix of the touching pairs; `None` if it is not
     /// positive definite.
     #[must_use]
-    pub fn among(&self, touching: &[usize]) -> Option<Banded> {
+    pub fn among(&self, touching: &[usize]) -> Option<Banded<ROW>> {
         let entry = |at: usize, distance: usize| {
             let other = at.checked_sub(distance).map(|other| touching[other]);
             other.map_or(0.0, |other| self.at(touching[at], other))
         };
-        let rows = (0..touching.len()).map(|at| [0, 1, 2].map(|distance| entry(at, distance)));
+        let rows = (0..touching.len()).map(|at| from_fn(|distance| entry(at, distance)));
         Banded::factored(rows.collect())
     }
 

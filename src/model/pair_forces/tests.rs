@@ -23,7 +23,7 @@ fn pair(ahead: i32, stiffness: f64, gap: f64) -> Pair {
     }
 }
 
-/// Up to six random pairs, coupled strongly; gaps of the size of the deflections.
+/// Up to six random pairs, coupled strongly over three pitches; gaps of the size of the deflections.
 fn random_pairs(state: &mut u64) -> PairSet {
     loop {
         let count = 1 + (random(state) * 6.0) as i32;
@@ -32,7 +32,9 @@ fn random_pairs(state: &mut u64) -> PairSet {
             pair(ahead - 1, stiffness, 2.0 * random(state) - 0.5)
         });
         let pairs: Vec<Pair> = pairs.collect();
-        let couplings = (0..count).map(|_| [0.7 * random(state), 0.4 * random(state) - 0.1]);
+        let couplings = (0..count).map(|_| {
+            [0.7, 0.4, 0.3].map(|most| most * random(state)).map(|coupling| coupling - 0.05)
+        });
         let set = PairSet::new(pairs, couplings.collect());
         if set.is_definite() {
             return set;

@@ -9,7 +9,7 @@ use crate::model::explanation::{Check, Step, step};
 const IN_MOTION: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
     while a pair is in contact. Shafts are rigid, and the load is steady. Only the incoming pair \
     has a deviation, e = Δf_0. With finite-element compliance the force on a pair displaces the \
-    pairs up to two pitches away.";
+    pairs up to three pitches away.";
 const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988, m x'' + \
     c x' + ΣF = F0, with the gap S(u) of the tips off the line of action. Integration by Taylor series \
     from contact event to contact event.";
