@@ -120,9 +120,11 @@ impl Mesh {
     }
 
     /// The pairs that may touch while the incoming one stands at `s`; on a border, those of the
-    /// side where `inside` lies.
+    /// side where `inside` lies. Where `inside` itself is a place at which a pair is at E', this pair
+    /// is on the flank of its tooth and not on the arc of the tip.
     #[must_use]
     pub fn pair_set(&self, s: f64, inside: f64) -> PairSet {
+        let inside = self.on_flank(inside);
         let pairs: Vec<Pair> = self
             .standing(inside)
             .map(|(ahead, zone)| self.pair(ahead, zone, s, inside))
@@ -221,10 +223,11 @@ impl Mesh {
         }
     }
 
-    /// The incoming pair at `s`, without its error, and how its gap grows with s.
+    /// The incoming pair at `s`, without its error, and how its gap grows with s; at E' on the flank
+    /// of its tooth.
     #[must_use]
     pub fn incoming(&self, s: f64) -> (Place, f64) {
-        let series = &self.zones[self.zone(s)].series;
+        let series = &self.zones[self.zone(self.on_flank(s))].series;
         let [stiffness, gap, lever, sliding] = series.at(s);
         (
             Place {
@@ -239,6 +242,17 @@ impl Mesh {
 
     fn error_of(&self, ahead: i32) -> f64 {
         if ahead == 0 { self.error } else { 0.0 }
+    }
+
+    /// A place a little after `s`, if a pair is at E' there, else `s`.
+    fn on_flank(&self, s: f64) -> f64 {
+        const AFTER: f64 = 1e-9;
+        let pitches = (s / self.base_pitch).round();
+        if s - pitches * self.base_pitch == 0.0 {
+            s + AFTER * self.base_pitch
+        } else {
+            s
+        }
     }
 
     fn zone(&self, at: f64) -> usize {

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 use tipstrike::case::file::Document;
 use tipstrike::model::inputs::{Method, ToothCompliance};
-use tipstrike::model::{Inputs, Quantity, Refusal, Solution, Stages, solve};
+use tipstrike::model::{Inputs, MeshStation, Quantity, Refusal, Solution, Stage, Stages, solve};
 
 use crate::support::standard_pair;
 
@@ -89,6 +89,58 @@ fn a_vanishing_tip_radius_gives_the_geometry_of_a_sharp_tip() {
                 "{key} off by {off:e} at {radius:e} m"
             );
         }
+    }
+}
+
+/// The station at E' of a solve by `static` or `dynamic`.
+fn station_at_start(solution: &Solution) -> &MeshStation {
+    let rest = solution.static_load.as_ref().map(|load| &load.stations);
+    let motion = solution.dynamic.as_ref().map(|dynamic| &dynamic.stations);
+    let stations = motion.or(rest).expect("a method that shares the load");
+    let mut at_start = stations.iter().filter(|station| station.roll_angle_driven == 0.0);
+    at_start.next().expect("a station at E'")
+}
+
+#[test]
+fn the_flank_and_not_the_arc_counts_where_contact_on_the_line_of_action_begins() {
+    for method in [Method::Static, Method::Dynamic] {
+        let at = |radius| {
+            let inputs = Inputs {
+                friction_coefficient: None,
+                ..pair(method, radius)
+            };
+            solve(&inputs, Stages::of(method_stage(method))).unwrap()
+        };
+        let (sharp, rounded) = (at(None), at(Some(1e-9)));
+        let compliances =
+            [&sharp, &rounded].map(|solution| station_at_start(solution).pair_compliance);
+        assert!(
+            (compliances[1] / compliances[0] - 1.0).abs() < 1e-5,
+            "{method:?}: {compliances:?}"
+        );
+        let (mesh, station) = (rounded.mesh.as_ref().unwrap(), station_at_start(&rounded));
+        let pairs = mesh.pair_set(0.0, 1e-7 * mesh.base_pitch);
+        let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0).unwrap();
+        let force = pairs.forces(station.transmission_error)[incoming];
+        assert!(
+            force > 0.0 && (station.force / force - 1.0).abs() < 1e-9,
+            "{method:?}: {} and {force}",
+            station.force
+        );
+        if method == Method::Static {
+            let [sharp, rounded] =
+                [&sharp, &rounded].map(|solution| value(solution, "static_force_at_start"));
+            assert!((rounded / sharp - 1.0).abs() < 1e-5, "{rounded} and {sharp}");
+            assert_eq!(rounded.to_bits(), station.force.to_bits());
+        }
+    }
+}
+
+fn method_stage(method: Method) -> Stage {
+    if method == Method::Static {
+        Stage::Static
+    } else {
+        Stage::Dynamic
     }
 }
 

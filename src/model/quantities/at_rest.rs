@@ -256,7 +256,7 @@ fn relief(k: &Context, tip: &TipContact) -> f64 {
 
 fn compliance_at_start(k: &Context) -> Option<f64> {
     let geometry = &k.solution.geometry;
-    let place = ContactPlace::at_tip(k.inputs.driven.tip_radius, geometry, &tip_at(geometry, 0.0));
+    let place = ContactPlace::on_line_of_action(geometry, geometry.start);
     let elasticity = k.inputs.elasticity();
     let teeth = Teeth::of(&elasticity, geometry).ok()?;
     teeth.pair_at_load(&place, k.solution.mesh_force).ok()
