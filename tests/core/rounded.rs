@@ -97,7 +97,9 @@ fn station_at_start(solution: &Solution) -> &MeshStation {
     let rest = solution.static_load.as_ref().map(|load| &load.stations);
     let motion = solution.dynamic.as_ref().map(|dynamic| &dynamic.stations);
     let stations = motion.or(rest).expect("a method that shares the load");
-    let mut at_start = stations.iter().filter(|station| station.roll_angle_driven == 0.0);
+    let mut at_start = stations
+        .iter()
+        .filter(|station| station.roll_angle_driven == 0.0);
     at_start.next().expect("a station at E'")
 }
 
@@ -120,7 +122,11 @@ fn the_flank_and_not_the_arc_counts_where_contact_on_the_line_of_action_begins()
         );
         let (mesh, station) = (rounded.mesh.as_ref().unwrap(), station_at_start(&rounded));
         let pairs = mesh.pair_set(0.0, 1e-7 * mesh.base_pitch);
-        let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0).unwrap();
+        let incoming = pairs
+            .pairs()
+            .iter()
+            .position(|pair| pair.ahead == 0)
+            .unwrap();
         let force = pairs.forces(station.transmission_error)[incoming];
         assert!(
             force > 0.0 && (station.force / force - 1.0).abs() < 1e-9,
@@ -130,7 +136,10 @@ fn the_flank_and_not_the_arc_counts_where_contact_on_the_line_of_action_begins()
         if method == Method::Static {
             let [sharp, rounded] =
                 [&sharp, &rounded].map(|solution| value(solution, "static_force_at_start"));
-            assert!((rounded / sharp - 1.0).abs() < 1e-5, "{rounded} and {sharp}");
+            assert!(
+                (rounded / sharp - 1.0).abs() < 1e-5,
+                "{rounded} and {sharp}"
+            );
             assert_eq!(rounded.to_bits(), station.force.to_bits());
         }
     }

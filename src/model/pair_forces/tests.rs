@@ -33,7 +33,9 @@ fn random_pairs(state: &mut u64) -> PairSet {
         });
         let pairs: Vec<Pair> = pairs.collect();
         let couplings = (0..count).map(|_| {
-            [0.7, 0.4, 0.3].map(|most| most * random(state)).map(|coupling| coupling - 0.05)
+            [0.7, 0.4, 0.3]
+                .map(|most| most * random(state))
+                .map(|coupling| coupling - 0.05)
         });
         let set = PairSet::new(pairs, couplings.collect());
         if set.is_definite() {
