@@ -39,7 +39,8 @@
 //!
 //! [Guide](docs::guide), [methods and limits](docs::methods), [numerical
 //! accuracy](docs::accuracy), [speed](docs::speed), [scripting](docs::scripting),
-//! [studies](docs::studies), [platforms](docs::platforms), [contributing](docs::contributing).
+//! [studies](docs::studies), [case format](docs::case_format), [platforms](docs::platforms),
+//! [contributing](docs::contributing).
 //!
 //! [`Solution`]: model::Solution
 
@@ -74,6 +75,9 @@ pub mod docs {
 
     #[doc = include_str!("../docs/studies.md")]
     pub mod studies {}
+
+    #[doc = include_str!("../docs/case-format.md")]
+    pub mod case_format {}
 
     #[doc = include_str!("../docs/platforms.md")]
     pub mod platforms {}

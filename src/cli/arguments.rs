@@ -6,7 +6,7 @@ use clap::{Parser, ValueHint};
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
-/// The version, with the commit where the build names it, as `.ci/release` does.
+/// The version; a release names its commit as well (`build.rs`).
 static VERSION: LazyLock<String> = LazyLock::new(|| {
     let version = env!("CARGO_PKG_VERSION");
     let commit = option_env!("TIPSTRIKE_COMMIT");

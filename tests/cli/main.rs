@@ -23,3 +23,4 @@ mod schema;
 mod shards;
 mod stiffness_command;
 mod studies;
+mod version;
