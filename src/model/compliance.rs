@@ -168,7 +168,8 @@ impl<'a> Teeth<'a> {
             elasticity,
             geometry,
             driver: Tooth::of(elasticity.tooth, &elasticity.driver, &geometry.driver)?,
-            driven: Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)?,
+            driven: Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)
+                .map_err(Refusal::at_driven)?,
         })
     }
 
@@ -186,7 +187,10 @@ impl<'a> Teeth<'a> {
         Ok(TeethCompliance {
             model: self.elasticity.tooth,
             driver: self.driver.at(place.radius_driver)?,
-            driven: self.driven.at(place.radius_driven)?,
+            driven: self
+                .driven
+                .at(place.radius_driven)
+                .map_err(Refusal::at_driven)?,
         })
     }
 
@@ -198,7 +202,9 @@ impl<'a> Teeth<'a> {
     pub fn contacts(&self, place: &ContactPlace) -> Result<[Option<ContactLaw>; 2], Refusal> {
         Ok([
             self.driver.contact(place.radius_driver)?,
-            self.driven.contact(place.radius_driven)?,
+            self.driven
+                .contact(place.radius_driven)
+                .map_err(Refusal::at_driven)?,
         ])
     }
 
@@ -240,7 +246,8 @@ impl<'a> Teeth<'a> {
             .neighbour(earlier.radius_driver, later.radius_driver, pitches)?;
         let driven = self
             .driven
-            .neighbour(earlier.radius_driven, later.radius_driven, -pitches)?;
+            .neighbour(earlier.radius_driven, later.radius_driven, -pitches)
+            .map_err(Refusal::at_driven)?;
         Ok(driver + driven)
     }
 

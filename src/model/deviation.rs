@@ -190,7 +190,9 @@ impl Deflected {
 /// Fig. 3. The displacement of neighbours is not in the paper.
 ///
 /// # Errors
-/// [`Refusal::ContactRatioBelowOne`] where no pair is in contact at F, or the compliance's own.
+/// [`Refusal::ContactRatioBelowOne`] where no pair is in contact at F,
+/// [`Refusal::InterferenceAtEnd`] where the only one touches the driven gear inside its base circle,
+/// or the compliance's own.
 fn deflected(
     inputs: &DeviationInputs,
     elasticity: &Elasticity,
@@ -199,6 +201,11 @@ fn deflected(
 ) -> Result<Deflected, Refusal> {
     let is_in_contact = |along: f64| along <= geometry.end && along < geometry.tangent_length;
     let first = geometry.start + geometry.base_pitch;
+    if first <= geometry.end && !is_in_contact(first) {
+        return Err(Refusal::InterferenceAtEnd {
+            start: geometry.tangent_length - geometry.end,
+        });
+    }
     if !is_in_contact(first) {
         return Err(Refusal::ContactRatioBelowOne {
             ratio: geometry.contact_ratio,

@@ -2,11 +2,11 @@
 use crate::support;
 
 use support::standard_pair;
-use tipstrike::model::Inputs;
 use tipstrike::model::compliance::tooth::beam;
 use tipstrike::model::compliance::{ContactPlace, Teeth};
 use tipstrike::model::geometry::{Geometry, geometry};
-use tipstrike::model::inputs::{ContactCompliance, Gear, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Gear, Method, ToothCompliance};
+use tipstrike::model::{Inputs, Refusal, Stages, solve};
 
 /// Load of ISO 6336-1's linear range, in N/m.
 const LINE_LOAD: f64 = 300e3;
@@ -184,4 +184,40 @@ fn young_poisson_and_bore_enter() {
         let ratio = beam(&|inputs| inputs.driver.bore_radius *= part) / before;
         assert!((0.85..1.15).contains(&ratio), "bore times {part}: {ratio}");
     }
+}
+
+#[test]
+fn a_contact_below_the_form_circle_is_refused_at_the_addendum_that_reaches_there() {
+    for (teeth, key) in [((40, 30), "driver.addendum"), ((30, 40), "driven.addendum")] {
+        let mut inputs = standard_pair(teeth.0, teeth.1, 2e-3);
+        inputs.method = Method::Static;
+        inputs.base_pitch_deviation = 10e-6;
+        for gear in [&mut inputs.driver, &mut inputs.driven] {
+            gear.bore_radius = 15e-3;
+            gear.addendum = if gear.teeth == 40 { 1.3 } else { 1.0 };
+        }
+        let refusal = solve(&inputs, Stages::EVERY).unwrap_err();
+        assert_eq!(
+            (refusal.code(), refusal.field()),
+            ("below-form-circle", key)
+        );
+    }
+}
+
+#[test]
+fn a_pair_ahead_inside_the_base_circle_is_no_lack_of_contact_ratio() {
+    let mut inputs = standard_pair(11, 6, 8.46e-3);
+    inputs.pressure_angle = 25f64.to_radians();
+    inputs.driver.profile_shift = -0.217;
+    inputs.driver.dedendum = 1.64;
+    inputs.driven.profile_shift = 0.145;
+    inputs.driven.dedendum = 1.37;
+    inputs.driven.addendum = 0.9;
+    inputs.driven.tip_radius = Some(3.42e-3);
+    (inputs.driver.bore_radius, inputs.driven.bore_radius) = (7e-3, 15e-3);
+    let refusal = solve(&inputs, Stages::EVERY).unwrap_err();
+    assert!(
+        matches!(refusal, Refusal::InterferenceAtEnd { start } if start < 0.0),
+        "{refusal:?}"
+    );
 }

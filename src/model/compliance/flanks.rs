@@ -61,11 +61,13 @@ impl Flanks {
         let tooth = |gear, circles| Tooth::of(elasticity.tooth, gear, circles);
         let (driver, driven) = (
             tooth(&elasticity.driver, &geometry.driver)?,
-            tooth(&elasticity.driven, &geometry.driven)?,
+            tooth(&elasticity.driven, &geometry.driven).map_err(Refusal::at_driven)?,
         );
         let contacts = [
             driver.contact(geometry.driver.tip)?,
-            driven.contact(geometry.driven.tip)?,
+            driven
+                .contact(geometry.driven.tip)
+                .map_err(Refusal::at_driven)?,
         ];
         let lowest = geometry.tangent_length - geometry.end;
         let highest = |circles: &Circles| circles.sharp().tip_curvature;
@@ -75,7 +77,7 @@ impl Flanks {
         ];
         Ok(Flanks {
             driver: Flank::of(&driver, &geometry.driver, ends[0])?,
-            driven: Flank::of(&driven, &geometry.driven, ends[1])?,
+            driven: Flank::of(&driven, &geometry.driven, ends[1]).map_err(Refusal::at_driven)?,
             slope: match contacts {
                 [Some(driver), Some(driven)] => Some(driver.slope + driven.slope),
                 _ => None,

@@ -243,7 +243,6 @@ fn check(input: &FieldInput, field: &Field) {
         for pitches in [-2, -1, 1, 2] {
             let cross = field.cross(radius, to, pitches);
             assert!(cross.is_finite(), "{cross} {surface} {input:?}");
-            assert!((cross - field.cross(to, radius, -pitches)).abs() < 1e-12 * surface);
         }
     }
 }

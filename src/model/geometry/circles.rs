@@ -25,7 +25,7 @@ pub struct Circles<T = f64> {
 ///
 /// # Errors
 /// [`Refusal::PointedRack`], [`Refusal::TipInsideBase`], and of the rounding of the tip
-/// [`Refusal::RoundingInsideBase`] and [`Refusal::RoundingTooWide`], which name the driver's field.
+/// [`Refusal::RoundingInsideBase`] and [`Refusal::RoundingTooWide`]. Each names the driver's field.
 pub fn circles<T: Real>(
     module: f64,
     pressure_angle: f64,
@@ -45,6 +45,7 @@ pub fn circles<T: Real>(
     let most_dedendum = std::f64::consts::FRAC_PI_4 / pressure_angle.tan();
     if gear.dedendum >= most_dedendum {
         return Err(Refusal::PointedRack {
+            field: "driver.dedendum",
             dedendum: gear.dedendum,
             limit: most_dedendum,
         });
@@ -52,6 +53,7 @@ pub fn circles<T: Real>(
     let over_base = two * reference * half_sine * half_sine + height;
     if over_base <= T::zero() {
         return Err(Refusal::TipInsideBase {
+            field: "driver.addendum",
             tip: (reference + height).rounded(),
             base: base.rounded(),
         });

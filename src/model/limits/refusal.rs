@@ -32,6 +32,8 @@ pub enum Refusal {
     /// No involute is left at the tip.
     #[error("the tip is inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
     TipInsideBase {
+        /// The key of the field where the fix begins.
+        field: &'static str,
         /// r_a, in m.
         tip: f64,
         /// r_b, in m.
@@ -43,6 +45,8 @@ pub enum Refusal {
             this pressure angle"
     )]
     PointedRack {
+        /// The key of the field where the fix begins.
+        field: &'static str,
         /// h_fP*.
         dedendum: f64,
         /// π/(4 tan α).
@@ -165,6 +169,8 @@ pub enum Refusal {
     /// No tooth is left at the load point.
     #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
     PointedTip {
+        /// The key of the field where the fix begins.
+        field: &'static str,
         /// Thickness, in m.
         thickness: f64,
     },
@@ -174,12 +180,16 @@ pub enum Refusal {
             so few teeth"
     )]
     CutThrough {
+        /// The key of the field where the fix begins.
+        field: &'static str,
         /// x.
         shift: f64,
     },
     /// The load point is on the fillet, which is no involute.
-    #[error("the flank ends above the contact: O1D is {:.4} mm and the form circle {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
+    #[error("the flank ends above the contact: the contact is at the radius {:.4} mm and the form circle at {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
     BelowFormCircle {
+        /// The key of the field where the fix begins.
+        field: &'static str,
         /// Radius of the load point, in m.
         radius: f64,
         /// Radius of the form circle, in m.
@@ -311,22 +321,21 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// The same refusal of the driven gear, where it names a field of the driver.
-    pub(in crate::model) fn at_driven(self) -> Refusal {
-        const FIELD: &str = "driven.tip_radius";
-        match self {
-            Refusal::RoundingInsideBase { radius, limit, .. } => Refusal::RoundingInsideBase {
-                field: FIELD,
-                radius,
-                limit,
-            },
-            Refusal::RoundingTooWide { radius, lack, .. } => Refusal::RoundingTooWide {
-                field: FIELD,
-                radius,
-                lack,
-            },
-            other => other,
+    /// The same refusal of the driven gear: a refusal of one gear names the field of the driver.
+    pub(in crate::model) fn at_driven(mut self) -> Refusal {
+        match &mut self {
+            Refusal::RoundingInsideBase { field, .. } | Refusal::RoundingTooWide { field, .. } => {
+                *field = "driven.tip_radius";
+            }
+            Refusal::TipInsideBase { field, .. } | Refusal::PointedTip { field, .. } => {
+                *field = "driven.addendum";
+            }
+            Refusal::PointedRack { field, .. } => *field = "driven.dedendum",
+            Refusal::CutThrough { field, .. } => *field = "driven.profile_shift",
+            Refusal::BelowFormCircle { field, .. } => *field = "driver.addendum",
+            _ => (),
         }
+        self
     }
 }
 

@@ -49,14 +49,14 @@ impl Refusal {
                 "driven.tip_chamfer",
                 "reduce the tip chamfers, or bring the gears closer",
             ),
-            Refusal::TipInsideBase { .. } => (
+            Refusal::TipInsideBase { field, .. } => (
                 "tip-inside-base",
-                "driven.addendum",
+                *field,
                 "give a higher addendum or a smaller tip chamfer",
             ),
-            Refusal::PointedRack { .. } => (
+            Refusal::PointedRack { field, .. } => (
                 "pointed-rack",
-                "driver.dedendum",
+                *field,
                 "give a smaller dedendum or pressure angle",
             ),
             Refusal::CentreDistanceJams { .. } => (
@@ -128,20 +128,20 @@ impl Refusal {
                 "model.tooth_compliance",
                 "choose another tooth compliance, or a shorter addendum",
             ),
-            Refusal::PointedTip { .. } => (
+            Refusal::PointedTip { field, .. } => (
                 "pointed-tip",
-                "driven.addendum",
+                *field,
                 "give a shorter addendum, less profile shift or more teeth",
             ),
-            Refusal::CutThrough { .. } => (
+            Refusal::CutThrough { field, .. } => (
                 "cut-through",
-                "driver.profile_shift",
+                *field,
                 "give more profile shift or more teeth",
             ),
-            Refusal::BelowFormCircle { .. } => (
+            Refusal::BelowFormCircle { field, .. } => (
                 "below-form-circle",
-                "driven.addendum",
-                "shorten the driven addendum, or give the driver more profile shift",
+                *field,
+                "shorten this addendum, or give the other gear more profile shift",
             ),
             Refusal::NoField { .. } => (
                 "no-field",

@@ -193,7 +193,7 @@ fn caption(text: &mut String, view: &View) {
     let _ = writeln!(
         text,
         "<text x=\"{left}\" y=\"{first}\">Driver left, driven gear right; E to B: path of contact.</text>\n\
-         <text x=\"{left}\" y=\"{base}\">Reliefs and chamfers are not drawn.</text>\n\
+         <text x=\"{left}\" y=\"{base}\">Reliefs are not drawn.</text>\n\
          <path d=\"M{bar:.1} {base}v-5v5h{dots:.1}v-5\" class=\"axis\"/>\
          <text x=\"{middle:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>"
     );

@@ -98,7 +98,7 @@ pub(super) fn section() -> String {
 
 /// Bodies with r_f/r_h from 2 to 5 and a tooth within the range of the foundation, or nearly.
 #[test]
-fn the_beam_is_within_14_percent_of_the_field_where_its_foundation_is_fitted() {
+fn the_beam_is_up_to_22_percent_softer_than_the_field_where_its_foundation_is_fitted() {
     let mut seen = 0;
     for inputs in gears() {
         let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
@@ -108,7 +108,7 @@ fn the_beam_is_within_14_percent_of_the_field_where_its_foundation_is_fitted() {
         }
         let found = differences(&inputs, ToothCompliance::BEAM).unwrap();
         assert!(
-            found.iter().all(|off| (-14.0..=14.0).contains(off)),
+            found.iter().all(|off| (0.0..=22.0).contains(off)),
             "z {}: {found:?}",
             inputs.driver.teeth
         );

@@ -78,7 +78,9 @@ class Tooth:
         within = {"epsabs": 0.0, "epsrel": 1e-13, "limit": 400}
         fillet = quad(lambda normal: -energy(self.fillet(normal)), self.alpha, math.pi / 2, **within)[0]
         flank = quad(lambda t: energy(self.involute(t)), self.junction, last, **within)[0]
-        return (fillet + flank + strain * (self.foundation(sine, cosine) - self.twist()) - self.shift()) / self.gear.young
+        # Sainsot's coefficients are those of plane strain with nu = 0.3
+        foundation = strain / 0.91 * self.foundation(sine, cosine)
+        return (fillet + flank + foundation - self.twist() - self.shift()) / self.gear.young
 
     def body(self):
         """r_f/r_h within the range of the foundation; 3 for a gear without a bore."""

@@ -94,7 +94,8 @@ fn weber(
     let driven = depth(
         &Profile::of_flank(&elasticity.driven.rack, &geometry.driven),
         place.radius_driven,
-    )?;
+    )
+    .map_err(Refusal::at_driven)?;
     let (first, second) = (
         of(&elasticity.driver, driver),
         of(&elasticity.driven, driven),
@@ -109,6 +110,7 @@ fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
         Ok(depth)
     } else {
         Err(Refusal::PointedTip {
+            field: "driver.addendum",
             thickness: 2.0 * depth,
         })
     }

@@ -167,7 +167,11 @@ fn build(gear: &ElasticGear, _: &Circles) -> Result<Arc<dyn LoadedTooth>, Refusa
 fn check_radius(field: &Field, radius: f64) -> Result<(), Refusal> {
     let [form, _] = field.radii();
     if radius < form {
-        return Err(Refusal::BelowFormCircle { radius, form });
+        return Err(Refusal::BelowFormCircle {
+            field: "driven.addendum",
+            radius,
+            form,
+        });
     }
     Ok(())
 }
