@@ -2,7 +2,7 @@
 
 use crate::model::inputs::Method;
 use crate::model::request::Earlier;
-use crate::model::solve::{solve_after, solve_repeated};
+use crate::model::solve::{Setup, solve_after, solve_repeated};
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// The last solve by each method.
@@ -15,6 +15,8 @@ pub struct Evaluator {
 struct Solved {
     inputs: Inputs,
     solution: Solution,
+    /// What repeats of this solve share.
+    setup: Option<Setup>,
 }
 
 impl Evaluator {
@@ -59,7 +61,12 @@ impl Evaluator {
             let solution = solve_after(inputs, wanted, None, go_on)?;
             let at = self.solved.len();
             let inputs = inputs.clone();
-            self.solved.push(Solved { inputs, solution });
+            let setup = None;
+            self.solved.push(Solved {
+                inputs,
+                solution,
+                setup,
+            });
             return Ok(&self.solved[at].solution);
         };
         let solved = &mut self.solved[at];
@@ -69,35 +76,43 @@ impl Evaluator {
         };
         solved.solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
         solved.inputs.clone_from(inputs);
+        solved.setup = None;
         Ok(&solved.solution)
     }
 
     /// Solves the next point of a study. If only load and deviations differ from the last point and
     /// the wanted stages have a closed form, all of them run in place, whichever would be kept.
+    /// Otherwise `check` first checks what such points have in common with the last one.
     ///
     /// # Errors
-    /// Those of [`solve_after`].
-    pub fn solve_point(
+    /// Those of [`solve_after`] and of `check`.
+    pub fn solve_point<E: From<Refusal>>(
         &mut self,
         inputs: &Inputs,
         wanted: Stages,
+        check: impl FnOnce(&Inputs) -> Result<(), E>,
         go_on: &dyn Fn(f64) -> bool,
-    ) -> Result<&Solution, Refusal> {
+    ) -> Result<&Solution, E> {
         let by = |solved: &Solved| solved.inputs.method == inputs.method;
-        let last = self.solved.iter().position(by).and_then(|at| {
+        let repeated = self.solved.iter().position(by).and_then(|at| {
             let Solved {
                 inputs: before,
                 solution,
+                setup,
             } = &mut self.solved[at];
-            Some((at, solve_repeated(before, solution, inputs, wanted)?))
+            let repeated = solve_repeated(before, solution, setup, inputs, wanted)?;
+            Some((at, repeated))
         });
-        match last {
+        match repeated {
             Some((at, Ok(()))) => Ok(&self.solved[at].solution),
             Some((at, Err(refusal))) => {
                 self.solved.swap_remove(at);
-                Err(refusal)
+                Err(refusal.into())
             }
-            None => self.solve_kept(inputs, inputs.method, wanted, go_on),
+            None => {
+                check(inputs)?;
+                Ok(self.solve_kept(inputs, inputs.method, wanted, go_on)?)
+            }
         }
     }
 }
@@ -213,7 +228,9 @@ mod tests {
         let wanted = Stages::of(Stage::Dynamic);
         for speed in ["2000 rpm", "300 rpm", "9000 rpm"] {
             let inputs = at(speed);
-            let kept = evaluator.solve_point(&inputs, wanted, &|_| true).unwrap();
+            let kept: Result<_, Refusal> =
+                evaluator.solve_point(&inputs, wanted, |_| Ok(()), &|_| true);
+            let kept = kept.unwrap();
             assert_eq!(kept.ran.has(Stage::Mesh), speed == "2000 rpm");
             let fresh = solve(&inputs, wanted).unwrap();
             assert_eq!(kept.dynamic, fresh.dynamic, "{speed}");

@@ -12,7 +12,7 @@ use super::geometry::{GearShape, Geometry};
 use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
 use super::profile::Rack;
 use super::tip_gap::TipContact;
-use contact::{ContactLaw, ContactSpring};
+use contact::{ContactLaw, ContactSpring, HalfWidth, PairContact};
 use tooth::Tooth;
 
 pub use tooth::{contact_of, model_of, without_field};
@@ -151,22 +151,43 @@ impl ContactPlace {
 }
 
 /// Both teeth of a pair, ready for any place of contact.
-pub struct Teeth<'a> {
-    elasticity: &'a Elasticity,
-    geometry: &'a Geometry,
-    driver: Tooth<'a>,
-    driven: Tooth<'a>,
+#[derive(Debug, Clone)]
+pub struct Teeth {
+    elasticity: Elasticity,
+    geometry: Geometry,
+    driver: Tooth,
+    driven: Tooth,
+    contact: PairContact,
 }
 
-impl<'a> Teeth<'a> {
+/// Compliance of a pair at a place, ready for any force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairCompliance {
+    /// Of the two teeth, in m²/N.
+    teeth: f64,
+    contact: ContactSpring,
+}
+
+impl PairCompliance {
+    /// Compliance under a given force, in m²/N.
+    ///
+    /// # Errors
+    /// Those of the [contact](ContactSpring::compliance).
+    pub fn at_load(&self, force: f64) -> Result<f64, Refusal> {
+        Ok(self.teeth + self.contact.compliance(force)?)
+    }
+}
+
+impl Teeth {
     /// The teeth of a pair by the model of the case.
     ///
     /// # Errors
     /// Those of a model that builds an object for each gear.
-    pub fn of(elasticity: &'a Elasticity, geometry: &'a Geometry) -> Result<Teeth<'a>, Refusal> {
+    pub fn of(elasticity: &Elasticity, geometry: &Geometry) -> Result<Teeth, Refusal> {
         Ok(Teeth {
-            elasticity,
-            geometry,
+            elasticity: *elasticity,
+            geometry: *geometry,
+            contact: PairContact::of(elasticity),
             driver: Tooth::of(elasticity.tooth, &elasticity.driver, &geometry.driver)?,
             driven: Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)
                 .map_err(Refusal::at_driven)?,
@@ -217,14 +238,9 @@ impl<'a> Teeth<'a> {
         match self.contacts(place)? {
             [Some(driver), Some(driven)] => {
                 let teeth = self.at(place)?.sum();
-                Ok(contact::own_spring(
-                    self.elasticity,
-                    place,
-                    teeth,
-                    driver + driven,
-                ))
+                Ok(HalfWidth::of(&self.elasticity).spring(place, teeth, driver + driven))
             }
-            _ => contact::spring(self.elasticity, self.geometry, place),
+            _ => self.contact.spring(&self.elasticity, &self.geometry, place),
         }
     }
 
@@ -256,7 +272,17 @@ impl<'a> Teeth<'a> {
     /// # Errors
     /// A [`Refusal`] outside the range of the models.
     pub fn pair_at_load(&self, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
-        let contact = self.spring(place)?.compliance(force)?;
-        Ok(self.at(place)?.sum() + contact)
+        self.pair(place)?.at_load(force)
+    }
+
+    /// Compliance of the pair at a place.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the models.
+    pub fn pair(&self, place: &ContactPlace) -> Result<PairCompliance, Refusal> {
+        Ok(PairCompliance {
+            contact: self.spring(place)?,
+            teeth: self.at(place)?.sum(),
+        })
     }
 }

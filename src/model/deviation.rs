@@ -1,9 +1,10 @@
 //! What brings the tooth in early: equivalent error and combined deflection.
 
+use smallvec::SmallVec;
 use twofloat::TwoFloat;
 
 use super::Refusal;
-use super::compliance::{ContactPlace, Elasticity, Teeth};
+use super::compliance::{ContactPlace, Elasticity, PairCompliance, Teeth};
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Method};
 use super::pair_forces::{PITCHES, Pair, PairSet, Place};
@@ -12,6 +13,15 @@ use crate::numeric::Real;
 /// What the deviation depends on, apart from geometry and mesh force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeviationInputs {
+    /// Deviations and reliefs.
+    pub errors: Errors,
+    /// Where the combined deflection comes from.
+    pub deflection: Deflection,
+}
+
+/// Deviations and reliefs of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
     /// `paper` scales the reliefs as printed; `static` and `dynamic` leave them to the flanks.
     pub method: Method,
     /// Base pitch deviations f_pb of driver and driven gear, in m.
@@ -22,8 +32,6 @@ pub struct DeviationInputs {
     pub driven_tip_relief: f64,
     /// Root relief of the driver, in m.
     pub driver_root_relief: f64,
-    /// Where the combined deflection comes from.
-    pub deflection: Deflection,
 }
 
 /// Where the combined deflection comes from.
@@ -44,15 +52,23 @@ impl Inputs {
     #[must_use]
     pub fn deviation(&self) -> DeviationInputs {
         DeviationInputs {
+            errors: self.errors(),
+            deflection: match self.deflection_taken() {
+                Some(given) => Deflection::Given(given),
+                None => Deflection::ByLoad(self.elasticity()),
+            },
+        }
+    }
+
+    /// Deviations and reliefs.
+    #[must_use]
+    pub fn errors(&self) -> Errors {
+        Errors {
             method: self.method,
             base_pitches: self.base_pitches(),
             backlash: self.backlash,
             driven_tip_relief: self.driven.tip_relief,
             driver_root_relief: self.driver.root_relief,
-            deflection: match self.deflection_taken() {
-                Some(given) => Deflection::Given(given),
-                None => Deflection::ByLoad(self.elasticity()),
-            },
         }
     }
 }
@@ -77,33 +93,22 @@ pub struct Deviation<T = f64> {
 
 /// What brings the incoming tooth in early, in double-double arithmetic: a relief may take back all
 /// but a small rest.
-///
-/// # Errors
-/// A [`Refusal`] where the deflection has to be computed and cannot be.
-pub fn deviation(
-    inputs: &DeviationInputs,
-    geometry: &Geometry,
-    mesh_force: f64,
-) -> Result<Deviation<TwoFloat>, Refusal> {
-    let deflected = match &inputs.deflection {
-        Deflection::Given(given) => Deflected::alone(*given),
-        Deflection::ByLoad(elasticity) => deflected(inputs, elasticity, geometry, mesh_force)?,
-    };
+pub(super) fn deviation(errors: &Errors, deflected: Deflected) -> Deviation<TwoFloat> {
     let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
-    let with_reliefs = equivalent_error(inputs);
-    let equivalent_error = if inputs.method.shares_load() {
-        random_error(inputs)
+    let with_reliefs = equivalent_error(errors);
+    let equivalent_error = if errors.method.shares_load() {
+        random_error(errors)
     } else {
         with_reliefs
     };
-    let modification = modification(inputs);
-    Ok(Deviation {
+    let modification = modification(errors);
+    Deviation {
         equivalent_error,
         modification,
         combined_deflection,
         neighbour_deflection: deflected.incoming_pair.into(),
         total: with_reliefs + combined_deflection,
-    })
+    }
 }
 
 /// Equivalent error Δf, in m.
@@ -120,7 +125,7 @@ pub fn deviation(
 /// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random
 /// errors, as printed; the others count it in full, since a relief that was ground is there in
 /// full.
-fn equivalent_error(inputs: &DeviationInputs) -> TwoFloat {
+fn equivalent_error(inputs: &Errors) -> TwoFloat {
     match inputs.method {
         Method::Paper => {
             (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2
@@ -130,18 +135,18 @@ fn equivalent_error(inputs: &DeviationInputs) -> TwoFloat {
 }
 
 /// Modification e_m = −(driven tip relief + driver root relief), in m.
-fn modification(inputs: &DeviationInputs) -> TwoFloat {
+fn modification(inputs: &Errors) -> TwoFloat {
     -TwoFloat::new_add(inputs.driven_tip_relief, inputs.driver_root_relief)
 }
 
 /// Equivalent error without reliefs, √(f_pb1² + f_pb2²) − j_bn/√2, in m.
-fn random_error(inputs: &DeviationInputs) -> TwoFloat {
+fn random_error(inputs: &Errors) -> TwoFloat {
     random_deviation(inputs) * twofloat::consts::FRAC_1_SQRT_2
 }
 
 /// √(2 (f_pb1² + f_pb2²)) − j_bn, in m, which is 2 f_pb − j_bn for equal deviations; a negative
 /// deviation subtracts its square.
-fn random_deviation(inputs: &DeviationInputs) -> TwoFloat {
+fn random_deviation(inputs: &Errors) -> TwoFloat {
     let [driver, driven] = inputs.base_pitches;
     if driver.to_bits() == driven.to_bits() {
         return TwoFloat::new_sub(2.0 * driver, inputs.backlash);
@@ -158,7 +163,7 @@ fn random_deviation(inputs: &DeviationInputs) -> TwoFloat {
 
 /// Displacements along the line of action under the load with the incoming pair at E, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Deflected {
+pub(super) struct Deflected {
     /// Of the pairs that carry the load, by their own deflection and each other's.
     pairs_ahead: f64,
     /// Of the incoming pair, by their forces.
@@ -166,7 +171,7 @@ struct Deflected {
 }
 
 impl Deflected {
-    fn alone(pairs_ahead: f64) -> Deflected {
+    pub(super) fn alone(pairs_ahead: f64) -> Deflected {
         Deflected {
             pairs_ahead,
             incoming_pair: 0.0,
@@ -174,79 +179,109 @@ impl Deflected {
     }
 }
 
-/// The two parts of the combined deflection δ when the incoming pair is at E, in m.
-///
-/// # Formula
-/// ```text
-/// δ = x − Σ_k Q_0k F_k/b,   x = Σ_j Q_kj F_j/b,   Σ F_k = F0,   F_k >= 0
-/// Q_kk = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. while it lies before B
-/// ```
-/// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load:
-/// δ = (Q_11 − Q_01) F0/b. With more, the pairs share it. Teeth that deflect alone (Q_kj = 0), and
-/// the method `paper`, have δ = F0/(b Σ 1/Q_kk).
-///
-/// # Source
-/// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its
-/// Fig. 3. The displacement of neighbours is not in the paper.
-///
-/// # Errors
-/// [`Refusal::ContactRatioBelowOne`] where no pair is in contact at F,
-/// [`Refusal::InterferenceAtEnd`] where the only one touches the driven gear inside its base circle,
-/// or the compliance's own.
-fn deflected(
-    inputs: &DeviationInputs,
-    elasticity: &Elasticity,
-    geometry: &Geometry,
-    mesh_force: f64,
-) -> Result<Deflected, Refusal> {
-    let is_in_contact = |along: f64| along <= geometry.end && along < geometry.tangent_length;
-    let first = geometry.start + geometry.base_pitch;
-    if first <= geometry.end && !is_in_contact(first) {
-        return Err(Refusal::InterferenceAtEnd {
-            start: geometry.tangent_length - geometry.end,
-        });
-    }
-    if !is_in_contact(first) {
-        return Err(Refusal::ContactRatioBelowOne {
-            ratio: geometry.contact_ratio,
-            is_deflection_taken: !inputs.method.shares_load(),
-        });
-    }
-    let teeth = Teeth::of(elasticity, geometry)?;
-    let place = |along: f64| ContactPlace::on_line_of_action(geometry, along);
-    let force = mesh_force / elasticity.width;
-    let start = place(geometry.start);
-    let incoming = if inputs.method == Method::Paper {
-        0.0
-    } else {
-        teeth.coupling(&start, &place(first), 1)?
-    };
-    if incoming != 0.0 && is_in_contact(first + geometry.base_pitch) {
-        let ahead = std::iter::successors(Some(first), |along| Some(along + geometry.base_pitch));
-        let ahead = ahead.take_while(|along| is_in_contact(*along)).map(place);
-        return shared(&teeth, start, ahead, mesh_force);
-    }
-    let (mut stiffness, mut along) = (0.0, first);
-    while is_in_contact(along) {
-        stiffness += 1.0 / teeth.pair_at_load(&place(along), mesh_force)?;
-        along += geometry.base_pitch;
-    }
-    Ok(Deflected {
-        pairs_ahead: mesh_force / (elasticity.width * stiffness),
-        incoming_pair: incoming * force,
-    })
+/// The pairs that carry the load when the incoming pair is at E, ready for any force.
+#[derive(Debug, Clone)]
+pub(super) struct LoadedPairs {
+    /// Common face width b, in m.
+    width: f64,
+    pairs: Carriers,
 }
 
-/// The displacements where several coupled pairs ahead of the one at `start` carry the force.
-fn shared(
-    teeth: &Teeth,
-    start: ContactPlace,
-    ahead: impl Iterator<Item = ContactPlace>,
-    mesh_force: f64,
-) -> Result<Deflected, Refusal> {
-    let places: Vec<ContactPlace> = std::iter::once(start).chain(ahead).collect();
+/// More pairs than most gears have in contact.
+const USUAL_PAIRS: usize = 2;
+
+#[derive(Debug, Clone)]
+enum Carriers {
+    /// Springs of their own, and the displacement of the incoming pair by a unit force on the first
+    /// of them, in m²/N.
+    Apart(SmallVec<[PairCompliance; USUAL_PAIRS]>, f64),
+    /// Several pairs that displace each other, the incoming one first.
+    Coupled(SmallVec<[ContactPlace; USUAL_PAIRS]>),
+}
+
+impl LoadedPairs {
+    /// The pairs of a geometry, whose teeth are built if any pair is in contact at F.
+    ///
+    /// # Errors
+    /// [`Refusal::ContactRatioBelowOne`] where none is, [`Refusal::InterferenceAtEnd`] where the
+    /// only one touches the driven gear inside its base circle, or the compliance's own.
+    pub(super) fn of<'t>(
+        method: Method,
+        geometry: &Geometry,
+        teeth: impl FnOnce() -> Result<&'t Teeth, Refusal>,
+    ) -> Result<LoadedPairs, Refusal> {
+        let is_in_contact =
+            |along: &f64| *along <= geometry.end && *along < geometry.tangent_length;
+        let first = geometry.start + geometry.base_pitch;
+        let ahead = std::iter::successors(Some(first), |along| Some(along + geometry.base_pitch));
+        let mut ahead = ahead.take_while(is_in_contact).peekable();
+        if first <= geometry.end && ahead.peek().is_none() {
+            return Err(Refusal::InterferenceAtEnd {
+                start: geometry.tangent_length - geometry.end,
+            });
+        }
+        if ahead.peek().is_none() {
+            return Err(Refusal::ContactRatioBelowOne {
+                ratio: geometry.contact_ratio,
+                is_deflection_taken: !method.shares_load(),
+            });
+        }
+        let teeth = teeth()?;
+        let place = |along: f64| ContactPlace::on_line_of_action(geometry, along);
+        let start = place(geometry.start);
+        let coupling = if method == Method::Paper {
+            0.0
+        } else {
+            teeth.coupling(&start, &place(first), 1)?
+        };
+        let pairs = if coupling != 0.0 && is_in_contact(&(first + geometry.base_pitch)) {
+            Carriers::Coupled(std::iter::once(start).chain(ahead.map(place)).collect())
+        } else {
+            let pairs = ahead.map(|along| teeth.pair(&place(along)));
+            Carriers::Apart(pairs.collect::<Result<_, _>>()?, coupling)
+        };
+        Ok(LoadedPairs {
+            width: teeth.width(),
+            pairs,
+        })
+    }
+
+    /// The two parts of the combined deflection δ when the incoming pair is at E, in m.
+    ///
+    /// # Formula
+    /// ```text
+    /// δ = x − Σ_k Q_0k F_k/b,   x = Σ_j Q_kj F_j/b,   Σ F_k = F0,   F_k >= 0
+    /// Q_kk = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. while it lies before B
+    /// ```
+    /// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load:
+    /// δ = (Q_11 − Q_01) F0/b. With more, the pairs share it. Teeth that deflect alone (Q_kj = 0),
+    /// and the method `paper`, have δ = F0/(b Σ 1/Q_kk).
+    ///
+    /// # Source
+    /// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in
+    /// its Fig. 3. The displacement of neighbours is not in the paper.
+    ///
+    /// # Errors
+    /// A [`Refusal`] where a contact has no compliance under the load.
+    pub(super) fn deflected(&self, teeth: &Teeth, mesh_force: f64) -> Result<Deflected, Refusal> {
+        match &self.pairs {
+            Carriers::Coupled(places) => shared(teeth, places, mesh_force),
+            Carriers::Apart(pairs, coupling) => {
+                let stiffnesses = pairs.iter().map(|pair| Ok(1.0 / pair.at_load(mesh_force)?));
+                let stiffness: f64 = stiffnesses.sum::<Result<_, Refusal>>()?;
+                Ok(Deflected {
+                    pairs_ahead: mesh_force / (self.width * stiffness),
+                    incoming_pair: coupling * (mesh_force / self.width),
+                })
+            }
+        }
+    }
+}
+
+/// The displacements where several coupled pairs, all but the first of these, carry the force.
+fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Deflected, Refusal> {
     let (mut pairs, mut couplings) = (Vec::new(), Vec::new());
-    for (ahead, place) in (0..).zip(&places) {
+    for (ahead, place) in (0..).zip(places) {
         pairs.push(Pair {
             ahead,
             place: Place {

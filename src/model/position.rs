@@ -10,7 +10,7 @@ pub use super::tip_gap::{TipContact, gap, gap_by_quadrature, tip_at};
 use super::tip_gap::{gap_without, largest_term};
 use super::{Deviation, Refusal};
 use crate::numeric::{Real, root};
-pub(super) use search::first_contact;
+pub(super) use search::{GapSeries, first_contact};
 use search::{KEPT_DIGITS, LARGEST_ANGLE};
 
 /// In double-double arithmetic the gap in closed form may lose this factor of its digits.
@@ -142,15 +142,17 @@ pub fn reduced_curvature(tip_radius: Option<f64>, geometry: &Geometry, tip: &Tip
     tip.curvature_driver * driven / (tip.curvature_driver + driven)
 }
 
-/// Where the tip first touches, by the method; `None` where no tooth strikes. With `precise`, the
-/// same geometry in double-double arithmetic, the exact position is good to the last digit.
+/// Where the tip first touches, by the method; `None` where no tooth strikes. `series` is that of
+/// the geometry. With `precise`, the same geometry in double-double arithmetic, the exact position
+/// is good to the last digit.
 ///
 /// # Errors
 /// A [`Refusal`] where D does not exist or lies beyond the driver's tip.
-pub fn position(
+pub(super) fn position(
     search: &ContactSearch,
     geometry: &Geometry,
     precise: Option<&Geometry<TwoFloat>>,
+    series: &GapSeries,
     deviation: &Deviation<TwoFloat>,
 ) -> Result<Option<Position>, Refusal> {
     let plain = deviation.rounded();
@@ -159,7 +161,7 @@ pub fn position(
     }
     let angle = match search.method {
         Method::Paper => printed_contact(geometry, &plain),
-        _ => first_contact(geometry, plain.total)?,
+        _ => first_contact(geometry, series, plain.total)?,
     };
     let contact = tip_at(geometry, angle);
     let close_call = contact.is_close_call(geometry)

@@ -3,6 +3,7 @@
 mod by_choice;
 mod by_method;
 mod repeat;
+mod setup;
 
 use super::inputs::{Inputs, Method};
 use super::request::Earlier;
@@ -10,6 +11,7 @@ use super::{Refusal, Solution, Stages};
 use by_choice::solve_by_choice;
 use by_method::solve_by_method;
 pub use repeat::solve_repeated;
+pub use setup::Setup;
 
 /// Solve the pair, running only the wanted stages and what they need.
 ///

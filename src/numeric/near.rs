@@ -3,12 +3,29 @@
 /// The sixth power of a smaller number is rounding.
 const SMALL: f64 = 1e-3;
 
+/// The tenth power of half of a smaller number is rounding.
+const NEAR: f64 = 0.05;
+
 /// ln(1 + x).
+///
+/// # Formula
+/// ```text
+/// ln(1 + x) = 2 artanh s = x − x²/2 + s (x²/2 + 2 s²/3 + 2 s⁴/5 + ..),  s = x/(2 + x)
+/// ```
+///
+/// # Source
+/// The arrangement of `log1p` in Sun's fdlibm, with the terms of the series in place of fitted ones.
 #[must_use]
 pub fn logarithm(x: f64) -> f64 {
     if x.abs() < SMALL {
-        let rest = 1.0 / 3.0 - x * (0.25 - x * (0.2 - x / 6.0));
+        let rest = 1.0 / 3.0 - x * (0.25 - x * (0.2 - x * (1.0 / 6.0)));
         x * (1.0 - x * (0.5 - x * rest))
+    } else if x.abs() < NEAR {
+        let (half_square, s) = (0.5 * x * x, x / (2.0 + x));
+        let square = s * s;
+        let rest = 2.0 / 5.0 + square * (2.0 / 7.0 + square * (2.0 / 9.0));
+        let rest = square * (2.0 / 3.0 + square * rest);
+        x - (half_square - s * (half_square + rest))
     } else {
         x.ln_1p()
     }
@@ -18,7 +35,7 @@ pub fn logarithm(x: f64) -> f64 {
 #[must_use]
 pub fn exponential(x: f64) -> f64 {
     if x.abs() < SMALL {
-        let rest = 1.0 / 6.0 + x * (1.0 / 24.0 + x / 120.0);
+        let rest = 1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0));
         1.0 + x * (1.0 + x * (0.5 + x * rest))
     } else {
         x.exp()

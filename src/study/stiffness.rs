@@ -4,8 +4,9 @@ mod path;
 
 pub use path::{PathComparison, PathPoint};
 
+use crate::model::compliance::contact::HalfWidth;
 use crate::model::compliance::tooth::{Tooth, ToothModel, field_of};
-use crate::model::compliance::{ContactPlace, ElasticGear, contact};
+use crate::model::compliance::{ContactPlace, ElasticGear};
 use crate::model::field::Field;
 use crate::model::geometry::{Circles, Geometry, geometry};
 use crate::model::impact::Masses;
@@ -102,7 +103,7 @@ pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
     let elasticity = inputs.elasticity();
     let pitch_point = geometry.start + geometry.approach_length;
     let place = ContactPlace::on_line_of_action(&geometry, pitch_point);
-    let contact_half_width = contact::half_width(&elasticity, &place, mesh_force);
+    let contact_half_width = HalfWidth::of(&elasticity).at(&place, mesh_force);
     let models: Vec<_> = ToothCompliance::ALL
         .into_iter()
         .filter(|model| model.name() != FIELD)

@@ -34,12 +34,20 @@ pub struct ContactModel {
     pub reads_root: bool,
     /// q_H at the impact force and the steps before it.
     pub steps: &'static [Step],
-    /// Offset and slope of q_H = offset − slope ln a per unit width, in m²/N.
-    pub offset_and_slope: OffsetAndSlope,
+    /// How q_H depends on the half-width.
+    pub law: Law,
 }
 
-/// See [`ContactModel::offset_and_slope`].
-type OffsetAndSlope = fn(&Elasticity, &Geometry, &ContactPlace) -> Result<(f64, f64), Refusal>;
+/// Computes the [`ContactLaw`] of a pair.
+#[derive(Debug, Clone, Copy)]
+pub enum Law {
+    /// The same at every place.
+    Everywhere(fn(&Elasticity) -> ContactLaw),
+    /// Computed at each place.
+    AtPlace(LawAtPlace),
+}
+
+type LawAtPlace = fn(&Elasticity, &Geometry, &ContactPlace) -> Result<ContactLaw, Refusal>;
 
 /// The compliance of a contact as its half-width grows with the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,6 +126,7 @@ impl ContactSpring {
     /// [`Refusal::HertzWidthTooLarge`] where the half-width outgrows the formula before they agree.
     pub fn impact(&self, teeth: f64, momentum: f64) -> Result<(f64, f64), Refusal> {
         const STEPS: usize = 50;
+        /// After a step the error of y is a sixteenth of the square of `step · slope/q`.
         const SETTLED: f64 = 1e-8;
         let stiffest = momentum / teeth.sqrt();
         let ContactLaw { offset, slope } = self.law;
@@ -130,11 +139,11 @@ impl ContactSpring {
                 break;
             }
             let residual = force_logarithm + 0.5 * compliance_logarithm;
-            let step = residual / (1.0 - 0.25 * slope / compliance);
+            let relative_slope = slope / compliance;
+            let step = residual / (1.0 - 0.25 * relative_slope);
             force_logarithm -= step;
-            let before = compliance;
             compliance = at_stiffest - 0.5 * slope * force_logarithm;
-            if step.abs() <= SETTLED {
+            if step.abs() * relative_slope.min(1.0) <= SETTLED {
                 let force = momentum / compliance.sqrt();
                 return if compliance - teeth > self.least {
                     Ok((force, compliance))
@@ -142,7 +151,7 @@ impl ContactSpring {
                     Err(self.too_wide(self.half_width(force)))
                 };
             }
-            compliance_logarithm += logarithm((compliance - before) / before);
+            compliance_logarithm += logarithm(0.5 * relative_slope * step);
         }
         Err(self.too_wide(self.half_width(stiffest)))
     }
@@ -156,50 +165,89 @@ impl ContactSpring {
     }
 }
 
-/// The contact between two flanks, by the model of the case.
-///
-/// # Errors
-/// Those of the tooth's profile, whose thickness `weber` reads.
-pub fn spring(
-    elasticity: &Elasticity,
-    geometry: &Geometry,
-    place: &ContactPlace,
-) -> Result<ContactSpring, Refusal> {
-    let model = elasticity.contact.model();
-    let (offset, slope) = (model.offset_and_slope)(elasticity, geometry, place)?;
-    Ok(ContactSpring {
-        law: ContactLaw { offset, slope },
-        least: 0.0,
-        width_per_root_force: width_per_root_force(elasticity, place),
-    })
+/// The contact between the flanks of a pair by the model of the case, ready for any place.
+#[derive(Debug, Clone, Copy)]
+pub struct PairContact {
+    law: PairLaw,
+    half_width: HalfWidth,
 }
 
-/// The contact of teeth whose model includes it: `teeth` is their compliance without contact, in
-/// m²/N.
-#[must_use]
-pub fn own_spring(
-    elasticity: &Elasticity,
-    place: &ContactPlace,
-    teeth: f64,
-    law: ContactLaw,
-) -> ContactSpring {
-    ContactSpring {
-        law,
-        least: -teeth,
-        width_per_root_force: width_per_root_force(elasticity, place),
+#[derive(Debug, Clone, Copy)]
+enum PairLaw {
+    Everywhere(ContactLaw),
+    AtPlace(LawAtPlace),
+}
+
+impl PairContact {
+    /// The contact of a pair.
+    #[must_use]
+    pub fn of(elasticity: &Elasticity) -> PairContact {
+        PairContact {
+            law: match elasticity.contact.model().law {
+                Law::Everywhere(law) => PairLaw::Everywhere(law(elasticity)),
+                Law::AtPlace(law) => PairLaw::AtPlace(law),
+            },
+            half_width: HalfWidth::of(elasticity),
+        }
+    }
+
+    /// The contact at a place of the same pair.
+    ///
+    /// # Errors
+    /// Those of the tooth's profile, whose thickness `weber` reads.
+    pub fn spring(
+        &self,
+        elasticity: &Elasticity,
+        geometry: &Geometry,
+        place: &ContactPlace,
+    ) -> Result<ContactSpring, Refusal> {
+        let law = match self.law {
+            PairLaw::Everywhere(law) => law,
+            PairLaw::AtPlace(law) => law(elasticity, geometry, place)?,
+        };
+        Ok(self.half_width.spring(place, 0.0, law))
     }
 }
 
-/// Hertz half-width at a force, in m, by the formula of [`ContactSpring::half_width`]; no model of
-/// the compliance enters it.
-#[must_use]
-pub fn half_width(elasticity: &Elasticity, place: &ContactPlace, force: f64) -> f64 {
-    width_per_root_force(elasticity, place) * force.sqrt()
+/// Hertz half-width of the contact of a pair; no model of the compliance enters it.
+#[derive(Debug, Clone, Copy)]
+pub struct HalfWidth {
+    /// 1/E', in 1/Pa.
+    give: f64,
+    /// Common face width b, in m.
+    width: f64,
 }
 
-fn width_per_root_force(elasticity: &Elasticity, place: &ContactPlace) -> f64 {
-    let give = plane_strain_compliance(elasticity);
-    (4.0 * place.curvature_radius * give / (PI * elasticity.width)).sqrt()
+impl HalfWidth {
+    /// The half-width of a pair.
+    #[must_use]
+    pub fn of(elasticity: &Elasticity) -> HalfWidth {
+        HalfWidth {
+            give: plane_strain_compliance(elasticity),
+            width: elasticity.width,
+        }
+    }
+
+    /// Half-width at a place and a force, in m, by the formula of [`ContactSpring::half_width`].
+    #[must_use]
+    pub fn at(&self, place: &ContactPlace, force: f64) -> f64 {
+        self.per_root_force(place) * force.sqrt()
+    }
+
+    /// The contact by a law at a place; `teeth` is the compliance without contact, in m²/N, of
+    /// teeth whose model includes the contact, else 0.
+    #[must_use]
+    pub fn spring(&self, place: &ContactPlace, teeth: f64, law: ContactLaw) -> ContactSpring {
+        ContactSpring {
+            law,
+            least: -teeth,
+            width_per_root_force: self.per_root_force(place),
+        }
+    }
+
+    fn per_root_force(&self, place: &ContactPlace) -> f64 {
+        (4.0 * place.curvature_radius * self.give / (PI * self.width)).sqrt()
+    }
 }
 
 /// 1/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, in 1/Pa.
@@ -216,7 +264,10 @@ fn give(gear: &ElasticGear) -> f64 {
 /// The contact under the impact force, for the step q_H.
 fn at_impact(context: &Context) -> Option<f64> {
     let (elasticity, geometry) = (context.inputs.elasticity(), &context.solution.geometry);
-    let spring = spring(&elasticity, geometry, &place_at_d(context)?).ok()?;
+    let contact = PairContact::of(&elasticity);
+    let spring = contact
+        .spring(&elasticity, geometry, &place_at_d(context)?)
+        .ok()?;
     spring.compliance(context.solution.impact?.force).ok()
 }
 

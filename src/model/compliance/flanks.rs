@@ -1,9 +1,9 @@
 //! Compliance of the teeth along the flanks that the path of contact uses, computed once and then
 //! cheap.
 
-use super::contact::ContactLaw;
+use super::contact::{ContactLaw, HalfWidth, PairContact};
 use super::tooth::Tooth;
-use super::{ContactPlace, Elasticity, contact};
+use super::{ContactPlace, Elasticity};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
 use crate::numeric::chebyshev::Series;
@@ -126,9 +126,9 @@ impl Flanks {
         let spring = match self.slope {
             Some(slope) => {
                 let offset = driver[OFFSET] + driven[OFFSET];
-                contact::own_spring(elasticity, place, teeth, ContactLaw { offset, slope })
+                HalfWidth::of(elasticity).spring(place, teeth, ContactLaw { offset, slope })
             }
-            None => contact::spring(elasticity, geometry, place)?,
+            None => PairContact::of(elasticity).spring(elasticity, geometry, place)?,
         };
         Ok(teeth + spring.compliance(force)?)
     }

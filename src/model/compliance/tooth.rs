@@ -5,6 +5,7 @@ pub mod beam;
 pub mod finite_element;
 pub mod kuang_yang;
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
 pub use finite_element::{field_gear, field_of};
@@ -66,7 +67,7 @@ pub enum Compliance {
 }
 
 /// The teeth of one gear under a load, built by a [`Compliance::PerGear`].
-pub trait LoadedTooth: Send + Sync {
+pub trait LoadedTooth: Debug + Send + Sync {
     /// Compliance of the tooth loaded at a radius, contact excluded, in m²/N.
     ///
     /// # Errors
@@ -102,42 +103,44 @@ pub trait LoadedTooth: Send + Sync {
 }
 
 /// One tooth of a gear, ready for any load point.
-pub struct Tooth<'a> {
-    gear: &'a ElasticGear,
-    circles: &'a Circles,
+#[derive(Debug, Clone)]
+pub struct Tooth {
+    gear: ElasticGear,
+    circles: Circles,
     serves: Serves,
 }
 
+#[derive(Debug, Clone)]
 enum Serves {
     AtRadius(ByRadius),
     Built(Arc<dyn LoadedTooth>),
 }
 
-impl<'a> Tooth<'a> {
+impl Tooth {
     /// The tooth of a gear by a model.
     ///
     /// # Errors
     /// Those of the model, where it builds an object for the gear.
     pub fn of(
         model: ToothCompliance,
-        gear: &'a ElasticGear,
-        circles: &'a Circles,
-    ) -> Result<Tooth<'a>, Refusal> {
+        gear: &ElasticGear,
+        circles: &Circles,
+    ) -> Result<Tooth, Refusal> {
         Tooth::by(&model.model().compliance, gear, circles)
     }
 
     fn by(
         compliance: &Compliance,
-        gear: &'a ElasticGear,
-        circles: &'a Circles,
-    ) -> Result<Tooth<'a>, Refusal> {
+        gear: &ElasticGear,
+        circles: &Circles,
+    ) -> Result<Tooth, Refusal> {
         let serves = match compliance {
             Compliance::AtRadius(of) => Serves::AtRadius(*of),
             Compliance::PerGear(build) => Serves::Built(build(gear, circles)?),
         };
         Ok(Tooth {
-            gear,
-            circles,
+            gear: *gear,
+            circles: *circles,
             serves,
         })
     }
@@ -148,8 +151,8 @@ impl<'a> Tooth<'a> {
     /// A [`Refusal`] outside the range of the model.
     pub fn at(&self, radius: f64) -> Result<f64, Refusal> {
         match &self.serves {
-            Serves::AtRadius(of) => of(self.gear, self.circles, radius),
-            Serves::Built(built) => built.at(self.gear, radius),
+            Serves::AtRadius(of) => of(&self.gear, &self.circles, radius),
+            Serves::Built(built) => built.at(&self.gear, radius),
         }
     }
 
@@ -160,7 +163,7 @@ impl<'a> Tooth<'a> {
     pub fn contact(&self, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
         match &self.serves {
             Serves::AtRadius(_) => Ok(None),
-            Serves::Built(built) => built.contact(self.gear, radius),
+            Serves::Built(built) => built.contact(&self.gear, radius),
         }
     }
 
@@ -177,7 +180,7 @@ impl<'a> Tooth<'a> {
     pub fn neighbour(&self, loaded: f64, measured: f64, pitches: i32) -> Result<f64, Refusal> {
         match &self.serves {
             Serves::AtRadius(_) => Ok(0.0),
-            Serves::Built(built) => built.neighbour(self.gear, [loaded, measured], pitches),
+            Serves::Built(built) => built.neighbour(&self.gear, [loaded, measured], pitches),
         }
     }
 
@@ -240,6 +243,7 @@ mod tests {
 
     static BUILT: AtomicUsize = AtomicUsize::new(0);
 
+    #[derive(Debug)]
     struct Field(f64);
 
     impl LoadedTooth for Field {

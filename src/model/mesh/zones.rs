@@ -5,7 +5,7 @@ use crate::model::Refusal;
 use crate::model::compliance::ContactPlace;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::geometry::{Geometry, geometry};
-use crate::model::position::first_contact;
+use crate::model::position::{GapSeries, first_contact};
 use crate::model::relief::Relief;
 use crate::model::tip_gap::{TipContact, angle_at_curvature, gap, tip_at};
 use crate::numeric::chebyshev::Series;
@@ -146,7 +146,8 @@ impl End {
             LARGEST_ANGLE
         };
         let whole = self.end_of_rounding(whole);
-        match first_contact(&self.geometry, reach) {
+        let series = GapSeries::of(&self.geometry);
+        match first_contact(&self.geometry, &series, reach) {
             Ok(angle) if angle < whole => (angle, false),
             _ => (whole, true),
         }

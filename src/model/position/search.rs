@@ -14,22 +14,27 @@ pub(super) const LARGEST_ANGLE: f64 = 1.5;
 /// ten times as costly, serves.
 pub(super) const KEPT_DIGITS: f64 = 512.0;
 
-/// The angle u at which the tip has closed the gap Δ: `S(u) = Δ`.
+/// The angle u at which the tip has closed the gap Δ, `S(u) = Δ`, for which `series` is that of the
+/// geometry.
 ///
-/// Newton's method of fourth order on ln S against ln u, from [`near_start`], until a step with all
+/// Newton's method of fourth order on ln S against ln u, from the series, until a step with all
 /// digits of the gap.
 ///
 /// # Errors
 /// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such
 /// a deviation.
-pub(in crate::model) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, Refusal> {
+pub(in crate::model) fn first_contact(
+    geometry: &Geometry,
+    series: &GapSeries,
+    deviation: f64,
+) -> Result<f64, Refusal> {
     const STEPS: usize = 60;
     /// A last step with all digits follows a step as small as this.
     const SETTLED: f64 = 1e-4;
     /// The fourth power of such a step is rounding.
     const EXACT: f64 = 2e-4;
     const ON_THE_WAY: f64 = 1e8;
-    let mut angle = near_start(geometry, deviation);
+    let mut angle = series.angle(geometry, deviation);
     for _ in 0..STEPS {
         let tip = tip_at(geometry, angle);
         let has_digits = largest_term(geometry, &tip) <= KEPT_DIGITS * gap(geometry, &tip);
@@ -51,57 +56,78 @@ pub(in crate::model) fn first_contact(geometry: &Geometry, deviation: f64) -> Re
     Err(Refusal::NoFirstContact { deviation })
 }
 
-/// An angle u near `S(u) = deviation`, in rad: by the reversed power series of S about E, or where
-/// that does not converge by its first term, but no further than the driver's tip.
+/// The power series of the gap S about E, reversed.
 ///
 /// # Formula
 /// ```text
 /// S = S2 u²/2 (1 + A u + B u² + C u³),  A = S3/(3 S2),  B = S4/(12 S2),  C = S5/(60 S2)
+/// u = p (1 + c1 p + c2 p² + c3 p³),  p = √(2 S/S2)
 /// ρ1 ρ1' = a ra2 sin η,  rb1 χ' = ρ1' + rb2',  S' = rb2 − rb2',  rb2' = a cos χ − rb1
 /// ```
 /// where S2 to S5 are the derivatives of S at E, p0 to p3 below those of ρ1' and x1 to x4 those of
 /// χ.
-fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
-    let Geometry { driver, driven, .. } = geometry;
-    let (curvature, tangent) = (geometry.start + driven.edge, geometry.tangent_length);
-    let bases = driver.base + driven.base;
-    let square = geometry.centre_distance * geometry.centre_distance;
-    let inverse = curvature.recip();
-    let x1 = (driven.tip_curvature - driven.edge) * inverse;
-    let p0 = driver.base * x1 - driven.base;
-    let p1 = (square - driver.base * bases - curvature * tangent - p0 * p0) * inverse;
-    let p2 = -p0 - 3.0 * p0 * p1 * inverse;
-    let p3 = -p1 - 3.0 * (p1 * p1 + p0 * p2 - p0 * p0 * p1 * inverse) * inverse;
-    let per_base = driver.base.recip();
-    let s2 = tangent * x1;
-    let x2 = (p1 - s2) * per_base;
-    let s3 = bases * x1 * x1 + tangent * x2;
-    let x3 = (p2 - s3) * per_base;
-    let s4 = 3.0 * bases * x1 * x2 + tangent * (x3 - x1 * x1 * x1);
-    let x4 = (p3 - s4) * per_base;
-    let s5 = bases * (3.0 * x2 * x2 + 4.0 * x1 * x3 - x1 * x1 * x1 * x1)
-        + tangent * (x4 - 6.0 * x1 * x1 * x2);
-    let per_curve = s2.recip();
-    let (a, b, c) = (
-        s3 * per_curve / 3.0,
-        s4 * per_curve / 12.0,
-        s5 * per_curve / 60.0,
-    );
-    // The root of the bracket, as 1 + a1 u + a2 u² + a3 u³.
-    let (a1, a2) = (0.5 * a, 0.5 * b - 0.125 * a * a);
-    let a3 = 0.5 * c - 0.25 * a * b + 0.0625 * a * a * a;
-    let parabola = (2.0 * deviation * per_curve).sqrt();
-    let first = -a1 * parabola;
-    let second = (2.0 * a1 * a1 - a2) * parabola * parabola;
-    let third = (5.0 * a1 * (a2 - a1 * a1) - a3) * parabola * parabola * parabola;
-    // As if the rest of the series were geometric: ρ1 has a branch point not far before E.
-    let rest = second / (1.0 - third / second);
-    if first.abs() < 0.2 && rest.abs() < first.abs() {
-        return (parabola * (1.0 + first + rest)).min(LARGEST_ANGLE);
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::model) struct GapSeries {
+    /// 1/S2, in 1/m.
+    per_curve: f64,
+    /// c1 to c3.
+    terms: [f64; 3],
+}
+
+impl GapSeries {
+    /// The series of a pair.
+    pub(in crate::model) fn of(geometry: &Geometry) -> GapSeries {
+        let Geometry { driver, driven, .. } = geometry;
+        let (curvature, tangent) = (geometry.start + driven.edge, geometry.tangent_length);
+        let bases = driver.base + driven.base;
+        let square = geometry.centre_distance * geometry.centre_distance;
+        let inverse = curvature.recip();
+        let x1 = (driven.tip_curvature - driven.edge) * inverse;
+        let p0 = driver.base * x1 - driven.base;
+        let p1 = (square - driver.base * bases - curvature * tangent - p0 * p0) * inverse;
+        let p2 = -p0 - 3.0 * p0 * p1 * inverse;
+        let p3 = -p1 - 3.0 * (p1 * p1 + p0 * p2 - p0 * p0 * p1 * inverse) * inverse;
+        let per_base = driver.base.recip();
+        let s2 = tangent * x1;
+        let x2 = (p1 - s2) * per_base;
+        let s3 = bases * x1 * x1 + tangent * x2;
+        let x3 = (p2 - s3) * per_base;
+        let s4 = 3.0 * bases * x1 * x2 + tangent * (x3 - x1 * x1 * x1);
+        let x4 = (p3 - s4) * per_base;
+        let s5 = bases * (3.0 * x2 * x2 + 4.0 * x1 * x3 - x1 * x1 * x1 * x1)
+            + tangent * (x4 - 6.0 * x1 * x1 * x2);
+        let per_curve = s2.recip();
+        let (a, b, c) = (
+            s3 * per_curve / 3.0,
+            s4 * per_curve / 12.0,
+            s5 * per_curve / 60.0,
+        );
+        // The root of the bracket, as 1 + a1 u + a2 u² + a3 u³.
+        let (a1, a2) = (0.5 * a, 0.5 * b - 0.125 * a * a);
+        let a3 = 0.5 * c - 0.25 * a * b + 0.0625 * a * a * a;
+        GapSeries {
+            per_curve,
+            terms: [-a1, 2.0 * a1 * a1 - a2, 5.0 * a1 * (a2 - a1 * a1) - a3],
+        }
     }
-    parabola
-        .min(angle_at_curvature(geometry, geometry.end))
-        .min(LARGEST_ANGLE)
+
+    /// An angle u near `S(u) = deviation`, in rad: by the series, or where that does not converge
+    /// by its first term, but no further than the driver's tip.
+    fn angle(&self, geometry: &Geometry, deviation: f64) -> f64 {
+        let parabola = (2.0 * deviation * self.per_curve).sqrt();
+        let [first, second, third] = self.terms;
+        let first = first * parabola;
+        let second = second * parabola * parabola;
+        let third = third * parabola * parabola * parabola;
+        // As if the rest of the series were geometric: ρ1 has a branch point not far before E.
+        let rest = second / (1.0 - third / second);
+        if first.abs() < 0.2 && rest.abs() < first.abs() {
+            return (parabola * (1.0 + first + rest)).min(LARGEST_ANGLE);
+        }
+        parabola
+            .min(angle_at_curvature(geometry, geometry.end))
+            .min(LARGEST_ANGLE)
+    }
 }
 
 /// Step of ln u towards `S = deviation`, of fourth order, with the gap by quadrature where the

@@ -4,7 +4,8 @@ use std::cell::{Cell, OnceCell};
 
 use twofloat::TwoFloat;
 
-use crate::model::compliance::{ContactPlace, Teeth};
+use crate::model::compliance::ContactPlace;
+use crate::model::deviation::Deflected;
 use crate::model::impact::Masses;
 use crate::model::inputs::Inputs;
 use crate::model::request::{Earlier, Request};
@@ -15,6 +16,8 @@ use crate::model::{
     geometry, impact, load_sharing, position, stations, stiffness_spread, velocity,
 };
 use crate::numeric::Real;
+
+use super::setup::Setup;
 
 /// Solves by the method of the inputs, which is not `auto`; an earlier solve by another method is
 /// of no use.
@@ -36,6 +39,7 @@ pub(super) fn solve_by_method(
     };
     Solving {
         asked,
+        setup: &Setup::of(inputs),
         precise: OnceCell::new(),
     }
     .run(go_on)
@@ -44,13 +48,14 @@ pub(super) fn solve_by_method(
 /// A solve on its way.
 pub(super) struct Solving<'a> {
     asked: Request<'a>,
+    setup: &'a Setup,
     /// Geometry in double-double arithmetic, where it is called for.
     precise: OnceCell<Option<Geometry<TwoFloat>>>,
 }
 
 impl<'a> Solving<'a> {
     /// One that begins with the load and has no other geometry than the one in f64.
-    pub(super) fn from_load(inputs: &'a Inputs, wanted: Stages) -> Solving<'a> {
+    pub(super) fn from_load(inputs: &'a Inputs, wanted: Stages, setup: &'a Setup) -> Solving<'a> {
         Solving {
             asked: Request {
                 inputs,
@@ -58,6 +63,7 @@ impl<'a> Solving<'a> {
                 earlier: None,
                 changed: Cell::default(),
             },
+            setup,
             precise: OnceCell::from(None),
         }
     }
@@ -67,8 +73,7 @@ impl<'a> Solving<'a> {
     pub(super) fn repeat(&self, solution: &mut Solution) -> Result<(), Refusal> {
         let inputs = self.asked.inputs;
         solution.mesh_force = inputs.torque() / solution.geometry.driver.base;
-        let deviation =
-            deviation::deviation(&inputs.deviation(), &solution.geometry, solution.mesh_force)?;
+        let deviation = self.deviation(&solution.geometry, solution.mesh_force)?;
         solution.deviation = deviation.rounded();
         solution.kept.deviation = deviation;
         solution.outcome = outcome(&deviation);
@@ -101,6 +106,20 @@ fn outcome(deviation: &Deviation<TwoFloat>) -> Outcome {
 }
 
 impl Solving<'_> {
+    /// What brings the tooth in early.
+    fn deviation(
+        &self,
+        geometry: &Geometry,
+        mesh_force: f64,
+    ) -> Result<Deviation<TwoFloat>, Refusal> {
+        let inputs = self.asked.inputs;
+        let deflected = match inputs.deflection_taken() {
+            Some(given) => Deflected::alone(given),
+            None => self.setup.deflected(geometry, mesh_force)?,
+        };
+        Ok(deviation::deviation(&inputs.errors(), deflected))
+    }
+
     fn run(&self, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
         let mut solution = self.begun()?;
         if self.asked.wanted.has(Stage::Position) {
@@ -165,7 +184,7 @@ impl Solving<'_> {
             earlier.kept.deviation
         } else {
             ran = ran.with(Stage::Deviation);
-            let deviation = deviation::deviation(&inputs.deviation(), &geometry, mesh_force)?;
+            let deviation = self.deviation(&geometry, mesh_force)?;
             self.asked
                 .note(Stage::Deviation, |s| s.kept.deviation == deviation);
             deviation
@@ -235,9 +254,10 @@ impl Solving<'_> {
             solution.ran = solution.ran.with(Stage::Position);
             let precise = self.precise(&solution.geometry)?;
             let found = position::position(
-                &self.asked.inputs.contact_search(),
+                &self.setup.search,
                 &solution.geometry,
                 precise.as_ref(),
+                self.setup.series(&solution.geometry),
                 &solution.kept.deviation,
             );
             let position = found.as_ref().ok().copied().flatten();
@@ -264,7 +284,7 @@ impl Solving<'_> {
     /// The stages from the velocity on, as far as they are wanted and can be computed.
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
         let (inputs, geometry, tip) = (self.asked.inputs, solution.geometry, &position.contact);
-        let strike = inputs.impact();
+        let (setup, strike) = (self.setup, &self.setup.impact);
         let masses = solution.kept.masses;
         solution.velocity = self.stage(
             solution,
@@ -273,20 +293,15 @@ impl Solving<'_> {
             || Ok(velocity::velocity(inputs.driven_speed(), tip)),
         )?;
         let place = || ContactPlace::at_tip(strike.tip_radius, &geometry, tip);
-        let known = OnceCell::new();
-        let both = || {
-            let teeth = known.get_or_init(|| Teeth::of(&strike.elasticity, &geometry));
-            teeth.as_ref().map_err(|refusal| *refusal)
-        };
-        let borne = || both()?.at(&place());
+        let borne = || setup.teeth(&geometry)?.at(&place());
         solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
         let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
             return Ok(());
         };
         let struck = || {
-            let spring = both()?.spring(&place())?;
+            let spring = setup.teeth(&geometry)?.spring(&place())?;
             let elastic = (&teeth, &spring);
-            impact::impact(&strike, &geometry, &masses, tip, elastic, &velocity)
+            impact::impact(strike, &geometry, &masses, tip, elastic, &velocity)
         };
         let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else {
             return Ok(());
@@ -294,7 +309,7 @@ impl Solving<'_> {
         solution.impact = Some(impact);
         let rubbed = || {
             Ok(friction::friction(
-                &strike,
+                strike,
                 &geometry,
                 tip,
                 &velocity,
@@ -311,7 +326,7 @@ impl Solving<'_> {
         )?;
         let stood = || {
             Ok(stations::stations(
-                (&strike, Spacing::of(inputs)),
+                (strike, Spacing::of(inputs)),
                 &geometry,
                 &masses,
                 position,

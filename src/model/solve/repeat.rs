@@ -1,6 +1,7 @@
 //! A closed-form solve repeated in place with another load or other deviations, as studies do.
 
 use super::by_method::Solving;
+use super::setup::Setup;
 use crate::model::inputs::{Drive, Inputs, Method};
 use crate::model::stage::Stages;
 use crate::model::{Refusal, Solution};
@@ -8,13 +9,15 @@ use crate::model::{Refusal, Solution};
 /// Solves again in place, if `inputs` differ from those of the solution in nothing but load and
 /// deviations and the wanted stages have a closed form. The results are those of
 /// [`solve`](super::solve) to the last bit, without its comparisons of the other stages' inputs.
-/// `None` if more differs; inputs and solution then stay.
+/// `setup` keeps what all repeats share; it is empty for the first. `None` if more differs; inputs,
+/// solution and setup then stay.
 ///
 /// # Errors
 /// Those of [`solve`](super::solve); the solution is then of no use.
 pub fn solve_repeated(
     before: &mut Inputs,
     solution: &mut Solution,
+    setup: &mut Option<Setup>,
     inputs: &Inputs,
     wanted: Stages,
 ) -> Option<Result<(), Refusal>> {
@@ -30,7 +33,8 @@ pub fn solve_repeated(
         earlier.put(before);
         return None;
     }
-    Some(Solving::from_load(inputs, wanted).repeat(solution))
+    let setup = setup.get_or_insert_with(|| Setup::of(inputs));
+    Some(Solving::from_load(inputs, wanted, setup).repeat(solution))
 }
 
 /// What the stages of load and deviation read of the inputs, and no other stage with a closed form.
@@ -116,11 +120,12 @@ mod tests {
         for method in Method::CLOSED_FORM {
             let mut before = Inputs { method, ..pair() };
             let mut solution = solve(&before, Stages::CLOSED_FORM).unwrap();
-            let mut inputs = before.clone();
+            let (mut inputs, mut setup) = (before.clone(), None);
             for edit in edits() {
                 edit(&mut inputs);
                 for wanted in [Stages::of(Stage::Impact), Stages::CLOSED_FORM] {
-                    let repeated = solve_repeated(&mut before, &mut solution, &inputs, wanted);
+                    let repeated =
+                        solve_repeated(&mut before, &mut solution, &mut setup, &inputs, wanted);
                     assert_eq!(repeated, Some(Ok(())), "{inputs:?}");
                     let plain = solve(&inputs, wanted).unwrap();
                     let ran = solution.ran;
@@ -140,7 +145,8 @@ mod tests {
             ..inputs.clone()
         };
         other.driven.density *= 1.1;
-        let repeated = solve_repeated(&mut before, &mut solution, &other, Stages::CLOSED_FORM);
+        let wanted = Stages::CLOSED_FORM;
+        let repeated = solve_repeated(&mut before, &mut solution, &mut None, &other, wanted);
         assert_eq!(repeated, None);
         assert_eq!((before, solution), (inputs, kept));
     }

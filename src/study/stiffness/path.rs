@@ -96,8 +96,8 @@ impl PathComparison {
 
 /// The pairs of a mesh by one model.
 struct Mesh<'a> {
-    teeth: Teeth<'a>,
-    gears: [Tooth<'a>; 2],
+    teeth: Teeth,
+    gears: [Tooth; 2],
     geometry: &'a Geometry,
     force: f64,
 }

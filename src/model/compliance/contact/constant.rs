@@ -2,12 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::{ContactModel, at_impact, plane_strain_compliance};
-use crate::model::Refusal;
-use crate::model::compliance::{ContactPlace, Elasticity};
+use super::{ContactLaw, ContactModel, Law, at_impact, plane_strain_compliance};
+use crate::model::compliance::Elasticity;
 use crate::model::explanation::Formula::Text;
 use crate::model::explanation::Step;
-use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
 
 /// The row of the list.
@@ -24,7 +22,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
         formula: Text("2/(π E')"),
         value: at_impact,
     }],
-    offset_and_slope: constant,
+    law: Law::Everywhere(constant),
 };
 
 impl ContactCompliance {
@@ -37,14 +35,9 @@ impl ContactCompliance {
 /// # Source
 /// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the
 /// mean of both.
-#[expect(
-    clippy::unnecessary_wraps,
-    reason = "every model of the list has one signature"
-)]
-fn constant(
-    elasticity: &Elasticity,
-    _: &Geometry,
-    _: &ContactPlace,
-) -> Result<(f64, f64), Refusal> {
-    Ok((2.0 * plane_strain_compliance(elasticity) / PI, 0.0))
+fn constant(elasticity: &Elasticity) -> ContactLaw {
+    ContactLaw {
+        offset: 2.0 * plane_strain_compliance(elasticity) / PI,
+        slope: 0.0,
+    }
 }

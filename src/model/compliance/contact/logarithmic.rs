@@ -2,12 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::{ContactModel, at_impact, plane_strain_compliance};
-use crate::model::Refusal;
-use crate::model::compliance::{ContactPlace, Elasticity};
+use super::{ContactLaw, ContactModel, Law, at_impact, plane_strain_compliance};
+use crate::model::compliance::Elasticity;
 use crate::model::explanation::Formula::Text;
 use crate::model::explanation::Step;
-use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
 
 /// The row of the list.
@@ -24,7 +22,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
         formula: Text("(1.27 + 0.781 ln(m/a_H))/(π E')"),
         value: at_impact,
     }],
-    offset_and_slope: logarithmic,
+    law: Law::Everywhere(logarithmic),
 };
 
 impl ContactCompliance {
@@ -45,20 +43,12 @@ impl ContactCompliance {
 ///
 /// # Valid for
 /// A half-width small against the module: q_H is negative from a = 5.08 m on.
-#[expect(
-    clippy::unnecessary_wraps,
-    reason = "every model of the list has one signature"
-)]
-fn logarithmic(
-    elasticity: &Elasticity,
-    _: &Geometry,
-    _: &ContactPlace,
-) -> Result<(f64, f64), Refusal> {
+fn logarithmic(elasticity: &Elasticity) -> ContactLaw {
     const CONSTANT: f64 = 1.27;
     const FACTOR: f64 = 0.781;
     let give = plane_strain_compliance(elasticity);
-    Ok((
-        give / PI * (CONSTANT + FACTOR * elasticity.driver.rack.module.ln()),
-        give / PI * FACTOR,
-    ))
+    ContactLaw {
+        offset: give / PI * (CONSTANT + FACTOR * elasticity.driver.rack.module.ln()),
+        slope: give / PI * FACTOR,
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{ContactModel, at_impact, give, place_at_d};
+use super::{ContactLaw, ContactModel, Law, at_impact, give, place_at_d};
 use crate::model::Refusal;
 use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::explanation::Formula::{Text, Words};
@@ -50,7 +50,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
             },
         },
     ],
-    offset_and_slope: weber,
+    law: Law::AtPlace(weber),
 };
 
 impl ContactCompliance {
@@ -79,13 +79,13 @@ fn weber(
     elasticity: &Elasticity,
     geometry: &Geometry,
     place: &ContactPlace,
-) -> Result<(f64, f64), Refusal> {
+) -> Result<ContactLaw, Refusal> {
     let of = |gear: &ElasticGear, depth: f64| {
         let scale = give(gear) / PI;
-        (
-            scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)),
-            2.0 * scale,
-        )
+        ContactLaw {
+            offset: scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)),
+            slope: 2.0 * scale,
+        }
     };
     let driver = depth(
         &Profile::of_flank(&elasticity.driver.rack, &geometry.driver),
@@ -96,11 +96,7 @@ fn weber(
         place.radius_driven,
     )
     .map_err(Refusal::at_driven)?;
-    let (first, second) = (
-        of(&elasticity.driver, driver),
-        of(&elasticity.driven, driven),
-    );
-    Ok((first.0 + second.0, first.1 + second.1))
+    Ok(of(&elasticity.driver, driver) + of(&elasticity.driven, driven))
 }
 
 /// Depth from the flank to the tooth's centre line at a radius, where there is a tooth.
