@@ -1,6 +1,6 @@
 //! A varied field: its values as a user writes them, and as the model reads them.
 
-use crate::case::fields::{FIELDS, Field, Kind, Value, index_of};
+use crate::case::fields::{AUTO, FIELDS, Field, Kind, Value, index_of};
 use crate::case::units::{self, Dimension};
 use crate::case::{Problem, field_value, unknown_key};
 use crate::model::Inputs;
@@ -26,9 +26,9 @@ pub struct Axis {
 /// One value of a varied field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisPoint {
-    /// The value in the unit of the axis, or the name of a choice.
+    /// The value in the unit of the axis, or the name of a choice or "auto".
     pub text: String,
-    /// The number in the unit of the axis; `None` for a choice.
+    /// The number in the unit of the axis; `None` for a choice or "auto".
     pub number: Option<f64>,
     value: Value,
 }
@@ -43,6 +43,26 @@ pub struct Sampling {
 }
 
 impl AxisPoint {
+    /// The point at a number in a unit.
+    fn at(number: f64, unit: &str, field: usize) -> Result<AxisPoint, Problem> {
+        let text = shortest(number);
+        let value = field_value(field, &with_unit(&text, unit))?;
+        Ok(AxisPoint {
+            text,
+            number: Some(number),
+            value,
+        })
+    }
+
+    /// The point of a name.
+    fn named(name: &str, field: usize) -> Result<AxisPoint, Problem> {
+        Ok(AxisPoint {
+            text: name.to_owned(),
+            number: None,
+            value: field_value(field, name)?,
+        })
+    }
+
     /// Puts the value into a model's inputs.
     pub fn put(&self, field: usize, inputs: &mut Inputs) {
         FIELDS[field].put(self.value, inputs);
@@ -104,18 +124,23 @@ impl AxisRange {
     pub fn parse(text: &str) -> Result<AxisRange, Problem> {
         let (field, values) = assignment(text)?;
         let known = &FIELDS[field];
+        let uncrossed = match known.kind {
+            Kind::Choice(..) => Some("a choice"),
+            Kind::Count(..) => Some("a whole number"),
+            _ => None,
+        };
+        if let Some(kind) = uncrossed {
+            return Err(problem(
+                known,
+                format!("{kind} has no crossing between its values"),
+                format!("use sweep --vary '{}={values}'", known.key),
+            ));
+        }
         if !is_range(values) {
             return Err(problem(
                 known,
                 "this is not a range",
                 format!("write {}=FROM..TO", known.key),
-            ));
-        }
-        if matches!(known.kind, Kind::Count(..)) {
-            return Err(problem(
-                known,
-                "a whole number has no crossing between its values",
-                format!("use sweep --vary '{}={values}'", known.key),
             ));
         }
         AxisRange::of(field, values)
@@ -162,13 +187,7 @@ impl AxisRange {
     /// # Errors
     /// Where the field does not take the value.
     pub fn at(&self, number: f64) -> Result<AxisPoint, Problem> {
-        let text = shortest(number);
-        let value = field_value(self.field, &with_unit(&text, &self.unit))?;
-        Ok(AxisPoint {
-            text,
-            number: Some(number),
-            value,
-        })
+        AxisPoint::at(number, &self.unit, self.field)
     }
 
     /// The points of the range.
@@ -185,7 +204,7 @@ impl AxisRange {
         if !(2..=MOST_POINTS).contains(&count) {
             return Err(problem(
                 known,
-                format!("a range cannot have {count} points"),
+                format!("a range has 2 to {MOST_POINTS} points, and not {count}"),
                 format!("write --points with a number from 2 to {MOST_POINTS}"),
             ));
         }
@@ -273,14 +292,17 @@ fn problem(field: &Field, cause: impl Into<String>, fix: impl Into<String>) -> P
 
 /// The field of a text `KEY=VALUES` and the values.
 fn assignment(text: &str) -> Result<(usize, &str), Problem> {
-    let Some((key, values)) = text.split_once('=') else {
-        return Err(Problem {
-            field: text.to_owned(),
-            cause: "no values are given".to_owned(),
-            fix: "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'"
-                .to_owned(),
-        });
+    let unwritten = |cause: &str| Problem {
+        field: text.to_owned(),
+        cause: cause.to_owned(),
+        fix: "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'".to_owned(),
     };
+    let (key, values) = text
+        .split_once('=')
+        .ok_or_else(|| unwritten("no values are given"))?;
+    if key.trim().is_empty() {
+        return Err(unwritten("the key is missing"));
+    }
     let field = index_of(key.trim()).ok_or_else(|| unknown_key(key.trim()))?;
     let known = &FIELDS[field];
     match known.kind {
@@ -302,29 +324,22 @@ fn list(field: usize, values: &str) -> Result<Axis, Problem> {
     let known = &FIELDS[field];
     let items: Vec<&str> = values.split(',').map(str::trim).collect();
     if matches!(known.kind, Kind::Choice(..)) {
-        let point = |name: &&str| -> Result<AxisPoint, Problem> {
-            Ok(AxisPoint {
-                text: (*name).to_owned(),
-                number: None,
-                value: field_value(field, name)?,
-            })
-        };
         return Ok(Axis {
             field,
             unit: String::new(),
-            points: items.iter().map(point).collect::<Result<_, _>>()?,
+            points: items
+                .iter()
+                .map(|name| AxisPoint::named(name, field))
+                .collect::<Result<_, _>>()?,
         });
     }
     let unit = unit_of(known, items.iter().copied())?;
     let point = |item: &&str| -> Result<AxisPoint, Problem> {
+        if known.takes_auto() && *item == AUTO {
+            return AxisPoint::named(AUTO, field);
+        }
         let number = number_in(field, item, &unit)?;
-        let text = shortest(number);
-        let value = field_value(field, &with_unit(&text, &unit))?;
-        Ok(AxisPoint {
-            text,
-            number: Some(number),
-            value,
-        })
+        AxisPoint::at(number, &unit, field)
     };
     let points = items.iter().map(point).collect::<Result<_, _>>()?;
     Ok(Axis {
@@ -340,6 +355,9 @@ fn unit_of<'t>(
     values: impl IntoIterator<Item = &'t str>,
 ) -> Result<String, Problem> {
     for value in values {
+        if field.takes_auto() && value.trim() == AUTO {
+            continue;
+        }
         let (_, unit) = units::split(value, field.usual_unit()).map_err(|error| Problem {
             field: field.key.to_owned(),
             cause: error.cause,

@@ -90,7 +90,9 @@ impl Condition {
             (Some((at, sign, relation)), _) => {
                 compared(&text[..at], relation, &text[at + sign.len()..])?
             }
-            (None, Some((name, value))) if name.trim() == "outcome" => outcome(value.trim())?,
+            (None, Some((name, value))) if name.trim() == "outcome" => {
+                outcome(value.strip_prefix('=').unwrap_or(value).trim())?
+            }
             (None, Some((name, value))) => flag(name, value)?,
             (None, None) => {
                 return Err(problem(
@@ -186,6 +188,14 @@ fn is_without(key: &str, outcome: Outcome) -> bool {
 
 fn compared(name: &str, relation: Relation, value: &str) -> Result<Kind, Problem> {
     let quantity = named(name)?;
+    if quantity.is_flag() {
+        let key = quantity.key;
+        return Err(problem(
+            key,
+            format!("{key} is true or false and has no order"),
+            format!("write {key}=true or {key}=false"),
+        ));
+    }
     let limit = Limit::new(quantity.key, value.trim())?;
     Ok(Kind::Compared(quantity.key, relation, limit.value))
 }
@@ -210,6 +220,7 @@ fn outcome(name: &str) -> Result<Kind, Problem> {
 fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
     let quantity = named(name)?;
     let key = quantity.key;
+    let value = value.strip_prefix('=').unwrap_or(value);
     if !quantity.is_flag() {
         return Err(problem(
             key,
@@ -290,7 +301,15 @@ mod tests {
                 "outcome=contact",
                 "write corner-contact or no-corner-contact",
             ),
+            (
+                "impact_force==2500 N",
+                "is a number: write impact_force<=2500 N",
+            ),
             ("dynamic_contact_lost=maybe", "neither true nor false"),
+            (
+                "dynamic_contact_lost<=1",
+                "has no order: write dynamic_contact_lost=true or",
+            ),
         ] {
             let message = Condition::parse(text).unwrap_err().to_string();
             assert!(message.contains(part), "{text}: {message}");

@@ -120,7 +120,7 @@ fn a_bad_sweep_gets_place_cause_and_fix() {
         ),
         (
             with("operation.speed=1..2 rpm", &["--points", "0"]),
-            "cannot have 0 points",
+            "1000000 points, and not 0",
         ),
         (
             with("operation.speed=1..2 rpm", &["--points", "x"]),

@@ -166,6 +166,7 @@ impl Layout {
         let tables = |others: usize| wide.others.div_ceil(others.max(1));
         if with_labels == 0 || tables(without) < tables(with_labels) {
             return Layout {
+                symbol: 1 + most(&|row| count(short_name(row))),
                 label: 0,
                 others: without,
                 ..wide
@@ -200,12 +201,12 @@ impl Layout {
     }
 
     fn line(&self, row: &Row, others: &[usize]) -> String {
-        let label = if self.label > 0 {
-            row.label.as_str()
+        let (symbol, label) = if self.label > 0 {
+            (row.symbol.as_str(), row.label.as_str())
         } else {
-            ""
+            (short_name(row), "")
         };
-        let (symbol, unit, base) = (&row.symbol, row.unit, sanitize(&row.values[0]));
+        let (unit, base) = (row.unit, sanitize(&row.values[0]));
         let (first, second, third, fourth) = (self.symbol, self.label, self.unit, self.value);
         let head = format!("  {symbol:first$}{label:second$}{unit:third$}{base:>fourth$}");
         let cells = others.iter().map(|&at| {
@@ -213,6 +214,15 @@ impl Layout {
             format!("{value:>0$}{difference:>1$}", self.value, self.difference)
         });
         head + &cells.collect::<String>()
+    }
+}
+
+/// The symbol of a row, or its label if it has none.
+fn short_name(row: &Row) -> &str {
+    if row.symbol.is_empty() {
+        &row.label
+    } else {
+        &row.symbol
     }
 }
 

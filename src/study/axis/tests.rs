@@ -91,6 +91,28 @@ fn lists_take_units_counts_and_choices() {
 }
 
 #[test]
+fn a_list_takes_the_word_auto_where_its_field_does() {
+    let axis = parsed("model.stations=auto,32", 0);
+    assert_eq!(texts(&axis), ["auto", "32"]);
+    let stations = |at: usize| {
+        let mut inputs = Inputs::default();
+        axis.points[at].put(axis.field, &mut inputs);
+        inputs.stations
+    };
+    assert_eq!([stations(0), stations(1)], [None, Some(32)]);
+    assert!(refused("driver.teeth=auto,32", None, false).contains("`auto`"));
+}
+
+#[test]
+fn neither_a_choice_nor_a_whole_number_has_a_crossing() {
+    for text in ["model.method=exact,paper", "driver.teeth=18..21"] {
+        let message = AxisRange::parse(text).unwrap_err().to_string();
+        let fix = format!("has no crossing between its values: use sweep --vary '{text}'");
+        assert!(message.ends_with(&fix), "{message}");
+    }
+}
+
+#[test]
 fn a_range_of_whole_numbers_has_every_one() {
     let axis = Axis::parse("driver.teeth=18..21", Sampling::default()).unwrap();
     assert_eq!(texts(&axis), ["18", "19", "20", "21"]);
@@ -124,13 +146,13 @@ fn a_bad_axis_gets_place_cause_and_fix() {
             "operation.speed=500..3000 rpm",
             Some(0),
             false,
-            "operation.speed: a range cannot have 0 points: write --points with a number from 2",
+            "operation.speed: a range has 2 to 1000000 points, and not 0: write --points with a number from 2",
         ),
         (
             "operation.speed=500..3000 rpm",
             Some(1),
             false,
-            "cannot have 1 points",
+            "1000000 points, and not 1",
         ),
         (
             "operation.speed=500..3000",
@@ -145,6 +167,12 @@ fn a_bad_axis_gets_place_cause_and_fix() {
             "unit of length",
         ),
         ("title=1..2", None, false, "title: title is a text"),
+        (
+            "=1..2",
+            None,
+            false,
+            "=1..2: the key is missing: write KEY=FROM..TO",
+        ),
         (
             "model.method=paper..exact",
             None,
