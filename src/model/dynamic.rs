@@ -1,6 +1,7 @@
 //! The method `dynamic`: the shared load with inertia and damping, integrated from contact event to
 //! contact event.
 
+mod acting;
 mod events;
 mod laps;
 mod lead;
@@ -20,6 +21,7 @@ use super::mesh::Mesh;
 use super::pair_forces::Touching;
 use super::spacing::Resolution;
 use super::stations::MeshStation;
+use acting::ALIKE;
 use events::Event;
 use laps::Laps;
 use lead::TERMS;
@@ -179,6 +181,8 @@ struct Run<'a> {
     ahead: Vec<i32>,
     /// The pairs of the window that have touched or left where it stands.
     turned: Touching,
+    /// Whether the next step begins where one begins in every base pitch.
+    is_even: bool,
     /// What the last terms of a step's series may be, in m.
     allowed: f64,
     laps: Laps,
@@ -215,6 +219,7 @@ impl<'a> Run<'a> {
             ahead: touching.map(|(pair, _)| pair.ahead).collect(),
             borders,
             turned: Touching::NONE,
+            is_even: true,
             allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
             laps: Laps::new(start, tolerance),
             watch: Watch::default(),
@@ -262,7 +267,7 @@ impl<'a> Run<'a> {
         let border = self
             .borders
             .iter()
-            .position(|border| (border - to).abs() <= laps::ALIKE * mesh.base_pitch);
+            .position(|border| (border - to).abs() <= ALIKE * mesh.base_pitch);
         let Some(border) = border.filter(|_| pitches >= 1.0) else {
             return;
         };
@@ -281,13 +286,15 @@ impl<'a> Run<'a> {
         end: f64,
     ) -> Result<(Touching, Step), Refusal> {
         let course = Course::new(self.motion, window, touching);
-        let (mut step, leads) = course.step(self.t, &self.y, end, self.allowed)?;
+        let taken = course.step(self.t, &self.y, end, (self.allowed, self.is_even))?;
+        let (mut step, leads) = (taken.step, &taken.acting.leads);
         self.effort.steps += 1;
         self.effort.evaluations += TERMS as u64;
         self.count(1 + window.pairs.len() as u64 + self.motion.take_looks())?;
         let range = step.range();
         let standing_off = self.lead.and(window.incoming());
-        let event = events::first(&course, (&step, range), &leads, (self.turned, standing_off));
+        let event = events::first(&course, (&step, range), leads, (self.turned, standing_off));
+        self.is_even = taken.ends_even && event.is_none();
         let part = event.map_or(1.0, |event| event.part);
         if event.is_some() {
             step = step.cut(part);

@@ -1,10 +1,8 @@
 //! Whether the warm-up has come to repeat itself: before the incoming tooth is near, every base
 //! pitch is like the one before.
 
+use super::acting::ALIKE;
 use super::motion::{Motion, State};
-
-/// Places that lie no further apart, over the base pitch, are the same.
-pub(super) const ALIKE: f64 = 1e-9;
 
 /// A change, over the state's scale, that is none.
 const ROUNDING: f64 = 1e-14;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use nalgebra::Vector2;
 
 use super::Settings;
+use super::acting::{Crossing, Crossings};
 use crate::model::Refusal;
 use crate::model::budget::MOTION_SWINGS;
 use crate::model::mesh::{Mesh, Shares};
@@ -28,9 +29,10 @@ pub(super) struct Motion<'a> {
     warmup_cycles: u32,
     /// The sharing of coupled pairs that this motion needed.
     sharing: RefCell<Vec<Rc<Sharing>>>,
+    crossings: Crossings,
     /// Places at which shares were computed, by this motion or by another on the same mesh.
     looks: Cell<u64>,
-    /// What the shares take, in bytes.
+    /// What shares and crossings take, in bytes.
     bytes: Cell<usize>,
 }
 
@@ -50,6 +52,8 @@ pub(super) struct Window {
     pub(super) pairs: Vec<Standing>,
     /// None if the pairs are independent springs.
     sharing: Option<Rc<Sharing>>,
+    /// What acts between its ends.
+    pub(super) crossing: Rc<Crossing>,
 }
 
 /// A pair that may touch.
@@ -74,6 +78,7 @@ impl<'a> Motion<'a> {
             decay: settings.damping_ratio * frequency,
             warmup_cycles: settings.warmup_cycles,
             sharing: RefCell::default(),
+            crossings: Crossings::default(),
             looks: Cell::default(),
             bytes: Cell::default(),
         }
@@ -145,8 +150,11 @@ impl<'a> Motion<'a> {
         });
         let pairs: Vec<Standing> = standing.collect();
         let is_shared = self.mesh.is_coupled() && !pairs.is_empty();
+        let zones = pairs.iter().map(|pair| pair.zone);
+        let incoming = pairs.iter().position(|pair| pair.ahead == 0);
         Window {
             ends: (from, to),
+            crossing: self.crossings.of(zones, incoming),
             sharing: is_shared.then(|| self.sharing(&pairs)),
             pairs,
         }
@@ -180,9 +188,14 @@ impl<'a> Motion<'a> {
         let shares = self.mesh.shares(&sharing.zones, touching);
         self.looks
             .set(self.looks.get() + shares.evaluations() as u64);
-        self.bytes.set(self.bytes.get() + shares.bytes());
+        self.keep(shares.bytes());
         known.push((touching, Arc::clone(&shares)));
         Some(shares)
+    }
+
+    /// Counts what is kept beside the steps, in bytes.
+    pub(super) fn keep(&self, bytes: usize) {
+        self.bytes.set(self.bytes.get() + bytes);
     }
 
     /// Places at which shares were computed since the last call.
@@ -190,7 +203,7 @@ impl<'a> Motion<'a> {
         self.looks.take()
     }
 
-    /// What the shares take, in bytes.
+    /// What shares and crossings take, in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.bytes.get()
     }

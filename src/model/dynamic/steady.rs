@@ -160,6 +160,7 @@ impl<'a> Round<'a> {
             ahead: start.ahead,
             borders,
             turned: Touching::NONE,
+            is_even: true,
             allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
             laps: Laps::new(0.0, tolerance),
             watch: Watch::of_contact_alone(),

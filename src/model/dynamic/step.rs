@@ -1,7 +1,9 @@
 //! Steps of the motion while the same pairs touch, by the power series of the displacement.
 
+use std::rc::Rc;
 use std::sync::Arc;
 
+use super::acting::{Acting, Stretch};
 use super::lead::{Along, FORCE_TERMS, Lead, Product, TERMS};
 use super::motion::{Motion, Standing, State, Window};
 use crate::model::Refusal;
@@ -20,6 +22,15 @@ pub(super) struct Course<'a> {
     touching: Touching,
     /// How coupled pairs share a displacement; none if each is a spring of its own.
     shares: Option<Arc<Shares>>,
+}
+
+/// A step with what acts over it.
+pub(super) struct Taken {
+    pub(super) step: Step,
+    pub(super) acting: Rc<Acting>,
+    /// Whether it ends where a pair passes on to another polynomial: a base pitch later a step ends
+    /// there again.
+    pub(super) ends_even: bool,
 }
 
 /// A step.
@@ -83,8 +94,8 @@ impl<'a> Course<'a> {
     }
 
     /// The step from a state on, as long as its series converges, to `end` at most and on one
-    /// polynomial of every pair; and every pair's lead over it. The last terms of the series are
-    /// `allowed` to be as large as that, in m.
+    /// polynomial of every pair. The last terms of the series are `allowed` to be as large as that,
+    /// in m. A step that `begins_even` may be known from the last base pitch.
     ///
     /// # Errors
     /// [`Refusal::Unsettled`] where the series has no numbers.
@@ -93,18 +104,25 @@ impl<'a> Course<'a> {
         t: f64,
         y: &State,
         end: f64,
-        allowed: f64,
-    ) -> Result<(Step, Vec<Lead>), Refusal> {
+        (allowed, begins_even): (f64, bool),
+    ) -> Result<Taken, Refusal> {
         let whole = self.serves_until(t).min(end) - t;
         let length = whole.min(self.motion.longest_step());
-        let mut leads = Vec::with_capacity(self.pairs());
-        let ahead = self
-            .oscillator(t, length, &mut leads)
-            .series(y[0], y[1] * length);
+        let acting = if begins_even {
+            self.known_acting(t, length)
+        } else {
+            Rc::new(self.acting(t, length))
+        };
+        let oscillator = self.oscillator(&acting, length);
+        let ahead = oscillator.series(y[0], y[1] * length);
         let step = Step { t, length, ahead };
         let part = convergent_part(&ahead, allowed);
         if part >= 1.0 {
-            return Ok((step, leads));
+            return Ok(Taken {
+                step,
+                acting,
+                ends_even: length >= whole,
+            });
         }
         // Steps to an end are of one length, and the last of them is no splinter.
         let part = if length < whole {
@@ -115,10 +133,19 @@ impl<'a> Course<'a> {
         if part * length <= 0.0 || !part.is_finite() {
             return Err(Refusal::Unsettled);
         }
-        for lead in &mut leads {
-            *lead = lead.stretched(part);
-        }
-        Ok((step.cut(part), leads))
+        let cut = Acting {
+            leads: acting
+                .leads
+                .iter()
+                .map(|lead| lead.stretched(part))
+                .collect(),
+            ..*acting
+        };
+        Ok(Taken {
+            step: step.cut(part),
+            acting: Rc::new(cut),
+            ends_even: false,
+        })
     }
 
     /// Until when what is known of the pairs from a time on is one polynomial each.
@@ -138,17 +165,40 @@ impl<'a> Course<'a> {
             .time(pairs.chain(shares).fold(f64::INFINITY, f64::min))
     }
 
-    /// The equation of motion over a length of time, which is its unit.
-    fn oscillator(&self, t: f64, length: f64, leads: &mut Vec<Lead>) -> Oscillator<TERMS> {
-        let Motion { mass, damping, .. } = *self.motion;
-        let (mut stiffness, mut load) = (Polynomial::<TERMS>::ZERO, Polynomial::<TERMS>::ZERO);
-        load.0[0] = self.motion.mesh.force;
+    /// What acts over a length of time, from the last base pitch if the motion has met it there.
+    fn known_acting(&self, t: f64, length: f64) -> Rc<Acting> {
+        let mesh = self.motion.mesh;
+        let stretch = Stretch {
+            touching: self.touching,
+            from: mesh.above(self.rearmost(), self.motion.place(t)).0,
+            way: mesh.speed * length,
+        };
+        self.window.crossing.acting(stretch, mesh, || {
+            let acting = self.acting(t, length);
+            self.motion
+                .keep(size_of::<Acting>() + size_of_val(&*acting.leads));
+            acting
+        })
+    }
+
+    /// What acts over a length of time.
+    fn acting(&self, t: f64, length: f64) -> Acting {
+        let mut acting = Acting {
+            stiffness: Polynomial::ZERO,
+            load: Polynomial::ZERO,
+            leads: Vec::with_capacity(self.pairs()),
+        };
+        acting.load.0[0] = self.motion.mesh.force;
         match &self.shares {
-            Some(shares) => {
-                self.add_shares(shares, (t, length), (&mut stiffness, &mut load), leads);
-            }
-            None => self.add_springs((t, length), (&mut stiffness, &mut load), leads),
+            Some(shares) => self.add_shares(shares, (t, length), &mut acting),
+            None => self.add_springs((t, length), &mut acting),
         }
+        acting
+    }
+
+    /// The equation of motion over a length of time, which is its unit.
+    fn oscillator(&self, acting: &Acting, length: f64) -> Oscillator<TERMS> {
+        let Motion { mass, damping, .. } = *self.motion;
         let damping = if self.touching.is_none() {
             0.0
         } else {
@@ -156,48 +206,42 @@ impl<'a> Course<'a> {
         };
         let scale = length * length / mass;
         Oscillator {
-            stiffness: stiffness.scaled(scale),
-            load: load.scaled(scale),
+            stiffness: acting.stiffness.scaled(scale),
+            load: acting.load.scaled(scale),
             damping,
         }
     }
 
-    fn add_springs(
-        &self,
-        (t, length): (f64, f64),
-        (stiffness, load): (&mut Polynomial<TERMS>, &mut Polynomial<TERMS>),
-        leads: &mut Vec<Lead>,
-    ) {
+    fn add_springs(&self, (t, length): (f64, f64), acting: &mut Acting) {
         let mesh = self.motion.mesh;
         let (s, way) = (self.motion.place(t), mesh.speed * length);
         for (index, pair) in self.window.pairs.iter().enumerate() {
             let [spring, gap] = mesh.spring_along(pair.ahead, pair.zone, s, way);
-            leads.push(Lead::Gap(gap));
+            acting.leads.push(Lead::Gap(gap));
             if self.touches(index) {
                 let carrying = self.turning(pair, &spring, s, way);
-                *stiffness = stiffness.plus(1.0, &carrying);
-                *load = load.plus(1.0, &carrying.times::<{ chebyshev::TERMS }, TERMS>(&gap));
+                let held: Polynomial<TERMS> = carrying.times(&gap);
+                acting.stiffness = acting.stiffness.plus(1.0, &carrying);
+                acting.load = acting.load.plus(1.0, &held);
             }
         }
     }
 
-    fn add_shares(
-        &self,
-        shares: &Shares,
-        (t, length): (f64, f64),
-        (stiffness, load): (&mut Polynomial<TERMS>, &mut Polynomial<TERMS>),
-        leads: &mut Vec<Lead>,
-    ) {
+    fn add_shares(&self, shares: &Shares, (t, length): (f64, f64), acting: &mut Acting) {
         let (s, way) = (self.motion.place(t), self.motion.mesh.speed * length);
         let along = shares.along(self.motion.mesh.above(self.rearmost(), s), way);
         let gaps = self.gaps_along(s, way);
         for (index, pair) in self.window.pairs.iter().enumerate() {
             let (slope, offset) = self.share(index, shares.row_along(index, &along), &gaps);
             if self.touches(index) {
-                *stiffness = stiffness.plus(1.0, &self.turning(pair, &slope, s, way));
-                *load = load.plus(1.0, &self.turning(pair, &offset, s, way));
+                let (spring, held) = (
+                    self.turning(pair, &slope, s, way),
+                    self.turning(pair, &offset, s, way),
+                );
+                acting.stiffness = acting.stiffness.plus(1.0, &spring);
+                acting.load = acting.load.plus(1.0, &held);
             }
-            leads.push(Lead::Shared { slope, offset });
+            acting.leads.push(Lead::Shared { slope, offset });
         }
     }
 
