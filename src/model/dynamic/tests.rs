@@ -1,5 +1,7 @@
 //! The motion against what is known of it: the linear oscillator, and the balance of energies.
 
+use std::rc::Rc;
+
 use super::motion::{Motion, Standing, State};
 use super::step::{Course, Step};
 use super::watch::Watch;
@@ -78,6 +80,28 @@ fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings, meter: &'a Meter) -> Run
         run.cross_window().unwrap();
     }
     run
+}
+
+#[test]
+fn a_step_takes_what_acts_from_the_step_a_base_pitch_before() {
+    for (mesh, settings) in [struck(|_| ()), coupled(|_| ())] {
+        let (motion, pitch) = (Motion::new(&mesh, &settings), mesh.base_pitch);
+        let borders = mesh.borders(-4.0 * pitch, -3.0 * pitch);
+        let taken = |pitches: f64, begins_even| {
+            let [from, to] = [0, 1].map(|at| borders[at] + pitches * pitch);
+            let window = motion.window(from, to);
+            let course = Course::new(&motion, &window, Touching::NONE.with(0));
+            let (t, end) = (motion.time(from), motion.time(to));
+            let taken = course.step(t, &State::new(2e-5, 0.0), end, (1.0, begins_even));
+            taken.ok().unwrap()
+        };
+        let [first, later, fresh] = [(0.0, true), (1.0, true), (1.0, false)]
+            .map(|(pitches, begins_even)| taken(pitches, begins_even));
+        assert!(Rc::ptr_eq(&first.acting, &later.acting));
+        assert!(!Rc::ptr_eq(&later.acting, &fresh.acting));
+        let (later, fresh) = (later.step.state(1.0), fresh.step.state(1.0));
+        assert!((later - fresh).norm() <= 1e-10 * fresh.norm());
+    }
 }
 
 /// While one pair of a stiffness that hardly changes touches, the motion is the damped oscillator's
