@@ -142,17 +142,12 @@ fn cases_and_variants_stand_side_by_side_with_differences_and_units() {
 fn an_input_without_a_symbol_has_its_label_where_labels_have_no_room() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("gear.toml");
-    let variants: String = [
-        ("method", "\"paper\""),
-        ("accurate", "true"),
-        ("tolerance", "1e-5"),
-    ]
-    .into_iter()
-    .map(|(key, value)| format!("[variants.{key}]\nmodel.{key} = {value}\n"))
-    .collect();
+    let variants = "[variants.method]\nmodel.method = \"paper\"\n\
+        [variants.accurate]\nmodel.accurate = true\n\
+        [variants.tolerance]\nmodel.tolerance = 1e-5\n";
     let broad = "[variants.broad]\nspread.\"deviations.base_pitch\" = { truncated = \"1 um\" }\n";
     let text = fs::read_to_string(TABLE_1).unwrap();
-    fs::write(&path, text + &variants + broad).unwrap();
+    fs::write(&path, text + variants + broad).unwrap();
     let (code, text, _) = run(&["compare", path.to_str().unwrap()]);
     assert_eq!(code, 0);
     let inputs = text.split("\n\n").find(|part| part.starts_with("Inputs"));
