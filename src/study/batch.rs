@@ -319,6 +319,7 @@ impl<'a> PointSolver<'a> {
             Err(Unsolved::Stopped) => return Err(Stopped),
             Err(Unsolved::Refused(problem)) => problem,
         };
+        let problem = problem.at_given_diameter(&self.inputs);
         let none = self.batch.quantities.iter().map(|_| None);
         rows.push(PointOutcome::Refused, none);
         rows.refusals.push((index, problem));

@@ -133,6 +133,16 @@ fn a_diameter_beyond_the_range_of_its_coefficient_is_refused_with_the_range() {
         last.starts_with("130,") && last.contains("refused"),
         "{rows}"
     );
+    let interferes = [
+        "sweep",
+        "case.toml",
+        "--vary",
+        "driven.tip_diameter=110,120 mm",
+    ];
+    let output = run(TABLE_1, &interferes);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    let named = "at driven.tip_diameter = 120 mm: driven.tip_diameter: interference";
+    assert!(errors.contains(named), "{errors}");
 }
 
 #[test]

@@ -70,6 +70,25 @@ macro_rules! circle_fields {
 /// The circles of driver and driven gear.
 pub(super) static OF_GEARS: [CircleFields; 2] = [circle_fields!(driver), circle_fields!(driven)];
 
+impl Problem {
+    /// The same problem at the diameter that replaces the coefficient in its field, where the
+    /// inputs have that diameter.
+    #[must_use]
+    pub fn at_given_diameter(mut self, inputs: &Inputs) -> Problem {
+        let heights = OF_GEARS.iter().flat_map(|fields| {
+            let gear = (fields.gear)(inputs);
+            fields.heights.iter().map(move |height| (gear, height))
+        });
+        let mut given = heights.filter(|(gear, height)| {
+            height.coefficient_key == self.field && (height.diameter)(gear).is_some()
+        });
+        if let Some((_, height)) = given.next() {
+            height.diameter_key.clone_into(&mut self.field);
+        }
+        self
+    }
+}
+
 impl CircleFields {
     /// What is wrong with the circles, as far as the fields are sound.
     pub(super) fn misfits(
