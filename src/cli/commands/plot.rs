@@ -46,6 +46,15 @@ pub struct Options {
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
+    let ending = options.out.as_deref().and_then(Path::extension);
+    if let (Some(out), Some(ending)) = (&options.out, ending)
+        && !ending.eq_ignore_ascii_case("svg")
+    {
+        let out = out.display();
+        return Err(Failure::Usage(format!(
+            "--out {out}: a picture is SVG: use the ending .svg"
+        )));
+    }
     let opened = cases::open(&options.case, &options.changes.edits(), streams)?;
     let text = draw(&opened, options, streams)?;
     write(options.out.as_deref(), &text, streams)
