@@ -124,6 +124,8 @@ pub enum Effect {
     Whine(Box<WhineRequest>),
     /// Stop the chart of whine.
     CancelWhine,
+    /// Stop the search for the tip relief to specify.
+    CancelRelief,
     /// Stop the study.
     CancelStudy,
     /// Stop what is being solved.

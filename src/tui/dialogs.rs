@@ -51,6 +51,11 @@ pub(crate) trait Dialog {
     /// Enter.
     fn accept(&mut self, around: &Surroundings<'_>) -> Outcome;
 
+    /// Esc: the dialog is gone.
+    fn close(&mut self) -> Vec<Effect> {
+        Vec::new()
+    }
+
     /// The line of text that it edits.
     fn input(&mut self) -> Option<&mut Line> {
         None

@@ -50,6 +50,7 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         | Effect::CancelStudy
         | Effect::Whine(_)
         | Effect::CancelWhine
+        | Effect::CancelRelief
         | Effect::Redraw
         | Effect::Suspend
         | Effect::Quit => None,

@@ -114,6 +114,9 @@ impl Job {
     /// How many kinds there are.
     pub(super) const KINDS: usize = 10;
 
+    /// The kind of the search for the tip relief.
+    pub(super) const RELIEF: usize = 8;
+
     /// The kind and its name. Of a kind the latest job replaces the others.
     pub(super) const fn kind(&self) -> (usize, &'static str) {
         match self {
@@ -125,7 +128,7 @@ impl Job {
             Job::Below(..) => (5, "search"),
             Job::Export(_) => (6, "export"),
             Job::Variants(_) => (7, "variants"),
-            Job::Relief(_) => (8, "relief"),
+            Job::Relief(_) => (Job::RELIEF, "relief"),
             Job::Markdown(_) => (9, "report"),
         }
     }

@@ -41,6 +41,18 @@ impl WhineChart {
         }
     }
 
+    /// Shorter and shorter titles with their units, where the labels of the axes have no room.
+    #[must_use]
+    pub fn short_titles(self) -> [&'static str; 2] {
+        match self {
+            WhineChart::Spectrum => ["Transmission error harmonics in um", "TE harmonics in um"],
+            WhineChart::Speed => [
+                "Dynamic factor over speed in rpm",
+                "Dynamic factor over rpm",
+            ],
+        }
+    }
+
     /// The name in lists.
     #[must_use]
     pub fn label(self) -> &'static str {

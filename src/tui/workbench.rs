@@ -189,6 +189,7 @@ impl Workbench {
                     Effect::CancelStudy => self.workers.stop_study(),
                     Effect::Whine(request) => self.workers.whine(*request)?,
                     Effect::CancelWhine => self.workers.stop_whine(),
+                    Effect::CancelRelief => self.workers.stop_relief(),
                     Effect::CancelSolve => self.workers.stop_solve(),
                     Effect::Job(job) => self.workers.job(job)?,
                     Effect::Keep(settings) => self.chosen = Some(settings),

@@ -110,6 +110,10 @@ impl Workers {
         self.whine.iter().for_each(Worker::stop);
     }
 
+    pub(crate) fn stop_relief(&self) {
+        self.jobs[Job::RELIEF].iter().for_each(Worker::stop);
+    }
+
     pub(crate) fn stop_study(&self) {
         self.study.iter().for_each(Worker::stop);
     }

@@ -442,6 +442,7 @@ impl Bench {
             | Effect::Study(_)
             | Effect::CancelStudy
             | Effect::Whine(_)
+            | Effect::CancelRelief
             | Effect::CancelWhine => None,
         }
     }

@@ -182,6 +182,7 @@ impl Desk {
                     Effect::CancelWork
                     | Effect::CancelSolve
                     | Effect::CancelStudy
+                    | Effect::CancelRelief
                     | Effect::CancelWhine => {
                         self.has_cancelled = true;
                     }

@@ -127,9 +127,9 @@ fn charts_are_selected_by_key_and_by_name() {
         assert_title(&desk, graph);
         desk.keys(&["j"]);
     }
-    assert!(desk.shows("Harmonics of the transmission error"));
+    assert!(desk.shows("Transmission error harmonics in um"));
     desk.keys(&["j"]);
-    assert!(desk.shows("Dynamic factor of a tooth over speed"));
+    assert!(desk.shows("Dynamic factor over speed in rpm"));
     desk.keys(&["j"]);
     assert_title(&desk, &GRAPHS[0]);
     desk.keys(&["Up", "k", "k"]);
@@ -254,6 +254,34 @@ fn the_charts_of_whine() {
         ascii: true,
     };
     assert_snapshot!("spectrum_ascii", chart(&small).join("\n"));
+}
+
+/// A bar ends at the row of its amplitude, and an amplitude of 0 has no bar; the titles keep their
+/// units in a narrow pane.
+#[test]
+fn a_harmonic_without_amplitude_has_no_bar_and_titles_keep_their_units() {
+    let mut desk = at_method(SMALL, "exact");
+    desk.keys(&["k"]);
+    assert!(
+        desk.shows("Dynamic factor over speed in rpm"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["k"]);
+    assert!(
+        desk.shows("Transmission error harmonics in um"),
+        "{}",
+        desk.screen()
+    );
+    let Some((_, WhineFound::Spectra(spectra))) = &mut desk.app.tab.whine.found else {
+        panic!("spectra");
+    };
+    spectra.truncate(1);
+    spectra[0].1.amplitudes[1..].fill(0.0);
+    let rows = chart(&desk);
+    let lowest = rows.iter().rfind(|row| row.contains("██")).expect("a bar");
+    let bars = lowest.split_whitespace().filter(|word| word.contains("██"));
+    assert_eq!(bars.count(), 1, "{rows:?}");
 }
 
 /// A chart of whine is requested once for a pair, its growing values are shown, and the values of

@@ -86,7 +86,7 @@ impl ReliefDialog {
         let typed = Demand::parse(self.input.value()).ok();
         match (&self.problem, &self.answer) {
             (Some(problem), _) => format!("! {problem}"),
-            (None, None) => "Searching. Esc closes.".to_owned(),
+            (None, None) => "Searching. Esc ends the search.".to_owned(),
             (None, Some(_)) if typed != self.searched => "Enter searches again.".to_owned(),
             (None, Some(Ok(_))) => {
                 "Enter takes the relief into the case; Down and PageDown scroll.".to_owned()
@@ -123,6 +123,14 @@ impl Dialog for ReliefDialog {
     fn typed(&mut self) -> Vec<Effect> {
         self.problem = None;
         Vec::new()
+    }
+
+    fn close(&mut self) -> Vec<Effect> {
+        let is_searching = self.searched.is_some() && self.answer.is_none();
+        is_searching
+            .then_some(Effect::CancelRelief)
+            .into_iter()
+            .collect()
     }
 
     fn step(&mut self, by: isize, around: &Surroundings<'_>) {
@@ -187,5 +195,26 @@ impl Dialog for ReliefDialog {
             ..inner
         };
         text::edited(&self.input, line, theme.focus, buffer)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn esc_ends_a_search_that_runs_and_nothing_after_its_answer() {
+        let pair = standard_pair(20, 30, 5e-3);
+        let mut dialog = ReliefDialog::new("case".to_owned(), String::new(), pair);
+        assert!(dialog.close().is_empty(), "nothing is searched");
+        let effects = dialog.search();
+        let Some(Effect::Job(Job::Relief(request))) = effects.into_iter().next() else {
+            panic!("a search");
+        };
+        assert!(matches!(dialog.close()[..], [Effect::CancelRelief]));
+        let answer = (*request, Err("no relief".to_owned()));
+        dialog.receive(Action::Relieved(Box::new(answer)));
+        assert!(dialog.close().is_empty());
     }
 }

@@ -13,8 +13,8 @@ pub(super) const LEAVING: &str = "no running work and no unsaved edits: press Ct
 
 /// Esc: what is topmost goes, and nothing is lost.
 pub(super) fn leave(app: &mut App) -> Vec<Effect> {
-    if app.prompts.pop().is_some() {
-        return Vec::new();
+    if let Some(mut prompt) = app.prompts.pop() {
+        return prompt.dialog_mut().close();
     }
     if let Some(case) = app.before_digit.take() {
         return edit::take_back(app, case);
@@ -42,8 +42,8 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
 /// Ctrl-C: what is topmost goes. When nothing is left it quits the second time, for it is also the
 /// key by which others copy.
 pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
-    if app.prompts.pop().is_some() {
-        return Vec::new();
+    if let Some(mut prompt) = app.prompts.pop() {
+        return prompt.dialog_mut().close();
     }
     let stopped = stop(app, true);
     if !stopped.is_empty() {

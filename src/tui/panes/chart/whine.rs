@@ -31,13 +31,11 @@ pub(super) fn title(charts: &Charts, chart: WhineChart, room: usize) -> String {
         return text::cut(&format!("{state}{}", chart.label()), room);
     };
     let (up, across) = (&drawn.up.label, &drawn.across.label);
-    let axes = format!("{state}{}: {up} over {across}", drawn.title);
-    let short = format!("{state}{}", drawn.title);
-    if axes.width() <= room {
-        axes
-    } else {
-        text::cut(&short, room)
-    }
+    let whole = format!("{state}{}: {up} over {across}", drawn.title);
+    let short = chart.short_titles().map(|title| format!("{state}{title}"));
+    let mut titles = std::iter::once(&whole).chain(&short);
+    let fitting = titles.find(|title| title.width() <= room);
+    fitting.map_or_else(|| text::cut(&short[1], room), String::clone)
 }
 
 /// Draws the chart below its title.
@@ -158,8 +156,10 @@ impl<'a> Plot<'a> {
                 continue;
             };
             let bottom = self.area.row(0.0).min(self.area.cells.bottom() - 1);
+            // The lowest row is that of 0: a bar that rounds to it has no height.
+            let top = Some(self.area.row(*y)).filter(|&top| top < bottom);
             for column in from..to.max(from + 1) {
-                for row in self.area.row(*y)..=bottom {
+                for row in top.into_iter().flat_map(|top| top..=bottom) {
                     buffer.set_string(column, row, &sign, style);
                 }
             }
