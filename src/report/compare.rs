@@ -58,14 +58,14 @@ struct Group {
 }
 
 /// A line of a table.
-struct Row {
-    symbol: String,
-    label: String,
-    unit: &'static str,
+pub(super) struct Row {
+    pub(super) symbol: String,
+    pub(super) label: String,
+    pub(super) unit: &'static str,
     /// The value of each column.
-    values: Vec<String>,
+    pub(super) values: Vec<String>,
     /// The difference of each column from the first; empty for the first one.
-    differences: Vec<String>,
+    pub(super) differences: Vec<String>,
 }
 
 impl Comparison {
@@ -82,6 +82,12 @@ impl Comparison {
             .iter()
             .filter_map(|column| column.found.as_ref().err());
         refused.flatten().map(|refused| refused.line.clone())
+    }
+
+    /// The inputs that differ and the quantities, in one table.
+    pub(super) fn brief(&self) -> Vec<Row> {
+        let results = self.groups().into_iter().flat_map(|group| group.rows);
+        self.inputs().rows.into_iter().chain(results).collect()
     }
 
     /// The method of the first results, which defines the quantities.

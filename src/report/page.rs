@@ -1,11 +1,14 @@
 //! Solved cases side by side as one page to send: HTML with charts, or Markdown.
 
 mod markdown;
+mod studies;
 
 use std::fmt::Write;
 
 use askama::Template;
 
+pub use self::studies::Studies;
+use self::studies::StudyTable;
 use super::charts::{Drawn, picture};
 use super::graphs::GRAPHS;
 use super::groups::{FREE_IMPACT, groups};
@@ -35,6 +38,8 @@ pub struct Subject {
     pub reports: Vec<Report>,
     /// The dynamic factor over speed, where it is known.
     pub speeds: Option<SpeedCurve>,
+    /// The studies that the case describes.
+    pub studies: Studies,
     /// The text of the case file.
     pub file: String,
 }
@@ -48,6 +53,7 @@ struct Column {
     verdict: Vec<String>,
     limits: Vec<LimitLine>,
     notes: Vec<String>,
+    studies: Vec<StudyTable>,
     /// The file without its comments.
     lines: String,
     /// The whole file as an address.
@@ -181,6 +187,10 @@ impl<'a> Page<'a> {
         self.columns.iter().any(|column| !column.limits.is_empty())
     }
 
+    fn has_studies(&self) -> bool {
+        self.columns.iter().any(|column| !column.studies.is_empty())
+    }
+
     fn has_notes(&self) -> bool {
         self.columns.iter().any(|column| !column.notes.is_empty())
     }
@@ -214,6 +224,7 @@ fn column(subject: &Subject) -> Option<Column> {
             .iter()
             .map(|note| sanitize(&note.message))
             .collect(),
+        studies: subject.studies.tables(&report.case),
         lines: without_comments(&subject.file),
         link: address(&subject.file),
         file_name: sanitize(file_name),

@@ -122,7 +122,12 @@ fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
     let out = folder.path().join("force.svg");
     fs::write(&out, "old").unwrap();
     stdout_of(&["plot", TABLE_1, "--out", out.to_str().unwrap()]);
-    assert!(fs::read_to_string(out).unwrap().starts_with("<svg"));
+    assert!(fs::read_to_string(&out).unwrap().starts_with("<svg"));
+    let png = out.with_extension("png");
+    let refused = run(&["plot", TABLE_1, "--out", png.to_str().unwrap()]);
+    let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(words.contains("use the ending .svg"), "{words}");
+    assert_eq!((refused.status.code(), png.exists()), (Some(2), false));
 }
 
 #[test]
@@ -184,6 +189,42 @@ fn several_cases_are_side_by_side_in_every_format() {
         json,
         stdout_of(&["solve", TABLE_1, FZG, "--format", "json"])
     );
+}
+
+#[test]
+fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("studied.toml");
+    let studied = "\n[spread]\n\
+        \"deviations.base_pitch\" = { normal = \"2 um\" }\n\n\
+        [variants.relieved]\n\"driven.tip_relief\" = \"10 um\"\n\
+        [variants.jammed]\n\"pair.centre_distance\" = \"90 mm\"\n";
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    fs::write(&case, text + studied).unwrap();
+    let case = case.to_str().unwrap();
+    for ending in ["html", "md"] {
+        let page = report(&[case], ending);
+        for words in [
+            "Studies",
+            "Variants, with the differences from the case",
+            "relieved",
+            "Tolerance, 10000 samples, seed 1",
+            "deviations.base_pitch 16 um, normal 2 um",
+            "Probability of corner contact",
+            "impact_force",
+            "P95",
+        ] {
+            assert!(page.contains(words), "{ending}: {words}: {page}");
+        }
+        assert!(
+            page.contains("refused") && page.contains("jammed: "),
+            "{ending}"
+        );
+        numbers_are_finite(&page);
+    }
+    assert!(!report(&[TABLE_1], "html").contains("<h2>Studies"));
+    let several = report(&[case, FZG], "html");
+    assert_eq!(several.matches("Variants, with").count(), 1);
 }
 
 #[test]

@@ -5,9 +5,10 @@ use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Changes;
+use crate::cli::progress::follow;
 use crate::report::charts::with_other_method;
 use crate::report::export::Format;
-use crate::report::page::Subject;
+use crate::report::page::{Studies, Subject};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -43,10 +44,17 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     for path in &options.cases {
         let solved = cases::open(path, &edits, streams).and_then(|opened| {
             let report = plot::solve(&opened, format.has_stations(), streams)?;
-            Ok((report, opened.document.render()))
+            let (case, inputs) = (&report.case, &report.inputs);
+            let studies = if format.is_page() {
+                // Ctrl-C ends the program.
+                follow("studies", |go_on| Studies::of(case, inputs, go_on)).unwrap_or_default()
+            } else {
+                Studies::default()
+            };
+            Ok((report, studies, opened.document.render()))
         });
         match solved {
-            Ok((report, file)) => {
+            Ok((report, studies, file)) => {
                 let reports = if format.is_page() {
                     with_other_method(report)
                 } else {
@@ -58,6 +66,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
                 subjects.push(Subject {
                     reports,
                     speeds,
+                    studies,
                     file,
                 });
             }

@@ -11,6 +11,7 @@ pub(super) fn render(page: &Page<'_>) -> String {
         limits(page),
         inputs(page),
         results(page),
+        studies(page),
         notes(page),
         files(page),
     ];
@@ -105,6 +106,32 @@ fn results(page: &Page<'_>) -> Vec<String> {
         let values = row.values.iter().map(String::as_str);
         let cells = [row.label.trim(), row.symbol].into_iter().chain(values);
         lines.push(table_row(cells.chain([row.unit, row.source])));
+    }
+    lines
+}
+
+fn studies(page: &Page<'_>) -> Vec<String> {
+    let mut lines = Vec::new();
+    for column in &page.columns {
+        for study in &column.studies {
+            let whose = if page.is_single() {
+                String::new()
+            } else {
+                format!(" of {}", plain(&column.title))
+            };
+            let numbers = study.names.len().saturating_sub(3);
+            lines.extend([String::new(), format!("### {}{whose}", plain(&study.title))]);
+            lines.push(String::new());
+            lines.push(table_row(study.names.iter().map(String::as_str)));
+            lines.push(format!("|---|---|{}---|", "---:|".repeat(numbers)));
+            let rows = study.rows.iter();
+            lines.extend(rows.map(|row| table_row(row.iter().map(String::as_str))));
+            let sentences = study.sentences.iter();
+            lines.extend(sentences.flat_map(|one| [String::new(), plain(one)]));
+        }
+    }
+    if !lines.is_empty() {
+        lines.insert(0, "## Studies".to_owned());
     }
     lines
 }

@@ -6,7 +6,7 @@ use crate::case::file::{self, SaveError};
 use crate::model::Refusal;
 use crate::report::charts::{Drawn, find, no_curve, picture, with_other_method};
 use crate::report::export::Format;
-use crate::report::page::Subject;
+use crate::report::page::{Studies, Subject};
 use crate::report::svg::teeth::teeth;
 use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use crate::report::{Report, Selection};
@@ -71,9 +71,17 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
         Some(Err(Refusal::Stopped)) => return Err("the export is stopped".to_owned()),
         found => found.and_then(Result::ok),
     };
+    let case = &exporting.document.case;
+    let studies = if format.is_page() {
+        let go_on = |done: usize, of: usize| go_on(done as f64 / of.max(1) as f64);
+        Studies::of(case, &exporting.inputs, &go_on).map_err(|_| "the export is stopped")?
+    } else {
+        Studies::default()
+    };
     let subject = Subject {
         reports,
         speeds,
+        studies,
         file,
     };
     format.render(&[subject]).map_err(|error| error.to_string())

@@ -9,7 +9,7 @@ use crate::case::{Case, EXAMPLES, Evaluator};
 use crate::model::{self, Inputs, Refusal, Stages};
 use crate::report::digest::Digest;
 use crate::report::explain;
-use crate::report::page::{Page, Subject};
+use crate::report::page::{Page, Studies, Subject};
 use crate::study::relief::{NoRelief, specify};
 use crate::tui::actions::Action;
 use crate::tui::jobs::{
@@ -72,6 +72,7 @@ fn markdown(reporting: Reporting) -> String {
     let subject = Subject {
         reports: vec![reporting.report],
         speeds: None,
+        studies: Studies::default(),
         file: reporting.file,
     };
     Page::of(&[subject]).markdown()
