@@ -1,5 +1,7 @@
 //! Whether a field makes a difference in a case, and why it does not.
 
+use std::borrow::Cow;
+
 use super::dependencies::is_read;
 use super::fields::FIELDS;
 use super::fields::reasons::Reason;
@@ -56,9 +58,21 @@ pub fn partial_relevance(field: usize, inputs: &Inputs) -> Option<&'static str> 
     acts(field, inputs).then_some(why)
 }
 
+/// The inputs with a speed: while the form lacks one, every power gives the same infinite torque.
+fn with_speed(inputs: &Inputs) -> Cow<'_, Inputs> {
+    if inputs.speed > 0.0 {
+        return Cow::Borrowed(inputs);
+    }
+    Cow::Owned(Inputs {
+        speed: 1.0,
+        ..inputs.clone()
+    })
+}
+
 /// Whether any stage reads the field; of the method `auto`, any stage of the methods that it
 /// chooses from.
 fn acts(field: usize, inputs: &Inputs) -> bool {
+    let inputs = &*with_speed(inputs);
     let by = |method| {
         let inputs = Inputs {
             method,

@@ -6,6 +6,13 @@ use std::path::Path;
 use super::page::{Page, Subject};
 use super::{csv, json};
 
+/// Whether the ending of a file's name chooses a picture.
+#[must_use]
+pub fn is_picture(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+}
+
 /// The format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {

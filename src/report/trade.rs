@@ -91,8 +91,8 @@ fn reference(trade: &Trade) -> Vec<String> {
 pub fn build(trade: &Trade) -> String {
     match &trade.build {
         Ok(Build { driver, driven }) => format!(
-            "The fields of the finite elements are built once per gear: {} for the driver, {} for the driven gear; \
-             the times below read them.",
+            "The fields of the finite elements are built once per gear: {} for the driver, {} for the driven gear. \
+             The times of the settings do not include this.",
             duration(*driver),
             duration(*driven)
         ),
@@ -137,18 +137,19 @@ pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
     let figures = measured.found.as_ref().ok()?;
     let (numbers, curve) = table::parts(&figures.numerical);
     let model = greatest(&model_off(trade, &figures.taken));
-    let [numbers, curve, model] =
-        [numbers, curve, model].map(|off| off.map_or_else(|| "-".to_owned(), percent));
     let is_reference = trade
         .reference
         .as_ref()
         .is_ok_and(|reference| reference.setting.is_finer_or_coarser(&figures.taken));
+    let named = |name: &str, off: Option<f64>| Some(format!("{name} {} %", percent(off?)));
     let model = if is_reference {
-        "model: the reference".to_owned()
+        Some("model: the reference".to_owned())
     } else {
-        format!("model {model} %")
+        named("model", model)
     };
-    Some(format!("numbers {numbers} %, curve {curve} %, {model}"))
+    let known = [named("numbers", numbers), named("curve", curve), model];
+    let known: Vec<String> = known.into_iter().flatten().collect();
+    (!known.is_empty()).then(|| known.join(", "))
 }
 
 /// A relative difference in per cent, without the sign.

@@ -11,6 +11,7 @@ use super::actions::Progress;
 use super::baseline::Baseline;
 use super::benchmark::TradeView;
 use super::dialogs::Prompt;
+use super::jobs::RunningExport;
 use super::keys::Place;
 use super::layout::Layout;
 use super::pane::Pane;
@@ -67,8 +68,8 @@ pub struct App {
     pub study: StudyState,
     /// The serial of the study that runs.
     pub(crate) studying: Option<u64>,
-    /// The file of the export that runs.
-    pub(crate) exporting: Option<PathBuf>,
+    /// The export that runs.
+    pub(crate) exporting: Option<RunningExport>,
     /// The serial of the case whose variants are being solved.
     pub(crate) comparing: Option<u64>,
     /// Whether the run plays.
@@ -189,10 +190,17 @@ impl App {
     pub fn place(&self) -> Place {
         match self.prompts.last() {
             Some(prompt) => prompt.dialog().place(),
-            None if !self.has_line() => self.layout.focus().place(),
+            None if !self.has_line() => self.place_of_pane(),
             None if !rows::names(&self.tab.case, self.tab.form.focus).is_empty() => Place::CHOICE,
             None if self.is_fresh() => Place::TEXT.or(Place::FRESH),
             None => Place::TEXT,
+        }
+    }
+
+    fn place_of_pane(&self) -> Place {
+        match self.layout.focus() {
+            Pane::Chart if self.chart.whine.is_some() => Place::WHINE,
+            pane => pane.place(),
         }
     }
 

@@ -81,8 +81,8 @@ pub struct Exporting {
     pub(crate) document: Document,
     /// The pair.
     pub(crate) inputs: Inputs,
-    /// What a picture shows.
-    pub(crate) figure: Figure,
+    /// What a picture shows; `None` for a report.
+    pub(crate) figure: Option<Figure>,
 }
 
 /// The subject of a picture.
@@ -91,6 +91,25 @@ pub(crate) enum Figure {
     /// The chart of that key.
     Chart(&'static str),
     Teeth,
+}
+
+impl Figure {
+    /// In words.
+    #[must_use]
+    pub(crate) fn name(self) -> String {
+        match self {
+            Figure::Chart(key) => format!("the chart {key}"),
+            Figure::Teeth => "the teeth".to_owned(),
+        }
+    }
+}
+
+/// An export that runs.
+#[derive(Debug, Clone)]
+pub(crate) struct RunningExport {
+    pub(crate) path: PathBuf,
+    /// The picture, unless it is a report.
+    pub(crate) figure: Option<Figure>,
 }
 
 /// Why an export was not written.

@@ -48,6 +48,8 @@ impl Place {
     pub(crate) const FRESH: Place = Place(8192);
     /// The study.
     pub(crate) const STUDY: Place = Place(16384);
+    /// A chart of whine, which has no roll angle.
+    pub(crate) const WHINE: Place = Place(32768);
     /// A field that takes text or a name.
     pub(crate) const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
@@ -55,11 +57,14 @@ impl Place {
         .or(Place::RESULTS)
         .or(Place::CURSOR)
         .or(Place::TRADE)
-        .or(Place::STUDY);
+        .or(Place::STUDY)
+        .or(Place::WHINE);
     /// Everywhere but in a prompt.
     pub(crate) const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// Where `/` and `:` are commands.
     pub(crate) const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
+    /// Every chart.
+    pub(crate) const CHARTS: Place = Place::CHART.or(Place::WHINE);
     /// The panes that the roll angle's cursor shows in.
     pub(crate) const CURSOR: Place = Place::CHART.or(Place::TEETH);
     pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);

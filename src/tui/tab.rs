@@ -176,6 +176,20 @@ impl Tab {
         self.is_stale() && self.answer.is_some()
     }
 
+    /// The row where the fix of the model's refusal begins: of two fields that exclude each other,
+    /// the one with a value.
+    #[must_use]
+    pub(crate) fn refused_row(&self) -> Option<usize> {
+        let field = fields::index_of(self.refusal?.field())?;
+        let partner = fields::FIELDS[field].partner();
+        let other = partner.filter(|&other| self.case.text(other).is_some());
+        Some(
+            other
+                .filter(|_| self.case.text(field).is_none())
+                .unwrap_or(field),
+        )
+    }
+
     /// What the form makes of its file.
     pub(crate) fn sheet(&self) -> OpenCase<'_> {
         let path = self

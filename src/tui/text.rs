@@ -126,7 +126,12 @@ pub(super) fn edited(
     let before: usize = shown.chars().take(input.cursor()).map(width_of).sum();
     let hidden = (before + 1).saturating_sub(width);
     buffer.set_style(area, style);
-    buffer.set_stringn(area.x, area.y, skip(&shown, hidden), width, style);
+    let seen = if hidden > 0 && width > 1 {
+        format!("…{}", skip(&shown, hidden + 1))
+    } else {
+        skip(&shown, hidden).to_owned()
+    };
+    buffer.set_stringn(area.x, area.y, seen, width, style);
     if let Some(part) = input.selected() {
         let cell = |at: usize| {
             shown
@@ -308,6 +313,6 @@ mod tests {
             edited(&input, area, Style::new(), &mut buffer),
             Some(Position::new(10, 0))
         );
-        assert_eq!(buffer, Buffer::with_lines(["   3456789 "]));
+        assert_eq!(buffer, Buffer::with_lines(["   …456789 "]));
     }
 }

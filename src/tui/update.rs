@@ -76,6 +76,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     }
     effects.extend(solve(app.catch_up()));
     settle(app);
+    page::refresh(app);
     chart::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
     effects.extend(study::request(app));

@@ -53,6 +53,20 @@ impl WhineChart {
         }
     }
 
+    /// The sentence in the status line.
+    #[must_use]
+    pub fn hint(self) -> &'static str {
+        match self {
+            WhineChart::Spectrum => {
+                "The amplitude of each harmonic of the mesh frequency, at rest and in motion."
+            }
+            WhineChart::Speed => {
+                "N is the speed over that of the main resonance. N = 1 and its fractions mark the \
+                    resonances; now marks the speed of the case."
+            }
+        }
+    }
+
     /// The name in lists.
     #[must_use]
     pub fn label(self) -> &'static str {

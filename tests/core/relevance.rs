@@ -234,3 +234,27 @@ fn an_invalid_case_is_described_as_far_as_it_can_be_read() {
         Acting::Yes
     );
 }
+
+#[test]
+fn a_field_stays_in_use_while_a_required_value_is_missing() {
+    let case = Case::table_1();
+    let whole = case.inputs().unwrap();
+    for missing in ["operation.speed", "operation.power", "driver.teeth"] {
+        let mut partial = case.clone();
+        partial.write(index_of(missing).unwrap(), "");
+        let inputs = partial.read().0;
+        for key in [
+            "operation.power",
+            "operation.speed",
+            "pair.module",
+            "driver.face_width",
+        ] {
+            let field = index_of(key).unwrap();
+            assert_eq!(
+                relevance(field, &inputs),
+                relevance(field, &whole),
+                "{key} without {missing}"
+            );
+        }
+    }
+}

@@ -18,7 +18,7 @@ use tipstrike::tui::testing::chart::Frame;
 use tipstrike::tui::testing::chart::curves::{self, Whose};
 use tipstrike::tui::testing::chart::{self, raster};
 use tipstrike::tui::testing::pane::Pane;
-use tipstrike::tui::testing::solver::Answer;
+use tipstrike::tui::testing::solver::{self, Answer};
 use tipstrike::tui::testing::teeth::readings;
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
@@ -946,4 +946,50 @@ fn the_mesh_stiffness_has_a_curve_for_every_model_with_the_field_on_top() {
         desk.keys(&["1", ":", "chart: mesh stiffness", "Enter"]);
         chart(&desk).join("\n")
     });
+}
+
+#[test]
+fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
+    let mut desk = at_method(SMALL, "exact");
+    desk.keys(&["1", ":", "chart: mesh stiffness"]);
+    let accept = actions::of_key(harness::event("Enter"), desk.app.place()).expect("an action");
+    let effects = update(&mut desk.app, accept);
+    let request = effects.into_iter().find_map(|effect| match effect {
+        Effect::Solve(request) => Some(request),
+        _ => None,
+    });
+    let answer = solver::answer(&request.expect("a request"));
+    let without = Answer {
+        stiffness: None,
+        ..answer.clone()
+    };
+    desk.act(Action::Solved(Box::new(without)));
+    assert!(
+        desk.shows("Computing the mesh stiffness."),
+        "{}",
+        desk.screen()
+    );
+    desk.act(Action::Solved(Box::new(answer)));
+    let drawn = chart(&desk);
+    desk.keys(&["3", "j", "k"]);
+    assert_eq!(drawn[1..], chart(&desk)[1..]);
+}
+
+#[test]
+fn a_chart_of_whine_offers_no_key_of_the_roll_angle() {
+    let mut desk = at_method(SMALL, "exact");
+    desk.keys(&["k"]);
+    assert!(desk.shows("N is the speed over"), "{}", desk.screen());
+    assert!(
+        desk.shows("j next chart") && !desk.shows("Space play"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["l"]);
+    assert!(
+        desk.shows("l is not a command in Chart"),
+        "{}",
+        desk.screen()
+    );
+    assert_eq!(desk.app.cursor, None);
 }

@@ -4,7 +4,7 @@ use crate::harness;
 
 use std::fs;
 
-use harness::{Desk, LARGE, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::tui::testing::actions::{Effect, of_key};
 use tipstrike::tui::testing::jobs::Job;
 use tipstrike::tui::testing::update::update;
@@ -130,4 +130,36 @@ fn one_export_runs_at_a_time_and_quitting_asks_for_it() {
     );
     desk.keys(&["w", "Ctrl-Q", "q"]);
     assert!(desk.has_quit);
+}
+
+#[test]
+fn a_picture_is_named_and_refused_where_no_chart_is_visible() {
+    let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
+    desk.keys(&[
+        "Esc",
+        "6",
+        "Alt-X",
+        "Ctrl-U",
+        &desk_path(&desk, "a.svg"),
+        "Enter",
+    ]);
+    assert!(
+        desk.shows("not exported: no chart is visible"),
+        "{}",
+        desk.screen()
+    );
+    assert_eq!(names(&desk), ["pair.toml"]);
+    desk.keys(&[
+        "Esc",
+        "3",
+        "Alt-X",
+        "Ctrl-U",
+        &desk_path(&desk, "a.svg"),
+        "Enter",
+    ]);
+    assert!(
+        desk.shows("exported the chart force to "),
+        "{}",
+        desk.screen()
+    );
 }

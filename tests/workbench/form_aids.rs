@@ -158,7 +158,7 @@ fn limits_are_a_group_of_the_form_with_their_verdicts() {
     assert!(line(&desk, "impact force         2500 N").contains("ok 88 %"));
     desk.keys(&["Ctrl-U", "2 kN"]);
     assert!(
-        line(&desk, "2 kN").contains("EXCEEDED 110 %"),
+        line(&desk, "force         2 kN").contains("EXCEEDED 110 %"),
         "{}",
         desk.screen()
     );

@@ -3,6 +3,8 @@ use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::solver::Answer;
 
 const TINY: Size = Size {
     width: 60,
@@ -272,4 +274,93 @@ fn an_axis_fits_the_visible_part_of_its_curves() {
     );
     desk.keys(&["v"]);
     assert!(axis(&desk).from < 0.0, "{:?}", axis(&desk));
+}
+
+#[test]
+fn a_limit_that_is_not_met_is_in_the_verdict_and_every_limit_is_on_the_page() {
+    let strict = TABLE_1.replace("\"2500 N\"", "\"1 kN\"");
+    for size in [TINY, SMALL, LARGE] {
+        let mut desk = Desk::on(size, "case.toml", &strict);
+        assert!(desk.shows("! F_S 2191.0 N > 1 kN"), "{}", desk.screen());
+        desk.keys(&["Esc", "n"]);
+        assert!(
+            desk.shows("Limit EXCEEDED: impact_force"),
+            "{}",
+            desk.screen()
+        );
+        let desk = Desk::on(size, "case.toml", TABLE_1);
+        assert!(!desk.shows(" > 2500 N"), "{}", desk.screen());
+    }
+    // The limit of the free impact is met, and the impact of the method exceeds it.
+    let free = include_str!("../../cases/hydro-speed-up.toml");
+    let dynamic = format!("{free}\n[model]\nmethod = \"dynamic\"\n");
+    let dynamic = if free.contains("[model]") {
+        free.replace("[model]", "[model]\nmethod = \"dynamic\"")
+    } else {
+        dynamic
+    };
+    let mut desk = Desk::on(SMALL, "case.toml", &dynamic);
+    assert!(desk.shows("! F_d,DE 4403.1 N > 4 kN"), "{}", desk.screen());
+    desk.keys(&["Esc", "n"]);
+    assert!(
+        desk.shows("! Limit ok: impact_force") && desk.shows("Limit ok: normal_velocity"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_page_of_a_refused_case_begins_with_the_reason_and_alt_e_goes_to_the_field() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("pair.centre_distance", "5 mm").keys(&["Down"]);
+    assert!(desk.shows("!*a "), "{}", desk.screen());
+    desk.keys(&["Alt-E"]);
+    assert!(desk.shows("a centre distance, "), "{}", desk.screen());
+    desk.keys(&["Esc", "n"]);
+    assert!(
+        desk.shows("│ ! Not solved: the centre distance jams the mesh")
+            && desk.shows("│ LAST VALID: Corner contact"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_page_of_the_outcome_follows_later_results() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "n"]);
+    assert!(desk.shows("│ Note: "), "{}", desk.screen());
+    let answer = desk.app.tab.answer.clone().expect("an answer");
+    desk.act(Action::Solved(Box::new(Answer {
+        notes: Vec::new(),
+        ..answer
+    })));
+    assert!(
+        desk.shows("│ Corner contact") && !desk.shows("│ Note: "),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_method_that_resolves_the_impact_shows_no_free_impact_beside_the_closed_forms() {
+    let case = TABLE_1.replace("\"exact\"", "\"static\"");
+    let mut desk = Desk::on(LARGE, "case.toml", &case);
+    desk.keys(&["Esc", "2"]);
+    let row = |desk: &Desk| {
+        let screen = desk.screen();
+        let mut lines = screen.lines();
+        let line = lines.find(|line| line.contains("F_S ") && line.contains(" impact force "));
+        line.map(str::to_owned)
+    };
+    for _ in 0..60 {
+        if row(&desk).is_none() {
+            desk.keys(&["j"]);
+        }
+    }
+    assert!(
+        row(&desk).is_some_and(|line| line.contains("2191.0") && line.contains("– N")),
+        "{}",
+        desk.screen()
+    );
 }

@@ -252,6 +252,11 @@ fn variants_stand_beside_the_case_with_their_differences() {
             desk.screen()
         );
         assert_snapshot!(format!("variants_{name}"), desk.screen());
+        assert!(
+            !desk.shows("% N") && !desk.shows("um um") && desk.shows("variants against"),
+            "{}",
+            desk.screen()
+        );
         for _ in 0..3 {
             if desk.app.first_variant.is_some() {
                 desk.keys(&["v"]);
@@ -425,5 +430,47 @@ fn variants_lost_to_another_tab_are_requested_again() {
         requests(&effects),
         1,
         "the job of the other tab replaced the first one"
+    );
+}
+
+#[test]
+fn the_present_value_is_a_point_of_every_curve_and_map() {
+    let mut desk = study(LARGE, "operation.speed");
+    desk.fill("operation.speed", "2175 rpm").keys(&["Esc", "6"]);
+    assert!(desk.shows("n1 = 2175 rpm: exact"), "{}", desk.screen());
+    desk.keys(&["s", "damping", "Enter"]);
+    assert!(desk.shows("n1 = 2175 rpm, ζ = 0.07: "), "{}", desk.screen());
+    desk.keys(&["s"]);
+    desk.go_to("pair.pressure_angle").keys(&["Esc", "6"]);
+    assert!(desk.shows("α = 20 deg: exact"), "{}", desk.screen());
+    // Without a centre distance the gears mesh without backlash.
+    desk.go_to("pair.centre_distance").keys(&["Esc", "6"]);
+    assert!(desk.shows("a = 100 mm: exact"), "{}", desk.screen());
+}
+
+#[test]
+fn the_number_of_refused_points_is_that_of_the_marks() {
+    let mut desk = study(LARGE, "driven.addendum");
+    desk.keys(&["-"]);
+    let shown = desk.app.tab.study.shown.as_ref().expect("a study");
+    let refused = shown.layers[0]
+        .values
+        .iter()
+        .filter(|value| value.is_none());
+    let count = refused.count();
+    assert!(
+        count > 1 && desk.shows(&format!(" {count} points refused")),
+        "{count}\n{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn both_ends_of_a_yes_or_no_field_have_their_name() {
+    let desk = study(SMALL, "model.accurate");
+    assert!(
+        desk.shows("false ") && desk.shows(" true"),
+        "{}",
+        desk.screen()
     );
 }

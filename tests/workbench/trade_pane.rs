@@ -196,6 +196,15 @@ fn a_measurement_out_of_sight_stops() {
         matches!(asked(&mut desk, "3")[..], [Effect::CancelWork]),
         "the chart takes its place"
     );
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "5"]);
+    asked(&mut desk, "m");
+    let tiny = ratatui::layout::Size::new(20, 5);
+    let effects = update(&mut desk.app, Action::Resize(tiny));
+    assert!(
+        !matches!(effects[..], [.., Effect::CancelWork]),
+        "a window that is too small for a moment stops nothing"
+    );
 }
 
 #[test]

@@ -62,6 +62,7 @@ impl App {
             saved: &tab.saved,
             inputs: &tab.inputs_so_far,
             problems: &tab.problems,
+            refused: tab.refused_row(),
             answer: tab.answer.as_ref(),
             is_stale: tab.is_stale(),
             focus: tab.form.focus,

@@ -18,6 +18,8 @@ pub struct Page {
     pub(crate) lines: Vec<String>,
     /// The first line in sight.
     pub(crate) top: usize,
+    /// Whether it shows the outcome of the open case.
+    pub(crate) is_of_results: bool,
 }
 
 impl Page {
@@ -28,6 +30,7 @@ impl Page {
             title: title.into(),
             lines,
             top: 0,
+            is_of_results: false,
         }
     }
 

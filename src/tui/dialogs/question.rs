@@ -63,9 +63,14 @@ impl Question {
     /// Edits of one case would be lost. A stray Enter neither saves nor loses them.
     #[must_use]
     pub(crate) fn unsaved(name: &str, next: &Next) -> Question {
+        let text = if matches!(next, Next::Load(_)) {
+            format!("{name} has unsaved edits. Discard reads the file again without the edits.")
+        } else {
+            format!("{name} has unsaved edits.")
+        };
         Question {
             title: "Unsaved edits",
-            text: format!("{name} has unsaved edits."),
+            text,
             details: Vec::new(),
             buttons: vec![
                 ("Save", Choice::Save(next.clone())),

@@ -11,7 +11,10 @@ use crate::model::QUANTITIES;
 const LIMITS: &str = "limits.";
 
 /// Marks that a file needs around a value, and a message around what was typed.
-const MARKS: [char; 2] = ['"', '`'];
+const MARKS: [char; 2] = ['"', TYPED];
+
+/// The mark around what was typed.
+const TYPED: char = '`';
 
 /// Every key that stands in a table, the longest first, so that none is taken for the start of
 /// another.
@@ -42,12 +45,15 @@ impl Problem {
 #[must_use]
 fn for_form(sentence: &str) -> String {
     let sentence = written(sentence).unwrap_or_else(|| sentence.to_owned());
-    let labelled = if sentence.contains('.') {
-        with_labels(sentence)
-    } else {
-        sentence
-    };
-    labelled.replace(MARKS, "")
+    if !sentence.contains('.') {
+        return sentence.replace(MARKS, "");
+    }
+    // A key within the typed text, between two marks, stays as it is typed.
+    let parts = sentence.split(TYPED).enumerate().map(|(at, part)| {
+        let part = part.to_owned();
+        if at % 2 == 1 { part } else { with_labels(part) }
+    });
+    parts.collect::<String>().replace(MARKS, "")
 }
 
 /// What a person calls the field of a key: `module`, `the driver's tip relief`, `limit of impact
@@ -148,6 +154,11 @@ mod tests {
                 "model.method",
                 "exat",
                 "unknown choice exat: did you mean exact?",
+            ),
+            (
+                "pair.module",
+                "driver.teeth",
+                "driver.teeth does not begin with a number: write 5 mm, for example",
             ),
         ] {
             assert_eq!(said(key, text), sentence);

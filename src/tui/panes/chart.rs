@@ -11,6 +11,8 @@ pub(crate) mod readout;
 mod way;
 mod whine;
 
+use std::sync::Arc;
+
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
 
@@ -212,6 +214,10 @@ impl Charts<'_> {
             answered: self
                 .answer
                 .map(|answer| (answer.serial, answer.pending.is_some())),
+            stiffness: self
+                .answer
+                .and_then(|answer| answer.stiffness.as_ref()?.as_ref().ok())
+                .map(|stiffness| Arc::as_ptr(stiffness).addr()),
             pinned: self.baseline.map(|baseline| baseline.serial),
             shown: (self.pane.graph, self.count(), self.units),
             sight: (view.frame, view.zoom, view.middle.map(f64::to_bits)),

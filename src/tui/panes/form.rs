@@ -65,6 +65,8 @@ pub(crate) struct Form<'a> {
     pub(crate) inputs: &'a Inputs,
     /// The wrong rows.
     pub(crate) problems: &'a [(usize, Problem)],
+    /// The row where the fix of the model's refusal begins.
+    pub(crate) refused: Option<usize>,
     /// The last valid results.
     pub(crate) answer: Option<&'a Answer>,
     /// Whether they are older than the form.
@@ -90,6 +92,11 @@ impl Form<'_> {
     pub(crate) fn is_unfinished(&self, row: usize) -> bool {
         let line = self.line.filter(|_| self.focus == row);
         line.is_some_and(|line| rows::is_unfinished(self.case, row, line.value()))
+    }
+
+    /// Whether a row is wrong, or the model refuses the case because of it.
+    fn is_faulty(&self, row: usize) -> bool {
+        self.refused == Some(row) || self.problems.iter().any(|(at, _)| *at == row)
     }
 
     fn lacks(&self, row: usize) -> bool {

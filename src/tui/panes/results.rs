@@ -2,6 +2,7 @@
 //! side, what to know.
 
 mod gauges;
+mod limits;
 mod pane;
 mod parts;
 mod selection;

@@ -27,6 +27,8 @@ const MOST_CELLS: (u16, u16) = (60, 30);
 const MAP_MARGIN: (u16, u16) = (12, 6);
 /// Rows from which on the legend has one of its own.
 const TALL: u16 = 8;
+/// The words below a plot get at most one of so many rows.
+const WORDS: u16 = 4;
 /// The signs of a point without contact and of a refused point.
 const NO_CONTACT: &str = "_";
 const REFUSED: &str = "!";
@@ -122,13 +124,13 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     let Question::Grid(grid) = &shown.request.question else {
         return draw_page(pane, shown, inner, buffer);
     };
-    let rooms = rooms(inner);
+    let lines = words::below(pane, shown, words::room(inner.width));
+    let rooms = rooms(inner, lines.len());
     match grid.axes.as_slice() {
         [across] => curve::draw(pane, shown, across, &rooms, buffer),
         [up, across] => map::draw(pane, shown, (across, up), &rooms, buffer),
         _ => {}
     }
-    let lines = words::below(pane, shown, words::room(inner.width));
     for (line, y) in lines.iter().zip(rooms.words.top()..rooms.words.bottom()) {
         buffer.set_stringn(
             inner.x + 1,
@@ -199,9 +201,12 @@ fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
     )
 }
 
-fn rooms(inner: Rect) -> Rooms {
+/// The rooms with so many lines of words below the plot, if the plot keeps most of the pane.
+fn rooms(inner: Rect, lines: usize) -> Rooms {
     let legend = u16::from(inner.height >= TALL);
-    let words = inner.height.min(if inner.height >= TALL { 2 } else { 1 });
+    let least = inner.height.min(if inner.height >= TALL { 2 } else { 1 });
+    let most = least.max(inner.height / WORDS);
+    let words = u16::try_from(lines).unwrap_or(most).clamp(least, most);
     let plot = Rect {
         y: inner.y + legend,
         height: inner.height.saturating_sub(legend + words),

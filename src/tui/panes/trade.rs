@@ -163,11 +163,12 @@ fn phrases(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> 
     let refused = (refused > 0).then(|| format!("; {refused} settings refuse the case"));
     let without_contact = trade.is_without_contact().then(|| NO_CONTACT.to_owned());
     let Some(measured) = marked else {
-        let far = format!(
-            "{} of {} settings measured",
-            trade.settings.len(),
-            trade.planned
-        );
+        let (measured, planned) = (trade.settings.len(), trade.planned);
+        let far = if measured == planned && trade.part < 1.0 {
+            format!("all {planned} settings measured once, being repeated")
+        } else {
+            format!("{measured} of {planned} settings measured")
+        };
         let far = match &without_contact {
             Some(_) => format!("; {far}"),
             None => far,
@@ -210,11 +211,15 @@ fn fitting(phrases: &[String], area: Rect) -> String {
     let width = usize::from(area.width).saturating_sub(2);
     let fits = |words: &String| text::wrap(words, width).len() <= area.height.into();
     let joined = |count: usize| phrases[..count].concat();
-    (1..=phrases.len())
-        .rev()
-        .map(joined)
-        .find(fits)
-        .unwrap_or_else(|| joined(phrases.len().min(1)))
+    let all = (1..=phrases.len()).rev().map(joined);
+    // Of a long setting the method and what the measurement found of it remain.
+    let brief = phrases.first().and_then(|first| {
+        let (method, _) = first.split_once(" with ")?;
+        let (_, found) = first.rsplit_once(", ")?;
+        Some(format!("{method}, {found}"))
+    });
+    let fitting = all.chain(brief).find(fits);
+    fitting.unwrap_or_else(|| text::cut(&joined(phrases.len().min(1)), width))
 }
 
 /// What the signs in the pane mean.

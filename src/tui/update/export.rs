@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::report::export::{self as exports, Format};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::export::ExportTo;
 use crate::tui::dialogs::question::Question;
-use crate::tui::jobs::{ExportFault, Exporting, Figure, Job};
+use crate::tui::jobs::{ExportFault, Exporting, Figure, Job, RunningExport};
 use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 
@@ -41,33 +42,53 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
         }
     };
     if let Some(running) = &app.exporting {
-        let running = ascii::printable(&running.display().to_string()).into_owned();
+        let running = ascii::printable(&running.path.display().to_string()).into_owned();
         app.complain(format!(
             "the export to {running} still runs: wait for its end"
         ));
         return Vec::new();
     }
-    let is_of_teeth = app.layout.focus() == Pane::Teeth;
+    let is_picture = exports::is_picture(&path);
+    let figure = figure(app).filter(|_| is_picture);
+    if is_picture && figure.is_none() {
+        app.complain(format!(
+            "not exported: no chart is visible. Keys 3 and 4 show the chart and the teeth; {} \
+                write the report",
+            Format::ENDINGS
+        ));
+        return Vec::new();
+    }
     let exporting = Exporting {
         path,
         replaces,
         name: app.tab.name(),
         document: app.tab.as_edited(),
         inputs,
-        figure: if is_of_teeth {
-            Figure::Teeth
-        } else {
-            Figure::Chart(app.chart.key())
-        },
+        figure,
     };
-    app.exporting = Some(exporting.path.clone());
+    app.exporting = Some(RunningExport {
+        path: exporting.path.clone(),
+        figure,
+    });
     app.say("exporting");
     vec![Effect::Job(Job::Export(Box::new(exporting)))]
 }
 
+/// The picture of the focused pane, else of the visible chart, else of the visible teeth.
+fn figure(app: &App) -> Option<Figure> {
+    let plan = app.layout.plan();
+    let is_visible = |pane: &Pane| !plan.area(*pane).is_empty();
+    let focused = Some(app.layout.focus()).filter(|pane| matches!(pane, Pane::Chart | Pane::Teeth));
+    let visible = || [Pane::Chart, Pane::Teeth].into_iter().find(is_visible);
+    Some(match focused.or_else(visible)? {
+        Pane::Teeth => Figure::Teeth,
+        _ => Figure::Chart(app.chart.key()),
+    })
+}
+
 /// The export was written, or not.
 pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) {
-    app.exporting = None;
+    let figure = app.exporting.take().and_then(|running| running.figure);
     if app
         .prompts
         .last()
@@ -81,7 +102,8 @@ pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) 
             if is_asking {
                 app.prompts.pop();
             }
-            app.say(format!("exported to {}", path.display()));
+            let subject = figure.map_or_else(String::new, |figure| format!(" {}", figure.name()));
+            app.say(format!("exported{subject} to {}", path.display()));
         }
         Err(ExportFault::Exists) => {
             app.message = None;

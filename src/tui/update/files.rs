@@ -49,10 +49,10 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
 
 /// Ends the workbench, or asks while an export runs.
 fn leave(app: &mut App) -> Vec<Effect> {
-    let Some(path) = &app.exporting else {
+    let Some(running) = &app.exporting else {
         return vec![Effect::Quit];
     };
-    let question = Question::export_runs(path);
+    let question = Question::export_runs(&running.path);
     app.prompts.push(Prompt::Ask(question));
     Vec::new()
 }

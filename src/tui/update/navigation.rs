@@ -33,7 +33,10 @@ fn field(app: &mut App, field: usize) {
 
 // Round and round those that are wrong.
 fn fault(app: &mut App) {
-    let rows = || app.tab.problems.iter().map(|(row, _)| *row);
+    let rows = || {
+        let problems = app.tab.problems.iter().map(|(row, _)| *row);
+        problems.chain(app.tab.refused_row())
+    };
     match rows()
         .filter(|&row| row > app.tab.form.focus)
         .min()

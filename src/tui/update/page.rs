@@ -52,8 +52,28 @@ pub(super) fn notes(app: &mut App) {
     if lines.is_empty() {
         app.complain("there are no results to show");
     } else {
-        app.prompts
-            .push(Prompt::Read(Page::new("Outcome, limits, notes", lines)));
+        let page = Page::new("Outcome, limits, notes", lines);
+        app.prompts.push(Prompt::Read(Page {
+            is_of_results: true,
+            ..page
+        }));
+    }
+}
+
+/// Shows new results on that page while it is open.
+pub(super) fn refresh(app: &mut App) {
+    let is_of_results =
+        |prompt: &Prompt| matches!(prompt, Prompt::Read(page) if page.is_of_results);
+    if !app.prompts.iter().any(is_of_results) {
+        return;
+    }
+    let lines = results::in_full(&app.results());
+    for prompt in &mut app.prompts {
+        if let Prompt::Read(page) = prompt
+            && page.is_of_results
+        {
+            page.lines.clone_from(&lines);
+        }
     }
 }
 

@@ -147,8 +147,8 @@ fn question(app: &App, quantity: Option<&'static Quantity>) -> Result<Question, 
 
 fn tolerance(app: &App, inputs: &Inputs, quantity: &Quantity) -> Result<Question, String> {
     if app.tab.case.spread.is_empty() {
-        return Err("The case has no [spread]: add lines such as \"deviations.base_pitch\" = { normal = \"4 um\" } \
-            to its file, and open it again. d shows the field over its range."
+        return Err("The case has no [spread]: add a line [spread] and below it lines such as \
+            \"deviations.base_pitch\" = { normal = \"4 um\" } to its file, and open it again. d shows the field over its range."
             .to_owned());
     }
     Ok(Question::Tolerance(Box::new(ToleranceQuestion {

@@ -7,6 +7,7 @@ use crate::tui::actions::Effect;
 use crate::tui::actions::Progress;
 use crate::tui::app::App;
 use crate::tui::benchmark::{End, Measured, Measuring, Traded};
+use crate::tui::layout::is_too_small;
 use crate::tui::pane::Pane;
 use crate::tui::panes::trade::{nearest, stepped};
 
@@ -39,9 +40,11 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     }))]
 }
 
-/// What is measured out of sight stops: it would cost the machine what nobody looks at.
+/// Stops a measurement out of sight, whose results nobody looks at. A terminal that is too small
+/// for a moment stops none.
 pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
-    let Some(serial) = app.measuring else {
+    let is_too_small = is_too_small(app.layout.size());
+    let Some(serial) = app.measuring.filter(|_| !is_too_small) else {
         return Vec::new();
     };
     let is_own = app

@@ -154,7 +154,10 @@ fn focused(app: &App) -> String {
                 .map_or_else(String::new, |compared| format!("{compared} "));
             compared + &about
         }),
-        Pane::Chart | Pane::Teeth => at_cursor(app),
+        Pane::Chart | Pane::Teeth => match app.chart.whine {
+            Some(chart) if app.layout.focus() == Pane::Chart => chart.hint().to_owned(),
+            _ => at_cursor(app),
+        },
         Pane::Trade => trade::signs(&app.trade()),
         Pane::Study => study::hint(&app.study()),
     }

@@ -6,13 +6,19 @@ use crate::case::file::{self, SaveError};
 use crate::model::Refusal;
 use crate::report::charts::{Drawn, find, no_curve, picture, with_other_method};
 use crate::report::export::Format;
-use crate::report::page::{Studies, Subject};
+use crate::report::page::{self, Studies};
 use crate::report::svg::teeth::teeth;
 use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use crate::report::{Report, Selection};
 use crate::study::speeds::speeds;
 use crate::tui::jobs::{ExportFault, Exporting, Figure};
 use crate::tui::store::at_home;
+
+/// The content of the file.
+enum Subject {
+    Picture(Figure),
+    Report(Format),
+}
 
 /// Solves the case and writes the file. Returns the whole path.
 pub(super) fn write(
@@ -36,15 +42,16 @@ pub(super) fn write(
 
 fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Result<String, String> {
     let format = Format::of(path);
-    let is_picture = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
-    if format.is_none() && !is_picture {
-        return Err(format!(
-            "unknown file extension: use {} for the report, or .svg for the picture",
-            Format::ENDINGS
-        ));
-    }
+    let subject = match (exporting.figure, format) {
+        (Some(figure), _) => Subject::Picture(figure),
+        (None, Some(format)) => Subject::Report(format),
+        (None, None) => {
+            return Err(format!(
+                "unknown file extension: use {} for the report, or .svg for the picture",
+                Format::ENDINGS
+            ));
+        }
+    };
     let selection = Selection {
         only: Vec::new(),
         stations: format.is_none_or(Format::has_stations),
@@ -57,8 +64,9 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
         selection,
     )
     .map_err(|refusal| format!("{refusal}: {}", refusal.fix()))?;
-    let Some(format) = format else {
-        return drawn(report, exporting.figure, go_on);
+    let format = match subject {
+        Subject::Picture(figure) => return drawn(report, figure, go_on),
+        Subject::Report(format) => format,
     };
     let reports = if format.is_page() {
         with_other_method(report)
@@ -78,7 +86,7 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
     } else {
         Studies::default()
     };
-    let subject = Subject {
+    let subject = page::Subject {
         reports,
         speeds,
         studies,

@@ -142,6 +142,8 @@ impl ChartView {
 pub(crate) struct Occasion {
     /// The serial of the answered request, and whether the answer is still incomplete.
     pub(crate) answered: Option<(u64, bool)>,
+    /// The address of the mesh stiffness, which comes after the answer.
+    pub(crate) stiffness: Option<usize>,
     /// The serial of the baseline's request.
     pub(crate) pinned: Option<u64>,
     /// The chosen chart, the number of visible charts, and the units.

@@ -34,7 +34,7 @@ pub(super) fn draw_mark(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut 
     // The reason stands below the line and has a mark of its own.
     if pane.focus == index {
         buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
-    } else if pane.problems.iter().any(|(at, _)| *at == index) {
+    } else if pane.is_faulty(index) {
         buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
     }
 }

@@ -11,7 +11,7 @@ use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 
 /// A statement in full, and then in fewer and fewer words.
-pub(super) struct Gauge(Vec<String>);
+pub(super) struct Gauge(pub(super) Vec<String>);
 
 impl Gauge {
     pub(super) fn fitting(&self, width: usize) -> String {

@@ -1,18 +1,15 @@
 //! The parts of the pane from its top to its bottom, and the room that each has.
 
-use std::collections::BTreeSet;
-
 use ratatui::style::Style;
 use ratatui::text::Line;
 use unicode_width::UnicodeWidthStr;
 
-use super::gauges;
+use super::gauges::{self, Gauge};
+use super::limits;
 use super::pane::Results;
-use super::words::{NOTE, refused_variants, sentence};
+use super::words::{NOTE, faults, refused_variants, sentence};
 use crate::model::Note;
 use crate::report::digest;
-use crate::tui::ascii::symbol;
-use crate::tui::rows;
 use crate::tui::solver::Answer;
 use crate::tui::text;
 
@@ -130,51 +127,15 @@ fn shortened(notes: &[Note], width: usize) -> Option<String> {
 }
 
 fn banner(pane: &Results<'_>, width: usize) -> Vec<Line<'static>> {
-    let theme = pane.look.theme;
-    let said = |text: String, style: Style| {
-        text::wrap(&text, width)
-            .into_iter()
-            .map(move |line| Line::styled(line, style))
-    };
-    let Some(refusal) = pane.refusal else {
-        return wrong(pane)
-            .into_iter()
-            .flat_map(|wrong| said(wrong, theme.problem))
-            .collect();
-    };
-    let cause = said(format!("! Not solved: {refusal}."), theme.problem);
-    cause
-        .chain(said(
-            format!("Correction: {}.", refusal.fix()),
-            Style::new(),
-        ))
+    let styles = [pane.look.theme.problem, Style::new()];
+    let lines = faults(pane).into_iter().zip(styles);
+    lines
+        .flat_map(|(text, style)| {
+            text::wrap(&text, width)
+                .into_iter()
+                .map(move |line| Line::styled(line, style))
+        })
         .collect()
-}
-
-// The first field that is wrong, in the order of the form, why, how many more are, and the key that
-// goes there.
-fn wrong(pane: &Results<'_>) -> Option<String> {
-    let (row, problem) = pane.problems.iter().min_by_key(|(row, _)| *row)?;
-    let name = format!(
-        "{} {}",
-        symbol(rows::symbol(pane.case, *row), pane.look.ascii),
-        rows::label(pane.case, *row)
-    );
-    let fields: BTreeSet<usize> = pane.problems.iter().map(|(row, _)| *row).collect();
-    let more = if fields.len() > 1 {
-        format!("; {} more", fields.len() - 1)
-    } else {
-        String::new()
-    };
-    let key = (pane.next_fault)();
-    if let Some(missing) = pane.missing.filter(|&missing| missing > 1) {
-        return Some(format!("! {missing} required values are missing ({key})"));
-    }
-    Some(format!(
-        "! {}: {}{more} ({key})",
-        name.trim_start(),
-        problem.cause
-    ))
 }
 
 fn outcome(pane: &Results<'_>, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'static>> {
@@ -191,9 +152,15 @@ fn outcome(pane: &Results<'_>, answer: &Answer, width: usize, is_low: bool) -> V
     } else {
         sentence(pane, solution)
     };
-    let lines = text::wrap(&words, width);
+    let lines = text::wrap(&words, width).into_iter();
+    let warning = limits::warning(pane, solution).filter(|_| !pane.is_stale);
+    let warning = warning.map(|words| Gauge(words).fitting(width));
+    let warning = warning.map(|words| {
+        let line = text::cut(&words, width);
+        Line::styled(line, pane.look.theme.problem)
+    });
     lines
-        .into_iter()
         .map(|line| Line::styled(line, style))
+        .chain(warning)
         .collect()
 }

@@ -35,9 +35,10 @@ pub(super) fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
     } else {
         "Results"
     };
-    let name_of_base = pane
-        .baseline
-        .map(|baseline| format!(", against {}", baseline.name));
+    let name_of_base = match (pane.variants, pane.baseline) {
+        (Some(_), _) => Some(", variants against the case".to_owned()),
+        (None, baseline) => baseline.map(|baseline| format!(", against {}", baseline.name)),
+    };
     let against = name_of_base.as_deref().unwrap_or_default();
     let begun = text::cut(against, room.saturating_sub(name.width()));
     let base = if begun.width() >= LEAST_OF_BASE {

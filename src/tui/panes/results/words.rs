@@ -1,10 +1,15 @@
 //! Outcome, gauges and notes in words.
 
+use std::collections::BTreeSet;
+
 use super::gauges::{self, Gauge};
+use super::limits;
 use super::pane::Results;
 use crate::model::{Quantity, Solution};
 use crate::report::{self, Shown, digest};
 use crate::tui::ascii::symbol;
+use crate::tui::rows;
+use crate::tui::solver::Answer;
 
 /// Stands before a note.
 pub(super) const NOTE: &str = "Note: ";
@@ -16,26 +21,73 @@ pub(crate) fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
     symbol(&sentence, pane.look.ascii).into_owned()
 }
 
-/// The outcome, the gauges and the notes in full, a line each.
+/// Why the results are those of an earlier state of the form: the cause, then the fix.
+pub(super) fn faults(pane: &Results<'_>) -> Vec<String> {
+    match pane.refusal {
+        Some(refusal) => vec![
+            format!("! Not solved: {refusal}."),
+            format!("Correction: {} ({}).", refusal.fix(), (pane.next_fault)()),
+        ],
+        None => wrong(pane).into_iter().collect(),
+    }
+}
+
+// The first field that is wrong, in the order of the form, why, how many more are, and the key that
+// goes there.
+fn wrong(pane: &Results<'_>) -> Option<String> {
+    let (row, problem) = pane.problems.iter().min_by_key(|(row, _)| *row)?;
+    let name = format!(
+        "{} {}",
+        symbol(rows::symbol(pane.case, *row), pane.look.ascii),
+        rows::label(pane.case, *row)
+    );
+    let fields: BTreeSet<usize> = pane.problems.iter().map(|(row, _)| *row).collect();
+    let more = if fields.len() > 1 {
+        format!("; {} more", fields.len() - 1)
+    } else {
+        String::new()
+    };
+    let key = (pane.next_fault)();
+    if let Some(missing) = pane.missing.filter(|&missing| missing > 1) {
+        return Some(format!("! {missing} required values are missing ({key})"));
+    }
+    Some(format!(
+        "! {}: {}{more} ({key})",
+        name.trim_start(),
+        problem.cause
+    ))
+}
+
+/// The faults, the outcome, the limits, the gauges and the notes in full, a line each.
 #[must_use]
 pub(crate) fn in_full(pane: &Results<'_>) -> Vec<String> {
-    let Some(answer) = pane.answer else {
-        return Vec::new();
+    let faults = faults(pane);
+    let of_answer = pane.answer.map(|answer| of_answer(pane, answer));
+    let lines = faults.into_iter().chain(of_answer.into_iter().flatten());
+    lines.flat_map(|line| [line, String::new()]).collect()
+}
+
+fn of_answer(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
+    let age = if pane.shows_last_valid {
+        "LAST VALID: "
+    } else {
+        ""
     };
-    let outcome = answer
-        .of(answer.active)
-        .map(|solution| sentence(pane, solution));
+    let solution = answer.of(answer.active);
+    let outcome = solution.map(|solution| format!("{age}{}", sentence(pane, solution)));
+    let limits = solution.map(|solution| limits::sentences(pane, solution));
     let gauges = gauges::gauges(pane, answer).into_iter().map(Gauge::in_full);
     let notes = answer
         .notes
         .iter()
         .map(|note| format!("{NOTE}{}.", note.message));
-    let lines = outcome
+    outcome
         .into_iter()
+        .chain(limits.into_iter().flatten())
         .chain(gauges)
         .chain(notes)
-        .chain(refused_variants(pane));
-    lines.flat_map(|line| [line, String::new()]).collect()
+        .chain(refused_variants(pane))
+        .collect()
 }
 
 /// A line for each variant that the model refuses.

@@ -129,6 +129,8 @@ impl Plot<'_> {
             let width = label.width() as u16;
             let start = column.saturating_sub(width / 2);
             let start = start.min((cells.right() + 2).saturating_sub(width));
+            // The first label may begin right of the place where it would be centred.
+            let start = start.max(free.min(column));
             if start >= free {
                 buffer.set_string(column, bottom, "┴", rule);
                 buffer.set_string(start, bottom + 1, &label, Style::new());

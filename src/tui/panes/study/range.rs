@@ -1,8 +1,10 @@
 //! The range of a study: around the present value of a field, in the unit in which it is written.
 
+use crate::case::dependencies::value_of;
 use crate::case::fields::{FIELDS, Field, Kind};
 use crate::case::units;
-use crate::case::{Case, field_range};
+use crate::case::{Case, Problem, field_range};
+use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::significant;
 use crate::study::axis::{Axis, AxisRange, Sampling};
 use crate::tui::rows;
@@ -49,17 +51,17 @@ pub(crate) fn axis(case: &Case, field: usize, zoom: i32, steps: Steps) -> Result
         }
         Kind::Number(..) => {
             let range = number_range(case, field, zoom);
-            let (range, points) = match steps {
-                Steps::Equal(points) => (range, points),
-                Steps::Round(most) => round(&range, most).unwrap_or((range, most)),
+            let axis = |steps| {
+                let axis = stepped(&range, steps)?;
+                Ok(with_present(axis, &range, case))
             };
-            let sampling = Sampling {
-                points: Some(points.max(2)),
-                is_log: false,
+            let found = match (axis(steps), steps) {
+                (Ok(found), Steps::Round(most)) if found.points.len() > most => {
+                    axis(Steps::Round(most - 1))
+                }
+                (found, _) => found,
             };
-            range
-                .axis(sampling)
-                .map_err(|problem| worded(known, &problem.cause))
+            found.map_err(|problem: Problem| worded(known, &problem.cause))
         }
         Kind::Count(from, to, _) => {
             let (Steps::Equal(points) | Steps::Round(points)) = steps;
@@ -68,6 +70,38 @@ pub(crate) fn axis(case: &Case, field: usize, zoom: i32, steps: Steps) -> Result
             axis.map_err(|problem| worded(known, &problem.cause))
         }
     }
+}
+
+/// The equal or round steps of a range.
+fn stepped(range: &AxisRange, steps: Steps) -> Result<Axis, Problem> {
+    let (range, points) = match steps {
+        Steps::Equal(points) => (range.clone(), points),
+        Steps::Round(most) => round(range, most).unwrap_or((range.clone(), most)),
+    };
+    range.axis(Sampling {
+        points: Some(points.max(2)),
+        is_log: false,
+    })
+}
+
+/// The axis with the present value of the field among its points.
+fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
+    let is_written = case.value(axis.field).is_some();
+    let digits = if is_written { ROUND_DIGITS } else { DIGITS };
+    let rounded = |number: f64| significant(number, digits).parse::<f64>().unwrap_or(number);
+    let Some(point) = present(&axis, case).and_then(|number| range.at(rounded(number)).ok()) else {
+        return axis;
+    };
+    let own = point.number.map(rounded);
+    if axis
+        .points
+        .iter()
+        .all(|other| other.number.map(rounded) != own)
+    {
+        let at = axis.points.partition_point(|other| other.number < own);
+        axis.points.insert(at, point);
+    }
+    axis
 }
 
 /// The round numbers within a range: their own range and their count.
@@ -95,8 +129,19 @@ fn worded(field: &Field, cause: &str) -> String {
 
 /// The number of a field in SI, given or from other fields.
 fn number(case: &Case, field: usize) -> Option<f64> {
-    case.value(field)
-        .or_else(|| case.derived(field, &case.read().0))
+    case.value(field).or_else(|| {
+        let (inputs, _) = case.read();
+        let derived = case.derived(field, &inputs);
+        derived.or_else(|| without_backlash(field, &inputs))
+    })
+}
+
+/// The centre distance without backlash, in m, where the field is the centre distance.
+fn without_backlash(field: usize, inputs: &Inputs) -> Option<f64> {
+    let quantity = Quantity::find(FIELDS[field].name())?;
+    (quantity.key == "centre_distance")
+        .then(|| value_of(quantity, inputs))
+        .flatten()
 }
 
 /// The present value in SI: as written, else the default or an example.

@@ -94,7 +94,11 @@ pub(super) fn below(pane: &StudyPane<'_>, shown: &StudyResults, width: usize) ->
     }
     let line = at_cursor(pane, shown);
     lines.push(text::cut(&symbol(&line, pane.look.ascii), width));
-    lines.extend(refused(shown).map(|line| text::cut(&line, width)));
+    lines.extend(
+        refused(shown)
+            .into_iter()
+            .flat_map(|line| text::wrap(&line, width)),
+    );
     lines
 }
 
@@ -148,20 +152,25 @@ fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> 
     Some(format!("{name} {words}"))
 }
 
-/// The refused points of the first curve that has some: how many, and why.
-fn refused(shown: &StudyResults) -> impl Iterator<Item = String> {
-    let found = shown.layers.iter().find(|found| found.refusals.total() > 0);
-    let refused = found
-        .map(|found| found.refusals.0.clone())
-        .unwrap_or_default();
-    refused.into_iter().map(|refused| {
-        let Refused { count, problem, .. } = &refused;
-        let points = if *count == 1 { "point" } else { "points" };
-        format!(
-            "{count} {points} refused: {}: {}",
-            problem.cause, problem.fix
-        )
-    })
+/// The refused points of the first curve that has some: how many, and the most frequent reason.
+fn refused(shown: &StudyResults) -> Option<String> {
+    let found = shown
+        .layers
+        .iter()
+        .find(|found| found.refusals.total() > 0)?;
+    let reasons = found.refusals.0.iter();
+    let Refused { count, problem, .. } = reasons.rev().max_by_key(|refused| refused.count)?;
+    let total = found.refusals.total();
+    let points = if total == 1 { "point" } else { "points" };
+    let of_them = if *count < total {
+        format!(", {count} of them")
+    } else {
+        String::new()
+    };
+    Some(format!(
+        "{total} {points} refused{of_them}: {}: {}",
+        problem.cause, problem.fix
+    ))
 }
 
 /// The hint line while the pane has the focus: the values at the cursor where the pane cuts them,

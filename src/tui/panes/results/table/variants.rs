@@ -13,10 +13,13 @@ use crate::tui::ascii::symbol;
 use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 use crate::tui::text;
+use crate::tui::theme::Theme;
 use crate::tui::variants::Variants;
 
 /// The least columns of a value and of a difference.
 const LEAST: usize = 7;
+/// So many variants get room before the names of the results.
+const ENOUGH: usize = 2;
 /// A value that does not exist, and one that the model refuses.
 const NONE: &str = "–";
 const REFUSED: &str = "refused";
@@ -24,6 +27,7 @@ const REFUSED: &str = "refused";
 /// The texts of a row.
 struct Cells {
     symbol: String,
+    label: &'static str,
     unit: &'static str,
     own: String,
     /// The value and the difference of each variant.
@@ -33,6 +37,8 @@ struct Cells {
 /// Widths of the columns.
 struct Layout {
     symbol: usize,
+    /// 0 where the names have no room.
+    label: usize,
     /// 0 where the values of the case have no room.
     own: usize,
     value: usize,
@@ -71,37 +77,8 @@ pub(super) fn lines(
     };
     let seen = seen(variants.columns.len());
     let theme = pane.look.theme;
-    let mut heading = vec![Span::raw(" ".repeat(layout.symbol))];
-    if layout.own > 0 {
-        heading.push(Span::styled(
-            format!("{:>1$}", "case", layout.own),
-            theme.active,
-        ));
-    }
-    for &at in &seen {
-        let room = layout.value + layout.difference;
-        let name = text::cut(&variants.columns[at].0, room.saturating_sub(1));
-        heading.push(Span::styled(format!("{name:>room$}"), theme.other));
-    }
-    let line = |cells: &Cells| {
-        let mut spans = vec![Span::raw(text::padded(&cells.symbol, layout.symbol))];
-        if layout.own > 0 {
-            spans.push(Span::styled(
-                format!("{:>1$}", cells.own, layout.own),
-                theme.focus,
-            ));
-        }
-        for &at in &seen {
-            let (value, difference) = &cells.others[at];
-            spans.push(Span::raw(format!("{value:>0$}", layout.value)));
-            spans.push(Span::styled(
-                format!("{difference:>0$}", layout.difference),
-                theme.baseline,
-            ));
-        }
-        spans.push(Span::raw(format!(" {}", cells.unit)));
-        Line::from(spans)
-    };
+    let heading = layout.heading(variants, &seen, width, theme);
+    let line = |cells: &Cells| layout.line(cells, &seen, width, theme);
     let mut rows: Vec<Line<'static>> = cells.iter().map(line).collect();
     if let Some(above) = above_heading(answer) {
         let title = text::cut(&format!("{FREE_IMPACT}:"), width);
@@ -113,7 +90,7 @@ pub(super) fn lines(
         Style::new()
     };
     Table {
-        heading: Line::from(heading),
+        heading,
         rows: rows.into_iter().map(|row| row.patch_style(faint)).collect(),
     }
 }
@@ -154,6 +131,7 @@ impl Cells {
         };
         Cells {
             symbol: symbol(known.symbol_in(answer.active), pane.look.ascii).into_owned(),
+            label: known.label_in(answer.active).trim_start(),
             unit: shown_with(known, own.unwrap_or(0.0), unit).unit,
             own: shown(own),
             others: found.iter().map(cell).collect(),
@@ -169,22 +147,93 @@ impl Layout {
         };
         let all = Layout {
             symbol: 1 + most(&|cells| cells.symbol.width()),
+            label: 1 + most(&|cells| cells.label.width()),
             own: 1 + most(&|cells| cells.own.width()).max(LEAST),
             value: 1 + others(&|cells| cells.0.width()),
             difference: 1 + others(&|cells| cells.1.width()),
             unit: 1 + most(&|cells| cells.unit.width()),
             count: 1,
         };
-        let fitting = |own: usize| {
-            let rest = width.saturating_sub(all.symbol + own + all.unit);
+        let fitting = |label: usize| {
+            let rest = width.saturating_sub(all.symbol + label + all.own + all.unit);
             rest / (all.value + all.difference)
         };
-        match fitting(all.own) {
-            0 => Layout { own: 0, ..all },
-            count => Layout {
-                count: count.min(variants.columns.len().max(1)),
+        let wanted = variants.columns.len().max(1);
+        match (fitting(all.label), fitting(0)) {
+            (labelled, _) if labelled >= wanted.min(ENOUGH) => Layout {
+                count: labelled.min(wanted),
+                ..all
+            },
+            (_, 0) => Layout {
+                label: 0,
+                own: 0,
+                ..all
+            },
+            (_, count) => Layout {
+                label: 0,
+                count: count.min(wanted),
                 ..all
             },
         }
+    }
+
+    /// The names of the columns.
+    fn heading(
+        &self,
+        variants: &Variants,
+        seen: &[usize],
+        width: usize,
+        theme: &Theme,
+    ) -> Line<'static> {
+        let name = |at: usize, room: usize| {
+            let name = text::cut(&variants.columns[at].0, room.saturating_sub(1));
+            Span::styled(format!("{name:>room$}"), theme.other)
+        };
+        if self.own == 0 {
+            let names = seen
+                .iter()
+                .map(|&at| name(at, width - self.symbol.min(width)));
+            let blank = Span::raw(" ".repeat(self.symbol));
+            return Line::from_iter(std::iter::once(blank).chain(names));
+        }
+        let blank = Span::raw(" ".repeat(self.symbol + self.label + self.unit));
+        let own = Span::styled(format!("{:>1$}", "case", self.own), theme.active);
+        let names = seen
+            .iter()
+            .map(|&at| name(at, self.value + self.difference));
+        Line::from_iter([blank, own].into_iter().chain(names))
+    }
+
+    /// The line of a quantity. Without the values of the case, the unit follows the value.
+    fn line(&self, cells: &Cells, seen: &[usize], width: usize, theme: &Theme) -> Line<'static> {
+        let symbol = Span::raw(text::padded(&cells.symbol, self.symbol));
+        if self.own == 0 {
+            let others = seen.iter().flat_map(|&at| {
+                let (value, difference) = &cells.others[at];
+                let value = format!("{value:>0$} {1}", self.value, cells.unit);
+                let rest = width.saturating_sub(self.symbol + value.width());
+                let difference = text::cut(difference, rest.saturating_sub(1));
+                [
+                    Span::raw(value),
+                    Span::styled(format!("{difference:>rest$}"), theme.baseline),
+                ]
+            });
+            return Line::from_iter(std::iter::once(symbol).chain(others));
+        }
+        let before = [
+            symbol,
+            Span::raw(text::padded(cells.label, self.label)),
+            Span::raw(text::padded(cells.unit, self.unit)),
+            Span::styled(format!("{:>1$}", cells.own, self.own), theme.focus),
+        ];
+        let others = seen.iter().flat_map(|&at| {
+            let (value, difference) = &cells.others[at];
+            let room = self.difference;
+            [
+                Span::raw(format!("{value:>0$}", self.value)),
+                Span::styled(format!("{difference:>room$}"), theme.baseline),
+            ]
+        });
+        Line::from_iter(before.into_iter().chain(others))
     }
 }
