@@ -194,14 +194,14 @@ impl Layout {
                 .iter()
                 .map(|&at| name(at, width - self.symbol.min(width)));
             let blank = Span::raw(" ".repeat(self.symbol));
-            return Line::from_iter(std::iter::once(blank).chain(names));
+            return std::iter::once(blank).chain(names).collect();
         }
         let blank = Span::raw(" ".repeat(self.symbol + self.label + self.unit));
         let own = Span::styled(format!("{:>1$}", "case", self.own), theme.active);
         let names = seen
             .iter()
             .map(|&at| name(at, self.value + self.difference));
-        Line::from_iter([blank, own].into_iter().chain(names))
+        [blank, own].into_iter().chain(names).collect()
     }
 
     /// The line of a quantity. Without the values of the case, the unit follows the value.
@@ -218,7 +218,7 @@ impl Layout {
                     Span::styled(format!("{difference:>rest$}"), theme.baseline),
                 ]
             });
-            return Line::from_iter(std::iter::once(symbol).chain(others));
+            return std::iter::once(symbol).chain(others).collect();
         }
         let before = [
             symbol,
@@ -234,6 +234,6 @@ impl Layout {
                 Span::styled(format!("{difference:>room$}"), theme.baseline),
             ]
         });
-        Line::from_iter(before.into_iter().chain(others))
+        before.into_iter().chain(others).collect()
     }
 }
