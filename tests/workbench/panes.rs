@@ -341,26 +341,3 @@ fn the_page_of_the_outcome_follows_later_results() {
         desk.screen()
     );
 }
-
-#[test]
-fn a_method_that_resolves_the_impact_shows_no_free_impact_beside_the_closed_forms() {
-    let case = TABLE_1.replace("\"exact\"", "\"static\"");
-    let mut desk = Desk::on(LARGE, "case.toml", &case);
-    desk.keys(&["Esc", "2"]);
-    let row = |desk: &Desk| {
-        let screen = desk.screen();
-        let mut lines = screen.lines();
-        let line = lines.find(|line| line.contains("F_S ") && line.contains(" impact force "));
-        line.map(str::to_owned)
-    };
-    for _ in 0..60 {
-        if row(&desk).is_none() {
-            desk.keys(&["j"]);
-        }
-    }
-    assert!(
-        row(&desk).is_some_and(|line| line.contains("2191.0") && line.contains("– N")),
-        "{}",
-        desk.screen()
-    );
-}

@@ -164,17 +164,6 @@ impl Columns {
         ])
     }
 
-    /// The number in a method's column. Beside the closed forms, a method that resolves the impact
-    /// has none of the free impact.
-    fn number<'c>(&self, cells: &'c Cells, method: Method) -> &'c str {
-        let has_closed_form = self.methods.iter().any(|method| !method.shares_load());
-        if has_closed_form && method.shares_load() && cells.quantity.is_of_free_impact() {
-            "–"
-        } else {
-            cells.number(method)
-        }
-    }
-
     /// The line of a quantity.
     pub(super) fn line(&self, pane: &Results<'_>, answer: &Answer, cells: &Cells) -> Line<'static> {
         let unit = cells.unit;
@@ -209,7 +198,7 @@ impl Columns {
             let room = width.saturating_sub(taken);
             taken = 0;
             spans.push(Span::styled(
-                format!("{:>room$}", self.number(cells, method)),
+                format!("{:>room$}", cells.number(method)),
                 style,
             ));
         }
