@@ -153,6 +153,7 @@ fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
     let settings = Settings {
         mass: solution.reduced_mass,
         damping_ratio: inputs.damping_ratio,
+        backlash: None,
         warmup_cycles: inputs.warmup_cycles,
         tolerance,
         spacing: Spacing::of(&inputs),

@@ -6,8 +6,11 @@ mod events;
 mod laps;
 mod lead;
 mod motion;
+mod pair;
 mod passage;
+mod rattle;
 mod settings;
+mod side;
 pub mod steady;
 mod step;
 mod swing;
@@ -26,6 +29,8 @@ use events::Event;
 use laps::Laps;
 use lead::TERMS;
 use motion::{Motion, State, Window};
+use pair::PairName;
+pub use rattle::Rattle;
 pub use settings::Settings;
 use step::{Course, Step};
 use watch::Watch;
@@ -53,6 +58,8 @@ pub struct Dynamic {
     /// Whether no pair at all is in contact at some moment from one base pitch before E until the
     /// incoming tooth leaves.
     pub contact_lost: bool,
+    /// What the back flanks carry meanwhile; where the case gives a backlash.
+    pub rattle: Option<Rattle>,
     /// Work of friction on the incoming tooth, in J; where the case gives a friction coefficient.
     pub friction_work: Option<f64>,
     /// From the first contact through E to the last, its peaks and valleys among them.
@@ -80,14 +87,16 @@ pub struct Effort {
 ///
 /// # Formula
 /// ```text
-/// me x'' + c x' + Σ w_k F_k(x, s) = F0,   x + e_k − S_k = Σ_j Q_kj F_j/b,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
+/// me x'' + c x' + Σ w_k F_k(x, s) − Σ w_m B_m(x, s) = F0,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
+/// x + e_k − S_k = Σ_j Q_kj F_j/b,   −x − j_bn − S_m = Σ_j Q_mj B_j/b
 /// c = 2 ζ √(k me) while a pair is in contact, else 0;   k the mean stiffness of the mesh
 /// ```
-/// from the static balance `warmup_cycles` base pitches before E, where no pair deviates, until the
-/// incoming tooth has left. Within a step the pairs in contact stay the same ones, so that the
-/// equation is linear, its coefficients are polynomials and every step is a power series, see
-/// [`taylor`](crate::numeric::taylor); it ends where a pair touches or leaves, or passes from one
-/// zone of the mesh into the next.
+/// with the forces F of the working flanks and, where the case gives a backlash j_bn, B of the back
+/// flanks ([`Mesh::back`]). The motion goes from the static balance `warmup_cycles` base pitches
+/// before E, where no pair deviates, until the incoming tooth has left. Within a step the pairs in
+/// contact stay the same ones, so that the equation is linear, its coefficients are polynomials and
+/// every step is a power series, see [`taylor`](crate::numeric::taylor); it ends where a pair
+/// touches or leaves, or passes from one zone of the mesh into the next.
 ///
 /// # Source
 /// The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, with corner contact by the
@@ -103,20 +112,35 @@ pub fn dynamic(
     settings: &Settings,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Dynamic, Refusal> {
-    let (motion, meter) = (Motion::new(mesh, settings), Meter::new(MOTION_WORK));
-    let mut run = Run::begin(&motion, settings.tolerance, &meter)?;
-    while !run.is_over() {
-        if !go_on(run.part_done()) {
-            return Err(Refusal::Stopped);
+    let meter = Meter::new(MOTION_WORK);
+    across_backlash(mesh, settings, |motion| {
+        let mut run = Run::begin(motion, settings.tolerance, &meter)?;
+        while !run.is_over() {
+            if !run.goes_on(go_on)? {
+                return Ok(None);
+            }
         }
-        run.cross_window()?;
-        run.skip_what_repeats();
+        let effort = Effort {
+            work: meter.spent(),
+            ..run.effort
+        };
+        run.watch.finish(motion, settings.spacing, effort).map(Some)
+    })
+}
+
+/// What `find` finds of the motion on the working flanks; where the driver falls behind to the
+/// back flanks and `find` therefore has nothing, of the motion on both. So the back flanks cost
+/// nothing while they stay apart.
+fn across_backlash<T>(
+    mesh: &Mesh,
+    settings: &Settings,
+    find: impl Fn(&Motion<'_>) -> Result<Option<T>, Refusal>,
+) -> Result<T, Refusal> {
+    let motion = Motion::new(mesh, settings);
+    match find(&motion)? {
+        Some(found) => Ok(found),
+        None => find(&motion.with_back())?.ok_or(Refusal::BeyondReach),
     }
-    let effort = Effort {
-        work: meter.spent(),
-        ..run.effort
-    };
-    run.watch.finish(&motion, settings.spacing, effort)
 }
 
 /// How near the incoming tooth comes to a touch before E.
@@ -141,31 +165,27 @@ pub fn approach(
     meter: &Meter,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Approach, Refusal> {
-    let motion = Motion::new(mesh, settings);
-    let mut run = Run {
-        lead: Some(f64::NEG_INFINITY),
-        watch: Watch::of_contact_alone(),
-        ..Run::begin(&motion, settings.tolerance, meter)?
-    };
-    run.ahead.retain(|&ahead| ahead != 0);
-    while run
-        .borders
-        .get(run.next)
-        .is_some_and(|&border| border <= 0.0)
-    {
-        if !go_on(run.part_done()) {
-            return Err(Refusal::Stopped);
+    across_backlash(mesh, settings, |motion| {
+        let mut run = Run {
+            lead: Some(f64::NEG_INFINITY),
+            watch: Watch::of_contact_alone(),
+            ..Run::begin(motion, settings.tolerance, meter)?
+        };
+        run.touching.retain(|&pair| pair != PairName::working(0));
+        let is_before = |border: &f64| *border <= 0.0;
+        while run.borders.get(run.next).is_some_and(is_before) {
+            if !run.goes_on(go_on)? {
+                return Ok(None);
+            }
         }
-        run.cross_window()?;
-        run.skip_what_repeats();
-    }
-    let lead = run
-        .lead
-        .filter(|lead| lead.is_finite())
-        .ok_or(Refusal::BeyondReach)?;
-    Ok(Approach {
-        lead,
-        contact_lost: run.watch.contact_lost(),
+        let lead = run
+            .lead
+            .filter(|lead| lead.is_finite())
+            .ok_or(Refusal::BeyondReach)?;
+        Ok(Some(Approach {
+            lead,
+            contact_lost: run.watch.contact_lost(),
+        }))
     })
 }
 
@@ -177,8 +197,8 @@ struct Run<'a> {
     next: usize,
     t: f64,
     y: State,
-    /// How many base pitches ahead the pairs are that touch.
-    ahead: Vec<i32>,
+    /// The pairs that touch.
+    touching: Vec<PairName>,
     /// The pairs of the window that have touched or left where it stands.
     turned: Touching,
     /// Whether the next step begins where one begins in every base pitch.
@@ -192,6 +212,8 @@ struct Run<'a> {
     /// Where the incoming tooth stands off, the most by which the driver was further ahead than its
     /// gap is wide, in m.
     lead: Option<f64>,
+    /// Whether the driver has fallen behind to back flanks that are not followed.
+    misses_back: bool,
 }
 
 impl<'a> Run<'a> {
@@ -201,7 +223,7 @@ impl<'a> Run<'a> {
         let mesh = motion.mesh;
         let (start, (_, end)) = (motion.start(), mesh.ends());
         motion.check_pace(end - start)?;
-        let borders = mesh.borders(start, end);
+        let borders = motion.borders(start, end);
         meter.spend((borders.len() / BORDERS) as u64);
         let inside = f64::midpoint(start, borders.get(1).copied().unwrap_or(end));
         let pairs = mesh.pair_set(start, inside);
@@ -216,7 +238,9 @@ impl<'a> Run<'a> {
             next: 1,
             t: motion.time(start),
             y: State::new(displacement, 0.0),
-            ahead: touching.map(|(pair, _)| pair.ahead).collect(),
+            touching: touching
+                .map(|(pair, _)| PairName::working(pair.ahead))
+                .collect(),
             borders,
             turned: Touching::NONE,
             is_even: true,
@@ -226,7 +250,19 @@ impl<'a> Run<'a> {
             effort: Effort::default(),
             meter,
             lead: None,
+            misses_back: false,
         })
+    }
+
+    /// Goes on to the next border, or to where the warm-up ends if it repeats itself; not where
+    /// the driver falls behind to back flanks that are not followed.
+    fn goes_on(&mut self, go_on: &dyn Fn(f64) -> bool) -> Result<bool, Refusal> {
+        if !go_on(self.part_done()) {
+            return Err(Refusal::Stopped);
+        }
+        self.cross_window()?;
+        self.skip_what_repeats();
+        Ok(!self.misses_back)
     }
 
     fn is_over(&self) -> bool {
@@ -243,15 +279,16 @@ impl<'a> Run<'a> {
     fn cross_window(&mut self) -> Result<(), Refusal> {
         let (from, to) = (self.borders[self.next - 1], self.borders[self.next]);
         self.next += 1;
-        let window = self.motion.window(from, to);
-        let mut touching = window.touching(&self.ahead).ok_or(Refusal::BeyondReach)?;
+        let window = self.motion.window(from, to)?;
+        let names = &self.touching;
+        let mut touching = window.touching(names).ok_or(Refusal::BeyondReach)?;
         self.watch.enter(&window);
         self.turned = Touching::NONE;
         let end = self.motion.time(to);
-        while self.t < end {
+        while self.t < end && !self.misses_back {
             (touching, _) = self.advance(&window, touching, end)?;
         }
-        self.ahead = window.ahead(touching);
+        self.touching = window.names(touching);
         Ok(())
     }
 
@@ -259,7 +296,7 @@ impl<'a> Run<'a> {
     /// last of them ends.
     fn skip_what_repeats(&mut self) {
         let (mesh, s) = (self.motion.mesh, self.borders[self.next - 1]);
-        if !self.laps.repeats(self.motion, s, &self.y, &self.ahead) {
+        if self.misses_back || !self.laps.repeats(self.motion, s, &self.y, &self.touching) {
             return;
         }
         let pitches = ((mesh.ends().0 - s) / mesh.base_pitch).floor();
@@ -273,9 +310,9 @@ impl<'a> Run<'a> {
         };
         self.next = border + 1;
         self.t = self.motion.time(self.borders[border]);
-        self.ahead
+        self.touching
             .iter_mut()
-            .for_each(|ahead| *ahead -= pitches as i32);
+            .for_each(|pair| *pair = pair.moved(-(pitches as i32)));
     }
 
     /// One step, to `end` at most; the pairs that touch after it, and the step.
@@ -292,6 +329,7 @@ impl<'a> Run<'a> {
         self.effort.evaluations += TERMS as u64;
         self.count(1 + window.pairs.len() as u64 + self.motion.take_looks())?;
         let range = step.range();
+        self.misses_back |= self.motion.misses_back(range.0);
         let standing_off = self.lead.and(window.incoming());
         let event = events::first(&course, (&step, range), leads, (self.turned, standing_off));
         self.is_even = taken.ends_even && event.is_none();
@@ -311,7 +349,7 @@ impl<'a> Run<'a> {
             if let (Some(lead), Some(incoming)) = (self.lead, standing_off) {
                 self.lead = Some(leads[incoming].stretched(part).most(&step.ahead, lead));
             }
-            self.watch.keep(self.motion, touching, step, range.1);
+            self.watch.keep(&course, touching, step, range.1);
         }
         let Some(event) = event else {
             return Ok((touching, step));

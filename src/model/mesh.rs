@@ -1,6 +1,7 @@
 //! Gap and stiffness of every tooth pair along the line of action: what the methods `static` and
 //! `dynamic` share.
 
+mod back;
 mod build;
 mod couplings;
 mod inputs;
@@ -12,6 +13,7 @@ use std::sync::Arc;
 
 use super::compliance::flanks::Flanks;
 use super::pair_forces::{Compliances, PITCHES, Pair, PairSet, Place, Touching};
+use back::Back;
 use couplings::Couplings;
 pub use inputs::MeshInputs;
 pub use sharing::Shares;
@@ -49,6 +51,8 @@ pub struct Mesh {
     couplings: Option<Arc<Couplings>>,
     /// How coupled pairs share a displacement.
     sharing: Arc<Sharing>,
+    back_place: f64,
+    back: Arc<Back>,
     /// Up to what gaps it is known, in m.
     reach: f64,
     is_whole: bool,

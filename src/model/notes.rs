@@ -37,6 +37,7 @@ const LOOKS: &[Look] = &[
     load::method_taken,
     load::deflection_ignored,
     load::lost_in_motion,
+    load::back_strikes,
     load::not_cleared,
     load::inertia,
     impact::withheld,

@@ -192,6 +192,13 @@ impl<const N: usize> Search<'_, N> {
     }
 }
 
+/// The values among which the greatest and the least of a polynomial from 0 to 1 are.
+pub fn extremes<const N: usize>(polynomial: &Polynomial<N>) -> impl Iterator<Item = f64> {
+    let turns = sign_changes(&polynomial.derivative());
+    let places = turns.into_iter().chain([0.0, 1.0]);
+    places.map(|part| polynomial.at(part))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -126,6 +126,21 @@ impl<const N: usize> Series<N> {
             .map_or(f64::INFINITY, |piece| piece.to)
     }
 
+    /// The functions of `about` − x, each times its sign.
+    #[must_use]
+    pub fn reversed(&self, about: f64, signs: [f64; N]) -> Series<N> {
+        let pieces = self.pieces.iter().rev();
+        Series {
+            pieces: pieces.map(|piece| piece.reversed(about, signs)).collect(),
+        }
+    }
+
+    /// Where the functions begin.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.pieces.first().map_or(f64::NAN, |piece| piece.from)
+    }
+
     /// How often the functions were computed to find the pieces.
     #[must_use]
     pub fn evaluations(&self) -> usize {
@@ -170,6 +185,21 @@ impl<const N: usize> Series<N> {
 }
 
 impl<const N: usize> Piece<N> {
+    fn reversed(&self, about: f64, signs: [f64; N]) -> Piece<N> {
+        let mut powers = self.powers;
+        for (power, terms) in powers.iter_mut().enumerate() {
+            let turned = if power % 2 == 0 { 1.0 } else { -1.0 };
+            for (term, sign) in terms.iter_mut().zip(signs) {
+                *term *= turned * sign;
+            }
+        }
+        Piece {
+            from: about - self.to,
+            to: about - self.from,
+            powers,
+        }
+    }
+
     /// `x` on the piece, from −1 to 1. A place beyond an end is there by its rounding: on a piece
     /// as narrow as that, the polynomial is not followed further.
     fn inner(&self, x: f64) -> f64 {
@@ -287,6 +317,23 @@ mod tests {
                     );
                 }
             }
+        }
+    }
+
+    #[test]
+    fn reversed_pieces_are_the_functions_from_the_other_end() {
+        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp()]);
+        let turned = found.reversed(5.0, [1.0, -1.0]);
+        assert!((turned.start() + 2.0).abs() < 1e-15);
+        for step in 0..=90 {
+            let x = -2.0 + 0.1 * f64::from(step);
+            let [sine, growth] = turned.at(5.0 - x);
+            let [expected_sine, expected_growth] = found.at(x);
+            assert!((sine - expected_sine).abs() < 1e-14, "{x}");
+            assert!(
+                (growth + expected_growth).abs() < 1e-14 * expected_growth,
+                "{x}"
+            );
         }
     }
 

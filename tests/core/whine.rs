@@ -7,7 +7,7 @@ use tipstrike::model::harmonics::HARMONICS;
 use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
-use tipstrike::model::{Inputs, Refusal, Solution, Stages, Steady, solve};
+use tipstrike::model::{Inputs, Note, QUANTITIES, Refusal, Solution, Stages, Steady, notes, solve};
 
 fn case(name: &str) -> Inputs {
     let path = format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -170,4 +170,47 @@ fn an_undamped_motion_has_no_steady_state_and_the_rest_of_the_solve_stays() {
         solution.steady,
         Some(Err(Refusal::NoSteadyMotion { .. }))
     ));
+}
+
+/// With little damping at half the resonance the back flanks strike, the note and the quantities
+/// report it, and a wide backlash or none leaves the working flanks alone.
+#[test]
+fn a_pair_with_little_damping_rattles_across_its_backlash() {
+    let pair = |backlash: f64| Inputs {
+        backlash,
+        speed: 400.0 * std::f64::consts::PI,
+        damping_ratio: 0.02,
+        ..case("fzg-type-c")
+    };
+    let value = |solution: &Solution, key: &str| {
+        let quantity = QUANTITIES.iter().find(|known| known.key == key).unwrap();
+        quantity.finite_value(solution)
+    };
+    let keys = [
+        "dynamic_back_strikes",
+        "dynamic_peak_back_force",
+        "steady_back_strikes",
+        "steady_back_force",
+    ];
+    let rattling = solved(&pair(2e-6));
+    for key in keys {
+        assert!(value(&rattling, key).unwrap() > 0.0, "{key}");
+    }
+    let is_strike = |note: &Note| note.code == "back-flank-strikes";
+    let note = notes(&pair(2e-6), &rattling).into_iter().find(is_strike);
+    let message = note.unwrap().message;
+    assert!(
+        message.contains("across the backlash of 2.000 um"),
+        "{message}"
+    );
+    let wide = solved(&pair(3e-3));
+    assert_eq!(keys.map(|key| value(&wide, key)), [Some(0.0); 4]);
+    let without = solved(&pair(0.0));
+    assert_eq!(keys.map(|key| value(&without, key)), [None; 4]);
+    assert!(!notes(&pair(0.0), &without).iter().any(is_strike));
+    let [far, none] = [&wide, &without].map(|solution| steady(solution).spectrum.peak_to_peak);
+    assert!(
+        (far / none - 1.0).abs() < 1e-8,
+        "{far} {none}: no back flank is reached"
+    );
 }

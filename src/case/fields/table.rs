@@ -124,7 +124,7 @@ const TAIL: &[Field] = &[
         "um",
         Default("0 um"),
         |inputs, value| inputs.backlash = value,
-        "Normal backlash; reduces the equivalent error (Eq. 1)."
+        "Normal backlash; reduces the equivalent error (Eq. 1); in dynamic also the way to the back flanks."
     ),
     number!(
         "operation.power",

@@ -26,7 +26,7 @@ pub(super) struct Acting {
 /// What acts between two borders of the mesh, step by step, as far as a motion has met it there.
 #[derive(Debug)]
 pub(super) struct Crossing {
-    /// The zones of all pairs.
+    /// How many pairs are of the working flanks, and the zones of all pairs.
     zones: Vec<usize>,
     /// The incoming pair among them, which alone deviates.
     incoming: Option<usize>,

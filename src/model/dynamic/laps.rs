@@ -3,6 +3,7 @@
 
 use super::acting::ALIKE;
 use super::motion::{Motion, State};
+use super::pair::PairName;
 
 /// A change, over the state's scale, that is none.
 const ROUNDING: f64 = 1e-14;
@@ -19,7 +20,7 @@ pub(super) struct Laps {
 
 struct Lap {
     y: State,
-    ahead: Vec<i32>,
+    touching: Vec<PairName>,
     /// How far it is from the one before.
     moved: f64,
 }
@@ -45,21 +46,19 @@ impl Laps {
         motion: &Motion<'_>,
         s: f64,
         y: &State,
-        ahead: &[i32],
+        touching: &[PairName],
     ) -> bool {
         let pitch = motion.mesh.base_pitch;
         if (s - self.start - self.next * pitch).abs() > ALIKE * pitch {
             return false;
         }
         self.next += 1.0;
-        let mut ahead = ahead.to_vec();
-        ahead.sort_unstable();
+        let mut touching = touching.to_vec();
+        touching.sort_unstable();
         let before = self.last.take();
         let alike = before.as_ref().filter(|lap| {
-            lap.ahead
-                .iter()
-                .map(|ahead| ahead - 1)
-                .eq(ahead.iter().copied())
+            let later = lap.touching.iter().map(|pair| pair.moved(-1));
+            later.eq(touching.iter().copied())
         });
         let moved = alike.map_or(f64::INFINITY, |lap| {
             (y - lap.y).component_div(&motion.scale()).amax()
@@ -67,7 +66,7 @@ impl Laps {
         let draws_near = before.is_some_and(|lap| moved <= 0.5 * lap.moved);
         self.last = Some(Lap {
             y: *y,
-            ahead,
+            touching,
             moved,
         });
         moved <= if draws_near { self.allowed } else { ROUNDING }

@@ -12,6 +12,8 @@ pub struct Settings {
     pub damping_ratio: f64,
     /// Base pitches before E at which the run starts.
     pub warmup_cycles: u32,
+    /// Normal backlash j_bn, in m; without it the back flanks are far away.
+    pub backlash: Option<f64>,
     /// Relative error that the peak force may have.
     pub tolerance: f64,
     /// Stations between the first contact and E, and again from there to the last.
@@ -26,6 +28,7 @@ impl Inputs {
             mass: 0.0,
             damping_ratio: self.damping_ratio,
             warmup_cycles: self.warmup_cycles,
+            backlash: Some(self.backlash).filter(|&backlash| backlash > 0.0),
             tolerance: self.tolerance,
             spacing: Spacing::of(self),
         }

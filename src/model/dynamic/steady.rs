@@ -4,15 +4,17 @@
 use super::laps::Laps;
 use super::lead::FORCE_TERMS;
 use super::motion::{Motion, State, Window};
+use super::pair::{Flank, PairName};
+use super::rattle::{Rattle, RattleWatch};
 use super::step::{Course, Step};
 use super::watch::Watch;
-use super::{Effort, Run, SHARE_OF_A_STEP, Settings};
+use super::{Effort, Run, SHARE_OF_A_STEP, Settings, across_backlash};
 use crate::model::Refusal;
 use crate::model::budget::Meter;
 use crate::model::harmonics::{Fourier, Spectrum};
 use crate::model::mesh::Mesh;
 use crate::model::pair_forces::Touching;
-use crate::numeric::bernstein::sign_changes;
+use crate::numeric::bernstein::extremes;
 use crate::numeric::polynomial::Polynomial;
 
 /// Base pitches after which the motion may repeat itself: contact that is lost and found may double
@@ -36,6 +38,8 @@ pub struct Steady {
     pub tooth_force: f64,
     /// Whether no pair touches at some moment.
     pub contact_lost: bool,
+    /// What the back flanks carry over the period; where the case gives a backlash.
+    pub rattle: Option<Rattle>,
     /// Base pitches after which the motion repeats itself.
     pub periods: u32,
     /// Base pitches until it did.
@@ -51,8 +55,14 @@ pub struct Steady {
 pub struct Start {
     /// Displacement of the driver ahead in m, and its rate in m/s.
     state: [f64; 2],
-    /// How many base pitches ahead the touching pairs are.
-    ahead: Vec<i32>,
+    touching: Vec<PairName>,
+}
+
+impl Start {
+    /// Whether back flanks touch.
+    fn is_at_back(&self) -> bool {
+        self.touching.iter().any(|pair| pair.flank == Flank::Back)
+    }
 }
 
 /// The motion of a mesh in which no pair deviates, once it repeats itself; from rest, or from the
@@ -80,16 +90,31 @@ pub fn steady(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Steady, Refusal> {
     let mesh = mesh.without_error();
-    let motion = Motion::new(&mesh, settings);
-    let mut round = Round::begin(&motion, settings, from, meter)?;
+    across_backlash(&mesh, settings, |motion| {
+        repeated(motion, settings, from, meter, go_on)
+    })
+}
+
+/// The same; none where the driver reaches back flanks that are not followed.
+fn repeated(
+    motion: &Motion<'_>,
+    settings: &Settings,
+    from: Option<&Start>,
+    meter: &Meter,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Option<Steady>, Refusal> {
+    if motion.back.is_none() && from.is_some_and(Start::is_at_back) {
+        return Ok(None);
+    }
+    let mut round = Round::begin(motion, settings, from, meter)?;
     let mut before: Vec<Start> = Vec::with_capacity(PERIODS);
     for laps in 0..MOST_LAPS {
         if !go_on(f64::from(laps) / f64::from(MOST_LAPS)) {
             return Err(Refusal::Stopped);
         }
         let start = round.start();
-        if let Some(periods) = repetition(&motion, &before, &start) {
-            return round.measured(periods, laps);
+        if let Some(periods) = repetition(motion, &before, &start) {
+            return round.measured(periods, laps).map(Some);
         }
         before.insert(0, start);
         before.truncate(PERIODS);
@@ -100,6 +125,9 @@ pub fn steady(
             },
             other => other,
         })?;
+        if round.run.misses_back {
+            return Ok(None);
+        }
     }
     Err(Refusal::NoSteadyMotion { pitches: MOST_LAPS })
 }
@@ -114,7 +142,7 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
     let scale = motion.scale();
     let moved = |then: &Start| {
         let by = |at: usize| ((now.state[at] - then.state[at]) / scale[at]).abs();
-        if then.ahead == now.ahead {
+        if then.touching == now.touching {
             by(0).max(by(1))
         } else {
             f64::INFINITY
@@ -142,8 +170,8 @@ impl<'a> Round<'a> {
     ) -> Result<Round<'a>, Refusal> {
         let mesh = motion.mesh;
         motion.check_pace(mesh.base_pitch)?;
-        let borders = mesh.borders(0.0, mesh.base_pitch);
-        let windows: Vec<Window> = borders
+        let borders = motion.borders(0.0, mesh.base_pitch);
+        let windows: Result<Vec<Window>, Refusal> = borders
             .windows(2)
             .map(|ends| motion.window(ends[0], ends[1]))
             .collect();
@@ -157,7 +185,7 @@ impl<'a> Round<'a> {
             next: 1,
             t: 0.0,
             y: State::from(start.state),
-            ahead: start.ahead,
+            touching: start.touching,
             borders,
             turned: Touching::NONE,
             is_even: true,
@@ -167,20 +195,21 @@ impl<'a> Round<'a> {
             effort: Effort::default(),
             meter,
             lead: None,
+            misses_back: false,
         };
         Ok(Round {
             motion,
-            windows,
+            windows: windows?,
             run,
         })
     }
 
     fn start(&self) -> Start {
-        let mut ahead = self.run.ahead.clone();
-        ahead.sort_unstable();
+        let mut touching = self.run.touching.clone();
+        touching.sort_unstable();
         Start {
             state: [self.run.y[0], self.run.y[1]],
-            ahead,
+            touching,
         }
     }
 
@@ -188,31 +217,37 @@ impl<'a> Round<'a> {
     fn lap(&mut self, mut show: impl FnMut(&Window, Touching, &Step)) -> Result<(), Refusal> {
         let run = &mut self.run;
         for window in &self.windows {
-            let mut touching = window.touching(&run.ahead).ok_or(Refusal::BeyondReach)?;
+            let names = &run.touching;
+            let mut touching = window.touching(names).ok_or(Refusal::BeyondReach)?;
             run.turned = Touching::NONE;
             let end = self.motion.time(window.ends.1);
             while run.t < end {
                 let (next, step) = run.advance(window, touching, end)?;
+                if run.misses_back {
+                    return Ok(());
+                }
                 if step.length > 0.0 {
                     show(window, touching, &step);
                 }
                 touching = next;
             }
-            run.ahead = window.ahead(touching);
+            run.touching = window.names(touching);
         }
         run.t = 0.0;
-        run.ahead.iter_mut().for_each(|ahead| *ahead += 1);
+        run.touching
+            .iter_mut()
+            .for_each(|pair| *pair = pair.moved(1));
         Ok(())
     }
 
     /// Follows the periods once more and reads off what they show.
     fn measured(mut self, periods: u32, laps: u32) -> Result<Steady, Refusal> {
-        let mut seen = Seen::new(self.motion);
         let start = self.start();
+        let mut seen = Seen::new(self.motion, RattleWatch::from(start.is_at_back()));
         for _ in 0..periods {
             self.lap(|window, touching, step| seen.see(window, touching, step))?;
         }
-        if seen.most_ahead() >= seen.reach() {
+        if seen.is_beyond_reach() {
             return Err(Refusal::BeyondReach);
         }
         Ok(Steady {
@@ -220,6 +255,7 @@ impl<'a> Round<'a> {
             mesh_force: seen.mesh_force,
             tooth_force: seen.tooth_force,
             contact_lost: seen.contact_lost,
+            rattle: self.motion.has_backlash().then(|| seen.rattle.found()),
             periods,
             laps,
             work: self.run.meter.spent(),
@@ -240,7 +276,9 @@ fn at_rest(mesh: &Mesh, borders: &[f64]) -> Result<Start, Refusal> {
     let touching = carries.filter(|(_, force)| *force > 0.0);
     Ok(Start {
         state: [displacement, 0.0],
-        ahead: touching.map(|(pair, _)| pair.ahead).collect(),
+        touching: touching
+            .map(|(pair, _)| PairName::working(pair.ahead))
+            .collect(),
     })
 }
 
@@ -249,22 +287,27 @@ struct Seen<'a> {
     motion: &'a Motion<'a>,
     period: f64,
     fourier: Fourier,
+    /// How far the driver is ahead and behind, in m.
     ahead: f64,
+    behind: f64,
     mesh_force: f64,
     tooth_force: f64,
     contact_lost: bool,
+    rattle: RattleWatch,
 }
 
 impl<'a> Seen<'a> {
-    fn new(motion: &'a Motion<'a>) -> Seen<'a> {
+    fn new(motion: &'a Motion<'a>, rattle: RattleWatch) -> Seen<'a> {
         Seen {
             motion,
             period: motion.time(motion.mesh.base_pitch),
             fourier: Fourier::new(),
             ahead: f64::NEG_INFINITY,
+            behind: f64::NEG_INFINITY,
             mesh_force: 0.0,
             tooth_force: 0.0,
             contact_lost: false,
+            rattle,
         }
     }
 
@@ -274,11 +317,14 @@ impl<'a> Seen<'a> {
         for value in extremes(&step.ahead) {
             self.fourier.include(value);
             self.ahead = self.ahead.max(value);
+            self.behind = self.behind.max(-value);
         }
-        self.contact_lost |= touching.is_none();
+        let working = window.working(touching);
+        self.contact_lost |= working.is_none();
         let course = Course::new(self.motion, window, touching);
+        self.rattle.see(&course, step, true);
         let mut sum = Polynomial::<FORCE_TERMS>::ZERO;
-        for pair in touching.pairs() {
+        for pair in working.pairs() {
             let force = course.force_along(pair, step);
             sum = sum.plus(1.0, &force);
             self.tooth_force = extremes(&force).fold(self.tooth_force, f64::max);
@@ -286,24 +332,12 @@ impl<'a> Seen<'a> {
         self.mesh_force = extremes(&sum).fold(self.mesh_force, f64::max);
     }
 
-    fn most_ahead(&self) -> f64 {
-        self.ahead
-    }
-
-    /// The displacement up to which no pair beyond the ends of the mesh touches, in m.
-    fn reach(&self) -> f64 {
+    /// Whether a pair beyond the ends of the mesh may touch.
+    fn is_beyond_reach(&self) -> bool {
         let mesh = self.motion.mesh;
-        if mesh.is_whole() {
-            return f64::INFINITY;
-        }
         let (from, to) = mesh.ends();
-        mesh.incoming(from).0.gap.min(mesh.incoming(to).0.gap)
+        let reach = mesh.incoming(from).0.gap.min(mesh.incoming(to).0.gap);
+        let most = self.ahead.max(self.behind - self.motion.backlash);
+        !mesh.is_whole() && most >= reach
     }
-}
-
-/// The values among which the greatest and the least of a polynomial from 0 to 1 are.
-fn extremes<const N: usize>(polynomial: &Polynomial<N>) -> impl Iterator<Item = f64> {
-    let turns = sign_changes(&polynomial.derivative());
-    let places = turns.into_iter().chain([0.0, 1.0]);
-    places.map(|part| polynomial.at(part))
 }

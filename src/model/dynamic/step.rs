@@ -1,16 +1,14 @@
 //! Steps of the motion while the same pairs touch, by the power series of the displacement.
 
 use std::rc::Rc;
-use std::sync::Arc;
 
 use super::acting::{Acting, Stretch};
-use super::lead::{Along, FORCE_TERMS, Lead, Product, TERMS};
-use super::motion::{Motion, Standing, State, Window};
+use super::lead::{FORCE_TERMS, Lead, TERMS};
+use super::motion::{Motion, State, Window};
+use super::side::Side;
 use crate::model::Refusal;
-use crate::model::mesh::Shares;
 use crate::model::pair_forces::Touching;
 use crate::numeric::bernstein::Bernstein;
-use crate::numeric::chebyshev;
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::taylor::{Oscillator, convergent_part};
 
@@ -20,8 +18,9 @@ pub(super) struct Course<'a> {
     pub(super) motion: &'a Motion<'a>,
     pub(super) window: &'a Window,
     touching: Touching,
-    /// How coupled pairs share a displacement; none if each is a spring of its own.
-    shares: Option<Arc<Shares>>,
+    working: Side<'a>,
+    /// None where no back flank is within reach.
+    back: Option<Side<'a>>,
 }
 
 /// A step with what acts over it.
@@ -80,7 +79,8 @@ impl<'a> Course<'a> {
             motion,
             window,
             touching,
-            shares: motion.shares(window, touching),
+            working: motion.working_side(window, touching),
+            back: motion.back_side(window, touching),
         }
     }
 
@@ -151,18 +151,8 @@ impl<'a> Course<'a> {
     /// Until when what is known of the pairs from a time on is one polynomial each.
     fn serves_until(&self, t: f64) -> f64 {
         let s = self.motion.place(t);
-        let mesh = self.motion.mesh;
-        let pairs = self
-            .window
-            .pairs
-            .iter()
-            .map(|pair| mesh.serves_until(pair.ahead, pair.zone, s));
-        let shares = self.shares.as_ref().map(|shares| {
-            let (at, least) = mesh.above(self.rearmost(), s);
-            s + (shares.serves_until((at, least)) - at)
-        });
-        self.motion
-            .time(pairs.chain(shares).fold(f64::INFINITY, f64::min))
+        let ends = self.sides().map(|side| side.serves_until(s));
+        self.motion.time(ends.fold(f64::INFINITY, f64::min))
     }
 
     /// What acts over a length of time, from the last base pitch if the motion has met it there.
@@ -170,7 +160,7 @@ impl<'a> Course<'a> {
         let mesh = self.motion.mesh;
         let stretch = Stretch {
             touching: self.touching,
-            from: mesh.above(self.rearmost(), self.motion.place(t)).0,
+            from: mesh.above(self.working.rearmost(), self.motion.place(t)).0,
             way: mesh.speed * length,
         };
         self.window.crossing.acting(stretch, mesh, || {
@@ -189,9 +179,10 @@ impl<'a> Course<'a> {
             leads: Vec::with_capacity(self.pairs()),
         };
         acting.load.0[0] = self.motion.mesh.force;
-        match &self.shares {
-            Some(shares) => self.add_shares(shares, (t, length), &mut acting),
-            None => self.add_springs((t, length), &mut acting),
+        let way = (self.motion.place(t), self.motion.mesh.speed * length);
+        for side in self.sides() {
+            let sums = (&mut acting.stiffness, &mut acting.load);
+            side.add(way, sums, &mut acting.leads);
         }
         acting
     }
@@ -212,167 +203,63 @@ impl<'a> Course<'a> {
         }
     }
 
-    fn add_springs(&self, (t, length): (f64, f64), acting: &mut Acting) {
-        let mesh = self.motion.mesh;
-        let (s, way) = (self.motion.place(t), mesh.speed * length);
-        for (index, pair) in self.window.pairs.iter().enumerate() {
-            let [spring, gap] = mesh.spring_along(pair.ahead, pair.zone, s, way);
-            acting.leads.push(Lead::Gap(gap));
-            if self.touches(index) {
-                let carrying = self.turning(pair, &spring, s, way);
-                let held: Polynomial<TERMS> = carrying.times(&gap);
-                acting.stiffness = acting.stiffness.plus(1.0, &carrying);
-                acting.load = acting.load.plus(1.0, &held);
-            }
+    /// The pairs of back flanks that touch.
+    pub(super) fn back_pairs(&self) -> impl Iterator<Item = usize> {
+        self.window.back(self.touching)
+    }
+
+    fn sides(&self) -> impl Iterator<Item = &Side<'a>> {
+        std::iter::once(&self.working).chain(&self.back)
+    }
+
+    /// The side of a pair, and its index there.
+    pub(super) fn side_of(&self, pair: usize) -> (&Side<'a>, usize) {
+        let working = self.working.pairs.len();
+        match &self.back {
+            Some(back) if pair >= working => (back, pair - working),
+            _ => (&self.working, pair),
         }
     }
 
-    fn add_shares(&self, shares: &Shares, (t, length): (f64, f64), acting: &mut Acting) {
-        let (s, way) = (self.motion.place(t), self.motion.mesh.speed * length);
-        let along = shares.along(self.motion.mesh.above(self.rearmost(), s), way);
-        let gaps = self.gaps_along(s, way);
-        for (index, pair) in self.window.pairs.iter().enumerate() {
-            let (slope, offset) = self.share(index, shares.row_along(index, &along), &gaps);
-            if self.touches(index) {
-                let (spring, held) = (
-                    self.turning(pair, &slope, s, way),
-                    self.turning(pair, &offset, s, way),
-                );
-                acting.stiffness = acting.stiffness.plus(1.0, &spring);
-                acting.load = acting.load.plus(1.0, &held);
-            }
-            acting.leads.push(Lead::Shared { slope, offset });
-        }
-    }
-
-    /// The gap of every pair, in m.
-    fn gaps_along(&self, s: f64, way: f64) -> Vec<Along> {
-        let pairs = self.window.pairs.iter();
-        pairs
-            .map(|pair| self.motion.mesh.gap_along(pair.ahead, pair.zone, s, way))
-            .collect()
-    }
-
-    /// Slope and offset of the force of a touching pair, or of the overlap of one apart, by its row
-    /// of the shares.
-    fn share(&self, pair: usize, row: Option<&[Along]>, gaps: &[Along]) -> (Along, Product) {
-        let (mut slope, mut offset) = (Along::ZERO, Product::ZERO);
-        let touching = self.shares.iter().flat_map(|shares| &shares.touching);
-        for (share, &other) in row.into_iter().flatten().zip(touching) {
-            let pushed: Product = share.times(&gaps[other]);
-            (slope, offset) = (slope.plus(1.0, share), offset.plus(1.0, &pushed));
-        }
-        if !self.touches(pair) {
-            (slope, offset) = (
-                slope.scaled(-1.0),
-                offset.scaled(-1.0).plus(1.0, &gaps[pair]),
-            );
-            slope.0[0] += 1.0;
-        }
-        (slope, offset)
-    }
-
-    /// The part of a pair's force, or of its stiffness, that turns the driver.
-    pub(super) fn turning<const N: usize>(
-        &self,
-        pair: &Standing,
-        force: &Polynomial<N>,
-        s: f64,
-        way: f64,
-    ) -> Polynomial<TERMS> {
-        let friction = self.motion.mesh.friction();
-        let whole = Polynomial::ZERO.plus(1.0, force);
-        if friction == 0.0 {
-            return whole;
-        }
-        let [lever, _] = self.motion.mesh.slide_along(pair.ahead, pair.zone, s, way);
-        whole.plus(
-            -friction * pair.direction,
-            &force.times::<{ chebyshev::TERMS }, TERMS>(&lever),
-        )
+    /// Where the incoming pair is at the beginning of a step, and how far it goes, in m.
+    pub(super) fn way_of(&self, step: &Step) -> (f64, f64) {
+        let speed = self.motion.mesh.speed;
+        (self.motion.place(step.t), speed * step.length)
     }
 
     /// What a pair keeps over a step until it turns.
     pub(super) fn lead_along(&self, pair: usize, step: &Step) -> Lead {
-        let Standing { ahead, zone, .. } = self.window.pairs[pair];
-        let mesh = self.motion.mesh;
-        let (s, way) = (self.motion.place(step.t), mesh.speed * step.length);
-        let Some(shares) = &self.shares else {
-            return Lead::Gap(mesh.gap_along(ahead, zone, s, way));
-        };
-        let along = shares.along(mesh.above(self.rearmost(), s), way);
-        let gaps = self.gaps_along(s, way);
-        let (slope, offset) = self.share(pair, shares.row_along(pair, &along), &gaps);
-        Lead::Shared { slope, offset }
+        let (side, index) = self.side_of(pair);
+        let (s, way) = self.way_of(step);
+        side.lead_along(index, s, way)
     }
 
     /// Force of a pair over a step in which it touches, in N.
     pub(super) fn force_along(&self, pair: usize, step: &Step) -> Polynomial<FORCE_TERMS> {
-        if self.shares.is_some() {
-            return self.lead_along(pair, step).over(&step.ahead);
-        }
-        let Standing { ahead, zone, .. } = self.window.pairs[pair];
-        let motion = self.motion;
-        let [stiffness, gap] = motion.mesh.spring_along(
-            ahead,
-            zone,
-            motion.place(step.t),
-            motion.mesh.speed * step.length,
-        );
-        step.ahead.plus(-1.0, &gap).times(&stiffness)
+        let (side, index) = self.side_of(pair);
+        side.force_along(index, &step.ahead, self.way_of(step))
     }
 
     /// Power of friction at a pair over such a step, over the coefficient, in W.
     pub(super) fn rubbing_along(&self, pair: usize, step: &Step) -> f64 {
-        let Standing {
-            ahead,
-            zone,
-            direction,
-        } = self.window.pairs[pair];
-        let (s, way) = (
-            self.motion.place(step.t),
-            self.motion.mesh.speed * step.length,
-        );
-        let [_, sliding] = self.motion.mesh.slide_along(ahead, zone, s, way);
-        let power: Polynomial<{ FORCE_TERMS + chebyshev::TERMS }> =
-            self.force_along(pair, step).times(&sliding);
-        direction * power.integral()
+        let (side, index) = self.side_of(pair);
+        side.rubbing_along(index, &step.ahead, self.way_of(step))
     }
 
-    /// Gap of a pair, in m.
+    /// By how much the driver must be displaced until a pair touches, in m.
     pub(super) fn gap(&self, pair: usize, t: f64) -> f64 {
-        self.spring(pair, t).1
+        let (side, index) = self.side_of(pair);
+        side.gap(index, self.motion.place(t))
     }
 
     /// Force of a pair that touches while the driver is so far ahead, in N.
     pub(super) fn force(&self, pair: usize, t: f64, ahead: f64) -> f64 {
-        let Some(shares) = &self.shares else {
-            let (stiffness, gap) = self.spring(pair, t);
-            return stiffness * (ahead - gap);
-        };
-        let at = self.motion.place(t) + f64::from(self.rearmost()) * self.motion.mesh.base_pitch;
-        let row = shares.row_at(pair, at).unwrap_or_default();
-        let terms = row.iter().zip(&shares.touching);
-        terms
-            .map(|(share, &other)| share * (ahead - self.gap(other, t)))
-            .sum()
+        let (side, index) = self.side_of(pair);
+        side.force(index, self.motion.place(t), ahead)
     }
 
-    /// Forces of all pairs together, in N.
+    /// Forces of all pairs of working flanks together, in N.
     pub(super) fn total(&self, t: f64, ahead: f64) -> f64 {
-        (0..self.pairs())
-            .filter(|&pair| self.touches(pair))
-            .map(|pair| self.force(pair, t, ahead))
-            .sum()
-    }
-
-    fn spring(&self, pair: usize, t: f64) -> (f64, f64) {
-        let Standing { ahead, zone, .. } = self.window.pairs[pair];
-        self.motion.mesh.spring(ahead, zone, self.motion.place(t))
-    }
-
-    /// How many base pitches ahead the rearmost pair is.
-    fn rearmost(&self) -> i32 {
-        self.window.pairs.first().map_or(0, |pair| pair.ahead)
+        self.working.total(self.motion.place(t), ahead)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::motion::{Motion, Standing, State};
+use super::motion::{Motion, State};
 use super::step::{Course, Step};
 use super::watch::Watch;
 use super::*;
@@ -64,17 +64,18 @@ fn coupled(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     (mesh, settings(&inputs, solution.reduced_mass))
 }
 
-fn settings(inputs: &Inputs, mass: f64) -> Settings {
+pub(super) fn settings(inputs: &Inputs, mass: f64) -> Settings {
     Settings {
         mass,
         damping_ratio: inputs.damping_ratio,
         warmup_cycles: 5,
+        backlash: None,
         tolerance: 1e-10,
         spacing: Spacing::Even(16),
     }
 }
 
-fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings, meter: &'a Meter) -> Run<'a> {
+pub(super) fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings, meter: &'a Meter) -> Run<'a> {
     let mut run = Run::begin(motion, settings.tolerance, meter).unwrap();
     while !run.is_over() {
         run.cross_window().unwrap();
@@ -89,7 +90,7 @@ fn a_step_takes_what_acts_from_the_step_a_base_pitch_before() {
         let borders = mesh.borders(-4.0 * pitch, -3.0 * pitch);
         let taken = |pitches: f64, begins_even| {
             let [from, to] = [0, 1].map(|at| borders[at] + pitches * pitch);
-            let window = motion.window(from, to);
+            let window = motion.window(from, to).unwrap();
             let course = Course::new(&motion, &window, Touching::NONE.with(0));
             let (t, end) = (motion.time(from), motion.time(to));
             let taken = course.step(t, &State::new(2e-5, 0.0), end, (1.0, begins_even));
@@ -112,19 +113,19 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     let (mesh, settings) = struck(|inputs| inputs.speed = 1e-9);
     let motion = Motion::new(&mesh, &settings);
     let middle = 0.5 * mesh.length;
-    let window = motion.window(middle, middle + 1e-9);
+    let window = motion.window(middle, middle + 1e-9).unwrap();
     let balance = static_load::balance(&mesh, middle, middle);
     let pairs = mesh.pair_set(middle, middle);
-    let touching: Vec<i32> = pairs
+    let touching: Vec<PairName> = pairs
         .pairs()
         .iter()
         .filter(|pair| pair.place.gap < balance.displacement)
-        .map(|pair| pair.ahead)
+        .map(|pair| PairName::working(pair.ahead))
         .collect();
     let stiffness: f64 = pairs
         .pairs()
         .iter()
-        .filter(|pair| touching.contains(&pair.ahead))
+        .filter(|pair| touching.contains(&PairName::working(pair.ahead)))
         .map(|pair| pair.place.stiffness)
         .sum();
     let course = Course::new(&motion, &window, window.touching(&touching).unwrap());
@@ -286,7 +287,7 @@ fn a_motion_that_exceeds_its_work_is_refused_with_what_is_done() {
 impl Watch {
     /// What the energies leave unexplained over all kept steps, and how much energy was turned
     /// over, in J.
-    fn energies(&self, motion: &Motion<'_>, mesh: &Mesh) -> (f64, f64) {
+    pub(super) fn energies(&self, motion: &Motion<'_>, mesh: &Mesh) -> (f64, f64) {
         let (mut unexplained, mut turned_over) = (0.0, 0.0);
         self.each_step(motion, |course, step| {
             let put_in =
@@ -313,7 +314,11 @@ impl Course<'_> {
     fn stored(&self, motion: &Motion<'_>, step: &Step, part: f64) -> f64 {
         let (t, y) = (step.t + part * step.length, step.state(part));
         let springs = (0..self.pairs()).filter(|&pair| self.touches(pair));
-        let spring = |pair: usize| 0.5 * self.force(pair, t, y[0]) * (y[0] - self.gap(pair, t));
+        let spring = |pair: usize| {
+            let (side, index) = self.side_of(pair);
+            let overlap = side.overlap(index, motion.place(t), y[0]);
+            0.5 * self.force(pair, t, y[0]) * overlap
+        };
         0.5 * motion.mass * y[1] * y[1] + springs.map(spring).sum::<f64>()
     }
 
@@ -341,13 +346,10 @@ impl Course<'_> {
 
     /// What friction at a pair adds to the force that drives, in N.
     fn friction(&self, pair: usize, step: &Step, part: f64) -> f64 {
-        let (s, way) = (
-            self.motion.place(step.t),
-            self.motion.mesh.speed * step.length,
-        );
-        let one = Polynomial([1.0]);
-        let turning = self.turning(&self.window.pairs[pair], &one, s, way);
-        (1.0 - turning.at(part)) * self.force_along(pair, step).at(part)
+        let (side, index) = self.side_of(pair);
+        let (s, way) = self.way_of(step);
+        let turning = side.turning(&side.pairs[index], &Polynomial([1.0]), s, way);
+        side.sign * (1.0 - turning.at(part)) * self.force_along(pair, step).at(part)
     }
 
     /// Power that the moving mesh puts in at a pair: its gap closes on a spring that is pressed,
@@ -359,13 +361,10 @@ impl Course<'_> {
             ..*step
         };
         let force = self.force_along(pair, &still);
-        let Standing { ahead, zone, .. } = self.window.pairs[pair];
-        let (s, way) = (
-            self.motion.place(step.t),
-            self.motion.mesh.speed * step.length,
-        );
-        let gap = self.motion.mesh.gap_along(ahead, zone, s, way);
-        let pressed = still.ahead.0[0] - gap.at(part);
+        let (side, index) = self.side_of(pair);
+        let (s, way) = self.way_of(step);
+        let gap = side.gap_along(&side.pairs[index], s, way);
+        let pressed = side.sign * still.ahead.0[0] - gap.at(part);
         0.5 * (force.slope(part) * pressed - force.at(part) * gap.slope(part)) / step.length
     }
 }

@@ -4,6 +4,7 @@ use std::cell::Cell;
 
 use super::motion::{Motion, State, Window};
 use super::passage::{Passage, Record};
+use super::rattle::RattleWatch;
 use super::step::{Course, Step};
 use super::swing::{self, Phase, Swing};
 use super::{Dynamic, Effort};
@@ -30,6 +31,7 @@ pub(super) struct Watch {
     leaves: Vec<f64>,
     most_ahead: f64,
     contact_lost: bool,
+    rattle: RattleWatch,
     /// Places at which the series were looked at.
     looks: Cell<u64>,
 }
@@ -69,10 +71,12 @@ impl Watch {
     }
 
     /// Keep a step, in which the driver is never more than `most` ahead.
-    pub(super) fn keep(&mut self, motion: &Motion<'_>, touching: Touching, step: Step, most: f64) {
+    pub(super) fn keep(&mut self, course: &Course<'_>, touching: Touching, step: Step, most: f64) {
+        let motion = course.motion;
         self.most_ahead = self.most_ahead.max(most);
         let has_begun = motion.place(step.t) >= -motion.mesh.base_pitch * (1.0 + f64::EPSILON);
-        self.contact_lost |= has_begun && touching.is_none();
+        self.contact_lost |= has_begun && course.window.working(touching).is_none();
+        self.rattle.see(course, &step, has_begun && !self.forgets);
         if let Some(passage) = self.passages.last_mut().filter(|_| self.is_passing) {
             self.bytes += passage.keep(Record { touching, step });
         }
@@ -95,6 +99,7 @@ impl Watch {
             self.touches.push(t);
         } else {
             self.leaves.push(t);
+            self.rattle.leave();
         }
     }
 
@@ -146,6 +151,7 @@ impl Watch {
                 .then(|| -self.lead(motion))
                 .filter(|gap| gap.is_finite()),
             contact_lost: self.contact_lost,
+            rattle: motion.has_backlash().then(|| self.rattle.found()),
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
             stations,
             resolution,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Mesh;
+use super::back::back_place;
 use super::couplings::{Couplings, Way};
 use super::inputs::MeshInputs;
 use super::zones::{End, LEVER, STIFFNESS, Zone, line_zones};
@@ -161,6 +162,8 @@ impl Mesh {
             zones: Arc::new(zones),
             couplings: couplings.map(Arc::new),
             sharing: Arc::default(),
+            back_place: back_place(&inputs.shape, geometry),
+            back: Arc::default(),
             reach,
             is_whole: is_whole_before && is_whole_after,
         };
@@ -173,6 +176,7 @@ impl Mesh {
     pub fn uncoupled(&self) -> Mesh {
         let alone = Mesh {
             couplings: None,
+            back: Arc::default(),
             ..self.clone()
         };
         alone.with_mean_stiffness()

@@ -72,6 +72,22 @@ impl Couplings {
         stretch.map_or(0.0, |stretch| stretch.series.one(0, s))
     }
 
+    /// The couplings of the pairs of the back flanks, whose places are those of these pairs back
+    /// from `length`, in m; the rear one of two pairs is then the front one.
+    pub(super) fn reversed(&self, length: f64, base_pitch: f64) -> Couplings {
+        let mut pitches = 0.0;
+        let stretches = self.stretches.each_ref().map(|stretches| {
+            pitches += 1.0;
+            let about = length - pitches * base_pitch;
+            let reversed = stretches.iter().rev().map(|stretch| Stretch {
+                to: about - stretch.series.start(),
+                series: stretch.series.reversed(about, [1.0]),
+            });
+            reversed.collect()
+        });
+        Couplings { stretches }
+    }
+
     /// How often the coupling was computed.
     pub(super) fn evaluations(&self) -> usize {
         let all = self.stretches.iter().flatten();

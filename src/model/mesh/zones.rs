@@ -28,6 +28,19 @@ pub(super) struct Zone {
     pub(super) series: Series<4>,
 }
 
+impl Zone {
+    /// The zone of the back flanks, on which pairs go from `length` back, and slide the other way.
+    pub(super) fn reversed(&self, length: f64) -> Zone {
+        let mut signs = [1.0; 4];
+        signs[SLIDING] = -1.0;
+        Zone {
+            from: length - self.to,
+            to: length - self.from,
+            series: self.series.reversed(length, signs),
+        }
+    }
+}
+
 /// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the
 /// run-out.
 pub(super) struct End {

@@ -59,6 +59,31 @@ pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
     })
 }
 
+/// The back flanks strike.
+pub(super) fn back_strikes(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let steady = solution
+        .steady
+        .as_ref()
+        .and_then(|found| found.as_ref().ok());
+    let in_steady = steady.and_then(|steady| steady.rattle);
+    let in_motion = solution.dynamic.as_ref().and_then(|found| found.rattle);
+    let (rattle, when) = match (in_motion, in_steady) {
+        (Some(rattle), _) if rattle.strikes > 0 => (rattle, "before the incoming tooth leaves"),
+        (_, Some(rattle)) if rattle.strikes > 0 => (rattle, "in the steady motion"),
+        _ => return None,
+    };
+    let (backlash, force) = (four(inputs.backlash * 1e6), four(rattle.force));
+    let times = match rattle.strikes {
+        1 => "once".to_owned(),
+        strikes => format!("{strikes} times"),
+    };
+    let message = format!(
+        "the back flanks strike {times} across the backlash of {backlash} um {when}, with up to \
+            {force} N"
+    );
+    Some(Note::new("back-flank-strikes", message))
+}
+
 /// The mesh has no time to follow the load at rest.
 pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let (Method::Static, Some(mesh), Some(load)) =

@@ -32,6 +32,18 @@ impl Touching {
         Touching(self.0 | 1 << pair)
     }
 
+    /// Those before a pair.
+    #[must_use]
+    pub fn before(self, pair: usize) -> Touching {
+        Touching(self.0 & !u64::MAX.checked_shl(pair as u32).unwrap_or(0))
+    }
+
+    /// Those from a pair on, counted from it.
+    #[must_use]
+    pub fn since(self, pair: usize) -> Touching {
+        Touching(self.0.checked_shr(pair as u32).unwrap_or(0))
+    }
+
     /// The pairs, the rearmost first.
     pub fn pairs(self) -> impl Iterator<Item = usize> {
         let mut rest = self.0;

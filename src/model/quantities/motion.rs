@@ -13,9 +13,16 @@ const IN_MOTION: &str = "One mass m_red moves on the springs and gaps of all pai
 const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988, m x'' + \
     c x' + ΣF = F0, with the gap S(u) of the tips off the line of action. Integration by Taylor series \
     from contact event to contact event.";
+const RATTLE: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988: the back flanks \
+    touch where −x − j_bn − S_m > 0, x negative where the driver falls behind. j_bn is the normal \
+    backlash of ISO 21771 along the line of action; circumferential backlash on the working pitch \
+    circle is j_wt = j_bn/cos α_w.";
+pub(super) const AT_BACK: &str = "Symmetric teeth, with the same reliefs on both flanks: the back flanks have \
+    gap, stiffness and coupling of the working flanks, mirrored and with their own phase. No back \
+    flank deviates. A tooth loaded on both flanks has no coupling between them.";
 const CHECKS: &[Check] = &[checks::teeth, checks::forgotten, checks::contact_kept];
 const BY_MOTION: Formula = Found(
-    "taken from the motion m_red x'' + c x' + Σ w_k F_k = F_0, F_k >= 0 with x + e_k - S_k = Σ_j \
+    "taken from the motion m_red x'' + c x' + Σ w_k F_k − Σ w_m B_m = F_0, F_k >= 0 with x + e_k - S_k = Σ_j \
         Q_kj F_j/b where F_k > 0, which starts at the static balance model.warmup_cycles base pitches \
         before E",
     &["m_red", "c", "f_n", "f_z"],
@@ -152,6 +159,45 @@ pub(super) const TABLE: &[Quantity] = &[
             touches at some moment from one base pitch before E to the last contact of the tooth.",
         corrections: &[],
         assumptions: IN_MOTION,
+        checks: &[checks::teeth, checks::forgotten],
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_back_strikes",
+        symbol: "n_d,b",
+        label: "dynamic: back strikes",
+        unit: "1",
+        shown: "1",
+        digits: 4,
+        equation: "back flanks touch",
+        stage: Dynamic,
+        value: |s| Some(f64::from(s.dynamic.as_ref()?.rattle?.strikes)),
+        meaning: "How often the back flanks strike across the backlash, from one base pitch \
+            before E until the incoming tooth leaves. Without a backlash in the case the back flanks are far \
+            away, and this result does not exist.",
+        formula: BY_MOTION,
+        source: RATTLE,
+        corrections: &[],
+        assumptions: AT_BACK,
+        checks: &[checks::teeth, checks::forgotten],
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_peak_back_force",
+        symbol: "B_d,max",
+        label: "dynamic: back flank peak",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "max B",
+        stage: Dynamic,
+        value: |s| Some(s.dynamic.as_ref()?.rattle?.force),
+        meaning: "The greatest force max B on a pair of back flanks, from one base pitch before E \
+            until the incoming tooth leaves.",
+        formula: BY_MOTION,
+        source: RATTLE,
+        corrections: &[],
+        assumptions: AT_BACK,
         checks: &[checks::teeth, checks::forgotten],
         variants: &[],
     },

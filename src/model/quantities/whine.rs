@@ -1,6 +1,7 @@
 //! Rows of whine: harmonics of the transmission error and dynamic factors of a pair in
 //! which no tooth deviates.
 
+use super::motion::AT_BACK;
 use super::{Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{StaticSpectrum, SteadyMotion};
@@ -215,6 +216,54 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &[],
         assumptions: IN_MOTION,
         checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "steady_back_strikes",
+        symbol: "n_z,b",
+        label: "steady: back strikes",
+        unit: "1",
+        shown: "1",
+        digits: 4,
+        equation: "strikes per base pitch",
+        stage: SteadyMotion,
+        value: |s| {
+            let steady = steady(s)?;
+            Some(f64::from(steady.rattle?.strikes) / f64::from(steady.periods))
+        },
+        meaning: "The strikes of back flanks across the backlash per base pitch, in the steady motion \
+            of a pair without deviations: rattle. Without a backlash in the case the back flanks \
+            are far away, and this result does not exist.",
+        formula: Found(
+            "counted over the base pitches after which the motion repeats",
+            STEADY,
+        ),
+        source: MOTION,
+        corrections: &[],
+        assumptions: AT_BACK,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "steady_back_force",
+        symbol: "B_z,max",
+        label: "steady: back flank peak",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "max B",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.rattle?.force),
+        meaning: "The greatest force max B on a pair of back flanks in the steady motion of a pair \
+            without deviations.",
+        formula: Found(
+            "max B over the base pitches after which the motion repeats",
+            STEADY,
+        ),
+        source: MOTION,
+        corrections: &[],
+        assumptions: AT_BACK,
+        checks: CHECKS,
         variants: &[],
     },
 ];
