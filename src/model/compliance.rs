@@ -244,6 +244,19 @@ impl Teeth {
         }
     }
 
+    /// Where the load of a place acts on both teeth under a force, in N: if the pressure would extend
+    /// beyond the corner of a tip, the place from which it ends at the corner.
+    #[must_use]
+    pub fn under(&self, place: &ContactPlace, force: f64) -> ContactPlace {
+        let half_width = HalfWidth::of(&self.elasticity).at(place, force);
+        let moved = |radius: f64, tooth: &Tooth| radius.min(tooth.last_radius(half_width));
+        ContactPlace {
+            radius_driver: moved(place.radius_driver, &self.driver),
+            radius_driven: moved(place.radius_driven, &self.driven),
+            ..*place
+        }
+    }
+
     /// Displacement of a pair by the force on the pair `pitches` later in time, or of that one by
     /// the force on this one, in m²/N: `later` and `earlier` are where they touch.
     ///
@@ -267,12 +280,13 @@ impl Teeth {
         Ok(driver + driven)
     }
 
-    /// Compliance of the pair at a place under a given force, in m²/N.
+    /// Compliance of the pair at a place under a given force, in m²/N, with the load
+    /// [moved](Teeth::under) off the corner of a tip.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the models.
     pub fn pair_at_load(&self, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
-        self.pair(place)?.at_load(force)
+        self.pair(&self.under(place, force))?.at_load(force)
     }
 
     /// Compliance of the pair at a place.

@@ -184,8 +184,12 @@ impl Deflected {
 pub(super) struct LoadedPairs {
     /// Common face width b, in m.
     width: f64,
+    /// The incoming pair and those that carry, under a force that moves no load off a tip.
+    places: Places,
     pairs: Carriers,
 }
+
+type Places = SmallVec<[ContactPlace; USUAL_PAIRS + 1]>;
 
 /// More pairs than most gears have in contact.
 const USUAL_PAIRS: usize = 2;
@@ -194,9 +198,9 @@ const USUAL_PAIRS: usize = 2;
 enum Carriers {
     /// Springs of their own, and the displacement of the incoming pair by a unit force on the first
     /// of them, in m²/N.
-    Apart(SmallVec<[PairCompliance; USUAL_PAIRS]>, f64),
-    /// Several pairs that displace each other, the incoming one first.
-    Coupled(SmallVec<[ContactPlace; USUAL_PAIRS]>),
+    Apart(Springs, f64),
+    /// Several pairs that displace each other.
+    Coupled,
 }
 
 impl LoadedPairs {
@@ -227,21 +231,25 @@ impl LoadedPairs {
             });
         }
         let teeth = teeth()?;
-        let place = |along: f64| ContactPlace::on_line_of_action(geometry, along);
-        let start = place(geometry.start);
+        let place =
+            |along: f64| teeth.under(&ContactPlace::on_line_of_action(geometry, along), 0.0);
+        let places: Places = std::iter::once(geometry.start)
+            .chain(ahead)
+            .map(place)
+            .collect();
         let coupling = if method == Method::Paper {
             0.0
         } else {
-            teeth.coupling(&start, &place(first), 1)?
+            teeth.coupling(&places[0], &places[1], 1)?
         };
-        let pairs = if coupling != 0.0 && is_in_contact(&(first + geometry.base_pitch)) {
-            Carriers::Coupled(std::iter::once(start).chain(ahead.map(place)).collect())
+        let pairs = if coupling != 0.0 && places.len() > 2 {
+            Carriers::Coupled
         } else {
-            let pairs = ahead.map(|along| teeth.pair(&place(along)));
-            Carriers::Apart(pairs.collect::<Result<_, _>>()?, coupling)
+            Carriers::Apart(springs(teeth, &places)?, coupling)
         };
         Ok(LoadedPairs {
             width: teeth.width(),
+            places,
             pairs,
         })
     }
@@ -264,18 +272,47 @@ impl LoadedPairs {
     /// # Errors
     /// A [`Refusal`] where a contact has no compliance under the load.
     pub(super) fn deflected(&self, teeth: &Teeth, mesh_force: f64) -> Result<Deflected, Refusal> {
+        let places: Places = self
+            .places
+            .iter()
+            .map(|place| teeth.under(place, mesh_force))
+            .collect();
         match &self.pairs {
-            Carriers::Coupled(places) => shared(teeth, places, mesh_force),
-            Carriers::Apart(pairs, coupling) => {
-                let stiffnesses = pairs.iter().map(|pair| Ok(1.0 / pair.at_load(mesh_force)?));
-                let stiffness: f64 = stiffnesses.sum::<Result<_, Refusal>>()?;
-                Ok(Deflected {
-                    pairs_ahead: mesh_force / (self.width * stiffness),
-                    incoming_pair: coupling * (mesh_force / self.width),
-                })
+            Carriers::Coupled => shared(teeth, &places, mesh_force),
+            Carriers::Apart(pairs, coupling) if places == self.places => {
+                self.apart(pairs, *coupling, mesh_force)
+            }
+            Carriers::Apart(_, coupling) => {
+                let coupling = if *coupling == 0.0 {
+                    0.0
+                } else {
+                    teeth.coupling(&places[0], &places[1], 1)?
+                };
+                self.apart(&springs(teeth, &places)?, coupling, mesh_force)
             }
         }
     }
+
+    fn apart(
+        &self,
+        pairs: &[PairCompliance],
+        coupling: f64,
+        mesh_force: f64,
+    ) -> Result<Deflected, Refusal> {
+        let stiffnesses = pairs.iter().map(|pair| Ok(1.0 / pair.at_load(mesh_force)?));
+        let stiffness: f64 = stiffnesses.sum::<Result<_, Refusal>>()?;
+        Ok(Deflected {
+            pairs_ahead: mesh_force / (self.width * stiffness),
+            incoming_pair: coupling * (mesh_force / self.width),
+        })
+    }
+}
+
+type Springs = SmallVec<[PairCompliance; USUAL_PAIRS]>;
+
+/// The compliances of all but the first of these pairs.
+fn springs(teeth: &Teeth, places: &[ContactPlace]) -> Result<Springs, Refusal> {
+    places[1..].iter().map(|place| teeth.pair(place)).collect()
 }
 
 /// The displacements where several coupled pairs, all but the first of these, carry the force.

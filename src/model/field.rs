@@ -161,6 +161,23 @@ impl Field {
         })
     }
 
+    /// The radius of the load whose pressure over ± `half_width`, in m, ends at the tip's corner; the
+    /// load next to the tip at the most.
+    ///
+    /// # Formula
+    /// ```text
+    /// r² = rb² + La² − 2 rb a
+    /// ```
+    /// where La is the length of the tangent from the base circle to the corner: an involute's arc is
+    /// L²/(2 rb).
+    #[must_use]
+    pub fn last_radius(&self, half_width: f64) -> f64 {
+        let ([form, last], base) = (self.radii(), self.flank.base);
+        let corner = base * self.flank.tip_roll;
+        let tangent = (corner * corner - 2.0 * base * half_width).max(0.0).sqrt();
+        base.hypot(tangent).clamp(form, last)
+    }
+
     /// The radii from the junction of fillet and involute to the load next to the tip, in m.
     #[must_use]
     pub fn radii(&self) -> [f64; 2] {

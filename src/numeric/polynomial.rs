@@ -94,13 +94,12 @@ impl<const N: usize> Polynomial<N> {
     #[must_use]
     pub fn times<const M: usize, const P: usize>(&self, other: &Polynomial<M>) -> Polynomial<P> {
         let mut product = [0.0; P];
-        let (one, other) = (self.terms(), other.terms());
-        let known = product
-            .iter_mut()
-            .take((one.len() + other.len()).saturating_sub(1));
-        known
-            .enumerate()
-            .for_each(|(power, term)| *term = term_of_product(one, other, power));
+        // Sums of all powers side by side: no term waits for another of the same coefficient.
+        for (power, &factor) in other.terms().iter().enumerate().take(P) {
+            for (sum, coefficient) in product[power..].iter_mut().zip(&self.0) {
+                *sum += factor * coefficient;
+            }
+        }
         Polynomial(product)
     }
 
@@ -126,33 +125,6 @@ fn horner(powers: &[f64], t: f64) -> f64 {
         }
     }
     (sums[0] + sums[1] * t) + (sums[2] + sums[3] * t) * square
-}
-
-/// Σ a_i b_(n−i), n the power, in four sums that do not wait for each other.
-#[inline]
-fn term_of_product(one: &[f64], other: &[f64], power: usize) -> f64 {
-    let (first, end) = (
-        (power + 1).saturating_sub(other.len()),
-        one.len().min(power + 1),
-    );
-    if first >= end {
-        return 0.0;
-    }
-    let (up, down) = (&one[first..end], &other[power + 1 - end..=power - first]);
-    let (fours, rest) = up.as_chunks::<4>();
-    let (rest_down, fours_down) = down.as_rchunks::<4>();
-    let mut sums = [0.0; 4];
-    for (up, down) in fours.iter().zip(fours_down.iter().rev()) {
-        for lane in 0..4 {
-            sums[lane] += up[lane] * down[3 - lane];
-        }
-    }
-    let tail: f64 = rest
-        .iter()
-        .zip(rest_down.iter().rev())
-        .map(|(up, down)| up * down)
-        .sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
 }
 
 #[cfg(test)]

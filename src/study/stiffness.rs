@@ -269,7 +269,7 @@ impl Flank<'_> {
 fn field_point(field: &Field, radius: f64, half_width: f64, young: f64) -> FieldPoint {
     FieldPoint {
         depth: field.depth(radius, half_width) / young,
-        surface: field.surface(radius, half_width) / young,
+        surface: field.surface(radius.min(field.last_radius(half_width)), half_width) / young,
         ahead: field.cross(radius, radius, 1) / young,
         behind: field.cross(radius, radius, -1) / young,
     }

@@ -81,11 +81,12 @@ impl Check {
         }
     }
 
-    /// Radii of the load points of a pair on driver and driven gear.
+    /// Radii of the load points of a pair on driver and driven gear: where the flanks touch, or from
+    /// where the pressure ends at the corner of the tip.
     fn radii(&self, s: f64) -> [f64; 2] {
         let geometry = &self.solution.geometry;
         let length = geometry.end - geometry.start;
-        if s < 0.0 {
+        let radii = if s < 0.0 {
             let tip = tip_at(geometry, -s / geometry.driven.base);
             [tip.radius_driver, geometry.driven.tip]
         } else if s > length {
@@ -94,7 +95,21 @@ impl Check {
         } else {
             let place = ContactPlace::on_line_of_action(geometry, geometry.start + s);
             [place.radius_driver, place.radius_driven]
-        }
+        };
+        let circles = [&geometry.driver, &geometry.driven];
+        let square = |at: usize, radius: f64| radius.powi(2) - circles[at].base.powi(2);
+        let curvatures = [0, 1].map(|at| square(at, radii[at]).sqrt());
+        let reduced = curvatures[0] * curvatures[1] / (curvatures[0] + curvatures[1]);
+        let gears = [&self.inputs.driver, &self.inputs.driven];
+        let give = gears.map(|gear| (1.0 - gear.poisson.powi(2)) / gear.young);
+        let pressure = self.mesh.force / self.inputs.common_width();
+        let half_width =
+            (4.0 * pressure * reduced * (give[0] + give[1]) / std::f64::consts::PI).sqrt();
+        [0, 1].map(|at| {
+            let base = circles[at].base;
+            let corner = square(at, circles[at].tip) - 2.0 * base * half_width;
+            radii[at].min(base.hypot(corner.sqrt()))
+        })
     }
 
     /// The pairs with the incoming one at `s`, coupled by the whole gears.
@@ -266,6 +281,76 @@ fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
     }
 }
 
+/// A pair and its answers by another finite-element program, which computes whole gears in contact
+/// with their own compliances, and moves a load whose pressure would extend beyond the tip's corner.
+struct Answers {
+    teeth: [u32; 2],
+    shifts: [f64; 2],
+    heights: [f64; 2],
+    degrees: f64,
+    /// r_f/r_h of both gears.
+    ratios: [f64; 2],
+    /// In N m and um.
+    load: [f64; 2],
+    /// First contact before E, in modules; force at E, in N.
+    first_contact: f64,
+    force_at_start: f64,
+}
+
+/// Pairs at loads whose half-width of contact is above 0.02 modules, of contact ratio 1.54, 2.00,
+/// 1.35, 2.19 and 3.14.
+#[rustfmt::skip]
+const ANSWERS: [Answers; 5] = [
+    Answers { teeth: [17, 31], shifts: [0.2, -0.1], heights: [1.0, 1.25], degrees: 20.0, ratios: [1.6, 2.5], load: [60.0, 0.0], first_contact: 0.25883, force_at_start: 1489.9 },
+    Answers { teeth: [24, 24], shifts: [0.0, 0.0], heights: [1.3, 1.55], degrees: 20.0, ratios: [3.0, 1.3], load: [200.0, 8.0], first_contact: 0.37443, force_at_start: 3054.3 },
+    Answers { teeth: [13, 19], shifts: [0.5, 0.4], heights: [1.0, 1.25], degrees: 20.0, ratios: [1.4, 2.0], load: [150.0, 15.0], first_contact: 0.38635, force_at_start: 6930.5 },
+    Answers { teeth: [30, 41], shifts: [0.0, 0.0], heights: [1.35, 1.6], degrees: 20.0, ratios: [1.2, 1.15], load: [400.0, -6.0], first_contact: 0.48146, force_at_start: 3000.7 },
+    Answers { teeth: [60, 75], shifts: [0.0, 0.0], heights: [1.5, 1.75], degrees: 14.5, ratios: [1.3, 3.0], load: [300.0, 3.0], first_contact: 0.57413, force_at_start: 1138.0 },
+];
+
+impl Answers {
+    fn inputs(&self) -> Inputs {
+        let mut inputs = standard_pair(self.teeth[0], self.teeth[1], 2e-3);
+        inputs.tooth_compliance = Some(ToothCompliance::FINITE_ELEMENT);
+        inputs.method = Method::Static;
+        inputs.pressure_angle = self.degrees.to_radians();
+        inputs.drive = Drive::Torque(self.load[0]);
+        inputs.base_pitch_deviation = 1e-6 * self.load[1];
+        for (at, gear) in [&mut inputs.driver, &mut inputs.driven]
+            .into_iter()
+            .enumerate()
+        {
+            gear.profile_shift = self.shifts[at];
+            [gear.addendum, gear.dedendum] = self.heights;
+            let root = f64::from(gear.teeth) / 2.0 - gear.dedendum + gear.profile_shift;
+            gear.bore_radius = inputs.module * root / self.ratios[at];
+        }
+        inputs
+    }
+}
+
+#[test]
+fn the_shared_load_is_that_of_another_finite_element_program() {
+    for answers in &ANSWERS {
+        let inputs = answers.inputs();
+        let solution = solve(&inputs, Stages::of(Stage::Static)).expect("a solution");
+        let load = solution.static_load.expect("method static");
+        let first = load.first_contact_angle.expect("it strikes") * solution.geometry.driven.base;
+        let found = [
+            (first / inputs.module / answers.first_contact, 1e-3),
+            (load.force_at_start / answers.force_at_start, 5e-3),
+        ];
+        println!("z {:?}: {found:?}", answers.teeth);
+        for (ratio, allowed) in found {
+            assert!(
+                (ratio - 1.0).abs() < allowed,
+                "z {:?}: {found:?}",
+                answers.teeth
+            );
+        }
+    }
+}
+
 #[test]
 fn neighbours_yield_as_those_of_a_whole_gear() {
     for check in checks() {
@@ -280,7 +365,10 @@ fn neighbours_yield_as_those_of_a_whole_gear() {
                     continue;
                 }
                 let front = rear + f64::from(pitches) * check.mesh.base_pitch;
-                let place = |s: f64| ContactPlace::on_line_of_action(geometry, geometry.start + s);
+                let place = |s: f64| {
+                    let place = ContactPlace::on_line_of_action(geometry, geometry.start + s);
+                    teeth.under(&place, check.mesh.force)
+                };
                 let found = teeth
                     .coupling(&place(rear), &place(front), pitches)
                     .expect("a coupling");
@@ -294,7 +382,7 @@ fn neighbours_yield_as_those_of_a_whole_gear() {
                 let expected = of(0, pitches, check.inputs.driver.young)
                     + of(1, -pitches, check.inputs.driven.young);
                 let own = teeth
-                    .pair_at_load(&place(rear), 1000.0)
+                    .pair_at_load(&place(rear), check.mesh.force)
                     .expect("a compliance");
                 println!(
                     "{pitches} at {step}: {found:e} {expected:e} {:+.4} {:+.4}",

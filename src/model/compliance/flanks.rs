@@ -7,6 +7,7 @@ use super::{ContactPlace, Elasticity};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
 use crate::numeric::chebyshev::Series;
+use crate::numeric::root;
 
 /// What the last terms of a series may be, over the compliance at the tip: less than what those who
 /// use it allow.
@@ -29,13 +30,28 @@ const OFFSET: usize = 1;
 #[derive(Debug, Clone, PartialEq)]
 struct Flank {
     series: Series<2>,
-    /// Distance from which the compliance is the same up to the tip, in m.
-    last: f64,
+    /// Distances between which the compliance is known, in m.
+    ends: (f64, f64),
+    /// Square of the distance of the tip's corner; infinite if the model knows no corner.
+    corner: f64,
+    /// r_b, in m.
+    base: f64,
+}
+
+/// What the place of a load on a flank depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Limit {
+    /// The contact alone.
+    Contact,
+    /// The half-width of the pressure, which ends at the corner of the tip.
+    Corner,
+    /// The load next to the tip.
+    Last,
 }
 
 impl Flank {
     fn of(tooth: &Tooth, circles: &Circles, (from, to): (f64, f64)) -> Result<Flank, Refusal> {
-        let (base, radius) = (circles.base, tooth.last_radius());
+        let (base, radius) = (circles.base, tooth.last_radius(0.0));
         let last = ((radius - base) * (radius + base)).sqrt().min(to);
         let at = |curvature: f64| {
             let radius = base.hypot(curvature);
@@ -44,11 +60,67 @@ impl Flank {
         };
         let rest = REST * at(to)?[TOOTH];
         let series = Series::of(from.min(last), last, &|_, _| [rest; 2], &at)?;
-        Ok(Flank { series, last })
+        let corner = if radius.is_finite() {
+            circles.sharp().tip_curvature
+        } else {
+            f64::INFINITY
+        };
+        Ok(Flank {
+            series,
+            ends: (from.min(last), last),
+            corner: corner * corner,
+            base,
+        })
     }
 
-    fn at(&self, curvature: f64) -> [f64; 2] {
-        self.series.at(curvature.min(self.last))
+    /// The values for a load that touches at this distance, moved off the corner of the tip if its
+    /// pressure would extend beyond the corner.
+    fn at(&self, curvature: f64, half_width: f64) -> [f64; 2] {
+        let place = curvature.min(self.ends.1).min(self.at_corner(half_width));
+        self.series.at(place)
+    }
+
+    /// Distance of the load whose pressure ends at the corner of the tip, in m.
+    fn at_corner(&self, half_width: f64) -> f64 {
+        let square = self.corner - 2.0 * self.base * half_width;
+        square.max(0.0).sqrt().max(self.ends.0)
+    }
+
+    /// What the place of such a load depends on, and the place by each.
+    fn limit(&self, (curvature, half_width): (f64, f64)) -> (Limit, [f64; 3]) {
+        let places = [curvature, self.at_corner(half_width), self.ends.1];
+        let limits = [Limit::Contact, Limit::Corner, Limit::Last];
+        let least = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let named = limits.into_iter().zip(places);
+        let mut found = named.filter(|(_, place)| *place <= least);
+        (
+            found.next().map_or(Limit::Contact, |(limit, _)| limit),
+            places,
+        )
+    }
+
+    /// Places between the ends at which the place of the load begins to depend on something else.
+    fn bends(&self, (from, to): (f64, f64), load: impl Fn(f64) -> (f64, f64)) -> Vec<f64> {
+        const LOOKS: u32 = 8;
+        if self.corner.is_infinite() || from >= to {
+            return Vec::new();
+        }
+        let place = |look: u32| from + (to - from) * f64::from(look) / f64::from(LOOKS);
+        let limit = |place: f64| self.limit(load(place)).0;
+        let mut bends = Vec::new();
+        let mut before = (from, limit(from));
+        for look in 1..=LOOKS {
+            let here = (place(look), limit(place(look)));
+            if before.1 != here.1 {
+                let difference = |at: f64| {
+                    let (_, places) = self.limit(load(at));
+                    places[before.1 as usize] - places[here.1 as usize]
+                };
+                bends.push(root::between(before.0, here.0, difference));
+            }
+            before = here;
+        }
+        bends
     }
 }
 
@@ -91,11 +163,20 @@ impl Flanks {
         self.driver.series.evaluations() + self.driven.series.evaluations()
     }
 
-    /// Distances from N₁ and N₂ at which the compliances bend: from there to the tip they are the
-    /// same.
+    /// Places between the ends at which a load begins or ends to be moved off the corner of a tip,
+    /// by what touches at a place: the distances of the load points from N₁ and N₂, and the
+    /// half-width of the contact.
     #[must_use]
-    pub fn bends(&self) -> [f64; 2] {
-        [self.driver.last, self.driven.last]
+    pub fn bends(&self, ends: (f64, f64), load: impl Fn(f64) -> ((f64, f64), f64)) -> Vec<f64> {
+        let mut bends = self.driver.bends(ends, |at| {
+            let ((driver, _), half_width) = load(at);
+            (driver, half_width)
+        });
+        bends.extend(self.driven.bends(ends, |at| {
+            let ((_, driven), half_width) = load(at);
+            (driven, half_width)
+        }));
+        bends
     }
 
     /// The same flanks with the gears swapped.
@@ -121,7 +202,9 @@ impl Flanks {
         (driver, driven): (f64, f64),
         force: f64,
     ) -> Result<f64, Refusal> {
-        let (driver, driven) = (self.driver.at(driver), self.driven.at(driven));
+        let half_width = HalfWidth::of(elasticity).at(place, force);
+        let driver = self.driver.at(driver, half_width);
+        let driven = self.driven.at(driven, half_width);
         let teeth = driver[TOOTH] + driven[TOOTH];
         let spring = match self.slope {
             Some(slope) => {
@@ -158,15 +241,45 @@ mod tests {
                     geometry.start + (geometry.end - geometry.start) * f64::from(step) / 40.0;
                 let place = ContactPlace::on_line_of_action(&geometry, along);
                 let arms = (along, geometry.tangent_length - along);
-                let found = flanks
-                    .pair_at_load(&elasticity, &geometry, &place, arms, 1000.0)
-                    .unwrap();
-                let expected = teeth.pair_at_load(&place, 1000.0).unwrap();
-                assert!(
-                    (found / expected - 1.0).abs() < 1e-12,
-                    "{model:?} at {step}: {found} {expected}"
-                );
+                for force in [1e2, 1e3, 3e4] {
+                    let found = flanks
+                        .pair_at_load(&elasticity, &geometry, &place, arms, force)
+                        .unwrap();
+                    let expected = teeth.pair_at_load(&place, force).unwrap();
+                    assert!(
+                        (found / expected - 1.0).abs() < 1e-12,
+                        "{model:?} at {step} under {force} N: {found} {expected}"
+                    );
+                }
             }
         }
+    }
+
+    #[test]
+    fn the_pressure_of_a_load_at_the_tip_ends_at_its_corner() {
+        let inputs = standard_pair(20, 33, 4e-3);
+        let geometry = geometry::<f64>(&inputs.shape()).unwrap();
+        let elasticity = inputs.elasticity();
+        let teeth = Teeth::of(&elasticity, &geometry).unwrap();
+        let at_tip = ContactPlace::on_line_of_action(&geometry, geometry.end);
+        let arc = |place: &ContactPlace| {
+            let (tip, radius) = (geometry.driver.tip, place.radius_driver);
+            (tip - radius) * (tip + radius) / (2.0 * geometry.driver.base)
+        };
+        for force in [5e3, 2e4, 8e4] {
+            let half_width = contact::half_width(&elasticity, &at_tip, force);
+            let moved = teeth.under(&at_tip, force);
+            let off = arc(&moved) / half_width - 1.0;
+            assert!(off.abs() < 1e-9, "under {force} N off by {off:e}");
+            assert_eq!(
+                moved.radius_driven.to_bits(),
+                at_tip.radius_driven.to_bits()
+            );
+        }
+        let light = [1.0, 100.0].map(|force| arc(&teeth.under(&at_tip, force)) / inputs.module);
+        assert!(
+            light.iter().all(|arc| (arc - 0.02).abs() < 1e-3),
+            "{light:?}"
+        );
     }
 }

@@ -96,8 +96,8 @@ pub trait LoadedTooth: Debug + Send + Sync {
         Ok(0.0)
     }
 
-    /// Radius in m from which the compliance is the same up to the tip; infinite if there is none.
-    fn last_radius(&self) -> f64 {
+    /// See [`Tooth::last_radius`]; infinite for a model that knows no corner.
+    fn last_radius(&self, _half_width: f64) -> f64 {
         f64::INFINITY
     }
 }
@@ -184,12 +184,13 @@ impl Tooth {
         }
     }
 
-    /// Radius in m from which the compliance is the same up to the tip; infinite if there is none.
+    /// Radius in m of the load whose pressure over ± `half_width` ends at the corner of the tip: a
+    /// load further out counts as this one. Infinite for a model that knows no corner.
     #[must_use]
-    pub fn last_radius(&self) -> f64 {
+    pub fn last_radius(&self, half_width: f64) -> f64 {
         match &self.serves {
             Serves::AtRadius(_) => f64::INFINITY,
-            Serves::Built(built) => built.last_radius(),
+            Serves::Built(built) => built.last_radius(half_width),
         }
     }
 }

@@ -65,7 +65,8 @@ impl Mesh {
     ) -> Result<Mesh, Refusal> {
         let teeth = Teeth::of(&inputs.elasticity, geometry)?;
         let neighbour = |rear: &ContactPlace, front: &ContactPlace, pitches: i32| {
-            teeth.coupling(rear, front, pitches)
+            let [rear, front] = [rear, front].map(|place| teeth.under(place, load.0));
+            teeth.coupling(&rear, &front, pitches)
         };
         Mesh::with_neighbours(inputs, geometry, flanks, load, reach, &neighbour)
     }
@@ -95,10 +96,11 @@ impl Mesh {
         let length = geometry.end - geometry.start;
         let (before, is_whole_before) = run_in.angle_of_reach(reach);
         let (after, is_whole_after) = run_out.angle_of_reach(reach);
-        let mut zones = Vec::new();
-        run_in.zones(&relief, force, before, 0.0, &mut zones)?;
-        line_zones(inputs, geometry, (flanks, &relief), force, &mut zones)?;
-        run_out.zones(&relief, force, after, length, &mut zones)?;
+        let (mut zones, mut bends) = (Vec::new(), vec![0.0, length]);
+        bends.extend(run_in.zones(&relief, force, before, 0.0, &mut zones)?);
+        let lines = line_zones(inputs, geometry, (flanks, &relief), force, &mut zones)?;
+        bends.extend(lines);
+        bends.extend(run_out.zones(&relief, force, after, length, &mut zones)?);
         zones.sort_by(|one, other| one.from.total_cmp(&other.from));
         check_pairs(length_of(&zones) / geometry.base_pitch)?;
         let levers = zones
@@ -109,20 +111,12 @@ impl Mesh {
         if friction >= limit {
             return Err(Refusal::FrictionLocks { friction, limit });
         }
-        let [driver_bend, driven_bend] = flanks.bends();
         let way = Way {
             ends: (
                 zones.first().map_or(0.0, |zone| zone.from),
                 zones.last().map_or(0.0, |zone| zone.to),
             ),
-            bends: vec![
-                0.0,
-                length,
-                driver_bend - geometry.start,
-                geometry.tangent_length - geometry.start - driven_bend,
-                run_in.bend(0.0),
-                run_out.bend(length),
-            ],
+            bends,
             base_pitch: geometry.base_pitch,
         };
         let place = |s: f64| match s {

@@ -3,6 +3,7 @@
 use super::inputs::MeshInputs;
 use crate::model::Refusal;
 use crate::model::compliance::ContactPlace;
+use crate::model::compliance::contact::HalfWidth;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::geometry::{Geometry, geometry};
 use crate::model::position::{GapSeries, first_contact};
@@ -82,14 +83,15 @@ fn push_zones(
     Ok(())
 }
 
-/// The zones of the line of action.
+/// The zones of the line of action; the places at which the load on a flank begins or ends to be
+/// moved off the corner of the tip.
 pub(super) fn line_zones(
     inputs: &MeshInputs,
     geometry: &Geometry,
     (flanks, relief): (&Flanks, &Relief),
     force: f64,
     zones: &mut Vec<Zone>,
-) -> Result<(), Refusal> {
+) -> Result<Vec<f64>, Refusal> {
     let length = geometry.end - geometry.start;
     let rest = geometry.tangent_length - geometry.start;
     let speeds = inputs.speed + inputs.driven_speed();
@@ -115,10 +117,14 @@ pub(super) fn line_zones(
         .ends_on_driver()
         .map(|curvature| curvature - geometry.start);
     let driven_ends = relief.ends_on_driven().map(|curvature| rest - curvature);
-    let [driver_bend, driven_bend] = flanks.bends();
-    let bends = [driver_bend - geometry.start, rest - driven_bend];
-    let ends = driver_ends.chain(driven_ends);
-    let mut borders: Vec<f64> = ends.chain(bends).chain(pitch_point).collect();
+    let bends = flanks.bends((0.0, length), |s| {
+        let along = geometry.start + s;
+        let place = ContactPlace::on_line_of_action(geometry, along);
+        let half_width = HalfWidth::of(&inputs.elasticity).at(&place, force);
+        ((along, rest - s), half_width)
+    });
+    let ends = driver_ends.chain(driven_ends).chain(pitch_point);
+    let mut borders: Vec<f64> = ends.chain(bends.iter().copied()).collect();
     borders.retain(|&border| border > 0.0 && border < length);
     borders.extend([0.0, length]);
     let stiffness = at(0.5 * length)?[STIFFNESS];
@@ -131,7 +137,8 @@ pub(super) fn line_zones(
         ),
         &at,
         zones,
-    )
+    )?;
+    Ok(bends)
 }
 
 impl End {
@@ -166,7 +173,8 @@ impl End {
         }
     }
 
-    /// The zones from the end of the path of contact at `edge` to the angle `reach`.
+    /// The zones from the end of the path of contact at `edge` to the angle `reach`; the places at
+    /// which the load on a flank begins or ends to be moved off the corner of the tip.
     pub(super) fn zones(
         &self,
         relief: &Relief,
@@ -174,20 +182,22 @@ impl End {
         reach: f64,
         edge: f64,
         zones: &mut Vec<Zone>,
-    ) -> Result<(), Refusal> {
+    ) -> Result<Vec<f64>, Refusal> {
         let base = self.geometry.driven.base;
         let angle_of = |s: f64| (self.side * (s - edge) / base).max(0.0);
         let at = |s: f64| self.at(relief, force, angle_of(s));
+        let bends = self.angles_of_bends(force, reach);
         let turns = self
             .angles_of_relief_ends(relief)
             .chain(self.angle_of_rolling(reach))
-            .chain([self.angle_of_bend()]);
+            .chain(bends.iter().copied());
         let mut borders: Vec<f64> = turns
             .filter(|&angle| angle > 0.0 && angle < reach)
             .collect();
         borders.extend([0.0, reach]);
+        let place_of = |angle: f64| edge + self.side * base * angle;
         for border in &mut borders {
-            *border = edge + self.side * base * *border;
+            *border = place_of(*border);
         }
         let (start, end) = (at(edge)?, at(edge + self.side * base * reach)?);
         let size = |function: usize| start[function].abs().max(end[function].abs());
@@ -200,17 +210,22 @@ impl End {
             ),
             &at,
             zones,
-        )
+        )?;
+        Ok(bends.into_iter().map(place_of).collect())
     }
 
-    /// Where the compliance of the flank that the tip meets bends, if the path of contact ends at
-    /// `edge`.
-    pub(super) fn bend(&self, edge: f64) -> f64 {
-        edge + self.side * self.geometry.driven.base * self.angle_of_bend()
+    fn angles_of_bends(&self, force: f64, reach: f64) -> Vec<f64> {
+        self.flanks.bends((0.0, reach), |angle| {
+            let tip = tip_at(&self.geometry, angle);
+            let place = self.place_of(&tip);
+            let half_width = HalfWidth::of(&self.inputs.elasticity).at(&place, force);
+            (self.arms(&tip), half_width)
+        })
     }
 
-    fn angle_of_bend(&self) -> f64 {
-        angle_at_curvature(&self.geometry, self.flanks.bends()[0])
+    /// Distances of the load points from N₁ and N₂, in m.
+    fn arms(&self, tip: &TipContact) -> (f64, f64) {
+        (tip.curvature_driver, tip.load_arm_driven(&self.geometry))
     }
 
     /// Where the tip touches at an angle from the end of the path of contact.
@@ -226,12 +241,11 @@ impl End {
     fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
         let tip = tip_at(&self.geometry, angle);
         let place = self.place_of(&tip);
-        let arms = (tip.curvature_driver, tip.load_arm_driven(&self.geometry));
         let compliance = self.flanks.pair_at_load(
             &self.inputs.elasticity,
             &self.geometry,
             &place,
-            arms,
+            self.arms(&tip),
             force,
         )?;
         let sliding = self.inputs.driven_speed() * tip.sliding_arm;

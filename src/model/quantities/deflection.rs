@@ -40,7 +40,8 @@ fn displaced(k: &Context) -> String {
 fn coupling_at_start(k: &Context) -> Option<f64> {
     let elasticity = k.inputs.elasticity();
     let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
-    teeth.coupling(&place(k, 0)?, &place(k, 1)?, 1).ok()
+    let place = |pitches| Some(teeth.under(&place(k, pitches)?, k.solution.mesh_force));
+    teeth.coupling(&place(0)?, &place(1)?, 1).ok()
 }
 
 /// Eqs. 3 and 4 with as many pairs as carry the load.
@@ -78,14 +79,16 @@ fn ahead(k: &Context, pitches: u32) -> Option<f64> {
 fn teeth_ahead(k: &Context) -> Option<[f64; 2]> {
     let elasticity = k.inputs.elasticity();
     let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
-    let teeth = teeth.at(&place(k, 1)?).ok()?;
+    let place = teeth.under(&place(k, 1)?, k.solution.mesh_force);
+    let teeth = teeth.at(&place).ok()?;
     Some([teeth.driver, teeth.driven])
 }
 
 fn contact_ahead(k: &Context) -> Option<f64> {
     let elasticity = k.inputs.elasticity();
     let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
-    let spring = teeth.spring(&place(k, 1)?).ok()?;
+    let place = teeth.under(&place(k, 1)?, k.solution.mesh_force);
+    let spring = teeth.spring(&place).ok()?;
     spring.compliance(k.solution.mesh_force).ok()
 }
 

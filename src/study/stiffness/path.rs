@@ -121,7 +121,8 @@ impl<'a> Mesh<'a> {
     }
 
     fn place(&self, way: f64) -> ContactPlace {
-        ContactPlace::on_line_of_action(self.geometry, self.geometry.start + way)
+        let place = ContactPlace::on_line_of_action(self.geometry, self.geometry.start + way);
+        self.teeth.under(&place, self.force)
     }
 
     fn pair(&self, way: f64) -> Option<f64> {

@@ -154,8 +154,9 @@ pub fn field_gear(gear: &ElasticGear) -> FieldGear {
 /// [`Field`]: finite elements on half a pitch of the whole gear, in plane strain.
 ///
 /// # Valid for
-/// A flank above the form circle. A load within its half-width of the tip's corner counts as the
-/// nearest one whose pressure ends at the corner.
+/// A flank above the form circle. A load within 0.02 modules of the tip's corner counts as one at
+/// that distance. Under the mesh force the distance is the half-width of the contact at the least,
+/// so that the pressure ends at the corner ([`Teeth::under`]); an impact keeps the 0.02 modules.
 ///
 /// # Errors
 /// [`Refusal::NoField`] if the gear has no field.
@@ -204,8 +205,8 @@ impl LoadedTooth for Field {
         Ok(self.cross(loaded, measured, pitches) / gear.young)
     }
 
-    fn last_radius(&self) -> f64 {
-        self.radii()[1]
+    fn last_radius(&self, half_width: f64) -> f64 {
+        Field::last_radius(self, half_width)
     }
 }
 
