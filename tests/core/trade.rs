@@ -230,7 +230,9 @@ fn errors_fall_with_stations_and_tolerance() {
                 off(pair[1])
             );
         }
-        assert!(off(1024) < 0.02 * off(8), "{method:?}");
+        // A kink of the curve costs as much as its distance from the nearest station, which falls
+        // with their number, but for the place of the kink between two stations.
+        assert!(off(1024) < 5.0 * 8.0 / 1024.0 * off(8), "{method:?}");
     }
     let off = |tolerance| {
         let setting = Setting {
