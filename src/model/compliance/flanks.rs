@@ -267,7 +267,7 @@ mod tests {
             (tip - radius) * (tip + radius) / (2.0 * geometry.driver.base)
         };
         for force in [5e3, 2e4, 8e4] {
-            let half_width = contact::half_width(&elasticity, &at_tip, force);
+            let half_width = HalfWidth::of(&elasticity).at(&at_tip, force);
             let moved = teeth.under(&at_tip, force);
             let off = arc(&moved) / half_width - 1.0;
             assert!(off.abs() < 1e-9, "under {force} N off by {off:e}");
