@@ -450,7 +450,7 @@ fn a_new_case_begins_with_an_example_and_has_no_file() {
     desk.keys(&["Down"]);
     assert!(
         preview(&desk).contains("FZG type C test gears")
-            && preview(&desk).contains("impact force 3718.9 N.")
+            && preview(&desk).contains("impact force 3718.8 N.")
     );
     desk.keys(&["relief", "Enter"]);
     assert!(

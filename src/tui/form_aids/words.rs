@@ -158,7 +158,7 @@ mod tests {
             (
                 "pair.module",
                 "driver.teeth",
-                "driver.teeth does not begin with a number: write 5 mm, for example",
+                "driver.teeth does not begin with a number: write a number and its unit, such as 20 mm",
             ),
         ] {
             assert_eq!(said(key, text), sentence);
