@@ -20,7 +20,7 @@ const NARROWEST: u16 = 52;
 #[must_use]
 pub(super) fn room(screen: Size) -> Size {
     Size {
-        width: screen.width.min(WIDEST).saturating_sub(5),
+        width: screen.width.min(WIDEST).saturating_sub(4),
         height: screen.height.saturating_sub(4),
     }
 }
