@@ -1,6 +1,6 @@
 //! Everything that differs between operating systems: files, signals, terminal and users.
 //!
-//! No other module names an interface of Unix. The commands need [`files`] and Ctrl-C alone, which
+//! No other module names an interface of Unix. The commands need `files` and Ctrl-C alone, which
 //! every system has in some form; the workbench needs Unix.
 
 #[cfg(all(unix, feature = "tui"))]
