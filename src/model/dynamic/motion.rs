@@ -192,7 +192,7 @@ impl<'a> Motion<'a> {
                 limit: PAIRS,
             });
         }
-        // The zones of the working flanks, then those of the back flanks; the number of the first is known.
+        // The number of working pairs, then the zones of the working pairs and of the back pairs.
         let zones = pairs.iter().map(|pair| pair.zone);
         let zones = std::iter::once(working).chain(zones);
         let is_incoming = |pair: &Standing| pair.name() == PairName::working(0);
