@@ -68,7 +68,11 @@ impl ReliefReport<'_> {
             lines.push("The search ended with its budget; a better relief may exist.".to_owned());
         }
         lines.push(String::new());
-        lines.push("Choices, with the transmission error peak to peak over the loads".to_owned());
+        lines.push(
+            "Choices: amounts C_a, gap and transmission error TE in um, lengths L in mm; TE peak to \
+             peak, its maximum and mean over the loads"
+                .to_owned(),
+        );
         lines.extend(choices(found));
         lines.push(String::new());
         lines.push("Transmission error peak to peak over the load, um (Harris map)".to_owned());
@@ -85,12 +89,9 @@ impl ReliefReport<'_> {
 
     fn demand(&self) -> String {
         let found = self.found;
-        let (from, to) = found.demand.loads;
         format!(
-            "Tip relief for {} to {} % of {} N m, tolerance {} um on each relief; computed by \
-                method {}{}.",
-            percent(from),
-            percent(to),
+            "Tip relief for {} of {} N m, tolerance {} um on each relief; computed by method {}{}.",
+            self.loads(),
             tidy(found.torque, 4),
             tidy(found.demand.tolerance * 1e6, 3),
             found.method.name(),
@@ -100,6 +101,15 @@ impl ReliefReport<'_> {
                 format!(", {}", self.reason())
             }
         )
+    }
+
+    fn loads(&self) -> String {
+        let (from, to) = self.found.demand.loads;
+        if from < to {
+            format!("{} to {} %", percent(from), percent(to))
+        } else {
+            format!("{} %", percent(to))
+        }
     }
 
     /// Why the relief is computed by another method than that of the case.

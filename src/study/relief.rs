@@ -23,7 +23,7 @@ pub const AMOUNT_STEP: f64 = 0.5e-6;
 const LOADS: usize = 6;
 
 /// Work of the search, in places of pairs.
-const WORK: u64 = 40_000_000;
+const WORK: u64 = 80_000_000;
 /// The part of it that an ordinary search takes.
 const USUAL_WORK: f64 = 0.25;
 /// The part of the progress that is the search; the rest are whole solves.
@@ -202,8 +202,9 @@ impl fmt::Display for NoRelief {
             } => write!(
                 f,
                 "no tip relief prevents corner contact: two pairs share the load over {} of the path \
-                 (contact ratio {ratio:.4}), and the shortest permitted relief, {}, is longer and brings \
-                 the contact ratio below 1 under light load; raise the addendum or the number of teeth",
+                 (contact ratio {ratio:.4}), and the shortest relief for this load, {} (its length is at \
+                 least 20 times its amount), is longer and brings the contact ratio below 1 under light \
+                 load; raise the addendum or the number of teeth, or lower the greatest load",
                 mm(length),
                 mm(least)
             ),
@@ -336,8 +337,14 @@ fn loads((from, to): (f64, f64)) -> Vec<f64> {
     let steps = if to > from { LOADS } else { 1 };
     let last = (steps - 1).max(1) as f64;
     (0..steps)
-        .map(|at| from + (to - from) * at as f64 / last)
+        .map(|at| decimal(from + (to - from) * at as f64 / last))
         .collect()
+}
+
+/// The number of at most twelve decimal places next to one.
+fn decimal(number: f64) -> f64 {
+    const PLACES: f64 = 1e12;
+    (number * PLACES).round() / PLACES
 }
 
 /// The figures that can be specified: amounts and lengths in round steps, up to what tip and path

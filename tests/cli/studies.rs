@@ -42,6 +42,28 @@ fn lines(text: &str) -> Vec<Value> {
 }
 
 #[test]
+fn the_map_of_a_relief_marks_the_relief_to_specify_and_fits_the_line() {
+    let text = stdout_of(&[
+        "relief",
+        "cases/mill-coarse-slow.toml",
+        "--load",
+        "50..100%",
+    ]);
+    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+    let map = &text[text.find("  amount driver, um").expect("a map")..];
+    assert_eq!(map.matches('*').count(), 1, "{map}");
+    assert!(
+        text.contains("Tip relief for 50 to 100 % of 35000 N m"),
+        "{text}"
+    );
+    for (option, value) in [("--tolerance", "-5 um"), ("--load", "-5..100%")] {
+        let (code, _, errors) = printed(&["relief", TABLE_1, option, value]);
+        let expected = format!("error: invalid value '{value}' for '{option}");
+        assert!(code == 2 && errors.starts_with(&expected), "{errors}");
+    }
+}
+
+#[test]
 fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
     let text = stdout_of(&[
         "sweep",

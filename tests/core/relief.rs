@@ -154,6 +154,34 @@ fn no_relief_of_a_grid_is_better() {
     }
 }
 
+/// A linear relief that is the same on both gears, over every amount at its length.
+#[test]
+fn no_amount_that_clears_is_better_than_that_of_its_kind() {
+    let inputs = inputs("cases/zhou-chen-2014");
+    let found = specified(&inputs, &Demand::USUAL);
+    let alike = found.choices.iter();
+    let alike = alike.filter(|choice| choice.name.ends_with("both alike"));
+    for choice in alike {
+        let ends = [found.loads[0], found.loads[5]];
+        for steps in 60..200 {
+            let reliefs = TipReliefs {
+                amounts: [f64::from(steps) * AMOUNT_STEP; 2],
+                ..choice.reliefs
+            };
+            assert!(
+                error(&inputs, &ends, &reliefs) > 0.98 * choice.greatest_error()
+                    || !clears(&inputs, &Demand::USUAL, &reliefs),
+                "{}: {:?} against {reliefs:?}",
+                choice.name,
+                choice.reliefs
+            );
+        }
+    }
+    let [linear, parabolic, linear_alike, parabolic_alike] =
+        [1, 2, 3, 4].map(|at| found.choices[at].greatest_error());
+    assert!(linear <= 1.005 * linear_alike && parabolic <= 1.005 * parabolic_alike);
+}
+
 #[test]
 fn a_relief_for_the_motion_has_no_corner_contact_in_motion() {
     let inputs = Inputs {

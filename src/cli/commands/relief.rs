@@ -26,10 +26,22 @@ pub struct Options {
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
     /// Loads that the relief must serve, in percent of the load of the case
-    #[arg(long, value_name = "A..B", default_value = "25..110%", value_parser = demand::loads)]
+    #[arg(
+        long,
+        value_name = "A..B",
+        default_value = "25..110%",
+        value_parser = demand::loads,
+        allow_hyphen_values = true
+    )]
     pub load: (f64, f64),
     /// Manufacturing tolerance of each relief, plus and minus, such as '5 um'
-    #[arg(long, value_name = "LENGTH", default_value = "5 um", value_parser = demand::tolerance)]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "5 um",
+        value_parser = demand::tolerance,
+        allow_hyphen_values = true
+    )]
     pub tolerance: f64,
     /// What differs from the case
     #[command(flatten)]

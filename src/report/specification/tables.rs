@@ -8,14 +8,7 @@ use crate::study::relief::{Choice, MapPoint, Specification};
 /// A row per choice.
 pub(super) fn choices(found: &Specification) -> Vec<String> {
     let head = [
-        "  amount um, length mm",
-        "C_a1",
-        "L_1",
-        "C_a2",
-        "L_2",
-        "max",
-        "mean",
-        "gap",
+        "  choice", "C_a1", "L_1", "C_a2", "L_2", "max TE", "mean TE", "gap",
     ];
     let rows = found.choices.iter().enumerate().map(|(at, choice)| {
         let Choice { reliefs, .. } = choice;
@@ -72,13 +65,6 @@ pub(super) fn harris(found: &Specification) -> Vec<String> {
 /// A row per length: the greatest error by amount.
 pub(super) fn map(found: &Specification) -> Vec<String> {
     let chosen = found.chosen().reliefs;
-    let pair = |values: [String; 2]| {
-        if values[0] == values[1] {
-            values[0].clone()
-        } else {
-            values.join("/")
-        }
-    };
     let is_chosen = |point: &MapPoint| {
         let same = |one: f64, other: f64| (one - other).abs() < 1e-9;
         same(point.reliefs.amounts[0], chosen.amounts[0])
@@ -96,23 +82,39 @@ pub(super) fn map(found: &Specification) -> Vec<String> {
             error
         }
     };
-    let head = found.map.first().into_iter().flatten();
-    let head = head.map(|point| pair(point.reliefs.amounts.map(um)));
-    let head: Vec<String> = std::iter::once("  mm \\ um".to_owned())
-        .chain(head)
-        .collect();
-    let rows = found.map.iter().map(|row| {
-        let length = row.first().map(|point| pair(point.reliefs.lengths.map(mm)));
-        let length = format!("  {}", length.unwrap_or_default());
-        std::iter::once(length)
+    let mut rows = amounts(found.map.first().map_or(&[], Vec::as_slice));
+    rows.extend(found.map.iter().map(|row| {
+        let length = row.first().map(|point| length(point.reliefs.lengths));
+        std::iter::once(length.unwrap_or_default())
             .chain(row.iter().map(cell))
             .collect()
-    });
-    table(
-        &std::iter::once(head)
-            .chain(rows)
-            .collect::<Vec<Vec<String>>>(),
-    )
+    }));
+    table(&rows)
+}
+
+/// The amounts of the columns: one row, or one per gear.
+fn amounts(points: &[MapPoint]) -> Vec<Vec<String>> {
+    let row = |name: &str, at: usize| {
+        let amounts = points.iter().map(|point| um(point.reliefs.amounts[at]));
+        std::iter::once(format!("  amount{name}, um"))
+            .chain(amounts)
+            .collect::<Vec<_>>()
+    };
+    let alike = |point: &MapPoint| um(point.reliefs.amounts[0]) == um(point.reliefs.amounts[1]);
+    if points.iter().all(alike) {
+        vec![row("", 0)]
+    } else {
+        vec![row(" driver", 0), row(" driven", 1)]
+    }
+}
+
+fn length(lengths: [f64; 2]) -> String {
+    let [driver, driven] = lengths.map(mm);
+    if driver == driven {
+        format!("  length {driver} mm")
+    } else {
+        format!("  length {driver}/{driven} mm")
+    }
 }
 
 /// The first column to the left, the others to the right.

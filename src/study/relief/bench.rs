@@ -1,6 +1,8 @@
 //! The mesh of a pair at many places and loads, prepared once for all reliefs: a relief only widens
 //! gaps.
 
+use std::cell::OnceCell;
+
 use super::{Demand, TipReliefs};
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::Gear;
@@ -10,23 +12,36 @@ use crate::model::relief::{Relief, Reliefs};
 use crate::model::tip_gap::tip_at;
 use crate::model::{Inputs, Refusal, Solution};
 
-/// Places over a base pitch at which the transmission error counts.
+/// Places over a base pitch at which the transmission error is always computed.
 const PLACES: usize = 48;
+
+/// Places between one of them and the next. Near each turn of the transmission error the search goes
+/// down to these: where a linear relief begins to carry, the turn is a corner.
+const BETWEEN: usize = 32;
 
 /// Places beyond each end of the path of contact at which corner contact is looked for.
 const BEYOND: usize = 24;
 
 /// The pairs at a place, with the radii of curvature of both flanks of each.
+#[derive(Clone)]
 struct Place {
     pairs: PairSet,
     radii: Vec<(f64, f64)>,
     first: i32,
 }
 
-/// The places of one load.
-struct Loaded {
+/// The places beyond both ends of the path of contact under one load.
+struct Corners {
     force: f64,
     places: Vec<Place>,
+}
+
+/// The places over a base pitch under one load, each prepared when it is first needed.
+struct Pitch {
+    force: f64,
+    mesh: Mesh,
+    curvatures: Curvatures,
+    places: Vec<OnceCell<Place>>,
 }
 
 /// The prepared mesh.
@@ -34,8 +49,8 @@ pub(super) struct Bench {
     geometry: Geometry,
     reliefs: Reliefs,
     tolerance: f64,
-    loads: Vec<Loaded>,
-    corners: Loaded,
+    loads: Vec<Pitch>,
+    corners: Corners,
     /// Pairs at all places together, of the transmission error and of the corners.
     costs: [u64; 2],
 }
@@ -62,17 +77,15 @@ impl Bench {
             .map(over_pitch)
             .collect::<Result<Vec<_>, _>>()?;
         let corners = survey.corners(solution.mesh_force)?;
-        let cost = |loaded: &Loaded| {
-            let pairs = loaded.places.iter().map(|place| place.radii.len() as u64);
-            pairs.sum::<u64>()
-        };
+        let pairs = corners.places.iter().map(|place| place.radii.len() as u64);
+        let corner_cost: u64 = pairs.sum();
         Ok(Bench {
             geometry: solution.geometry,
             reliefs: bare.reliefs(),
             tolerance: demand.tolerance,
             costs: [
-                loads.iter().map(cost).sum(),
-                tolerances(demand.tolerance).len() as u64 * cost(&corners),
+                loads.iter().map(Pitch::cost).sum(),
+                tolerances(demand.tolerance).len() as u64 * corner_cost,
             ],
             loads,
             corners,
@@ -113,7 +126,7 @@ impl Bench {
         Ok(self.overlap_of(reliefs, &survey.corners(force)?))
     }
 
-    fn overlap_of(&self, reliefs: &TipReliefs, corners: &Loaded) -> f64 {
+    fn overlap_of(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
         let ways = tolerances(self.tolerance).into_iter();
         let overlaps = ways.map(|off| corners.overlap(&self.relief(reliefs, off)));
         overlaps.fold(f64::NEG_INFINITY, f64::max)
@@ -160,18 +173,62 @@ fn bare(inputs: &Inputs) -> Inputs {
     }
 }
 
-impl Loaded {
-    fn error(&self, relief: &Relief) -> f64 {
-        let ahead = self.places.iter().map(|place| {
-            let eased = place.eased(relief);
-            eased.balance(self.force).displacement
-        });
-        let (least, most) = ahead.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
-            (least.min(x), most.max(x))
-        });
-        most - least
+impl Pitch {
+    /// Pairs at all places of a transmission error, about half of them near the turns.
+    fn cost(&self) -> u64 {
+        let pairs = |at: usize| self.place(at * BETWEEN).radii.len() as u64;
+        2 * (0..PLACES).map(pairs).sum::<u64>()
     }
 
+    fn place(&self, at: usize) -> &Place {
+        let count = self.places.len();
+        self.places[at % count].get_or_init(|| {
+            let part = ((at % count) as f64 + 0.5) / count as f64;
+            self.curvatures
+                .place(&self.mesh, part * self.mesh.base_pitch)
+        })
+    }
+
+    /// The peak-to-peak transmission error, in m.
+    fn error(&self, relief: &Relief) -> f64 {
+        let ahead = |at: usize| {
+            let eased = self.place(at).eased(relief);
+            eased.balance(self.force).displacement
+        };
+        let even: Vec<f64> = (0..PLACES).map(|at| ahead(at * BETWEEN)).collect();
+        let opposite: Vec<f64> = even.iter().map(|ahead| -ahead).collect();
+        greatest(&even, &ahead) + greatest(&opposite, &|at| -ahead(at))
+    }
+}
+
+/// The greatest value over a base pitch: of the even places, and between the neighbours of each one
+/// that exceeds both, by halving the stride.
+fn greatest(even: &[f64], value: &dyn Fn(usize) -> f64) -> f64 {
+    let count = even.len();
+    let exceeds = |at: &usize| {
+        let [before, after] = [at + count - 1, at + 1].map(|next| even[next % count]);
+        even[*at] >= before && even[*at] > after
+    };
+    let climbed = |turn: usize| {
+        // A base pitch further on, so that no place is before the first.
+        let (mut at, mut most) = ((turn + count) * BETWEEN, even[turn]);
+        let mut stride = BETWEEN / 2;
+        while stride > 0 {
+            for next in [at - stride, at + stride] {
+                let found = value(next);
+                if found > most {
+                    (at, most) = (next, found);
+                }
+            }
+            stride /= 2;
+        }
+        most
+    };
+    let turns = (0..count).filter(exceeds).map(climbed);
+    turns.fold(even[0], f64::max)
+}
+
+impl Corners {
     fn overlap(&self, relief: &Relief) -> f64 {
         let leads = self
             .places
@@ -191,11 +248,18 @@ impl Place {
     }
 }
 
+/// What the radii of curvature at a place depend on.
+#[derive(Clone, Copy)]
+struct Curvatures {
+    geometry: Geometry,
+    swapped: Geometry,
+}
+
 /// Prepares the places.
 struct Survey<'a> {
     inputs: &'a Inputs,
     solution: &'a Solution,
-    swapped: Geometry,
+    curvatures: Curvatures,
     reach: f64,
 }
 
@@ -208,11 +272,14 @@ impl<'a> Survey<'a> {
         Ok(Survey {
             inputs,
             solution,
-            swapped: geometry(&PairShape {
-                driver: shape.driven,
-                driven: shape.driver,
-                ..shape
-            })?,
+            curvatures: Curvatures {
+                geometry: solution.geometry,
+                swapped: geometry(&PairShape {
+                    driver: shape.driven,
+                    driven: shape.driver,
+                    ..shape
+                })?,
+            },
             reach: FURTHER * (2.0 * yields + most + inputs.reliefs().sum()),
         })
     }
@@ -224,44 +291,45 @@ impl<'a> Survey<'a> {
         Mesh::new(&inputs, &self.solution.geometry, force, error, self.reach)
     }
 
-    fn over_pitch(&self, force: f64) -> Result<Loaded, Refusal> {
-        let mesh = self.mesh(force, 0.0)?;
-        let place = |at: usize| (at as f64 + 0.5) / PLACES as f64 * mesh.base_pitch;
-        let places = (0..PLACES).map(|at| self.place(&mesh, place(at)));
-        Ok(Loaded {
+    fn over_pitch(&self, force: f64) -> Result<Pitch, Refusal> {
+        Ok(Pitch {
             force,
-            places: places.collect(),
+            mesh: self.mesh(force, 0.0)?,
+            curvatures: self.curvatures,
+            places: vec![OnceCell::new(); PLACES * BETWEEN],
         })
     }
 
     /// Places from the ends of the path of contact outwards, closer to each other at the ends.
-    fn corners(&self, force: f64) -> Result<Loaded, Refusal> {
+    fn corners(&self, force: f64) -> Result<Corners, Refusal> {
         let mesh = self.mesh(force, self.solution.deviation.equivalent_error)?;
         let (from, to) = mesh.ends();
         let part = |at: usize| (at as f64 / BEYOND as f64).powi(2);
         let before = (0..=BEYOND).map(|at| part(at) * from);
         let after = (0..=BEYOND).map(|at| mesh.length + part(at) * (to - mesh.length));
-        let places = before.chain(after).map(|s| self.place(&mesh, s));
-        Ok(Loaded {
+        let places = before.chain(after);
+        Ok(Corners {
             force,
-            places: places.collect(),
+            places: places.map(|s| self.curvatures.place(&mesh, s)).collect(),
         })
     }
+}
 
+impl Curvatures {
     fn place(&self, mesh: &Mesh, s: f64) -> Place {
         let pairs = mesh.pair_set(s, s);
         let way = |ahead: i32| s + f64::from(ahead) * mesh.base_pitch;
         let all = pairs.pairs().iter();
         Place {
-            radii: all.map(|pair| self.radii(mesh, way(pair.ahead))).collect(),
+            radii: all.map(|pair| self.at(mesh, way(pair.ahead))).collect(),
             first: pairs.pairs().first().map_or(0, |pair| pair.ahead),
             pairs,
         }
     }
 
     /// The radii of curvature of both flanks where a pair touches.
-    fn radii(&self, mesh: &Mesh, s: f64) -> (f64, f64) {
-        let geometry = &self.solution.geometry;
+    fn at(&self, mesh: &Mesh, s: f64) -> (f64, f64) {
+        let geometry = &self.geometry;
         if s < 0.0 {
             let tip = tip_at(geometry, -s / geometry.driven.base);
             return (tip.curvature_driver, geometry.driven.tip_curvature);

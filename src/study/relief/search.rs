@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
 use super::bench::Bench;
-use super::{AMOUNT_STEP, MapPoint, NoRelief, TipReliefs};
+use super::{AMOUNT_STEP, MapPoint, NoRelief, TipReliefs, decimal};
 use crate::model::Refusal;
 use crate::model::budget::Meter;
 use crate::model::inputs::ReliefShape;
@@ -21,10 +21,12 @@ const KINDS: [(ReliefShape, &str, &str); 2] = [
 
 /// Lengths at which the search begins, in parts of the longest.
 const PARTS: [f64; 7] = [0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0];
+/// The same where both gears have one length, as the number of equal parts.
+const PARTS_ALIKE: u32 = 20;
 /// Amounts at which it begins, times the least that clear.
 const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
-/// Beginnings that are followed.
-const FOLLOWED: usize = 6;
+/// Beginnings that are followed: of two free lengths, and of one.
+const FOLLOWED: [usize; 2] = [6, 16];
 /// Greatest stride of the search, in steps; it is halved down to one step.
 const STRIDE: i32 = 8;
 
@@ -57,7 +59,7 @@ impl Grid {
     pub(super) fn greater(&self, reliefs: &TipReliefs, steps: i32) -> Option<TipReliefs> {
         let more = |at: usize| {
             let amount = (reliefs.amounts[at] / AMOUNT_STEP).round() as i32 + steps;
-            (amount <= self.most_amounts[at]).then(|| AMOUNT_STEP * f64::from(amount))
+            (amount <= self.most_amounts[at]).then(|| decimal(AMOUNT_STEP * f64::from(amount)))
         };
         Some(TipReliefs {
             amounts: [more(0)?, more(1)?],
@@ -68,8 +70,8 @@ impl Grid {
     fn reliefs(&self, shape: ReliefShape, [one, other, from, to]: Steps) -> TipReliefs {
         TipReliefs {
             shape,
-            amounts: [one, other].map(|steps| AMOUNT_STEP * f64::from(steps)),
-            lengths: [from, to].map(|steps| self.length_step * f64::from(steps)),
+            amounts: [one, other].map(|steps| decimal(AMOUNT_STEP * f64::from(steps))),
+            lengths: [from, to].map(|steps| decimal(self.length_step * f64::from(steps))),
         }
     }
 
@@ -177,7 +179,7 @@ impl<'a> Search<'a> {
                 .partial_cmp(&other.1)
                 .unwrap_or(std::cmp::Ordering::Equal)
         });
-        starts.truncate(FOLLOWED);
+        starts.truncate(FOLLOWED[usize::from(is_alike)]);
         let mut best: Option<(Steps, Cost)> = None;
         for start in starts.into_iter().chain(start) {
             let found = self.followed(shape, is_alike, start)?;
@@ -193,9 +195,15 @@ impl<'a> Search<'a> {
         let grid = self.grid;
         let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
         let length = |part: f64| (part * most).round().max(least) as i32;
+        let parts: Vec<f64> = if is_alike {
+            let part = |at: u32| f64::from(at) / f64::from(PARTS_ALIKE);
+            (1..=PARTS_ALIKE).map(part).collect()
+        } else {
+            PARTS.to_vec()
+        };
         let mut starts: Vec<(Steps, Cost)> = Vec::new();
-        for one in PARTS {
-            for other in PARTS {
+        for &one in &parts {
+            for &other in &parts {
                 if is_alike && one.to_bits() != other.to_bits() {
                     continue;
                 }
@@ -318,10 +326,13 @@ impl<'a> Search<'a> {
         errors.into_iter().fold(0.0, f64::max) + MEAN * mean
     }
 
-    /// The map around a relief: both amounts and both lengths in proportion.
+    /// The map around a relief: both amounts and both lengths in proportion, those of the relief
+    /// itself among them.
     pub(super) fn map(&self, reliefs: &TipReliefs) -> Vec<Vec<MapPoint>> {
         const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
         const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
+        /// A length nearer to that of the relief makes way for it.
+        const CLOSE: f64 = 0.03;
         let longest = self.grid.length_step * f64::from(self.grid.most_length);
         let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
         let row = |part: f64| {
@@ -340,7 +351,12 @@ impl<'a> Search<'a> {
             };
             AMOUNTS.into_iter().map(point).collect()
         };
-        LENGTHS.into_iter().map(row).collect()
+        let own = greatest / longest;
+        let mut parts = LENGTHS.to_vec();
+        parts.retain(|part| (part - own).abs() > CLOSE);
+        parts.push(own);
+        parts.sort_by(f64::total_cmp);
+        parts.into_iter().map(row).collect()
     }
 }
 

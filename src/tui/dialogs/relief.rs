@@ -11,6 +11,7 @@ use crate::model::Inputs;
 use crate::report::specification::{ReliefReport, settings};
 use crate::study::relief::{Demand, Specification};
 use crate::tui::actions::{Action, Effect};
+use crate::tui::ascii::printable;
 use crate::tui::jobs::{Job, ReliefRequest};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
@@ -97,7 +98,14 @@ impl ReliefDialog {
 
     fn wrapped(&self, width: usize) -> impl Iterator<Item = String> {
         let lines = self.lines.iter();
-        lines.flat_map(move |line| text::wrap(line, width))
+        // The columns of a table keep their spaces.
+        lines.flat_map(move |line| {
+            if line.width() <= width {
+                vec![printable(line).to_string()]
+            } else {
+                text::wrap(line, width)
+            }
+        })
     }
 
     fn scroll(&mut self, by: isize, around: &Surroundings<'_>) {
