@@ -127,6 +127,12 @@ fn parse(text: &str) -> Result<Model, Refusal> {
             ));
         }
     };
+    if let Some(id) = model.repeated_id() {
+        return Err(Refusal::new(
+            format!("two components have the id {id:?}"),
+            "correct the model, in which each component has its own id",
+        ));
+    }
     let is_known = matches!(model.version.split('.').next(), Some("1" | "2"));
     if is_known {
         return Ok(model);

@@ -120,6 +120,12 @@ fn the_samples_are_refused_by_the_name_of_their_stages() {
         "\"id\": 16, \"type\": \"ring_gear\"",
     );
     assert!(refusal_of(&ring).contains("is a stage with a ring gear"));
+    let bevel_gear = edited(
+        "two-stages-1.0.rexs",
+        "\"Stirnrad pos=2\" type=\"cylindrical_gear\"",
+        "\"Stirnrad pos=2\" type=\"bevel_gear\"",
+    );
+    assert!(refusal_of(&bevel_gear).contains("is a stage with a bevel gear"));
 }
 
 #[test]
@@ -164,6 +170,51 @@ fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
         "{}",
         speed.1
     );
+}
+
+#[test]
+fn values_that_cannot_be_read_or_occur_twice_stay_empty_and_are_named() {
+    let module = "<attribute id=\"normal_module\" unit=\"mm\">3.0</attribute>";
+    let with = |value: &str| edited("two-stages-1.0.rexs", module, value);
+    for (value, reason) in [
+        (
+            module.replace("3.0", "NaN"),
+            "`NaN mm` is not a finite number",
+        ),
+        (
+            module.replace("3.0", "three"),
+            "`three mm` does not begin with a number",
+        ),
+        (
+            module.replace("mm", "furlong"),
+            "the unit \"furlong\" is unknown here",
+        ),
+        (
+            format!("{module}{}", module.replace("3.0", "4.0")),
+            "has two values of normal_module, `3.0` and `4.0`",
+        ),
+        (String::new(), "the model gives no normal_module"),
+    ] {
+        let imported = import(Path::new("m.rexs"), &with(&value), None).unwrap();
+        let (_, found) = imported
+            .absent
+            .iter()
+            .find(|(key, _)| *key == "pair.module")
+            .unwrap();
+        assert!(found.contains(reason), "{value}: {found}");
+    }
+    let twice = edited(
+        "two-stages-1.0.rexs",
+        "component id=\"52\"",
+        "component id=\"23\"",
+    );
+    assert!(refusal_of(&twice).contains("two components have the id \"23\""));
+    let rounded = edited(
+        "two-stages-1.0.rexs",
+        "unit=\"°\">-0.0<",
+        "unit=\"°\">1e-12<",
+    );
+    assert!(import(Path::new("m.rexs"), &rounded, None).is_ok());
 }
 
 #[test]

@@ -3,18 +3,19 @@
 use super::gear::{DRIVEN, DRIVER, Gear, Keys};
 use super::model::{Component, Model};
 use super::relief;
-use super::source::{Found, Reading, Values, Wanted, agreed, found};
+use super::source::{Problem, Reading, Values, Wanted, agreed, found};
 use super::stage::TEETH;
 use crate::case::units::{self, Dimension};
 
 /// Reads every field but those of the operation.
 pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], values: &mut Values) {
     let [driver, driven] = gears.map(|gear| Gear::new(model, gear));
-    let module = shared(values, "pair.module", [&driver, &driven], |gear| {
-        Wanted::length("normal_module").read(gear.component)
+    let module = Wanted::length("normal_module");
+    let module = values.shared("pair.module", module, [&driver, &driven], |gear| {
+        module.read(gear.component)
     });
     let angle = Wanted::new("normal_pressure_angle", Dimension::Angle, "deg");
-    let angle = shared(values, "pair.pressure_angle", [&driver, &driven], |gear| {
+    let angle = values.shared("pair.pressure_angle", angle, [&driver, &driven], |gear| {
         gear.of_flanks(angle)
     });
     values.put(
@@ -33,27 +34,33 @@ pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], val
     deviations(values, stage, [&driver, &driven]);
 }
 
-/// A value that both gears must share, in SI. Gears with different values are no pair.
-fn shared(
-    values: &mut Values,
-    key: &'static str,
-    gears: [&Gear; 2],
-    read: impl Fn(&Gear) -> Result<Option<Reading>, String>,
-) -> Option<f64> {
-    let both = read(gears[0]).and_then(|first| Ok((first, read(gears[1])?)));
-    match both.and_then(|(first, second)| agreed(first, second)) {
-        Ok(Some(reading)) => {
-            let value = reading.value;
-            values.put(key, reading.found());
-            Some(value)
-        }
-        Ok(None) => {
-            values.put(key, Found::Absent("the model gives none".to_owned()));
-            None
-        }
-        Err(reason) => {
-            values.refusals.push(reason);
-            None
+impl Values {
+    /// A value that both gears must share, in SI. Gears with different values are no pair.
+    fn shared(
+        &mut self,
+        key: &'static str,
+        wanted: Wanted,
+        gears: [&Gear; 2],
+        read: impl Fn(&Gear) -> Result<Option<Reading>, Problem>,
+    ) -> Option<f64> {
+        let both = read(gears[0]).and_then(|first| Ok((first, read(gears[1])?)));
+        let reading = both.and_then(|(first, second)| agreed(first, second));
+        let value = reading.as_ref().ok().and_then(Option::as_ref);
+        let value = value.map(|reading| reading.value);
+        self.put_equal(key, reading, wanted.id);
+        value
+    }
+
+    /// Puts a value that must be one; where the model gives two, the stage is refused.
+    fn put_equal(
+        &mut self,
+        key: &'static str,
+        reading: Result<Option<Reading>, Problem>,
+        id: &str,
+    ) {
+        match reading {
+            Err(problem) if problem.is_unequal => self.refusals.push(problem.words),
+            reading => self.put(key, found(reading, &none(id))),
         }
     }
 }
@@ -62,13 +69,12 @@ fn shared(
 fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) {
     let own = |wanted: Wanted| found(wanted.read(gear.component), &none(wanted.id));
     values.put(keys.teeth, own(TEETH));
-    match profile_shift(gear, module) {
-        Err(reason) => values.refusals.push(reason),
-        shift => values.put(
-            keys.profile_shift,
-            found(shift, &none("addendum_modification_coefficient")),
-        ),
-    }
+    let shift = profile_shift(gear, module);
+    values.put_equal(
+        keys.profile_shift,
+        shift,
+        "addendum_modification_coefficient",
+    );
     values.put(keys.face_width, own(Wanted::length("face_width")));
     let bore = Wanted::length("inner_diameter").read(gear.component);
     let radius = bore.map(|bore| bore.map(|bore| derived(&bore, 0.5, "mm", "half of")));
@@ -109,7 +115,7 @@ fn derived(reading: &Reading, factor: f64, unit: &str, words: &str) -> Reading {
 }
 
 /// The nominal coefficient, else that of the nominal shift, else that of the finished gear.
-fn profile_shift(gear: &Gear, module: Option<f64>) -> Result<Option<Reading>, String> {
+fn profile_shift(gear: &Gear, module: Option<f64>) -> Result<Option<Reading>, Problem> {
     let coefficient = |id| gear.of_flanks(Wanted::number(id));
     if let Some(reading) = coefficient("addendum_modification_coefficient")? {
         return Ok(Some(reading));

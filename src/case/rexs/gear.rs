@@ -1,7 +1,7 @@
 //! A gear of a stage with its flanks and its material, and the keys of its fields in a case.
 
 use super::model::{Component, Model};
-use super::source::{Reading, Wanted, agreed};
+use super::source::{Problem, Reading, Wanted, agreed};
 
 /// A gear of the stage with what belongs to it.
 pub(super) struct Gear<'a> {
@@ -28,7 +28,7 @@ impl<'a> Gear<'a> {
     }
 
     /// A value that both flanks must share; the gear itself may have it instead.
-    pub(super) fn of_flanks(&self, wanted: Wanted) -> Result<Option<Reading>, String> {
+    pub(super) fn of_flanks(&self, wanted: Wanted) -> Result<Option<Reading>, Problem> {
         let [left, right] = &self.flanks;
         let reading = agreed(
             wanted.first(left.iter().copied())?,

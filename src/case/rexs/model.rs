@@ -1,5 +1,7 @@
 //! A REXS model as a list of components and of relations between them, whatever its file format.
 
+use std::collections::HashSet;
+
 /// A model.
 #[derive(Debug, Default)]
 pub(super) struct Model {
@@ -23,7 +25,7 @@ pub(super) struct Component {
 }
 
 /// A value of a component; arrays are left out.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Attribute {
     pub(super) id: String,
     /// Empty where none is given.
@@ -49,6 +51,16 @@ pub(super) struct LoadCase {
 }
 
 impl Model {
+    /// An id that two components have.
+    pub(super) fn repeated_id(&self) -> Option<&str> {
+        let mut known = HashSet::new();
+        let mut ids = self
+            .components
+            .iter()
+            .map(|component| component.id.as_str());
+        ids.find(|id| !known.insert(*id))
+    }
+
     pub(super) fn component(&self, id: &str) -> Option<&Component> {
         self.components.iter().find(|component| component.id == id)
     }
@@ -94,6 +106,13 @@ impl Relation {
 impl Component {
     pub(super) fn attribute(&self, id: &str) -> Option<&Attribute> {
         find(&self.attributes, id)
+    }
+
+    /// Every attribute of this id with a value; a sound model has one.
+    pub(super) fn given<'a>(&'a self, id: &'a str) -> impl Iterator<Item = &'a Attribute> {
+        self.attributes
+            .iter()
+            .filter(move |attribute| attribute.id == id && !attribute.value.is_empty())
     }
 
     /// Whether a truth value is given and true.

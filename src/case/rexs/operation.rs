@@ -184,7 +184,7 @@ fn value(model: &Model, part: &Component, wanted: Wanted) -> Result<Option<Readi
         }
     }
     let Some((_, first)) = cases.first() else {
-        return wanted.read(part);
+        return Ok(wanted.read(part)?);
     };
     if cases.iter().all(|(_, other)| other.text == first.text) {
         return Ok(Some(first.clone()));

@@ -63,14 +63,14 @@ fn of_flanks<'a>(model: &'a Model, gear: &Gear<'a>, kind: &'a str) -> [Vec<&'a C
 }
 
 /// The value of both flanks. One flank without the relief has it with the value 0.
-fn both(
+fn both<E: Into<String>>(
     reliefs: &[Vec<&Component>; 2],
-    read: impl Fn(&Component) -> Result<Option<Reading>, String>,
+    read: impl Fn(&Component) -> Result<Option<Reading>, E>,
 ) -> Result<Option<Reading>, String> {
     let [left, right] = reliefs;
     let only = |flank: &[&Component]| match flank {
         [] => Ok(None),
-        [only] => read(only),
+        [only] => read(only).map_err(Into::into),
         [first, ..] => Err(format!(
             "{} is not the only relief of its flank",
             first.label()
@@ -78,7 +78,7 @@ fn both(
     };
     match (left.is_empty(), right.is_empty()) {
         (true, false) | (false, true) => Err("only one flank has the relief".to_owned()),
-        _ => agreed(only(left)?, only(right)?),
+        _ => Ok(agreed(only(left)?, only(right)?)?),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::model::{Attribute, Component};
 use super::units;
+use crate::case::sanitize::quoted;
 use crate::case::units::Dimension;
 
 /// What the model gives for a field.
@@ -16,6 +17,29 @@ pub(super) enum Found {
     },
     /// Why the field stays empty.
     Absent(String),
+}
+
+/// Why an attribute gives no value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Problem {
+    pub(super) words: String,
+    /// Two readings of what must be one value differ.
+    pub(super) is_unequal: bool,
+}
+
+impl From<Problem> for String {
+    fn from(problem: Problem) -> String {
+        problem.words
+    }
+}
+
+impl Problem {
+    fn unreadable(words: String) -> Problem {
+        Problem {
+            words,
+            is_unequal: false,
+        }
+    }
 }
 
 /// What the model gives for every field that was looked for.
@@ -95,9 +119,19 @@ impl Wanted {
     ///
     /// # Errors
     /// Where it is there and cannot be read.
-    pub(super) fn read(self, component: &Component) -> Result<Option<Reading>, String> {
-        let attribute = component.attribute(self.id);
-        attribute
+    pub(super) fn read(self, component: &Component) -> Result<Option<Reading>, Problem> {
+        let mut given = component.given(self.id);
+        let first = given.next();
+        if let Some(other) = given.find(|other| first != Some(*other)) {
+            return Err(Problem::unreadable(format!(
+                "{} has two values of {}, {} and {}",
+                component.label(),
+                self.id,
+                quoted(first.map_or("", |first| &first.value)),
+                quoted(&other.value),
+            )));
+        }
+        first
             .map(|attribute| self.reading(attribute, &component.label()))
             .transpose()
     }
@@ -106,10 +140,10 @@ impl Wanted {
     ///
     /// # Errors
     /// Where it cannot be read.
-    pub(super) fn reading(self, attribute: &Attribute, label: &str) -> Result<Reading, String> {
+    pub(super) fn reading(self, attribute: &Attribute, label: &str) -> Result<Reading, Problem> {
         let source = format!("{} of {label}", self.id);
         let (text, value) = units::read(attribute, self.dimension, self.unit)
-            .map_err(|cause| format!("{source}: {cause}"))?;
+            .map_err(|cause| Problem::unreadable(format!("{source}: {cause}")))?;
         Ok(Reading {
             text,
             value,
@@ -124,7 +158,7 @@ impl Wanted {
     pub(super) fn first<'a>(
         self,
         components: impl IntoIterator<Item = &'a Component>,
-    ) -> Result<Option<Reading>, String> {
+    ) -> Result<Option<Reading>, Problem> {
         for component in components {
             if let Some(reading) = self.read(component)? {
                 return Ok(Some(reading));
@@ -135,11 +169,11 @@ impl Wanted {
 }
 
 /// A reading as what a field takes; `missing` is the reason where there is none.
-pub(super) fn found(reading: Result<Option<Reading>, String>, missing: &str) -> Found {
+pub(super) fn found(reading: Result<Option<Reading>, impl Into<String>>, missing: &str) -> Found {
     match reading {
         Ok(Some(reading)) => reading.found(),
         Ok(None) => Found::Absent(missing.to_owned()),
-        Err(reason) => Found::Absent(reason),
+        Err(problem) => Found::Absent(problem.into()),
     }
 }
 
@@ -150,12 +184,15 @@ pub(super) fn found(reading: Result<Option<Reading>, String>, missing: &str) -> 
 pub(super) fn agreed(
     first: Option<Reading>,
     second: Option<Reading>,
-) -> Result<Option<Reading>, String> {
+) -> Result<Option<Reading>, Problem> {
     match (first, second) {
-        (Some(first), Some(second)) if !are_equal(first.value, second.value) => Err(format!(
-            "{} is {}, {} is {}",
-            first.source, first.text, second.source, second.text
-        )),
+        (Some(first), Some(second)) if !are_equal(first.value, second.value) => Err(Problem {
+            words: format!(
+                "{} is {}, {} is {}",
+                first.source, first.text, second.source, second.text
+            ),
+            is_unequal: true,
+        }),
         (first, second) => Ok(first.or(second)),
     }
 }

@@ -35,6 +35,8 @@ pub enum Kind {
     Planetary,
     /// A ring gear is one of the two.
     Internal,
+    /// A gear of another type, by its type.
+    Gear(String),
     /// Some other type of stage, by its type.
     Other(String),
     /// The model gives no two gears for it.
@@ -49,6 +51,7 @@ impl fmt::Display for Kind {
             Kind::InPlanetary(id) => write!(f, "a mesh of the planetary stage {id}"),
             Kind::Planetary => f.write_str("a planetary stage"),
             Kind::Internal => f.write_str("a stage with a ring gear"),
+            Kind::Gear(kind) => write!(f, "a stage with a {}", kind.replace('_', " ")),
             Kind::Other(kind) => {
                 let name = kind.trim_end_matches("_stage").replace('_', " ");
                 write!(f, "a {name} stage")
@@ -122,6 +125,9 @@ fn cylindrical(model: &Model, stage: &Component) -> Kind {
     if gears.iter().any(|gear| gear.kind == "ring_gear") {
         return Kind::Internal;
     }
+    if let Some(gear) = gears.iter().find(|gear| gear.kind != "cylindrical_gear") {
+        return Kind::Gear(gear.kind.clone());
+    }
     let angles = gears.iter().filter_map(|gear| helix(gear));
     if let Some(angle) = angles.into_iter().next() {
         return Kind::Helical(angle);
@@ -145,11 +151,12 @@ const HELIX: [&str; 3] = [
     "helix_angle_base_circle",
 ];
 
-/// The helix angle, where it is not zero or cannot be read.
+/// The helix angle, where it is not zero or cannot be read. A model may have rounded a zero.
 fn helix(gear: &Component) -> Option<String> {
+    const NONE: f64 = 1e-8;
     HELIX.iter().find_map(
         |&id| match Wanted::new(id, Dimension::Angle, "deg").read(gear) {
-            Ok(Some(angle)) if angle.value != 0.0 => Some(angle.text),
+            Ok(Some(angle)) if angle.value.abs() > NONE => Some(angle.text),
             Ok(_) => None,
             Err(_) => gear.attribute(id).map(|angle| angle.value.clone()),
         },
