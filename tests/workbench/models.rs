@@ -29,6 +29,18 @@ fn a_model_opens_as_a_case_that_is_saved_beside_it() {
     assert_eq!(desk.read("gears.rexs"), MODEL);
 }
 
+/// A lock has the folder in full, and the path of a model may lead elsewhere and back.
+#[test]
+fn a_model_by_another_path_is_saved_by_the_session_that_opened_it() {
+    let mut desk = Desk::new(SMALL);
+    desk.write("gears.rexs", MODEL);
+    std::fs::create_dir(desk.path("sub")).unwrap();
+    desk.perform(Effect::Load(desk.path("sub/../gears.rexs")));
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.shows("saved"), "{}", desk.screen());
+    assert!(desk.read("gears.toml").contains("module = \"3 mm\""));
+}
+
 #[test]
 fn a_model_without_a_spur_stage_is_refused_by_the_names_of_its_stages() {
     let mut desk = Desk::new(SMALL);

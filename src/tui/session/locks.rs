@@ -7,27 +7,45 @@ use std::path::{Path, PathBuf};
 
 use super::holder::Holder;
 use super::lock::{Lock, Taken};
+use crate::case::file::followed;
 use crate::case::sanitize::sanitize;
 
-/// The locks by their files.
+/// The locks by the places that the paths of the cases name.
 #[derive(Debug, Default)]
-pub(super) struct Locks(BTreeMap<PathBuf, Lock>);
+pub(super) struct Locks(BTreeMap<PathBuf, Held>);
+
+/// A lock of this session.
+#[derive(Debug)]
+struct Held {
+    /// Its file, with the folder in full: two paths may name one file.
+    place: PathBuf,
+    _lock: Lock,
+}
 
 impl Locks {
     /// Takes the lock of a case. Returns the process that has the case open, or `None` if the lock
     /// is ours now. The error says why the case has no lock.
     pub(super) fn take(&mut self, path: &Path) -> Result<Option<Holder>, String> {
-        let Some(place) = lock_of(path).filter(|place| !self.0.contains_key(place)) else {
+        let Some(named) = lock_of(path).filter(|named| !self.0.contains_key(named)) else {
             return Ok(None);
+        };
+        let whole = followed(path).ok().and_then(|path| lock_of(&path));
+        let place = whole.unwrap_or_else(|| named.clone());
+        if self.0.values().any(|held| held.place == place) {
+            return Ok(None);
+        }
+        let hold = |lock: Lock| {
+            let place = place.clone();
+            self.0.insert(named, Held { place, _lock: lock });
         };
         match Lock::take(&place) {
             Ok(Taken::Held(holder)) => Ok(Some(holder)),
             Ok(Taken::Ours(lock)) => {
-                self.0.insert(place, lock);
+                hold(lock);
                 Ok(None)
             }
             Ok(Taken::Unguarded(lock, error)) => {
-                self.0.insert(place, lock);
+                hold(lock);
                 Err(format!(
                     "{}: the lock is valid on this machine only: {}: do not open this case on \
                         another machine",
@@ -47,7 +65,7 @@ impl Locks {
     /// Releases the locks of all other cases.
     pub(super) fn keep_only<'a>(&mut self, cases: impl Iterator<Item = &'a Path>) {
         let wanted: Vec<_> = cases.filter_map(lock_of).collect();
-        self.0.retain(|place, _| wanted.contains(place));
+        self.0.retain(|named, _| wanted.contains(named));
     }
 }
 
