@@ -112,9 +112,10 @@ pub fn chart(chart: &Chart) -> String {
     };
     let bars = || chart.series.iter().filter(|series| series.is_bars());
     let edges = bars().flat_map(Series::bar_edges);
+    let marks = chart.marks.iter().map(|(place, _)| *place);
     let across = Axis::of(
         chart.across.scale,
-        points().map(|point| point.0).chain(edges),
+        points().map(|point| point.0).chain(edges).chain(marks),
         left,
         right,
         false,
@@ -130,7 +131,11 @@ pub fn chart(chart: &Chart) -> String {
     let lines = places.last().map_or(0.0, |(_, y)| y - LEGEND + LINE);
     let mut text = frame(chart, LEGEND + lines);
     grid(&mut text, &across, &up, chart);
-    for (at, series) in chart.series.iter().enumerate().rev() {
+    // Single marks are below the curves that they lie on.
+    let is_mark = |series: &Series| matches!(series.kind, Kind::Marks(_));
+    let order = chart.series.iter().enumerate().rev();
+    let (below, above): (Vec<_>, Vec<_>) = order.partition(|(_, series)| is_mark(series));
+    for (at, series) in below.into_iter().chain(above) {
         draw(&mut text, series, at, |(x, y)| (across.at(x), up.at(y)));
     }
     for ((at, series), (x, y)) in chart.series.iter().enumerate().zip(places) {
@@ -196,17 +201,23 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
         text,
         "<path d=\"M{left} {top}V{bottom}H{right}\" class=\"axis\"/>"
     );
-    let mut last = f64::NEG_INFINITY;
+    // Where the names of each row end.
+    let mut ends = [f64::NEG_INFINITY; 2];
     for (value, name) in &chart.marks {
-        let x = across.at(*value);
-        let is_free = (left..=right).contains(&x) && x - last > 2.0 * LETTER;
-        if is_free {
-            last = x;
-            let above = top - 5.0;
+        let (x, half) = (
+            across.at(*value),
+            0.5 * LETTER * name.chars().count() as f64,
+        );
+        if !(left..=right).contains(&x) {
+            continue;
+        }
+        let _ = writeln!(text, "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/>");
+        if let Some(row) = (0..ends.len()).find(|&row| x - half > ends[row]) {
+            ends[row] = x + half + LETTER;
+            let above = top - 5.0 - 15.0 * row as f64;
             let _ = writeln!(
                 text,
-                "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/><text x=\"{x:.1}\" \
-                    y=\"{above}\" text-anchor=\"middle\">{name}</text>"
+                "<text x=\"{x:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>"
             );
         }
     }
@@ -351,8 +362,9 @@ mod tests {
             text.contains("a &lt; b") && text.contains("exact &amp; &lt;co&gt;"),
             "{text}"
         );
+        let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap();
         assert!(
-            text.contains(">E</text>") && !text.contains(">D</text>"),
+            row(">E</text>").contains("y=\"53\"") && row(">D</text>").contains("y=\"38\""),
             "{text}"
         );
         assert_eq!(text.matches("<polyline").count(), 1);

@@ -61,8 +61,8 @@ impl WhineChart {
                 "The amplitude of each harmonic of the mesh frequency, at rest and in motion."
             }
             WhineChart::Speed => {
-                "N is the speed over that of the main resonance. N = 1 and its fractions mark the \
-                    resonances; now marks the speed of the case."
+                "N is the mesh frequency over the natural frequency. N = 1, 1/2 and 1/3 mark the \
+                    resonances."
             }
         }
     }

@@ -321,7 +321,7 @@ fn the_latest_request_for_a_chart_of_whine_wins() {
     assert!(desk.app.tab.whine.is_running);
     let found = WhineFound::Speeds(Box::new(curve));
     update(&mut desk.app, part(first.serial, Some(found), true));
-    assert!(!desk.shows("computing") && desk.shows("N=1") && desk.shows("now"));
+    assert!(!desk.shows("computing") && desk.shows("N=1") && desk.shows("present"));
     let stopped = press(&mut desk, "j");
     assert!(request(stopped).is_none());
 }
@@ -979,7 +979,11 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
 fn a_chart_of_whine_offers_no_key_of_the_roll_angle() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["k"]);
-    assert!(desk.shows("N is the speed over"), "{}", desk.screen());
+    assert!(
+        desk.shows("N is the mesh frequency over"),
+        "{}",
+        desk.screen()
+    );
     assert!(
         desk.shows("j next chart") && !desk.shows("Space play"),
         "{}",

@@ -93,7 +93,7 @@ pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
     let has_points = series.iter().any(|series| !series.pieces.is_empty());
     has_points.then(|| Chart {
         title: "Dynamic factor of a tooth over speed".to_owned(),
-        across: Labelled::linear("speed of the driver, rpm"),
+        across: Labelled::linear("speed of the driver, rpm; N = mesh/natural frequency"),
         up: Labelled::linear("largest tooth force / that at rest"),
         series,
         // Each of several cases has its own resonance and speed.
@@ -106,11 +106,11 @@ pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
 
 /// The resonance with its fractions, and the speed of the case.
 fn marks(curve: &SpeedCurve) -> Vec<(f64, &'static str)> {
-    let ratios = [(1.0, "N=1"), (1.0 / 2.0, "1/2"), (1.0 / 3.0, "1/3")];
+    let ratios = [(1.0, "N=1"), (1.0 / 2.0, "N=1/2"), (1.0 / 3.0, "N=1/3")];
     let mut marks = ratios
         .map(|(ratio, name)| (rpm(ratio * curve.resonance), name))
         .to_vec();
-    marks.push((rpm(curve.present), "now"));
+    marks.push((rpm(curve.present), "present"));
     marks.sort_by(|one, other| one.0.total_cmp(&other.0));
     marks
 }

@@ -106,7 +106,12 @@ impl<'a> Plot<'a> {
             match series.kind {
                 Kind::Bars(slot, slots) => self.bars(at, series, (slot, slots), buffer),
                 Kind::Curve | Kind::Bound => self.curve(at, series, buffer),
-                Kind::Marks(_) => self.points(at, series, buffer),
+                Kind::Marks(_) => {}
+            }
+        }
+        for (at, series) in self.chart.series.iter().enumerate() {
+            if matches!(series.kind, Kind::Marks(_)) {
+                self.points(at, series, buffer);
             }
         }
         self.marks(buffer);
@@ -176,9 +181,11 @@ impl<'a> Plot<'a> {
         self.area.draw_pieces(&series.pieces, look, buffer);
     }
 
+    /// Points on a curve are in every other column, so that both show.
     fn points(&self, at: usize, series: &Series, buffer: &mut Buffer) {
         for (x, y) in series.pieces.iter().flatten() {
-            if let Some(column) = self.area.column(*x) {
+            let column = self.area.column(*x);
+            if let Some(column) = column.filter(|column| column % 2 == 0) {
                 buffer.set_string(column, self.area.row(*y), self.sign(at), self.style(at));
             }
         }
