@@ -1,5 +1,6 @@
 //! Reading and saving case files: a case together with the text it was read from.
 
+mod comments;
 mod disk;
 mod edit;
 mod error;
@@ -17,6 +18,7 @@ use std::path::PathBuf;
 
 use super::stamp::Stamp;
 use super::{Case, Problem};
+pub use comments::without_comments;
 pub use disk::{Saved, read_bytes};
 pub use error::{ReadError, SaveError};
 use fault::Lines;

@@ -17,6 +17,13 @@ pub fn sanitize(text: &str) -> String {
     shown
 }
 
+/// The same with a space in place of each line break and the spaces around it.
+#[must_use]
+pub fn one_line(text: &str) -> String {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    sanitize(&lines.collect::<Vec<_>>().join(" "))
+}
+
 /// The text for a message: visible, cut where it is long.
 #[must_use]
 pub fn cut(text: &str) -> String {

@@ -17,7 +17,8 @@ use super::verdict::verdicts;
 use super::whine::charts::{spectrum, speed};
 use super::{Report, shown_with, text, unit_beside, value};
 use crate::case::changes::label;
-use crate::case::sanitize::sanitize;
+use crate::case::file::without_comments;
+use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::{Quantity, Solution};
@@ -209,7 +210,7 @@ fn column(subject: &Subject) -> Option<Column> {
         name: sanitize(&report.name),
         title: sanitize(&title),
         method: report.solution.method.name(),
-        notes_of_case: sanitize(report.text("notes")),
+        notes_of_case: one_line(report.text("notes")),
         verdict: text::verdict(report),
         limits: limits
             .iter()
@@ -229,22 +230,6 @@ fn column(subject: &Subject) -> Option<Column> {
         link: address(&subject.file),
         file_name: sanitize(file_name),
     })
-}
-
-/// The lines of a case file that say something.
-fn without_comments(text: &str) -> String {
-    let is_said = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
-    let lines: Vec<String> = text.lines().filter(is_said).map(sanitize).collect();
-    // A table without a line says nothing.
-    let is_header = |line: &String| line.starts_with('[');
-    let said = |at: usize| {
-        !is_header(&lines[at]) || lines.get(at + 1).is_some_and(|next| !is_header(next))
-    };
-    (0..lines.len())
-        .filter(|&at| said(at))
-        .map(|at| lines[at].as_str())
-        .collect::<Vec<_>>()
-        .join("\n")
 }
 
 /// A text as an address that a browser saves.

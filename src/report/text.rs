@@ -12,7 +12,7 @@ use super::whine::whine;
 use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
-use crate::case::sanitize::sanitize;
+use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages};
@@ -167,7 +167,7 @@ fn inputs(report: &Report) -> Vec<String> {
     let lines = flow(shown.join(",\n").split('\n'), WIDTH);
     lines
         .into_iter()
-        .chain(item("Notes of the case: ", &sanitize(report.text("notes"))))
+        .chain(item("Notes of the case: ", &one_line(report.text("notes"))))
         .collect()
 }
 

@@ -92,6 +92,49 @@ fn a_chart_names_axes_with_units_and_the_legend_lies_below_the_field() {
 }
 
 #[test]
+fn the_chart_over_speed_marks_the_speed_of_the_case_and_the_resonances() {
+    // Its speed is below the first one of the curve, N = 0.1.
+    let picture = stdout_of(&["plot", FZG, "--chart", "speed"]);
+    for text in [
+        ">present<",
+        ">N=1/3<",
+        ">N=1/2<",
+        ">N=1<",
+        "rpm; N = mesh/natural frequency",
+    ] {
+        assert!(picture.contains(text), "{text}: {picture}");
+    }
+    let falling = picture
+        .find("class=\"curve s1\"")
+        .expect("the speed falling");
+    let point = picture
+        .rfind("<g transform")
+        .expect("points without contact");
+    assert!(point < falling, "the points are below the curve");
+}
+
+#[test]
+fn notes_of_several_lines_are_one_sentence_and_stay_whole_in_the_case_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("noted.toml");
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    let notes = "notes = \"\"\"one\n# two\n\nthree\"\"\"\n";
+    let lines = text.lines().map(|line| match line {
+        _ if line.starts_with("notes = ") => notes.to_owned(),
+        _ => format!("{line}\n"),
+    });
+    fs::write(&path, lines.collect::<String>()).unwrap();
+    let noted = path.to_str().unwrap();
+    let page = report(&[noted], "html");
+    assert!(page.contains("one # two three</p>"), "{page}");
+    assert!(
+        page.contains("&#34;&#34;&#34;one\n# two\n\nthree&#34;&#34;&#34;"),
+        "{page}"
+    );
+    assert!(stdout_of(&["solve", noted]).contains("Notes of the case: one # two three"));
+}
+
+#[test]
 fn the_mesh_stiffness_has_a_curve_for_every_model() {
     let picture = stdout_of(&["plot", TABLE_1, "--chart", "mesh_stiffness"]);
     for text in [
