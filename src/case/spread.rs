@@ -67,19 +67,7 @@ impl Spread {
     /// field's dimension.
     pub fn new(key: &str, shape: &str, text: &str) -> Result<Spread, Problem> {
         let place = place(key);
-        let Some(field) = index_of(key).map(|index| &FIELDS[index]) else {
-            return Err(Problem {
-                field: place,
-                ..check::unknown_key(key)
-            });
-        };
-        let Kind::Number(dimension, ..) = field.kind else {
-            return Err(Problem::new(
-                &place,
-                format!("{key} cannot be spread"),
-                "spread a field that is a measure",
-            ));
-        };
+        let (field, dimension) = spreadable(&place, key)?;
         let shape = named(&place, shape)?;
         let width = if shape == Shape::Grade {
             grade(&place, field, text)?
@@ -94,11 +82,64 @@ impl Spread {
         })
     }
 
+    /// The problem of an entry that does not consist of a shape and a width. `shape` is the name
+    /// of its only member, if it has a single one.
+    #[must_use]
+    pub fn malformed(key: &str, shape: Option<&str>) -> Problem {
+        let place = place(key);
+        let form = || {
+            let (field, _) = spreadable(&place, key)?;
+            Ok(match shape.map(|shape| named(&place, shape)).transpose()? {
+                Some(shape) => format!("write {}", by_example(shape, field)),
+                None => format!(
+                    "write {}, or uniform, triangular or truncated in place of normal",
+                    by_example(Shape::Normal, field)
+                ),
+            })
+        };
+        form().map_or_else(
+            |problem: Problem| problem,
+            |fix| Problem::new(&place, "this is not a distribution", fix),
+        )
+    }
+
     /// The distribution as a person reads it, such as "normal 4 um".
     #[must_use]
     pub fn in_words(&self) -> String {
         format!("{} {}", self.shape.name(), self.text)
     }
+}
+
+/// A field that a distribution can spread, and its dimension.
+fn spreadable(place: &str, key: &str) -> Result<(&'static Field, Dimension), Problem> {
+    let Some(field) = index_of(key).map(|index| &FIELDS[index]) else {
+        return Err(Problem {
+            field: place.to_owned(),
+            ..check::unknown_key(key)
+        });
+    };
+    let (cause, fix) = match field.kind {
+        Kind::Number(dimension, ..) => return Ok((field, dimension)),
+        Kind::Count(..) => (
+            format!("{key} is a whole number and has no distribution"),
+            format!("remove the line; `tipstrike sweep --vary '{key}=FROM..TO'` varies {key}"),
+        ),
+        Kind::Text | Kind::Choice(..) => (
+            format!("{key} is not a number and has no distribution"),
+            "remove the line".to_owned(),
+        ),
+    };
+    Err(Problem::new(place, cause, fix))
+}
+
+/// How a distribution of a field is written.
+fn by_example(shape: Shape, field: &Field) -> String {
+    let width = match (shape, field.usual_unit()) {
+        (Shape::Grade, _) => "7".to_owned(),
+        (_, "") => "0.01".to_owned(),
+        (_, unit) => format!("\"1 {unit}\""),
+    };
+    format!("{{ {} = {width} }}", shape.name())
 }
 
 fn width(place: &str, dimension: Dimension, field: &Field, text: &str) -> Result<f64, Problem> {
