@@ -3,7 +3,7 @@
 use super::batch::Rows;
 use crate::case::Problem;
 
-/// Refused points that share a field and a fix.
+/// Refused points that share a field and, but for its numbers, a fix.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused {
     /// How many points.
@@ -28,7 +28,8 @@ impl Refusals {
 
     fn add(&mut self, index: usize, problem: &Problem) {
         let is_same = |other: &&mut Refused| {
-            (&other.problem.field, &other.problem.fix) == (&problem.field, &problem.fix)
+            let other = &other.problem;
+            other.field == problem.field && words(&other.fix).eq(words(&problem.fix))
         };
         match self.0.iter_mut().find(is_same) {
             Some(same) => same.count += 1,
@@ -45,4 +46,10 @@ impl Refusals {
     pub fn total(&self) -> usize {
         self.0.iter().map(|refused| refused.count).sum()
     }
+}
+
+/// The characters of a text without its numbers, which may differ from point to point.
+fn words(text: &str) -> impl Iterator<Item = char> {
+    text.chars()
+        .filter(|character| !character.is_ascii_digit() && !".+-".contains(*character))
 }
