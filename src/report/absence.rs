@@ -34,10 +34,10 @@ impl Absence {
     pub fn of(quantity: &Quantity, solution: &Solution) -> Absence {
         let is_without = solution.outcome == Outcome::NoCornerContact;
         let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
+        if let Some(absence) = Absence::by_method(quantity, solution.method) {
+            return absence;
+        }
         match (quantity.stage, solution.withheld) {
-            (stage, _) if !solution.method.stages().has(stage) => {
-                Absence::OtherMethod(solution.method, stage)
-            }
             _ if is_without && !solution.method.shares_load() => no_contact,
             (Stage::Static | Stage::Dynamic, _)
                 if quantity.needs_friction() && !has_friction(solution) =>
@@ -56,6 +56,13 @@ impl Absence {
             _ if solution.position.is_none() => Absence::NoFreeImpact,
             _ => Absence::Unclosed,
         }
+    }
+
+    /// Why a method has no such quantity, if only other methods compute it.
+    #[must_use]
+    pub fn by_method(quantity: &Quantity, method: Method) -> Option<Absence> {
+        let stage = quantity.stage;
+        (!method.stages().has(stage)).then_some(Absence::OtherMethod(method, stage))
     }
 
     /// Whether the reason is that no tooth strikes, so that no limit can be exceeded.

@@ -5,8 +5,11 @@ mod text;
 
 use std::io::{self, Write};
 
+use super::absence::Absence;
 use super::csv::{cell, write_rows};
 use crate::case::Case;
+use crate::model::Quantity;
+use crate::model::inputs::Method;
 use crate::study::batch::Points;
 use crate::study::design::Member;
 use crate::study::refusals::Refused;
@@ -88,6 +91,13 @@ impl ToleranceReport<'_> {
             .chain(computed)
             .chain([outcome])
             .collect()
+    }
+
+    /// Why no sample has a value of a quantity, if another method computes it.
+    fn why_absent(&self, quantity: &Quantity) -> Option<String> {
+        let mut methods = Method::ALL.into_iter();
+        let method = methods.find(|method| method.name() == self.method)?;
+        Absence::by_method(quantity, method).map(|absence| absence.to_string())
     }
 
     /// Refused points in one sentence.

@@ -10,6 +10,7 @@ use crate::cli::progress::Running;
 use crate::cli::shards;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
+use crate::report::absence::Absence;
 use crate::report::sweep::SweepTable;
 use crate::study::axis::Axis;
 use crate::study::batch::{Batch, Points, solve_all};
@@ -72,6 +73,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         streams.say(&sentence);
     }
     let quantities = quantities(options, &grid, &opened);
+    for sentence in absent(&quantities, &grid, &opened) {
+        streams.say(&sentence);
+    }
     let table = SweepTable {
         grid: &grid,
         quantities: &quantities,
@@ -129,6 +133,20 @@ fn batch<'a>(opened: &'a Opened, table: &SweepTable<'a>) -> Batch<'a> {
         points: table.grid,
         quantities: table.quantities,
     }
+}
+
+/// The quantities that no method of the sweep computes.
+fn absent(quantities: &[&Quantity], grid: &Grid, opened: &Opened) -> Vec<String> {
+    let methods = grid.methods(&opened.inputs);
+    let absent = quantities.iter().filter_map(|quantity| {
+        let mut reasons = methods
+            .iter()
+            .map(|&method| Absence::by_method(quantity, method));
+        let reason = reasons.next()??;
+        let is_absent = reasons.all(|reason| reason.is_some());
+        is_absent.then(|| format!("{} has no values: {reason}", quantity.key))
+    });
+    absent.collect()
 }
 
 /// The varied fields that change no result.

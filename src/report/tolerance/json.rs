@@ -77,6 +77,8 @@ struct Quantity {
     count: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     figures: Option<Shape>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_value: Option<String>,
     ranked: usize,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     ranking: Vec<Share>,
@@ -188,6 +190,7 @@ fn quantity(report: &ToleranceReport, of: &OfQuantity) -> Quantity {
         unit: of.quantity.unit,
         count: of.figures.as_ref().map_or(0, |figures| figures.count),
         figures: of.figures.as_ref().map(Shape::of),
+        no_value: report.why_absent(of.quantity),
         ranked: of.ranked,
         ranking: shares
             .map(|(indices, distribution)| Share {

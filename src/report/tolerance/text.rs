@@ -102,7 +102,9 @@ fn quantity(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> i
     let OfQuantity { quantity, .. } = of;
     let heading = format!("{} {} ({})", quantity.label, quantity.symbol, quantity.key);
     let Some(figures) = &of.figures else {
-        return writeln!(out, "{heading}: no sample has a value");
+        let reason = report.why_absent(quantity);
+        let reason = reason.as_deref().unwrap_or("no sample has a value");
+        return writeln!(out, "{heading}\n  {reason}");
     };
     writeln!(out, "{heading}, {} values", figures.count)?;
     let ends = [figures.range.0, figures.range.1].into_iter();
@@ -110,13 +112,14 @@ fn quantity(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> i
     let printed = |value: f64| shown_with(quantity, value, unit).to_string();
     let mut row = |name: &str, estimate: &Estimate| {
         let [value, from, to] = [estimate.value, estimate.from, estimate.to].map(printed);
-        writeln!(out, "  {name:<6}{value:>14} ({from} to {to})")
+        writeln!(out, "  {name:<20}{value:>12} ({from} to {to})")
     };
     for (percent, estimate) in PERCENTILES.iter().zip(&figures.percentiles) {
         row(&format!("P{percent}"), estimate)?;
     }
     row("mean", &figures.mean)?;
-    writeln!(out, "  standard deviation {}", printed(figures.deviation))?;
+    let deviation = printed(figures.deviation);
+    writeln!(out, "  {:<20}{deviation:>12}", "standard deviation")?;
     histogram(figures, &printed, out)?;
     ranking(report, of, out)
 }
@@ -159,11 +162,12 @@ fn ranking(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> io
         };
         return writeln!(out, "  no ranking: {reason}");
     };
-    let width = key_width(report);
+    let heading = "part of the variance";
+    let width = key_width(report).max(heading.len());
     writeln!(
         out,
-        "  {:width$}  {:>18}{:>18}",
-        "part of the variance", "first-order", "total"
+        "  {heading:width$}  {:>18}{:>18}",
+        "first-order", "total"
     )?;
     let mut rows: Vec<(&str, &Indices)> = design
         .distributions
