@@ -2,13 +2,15 @@
 
 use super::exit::Failure;
 use crate::case::file::{Draft, SaveError, followed};
+use crate::system::interrupt::Interrupt;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Where the results of a study go.
 pub(super) enum Sink<'a> {
     Stream(&'a mut dyn Write),
-    File(Box<BufWriter<Draft>>),
+    /// Ctrl-C and SIGTERM stop the writing, so that the draft is removed.
+    File(Box<BufWriter<Draft>>, Interrupt),
 }
 
 impl<'a> Sink<'a> {
@@ -19,7 +21,9 @@ impl<'a> Sink<'a> {
     ) -> Result<Sink<'a>, SaveError> {
         match out.filter(|path| *path != Path::new("-")) {
             Some(path) => {
-                Draft::create(path).map(|draft| Sink::File(Box::new(BufWriter::new(draft))))
+                let interrupt = Interrupt::heeded();
+                let draft = Draft::create(path)?;
+                Ok(Sink::File(Box::new(BufWriter::new(draft)), interrupt))
             }
             None => Ok(Sink::Stream(stream)),
         }
@@ -29,7 +33,7 @@ impl<'a> Sink<'a> {
     pub(super) fn finish(self) -> Result<(), Failure> {
         match self {
             Sink::Stream(_) => Ok(()),
-            Sink::File(writer) => {
+            Sink::File(writer, _interrupt) => {
                 let draft = writer
                     .into_inner()
                     .map_err(|error| Failure::Stream(error.into_error()))?;
@@ -42,7 +46,8 @@ impl<'a> Sink<'a> {
     pub(super) fn failure(&self, error: io::Error) -> Failure {
         match self {
             Sink::Stream(_) => Failure::Stream(error),
-            Sink::File(writer) => Failure::File(writer.get_ref().unwritable(error)),
+            Sink::File(_, interrupt) if !interrupt.go_on() => Failure::Interrupted,
+            Sink::File(writer, _) => Failure::File(writer.get_ref().unwritable(error)),
         }
     }
 }
@@ -51,16 +56,24 @@ impl Write for Sink<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Sink::Stream(stream) => stream.write(bytes),
-            Sink::File(writer) => writer.write(bytes),
+            Sink::File(_, interrupt) if !interrupt.go_on() => {
+                Err(io::Error::other("a signal ends the program"))
+            }
+            Sink::File(writer, _) => writer.write(bytes),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
             Sink::Stream(stream) => stream.flush(),
-            Sink::File(writer) => writer.flush(),
+            Sink::File(writer, _) => writer.flush(),
         }
     }
+}
+
+/// Refuses a file that cannot be written, before work that takes long.
+pub(super) fn check_out(out: Option<&Path>) -> Result<(), SaveError> {
+    Sink::open(out, &mut io::sink()).map(drop)
 }
 
 /// Refuses to write over one of the files that the command reads.

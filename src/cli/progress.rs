@@ -67,12 +67,12 @@ impl Bar {
         self.shown.finish_and_clear();
     }
 
-    /// The same after Ctrl-C: the terminal has written `^C` behind the bar, which fills its line,
-    /// and so on the next one.
-    pub(super) fn clear_after_interrupt(&self) {
+    /// The same after a signal. After Ctrl-C the terminal has written `^C` behind the bar, which
+    /// fills its line, and so on the next one.
+    pub(super) fn clear_after(&self, interrupt: &Interrupt) {
         const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
         self.clear();
-        if self.is_up.get() {
+        if self.is_up.get() && interrupt.is_ctrl_c() {
             drop(io::stderr().write_all(LINE_ABOVE));
         }
     }
@@ -92,7 +92,7 @@ pub(super) fn follow<T>(
     if interrupt.go_on() {
         bar.clear();
     } else {
-        bar.clear_after_interrupt();
+        bar.clear_after(&interrupt);
         Interrupt::end();
     }
     done
@@ -124,7 +124,7 @@ impl Running {
             progress: &|done, of| self.bar.set(done, of),
         });
         if done.is_err() && !self.interrupt.go_on() {
-            self.bar.clear_after_interrupt();
+            self.bar.clear_after(&self.interrupt);
         } else {
             self.bar.clear();
         }

@@ -1,59 +1,88 @@
-//! Ctrl-C of the commands: heeded by work that takes long, and the end of the program otherwise.
+//! Ctrl-C and SIGTERM of the commands: heeded by work that takes long, and the end of the program
+//! otherwise.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
 
-use signal_hook::consts::SIGINT;
+use signal_hook::consts::{SIGINT, SIGTERM};
 
-/// The state of Ctrl-C in this process.
-struct CtrlC {
-    was_pressed: Arc<AtomicBool>,
-    /// Whether Ctrl-C ends the program, because no work heeds it.
+/// The signals that work heeds. SIGHUP is not one of them: a handler would undo `nohup`.
+const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
+
+/// No signal has this number.
+const NONE: usize = 0;
+
+/// The state of the signals in this process.
+struct Signals {
+    received: Arc<AtomicUsize>,
+    /// Number of works that heed the signals.
+    heeding: AtomicUsize,
+    /// Whether a signal ends the program, because no work heeds it.
     is_default: Arc<AtomicBool>,
 }
 
-static CTRL_C: LazyLock<CtrlC> = LazyLock::new(|| {
-    let state = CtrlC {
-        was_pressed: Arc::default(),
+static STATE: LazyLock<Signals> = LazyLock::new(|| {
+    let state = Signals {
+        received: Arc::new(AtomicUsize::new(NONE)),
+        heeding: AtomicUsize::new(0),
         is_default: Arc::new(AtomicBool::new(true)),
     };
-    let is_default = Arc::clone(&state.is_default);
-    // Where the system refuses, Ctrl-C ends the program as it always does.
-    if signal_hook::flag::register_conditional_default(SIGINT, is_default).is_ok() {
-        drop(signal_hook::flag::register(
-            SIGINT,
-            Arc::clone(&state.was_pressed),
-        ));
+    for signal in SIGNALS {
+        let is_default = Arc::clone(&state.is_default);
+        // Where the system refuses, the signal ends the program as it always does.
+        if signal_hook::flag::register_conditional_default(signal, is_default).is_ok() {
+            let received = Arc::clone(&state.received);
+            drop(signal_hook::flag::register_usize(
+                signal,
+                received,
+                signal as usize,
+            ));
+        }
     }
     state
 });
 
-/// Work that heeds Ctrl-C by itself, so that it can remove its progress bar.
-pub(crate) struct Interrupt(&'static CtrlC);
+/// Work that heeds Ctrl-C and SIGTERM by itself, so that it can remove its progress bar and its
+/// temporary file.
+pub(crate) struct Interrupt(&'static Signals);
 
 impl Interrupt {
-    /// Ctrl-C does not end the program until this is dropped.
+    /// The signals do not end the program until this, and every other one, is dropped.
     pub(crate) fn heeded() -> Interrupt {
-        let state = &*CTRL_C;
-        state.was_pressed.store(false, Ordering::Relaxed);
+        let state = &*STATE;
+        if state.heeding.fetch_add(1, Ordering::Relaxed) == 0 {
+            state.received.store(NONE, Ordering::Relaxed);
+        }
         state.is_default.store(false, Ordering::Relaxed);
         Interrupt(state)
     }
 
     /// Whether the work continues.
     pub(crate) fn go_on(&self) -> bool {
-        !self.0.was_pressed.load(Ordering::Relaxed)
+        self.0.received.load(Ordering::Relaxed) == NONE
     }
 
-    /// Ends the program as Ctrl-C does, so that its caller sees the cause.
+    /// Whether it was Ctrl-C.
+    pub(crate) fn is_ctrl_c(&self) -> bool {
+        self.0.received.load(Ordering::Relaxed) == SIGINT as usize
+    }
+
+    /// Ends the program as the signal does, so that its caller sees the cause.
     pub(crate) fn end() {
-        drop(signal_hook::low_level::emulate_default_handler(SIGINT));
+        let received = STATE.received.load(Ordering::Relaxed);
+        let signal = SIGNALS
+            .into_iter()
+            .find(|&signal| signal as usize == received);
+        let signal = signal.unwrap_or(SIGINT);
+        drop(signal_hook::low_level::emulate_default_handler(signal));
     }
 }
 
 impl Drop for Interrupt {
     fn drop(&mut self) {
-        self.0.is_default.store(true, Ordering::Relaxed);
+        if self.0.heeding.fetch_sub(1, Ordering::Relaxed) == 1 {
+            self.0.is_default.store(true, Ordering::Relaxed);
+        }
     }
 }
 
@@ -62,15 +91,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ctrl_c_ends_the_program_again_once_no_work_heeds_it() {
-        for _ in 0..2 {
+    fn signals_end_the_program_again_once_no_work_heeds_them() {
+        for signal in SIGNALS {
             let interrupt = Interrupt::heeded();
             assert!(interrupt.go_on());
-            signal_hook::low_level::raise(SIGINT).expect("a signal");
+            signal_hook::low_level::raise(signal).expect("a signal");
             assert!(!interrupt.go_on());
-            assert!(!CTRL_C.is_default.load(Ordering::Relaxed));
+            assert_eq!(interrupt.is_ctrl_c(), signal == SIGINT);
+            drop(Interrupt::heeded());
+            assert!(!interrupt.go_on() && !STATE.is_default.load(Ordering::Relaxed));
             drop(interrupt);
-            assert!(CTRL_C.is_default.load(Ordering::Relaxed));
+            assert!(STATE.is_default.load(Ordering::Relaxed));
         }
     }
 }

@@ -3,6 +3,8 @@
 use crate::program::run;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
@@ -121,4 +123,59 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
     assert!(code == 5 && errors.contains("cannot be read"), "{errors}");
     let (code, _, errors) = run(&[&SWEEP[..], &["--shard", "4/3"]].concat());
     assert!(code == 2 && errors.contains("write 1/3 to 3/3"), "{errors}");
+}
+
+/// A study of so many samples that it runs until it is stopped.
+const ENDLESS: [&str; 4] = ["--samples", "20000000", "--ranking", "0"];
+
+/// Starts the program, sends it a signal once it has written a file into the folder, and returns
+/// the number of the signal that ended it.
+#[cfg(unix)]
+fn stopped_by(signal: &str, arguments: &[&str], folder: &Path) -> Option<i32> {
+    use std::os::unix::process::ExitStatusExt;
+    let mut program = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let begun = Instant::now();
+    let has_rows = || {
+        let mut files = fs::read_dir(folder).unwrap();
+        files.any(|file| file.unwrap().metadata().is_ok_and(|file| file.len() > 100_000))
+    };
+    while !has_rows() {
+        assert!(begun.elapsed() < Duration::from_secs(300), "no row is written");
+        assert_eq!(program.try_wait().unwrap(), None, "{arguments:?}");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let sent = Command::new("kill")
+        .args(["-s", signal, &program.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    program.wait().unwrap().signal()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_a_study_while_it_solves_or_writes_and_leaves_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("spread.toml");
+    let spread = "[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n";
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    fs::write(&case, format!("{text}\n{spread}")).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    let file = out.path().join("out");
+    let study = ["tolerance", case.to_str().unwrap()];
+    let file = ["--out", file.to_str().unwrap()];
+    let shard = [&study[..], &ENDLESS, &file, &["--shard", "1/2"]].concat();
+    let rows = ["--samples", "1000000", "--ranking", "0", "--format", "csv"];
+    let rows = [&study[..], &rows, &file].concat();
+    for arguments in [shard, rows] {
+        for (signal, number) in [("INT", 2), ("TERM", 15)] {
+            let ended = stopped_by(signal, &arguments, out.path());
+            assert_eq!(ended, Some(number), "{arguments:?}");
+            let left: Vec<_> = fs::read_dir(out.path()).unwrap().collect();
+            assert!(left.is_empty(), "{signal}: {left:?}");
+        }
+    }
 }

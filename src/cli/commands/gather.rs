@@ -4,7 +4,7 @@ use super::{sweep, tolerance};
 use crate::case::Problem;
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::output::{Sink, keep_inputs};
+use crate::cli::output::{Sink, check_out, keep_inputs};
 use crate::report::sweep::{SweepTable, TableFormat};
 use crate::report::tolerance::ToleranceReport;
 use crate::study::batch::Points;
@@ -63,9 +63,9 @@ fn write(
     out: Option<&Path>,
     streams: &mut Streams,
 ) -> Result<Exit, Failure> {
-    let mut sink = Sink::open(out, streams.output.as_mut())?;
     match &restored.study {
         Study::Sweep(grid) => {
+            let mut sink = Sink::open(out, streams.output.as_mut())?;
             let table = SweepTable {
                 grid,
                 quantities: &restored.quantities,
@@ -77,6 +77,7 @@ fn write(
             Ok(sweep::report(&table, &refusals, &request.name, streams))
         }
         Study::Tolerance(study) => {
+            check_out(out)?;
             let samples = samples(shards, study)?;
             let report = ToleranceReport {
                 name: &request.name,
@@ -85,10 +86,7 @@ fn write(
                 study,
                 samples: &samples,
             };
-            tolerance::write_as(&request.format, &report, &mut sink)
-                .map_err(|error| sink.failure(error))?;
-            sink.finish()?;
-            Ok(tolerance::report(&report, streams))
+            tolerance::write(&request.format, &report, out, streams)
         }
     }
 }

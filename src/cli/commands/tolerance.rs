@@ -5,18 +5,18 @@ use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::{Changes, Format, QuantityList, StudyOptions, count};
-use crate::cli::output::{keep_inputs, write_to};
+use crate::cli::output::{check_out, keep_inputs, write_to};
 use crate::cli::progress::Running;
 use crate::cli::shards;
 use crate::model::Quantity;
 use crate::report::tolerance::{ToleranceReport, is_all_refused};
-use crate::study::batch::Batch;
+use crate::study::batch::{Batch, Control};
 use crate::study::request::{PointsRequest, Request};
 use crate::study::tolerance::USUAL_SAMPLES;
 use crate::study::tolerance::{MOST_SAMPLES, Size, Tolerance};
 use clap::{Args, ValueHint};
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 const AFTER_HELP: &str = "A distribution is a line of [spread]: the field in quotes, then { \
     normal = WIDTH } with the standard deviation, or { uniform = WIDTH }, { triangular = WIDTH } \
@@ -75,8 +75,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         };
         return shards::run(shard, &request, &batch, &options.running, streams);
     }
-    let running = Running::new("solves", options.running.jobs);
-    let samples = running.run(|control| study.run(&opened.inputs, control))?;
+    check_out(out)?;
+    let solve = |control: &Control| study.run(&opened.inputs, control);
+    let samples = Running::new("solves", options.running.jobs).run(solve)?;
     let whole = ToleranceReport {
         name: &opened.name,
         case: &opened.document.case,
@@ -84,14 +85,34 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         study: &study,
         samples: &samples,
     };
-    write_to(out, streams.output.as_mut(), |sink| {
-        write_as(name_of(options.format), &whole, sink)
+    write(name_of(options.format), &whole, out, streams)
+}
+
+/// Writes a study in the format of that name, and reports its refused samples.
+pub(super) fn write(
+    format: &str,
+    whole: &ToleranceReport,
+    out: Option<&Path>,
+    streams: &mut Streams,
+) -> Result<Exit, Failure> {
+    // Rows are written as they are made. The figures take their time, in which a signal must still
+    // end the program, and come before the file.
+    let mut figures = Vec::new();
+    match format {
+        "json" => whole.write_json(&mut figures),
+        "csv" => Ok(()),
+        _ => whole.write(&mut figures),
+    }
+    .map_err(Failure::Stream)?;
+    write_to(out, streams.output.as_mut(), |sink| match format {
+        "csv" => whole.write_csv(sink),
+        _ => sink.write_all(&figures),
     })?;
-    Ok(report(&whole, streams))
+    Ok(report(whole, streams))
 }
 
 /// Reports the refused samples of a study that is written.
-pub(super) fn report(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
+fn report(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
     for refused in &whole.samples.refusals.0 {
         streams.say(&format!("{}: {}", whole.name, whole.refused(refused)));
     }
@@ -148,17 +169,4 @@ fn study(options: &Options, opened: &Opened) -> Result<Tolerance, Problem> {
         ranked: options.ranking,
     };
     Tolerance::of(&opened.document.case, &opened.inputs, &only, size)
-}
-
-/// Writes a study in the format of that name.
-pub(super) fn write_as(
-    format: &str,
-    whole: &ToleranceReport,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    match format {
-        "json" => whole.write_json(out),
-        "csv" => whole.write_csv(out),
-        _ => whole.write(out),
-    }
 }
