@@ -202,7 +202,8 @@ fn of_variants(tables: &Map<String, Value>) -> Value {
     json!({
         "description": "Named overrides of the case.",
         "type": "object",
-        "propertyNames": {"pattern": r"^[\p{L}\p{N}_-]{1,40}$"},
+        // Of ASCII only letters, digits, _ and -. Python's validators do not know \p{L}.
+        "propertyNames": {"pattern": r"^[^\x00-,./:-@\[-^`{-\x7f]{1,40}$"},
         "additionalProperties": variant,
     })
 }
