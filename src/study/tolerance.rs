@@ -61,8 +61,8 @@ impl Tolerance {
             return Err(Problem {
                 field: "spread".to_owned(),
                 cause: "the case has no distributions".to_owned(),
-                fix: "add [spread] with a line such as \"deviations.base_pitch\" = { normal = \"4 \
-                    um\" }"
+                fix: "add a line [spread] and below it a line such as \"deviations.base_pitch\" = \
+                    { normal = \"4 um\" }"
                     .to_owned(),
             });
         }

@@ -390,12 +390,27 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
         (
             "\"title\" = { normal = \"1 um\" }",
             3,
-            "title cannot be spread",
+            "title is not a number and has no distribution",
         ),
         (
             "\"driven.teeth\" = { normal = 1 }",
             3,
-            "driven.teeth cannot be spread",
+            "`tipstrike sweep --vary 'driven.teeth=FROM..TO'` varies driven.teeth",
+        ),
+        (
+            "\"deviations.base_pitch\" = { uniform = [\"1 um\", \"2 um\"] }",
+            3,
+            "this is not a distribution: write { uniform = \"1 um\" }",
+        ),
+        (
+            "\"pair.module\" = { normal = \"1 mm\", uniform = \"1 mm\" }",
+            3,
+            "write { normal = \"1 mm\" }, or uniform, triangular or truncated in place of normal",
+        ),
+        (
+            "\"driver.profile_shift\" = { truncated = [] }",
+            3,
+            "write { truncated = 0.01 }",
         ),
         (
             "\"pair.module\" = { normal = \"0 mm\" }",
@@ -435,7 +450,7 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
     }
     let (code, _, errors) = printed(&["tolerance", TABLE_1]);
     assert!(
-        code == 3 && errors.contains("the case has no distributions"),
+        code == 3 && errors.contains("no distributions: add a line [spread] and below it"),
         "{errors}"
     );
     let (code, _, errors) = printed(&["tolerance", TABLE_1, "--samples", "1"]);
@@ -443,4 +458,44 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
         code == 2 && errors.contains("write a number from 2"),
         "{errors}"
     );
+}
+
+#[test]
+fn a_tolerance_study_explains_a_quantity_that_its_method_does_not_compute() {
+    let (_folder, case) = with_spread("\"deviations.base_pitch\" = { normal = \"2 um\" }");
+    let arguments = ["tolerance", &case, "--samples", "20", "--only", "dynamic_peak_force"];
+    let reason = "method exact does not compute this quantity; dynamic and auto do";
+    let text = stdout_of(&arguments);
+    assert!(text.contains(&format!("(dynamic_peak_force)\n  {reason}\n")), "{text}");
+    let found = &lines(&stdout_of(&[&arguments[..], &["--format", "json"]].concat()))[0];
+    let quantities = &found["quantities"];
+    assert_eq!(quantities["dynamic_peak_force"]["no_value"], reason);
+    assert_eq!(quantities["impact_force"].get("no_value"), None);
+}
+
+#[test]
+fn a_sweep_explains_a_column_that_its_methods_do_not_compute() {
+    let vary = ["sweep", TABLE_1, "--vary", "deviations.base_pitch=10,20 um"];
+    let only = ["--only", "impact_force,dynamic_peak_force"];
+    let (code, rows, errors) = printed(&[&vary[..], &only].concat());
+    assert!(code == 0 && rows.lines().count() == 3, "{rows}");
+    assert_eq!(
+        errors,
+        "dynamic_peak_force has no values: method exact does not compute this quantity; dynamic \
+         and auto do\n"
+    );
+    let methods = ["--vary", "model.method=exact,dynamic"];
+    let (code, _, errors) = printed(&[&vary[..], &only, &methods].concat());
+    assert_eq!((code, errors.as_str()), (0, ""));
+}
+
+#[test]
+fn refused_points_with_one_reason_take_one_line_whatever_its_numbers() {
+    let vary = ["--vary", "pair.module=0.5..5 mm", "--points", "200"];
+    let (code, rows, errors) = printed(&[&["sweep", TABLE_1][..], &vary].concat());
+    let refused = rows.lines().filter(|row| row.ends_with("refused")).count();
+    assert!(code == 0 && refused > 50, "{rows}");
+    assert_eq!(errors.lines().count(), 1, "{errors}");
+    let start = format!("{TABLE_1}: {refused} of 200 points refused, the first at pair.module = 0.5 mm");
+    assert!(errors.starts_with(&start), "{errors}");
 }
