@@ -2,6 +2,7 @@
 
 pub mod axis;
 pub mod batch;
+mod chunks;
 pub mod condition;
 pub mod design;
 pub mod distribution;

@@ -2,7 +2,7 @@
 
 use crate::model::inputs::Method;
 use crate::model::request::Earlier;
-use crate::model::solve::{Setup, solve_after, solve_repeated};
+use crate::model::solve::{Change, Setup, solve_after, solve_repeated};
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// The last solve by each method.
@@ -17,6 +17,17 @@ struct Solved {
     solution: Solution,
     /// What repeats of this solve share.
     setup: Option<Setup>,
+}
+
+/// A point of a study.
+#[derive(Clone, Copy)]
+pub struct Point<'a> {
+    /// The pair.
+    pub inputs: &'a Inputs,
+    /// The wanted stages, the same at every point.
+    pub wanted: Stages,
+    /// Whether all points of the study are known to differ in nothing but load and deviations.
+    pub differs_in_load_alone: bool,
 }
 
 impl Evaluator {
@@ -88,11 +99,11 @@ impl Evaluator {
     /// Those of [`solve_after`] and of `check`.
     pub fn solve_point<E: From<Refusal>>(
         &mut self,
-        inputs: &Inputs,
-        wanted: Stages,
+        point: &Point<'_>,
         check: impl FnOnce(&Inputs) -> Result<(), E>,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<&Solution, E> {
+        let Point { inputs, wanted, .. } = *point;
         let by = |solved: &Solved| solved.inputs.method == inputs.method;
         let repeated = self.solved.iter().position(by).and_then(|at| {
             let Solved {
@@ -100,7 +111,12 @@ impl Evaluator {
                 solution,
                 setup,
             } = &mut self.solved[at];
-            let repeated = solve_repeated(before, solution, setup, inputs, wanted)?;
+            let change = if point.differs_in_load_alone {
+                Change::LoadAlone
+            } else {
+                Change::Unknown
+            };
+            let repeated = solve_repeated((before, change), solution, setup, inputs, wanted)?;
             Some((at, repeated))
         });
         match repeated {
@@ -228,8 +244,12 @@ mod tests {
         let wanted = Stages::of(Stage::Dynamic);
         for speed in ["2000 rpm", "300 rpm", "9000 rpm"] {
             let inputs = at(speed);
-            let kept: Result<_, Refusal> =
-                evaluator.solve_point(&inputs, wanted, |_| Ok(()), &|_| true);
+            let point = Point {
+                inputs: &inputs,
+                wanted,
+                differs_in_load_alone: false,
+            };
+            let kept: Result<_, Refusal> = evaluator.solve_point(&point, |_| Ok(()), &|_| true);
             let kept = kept.unwrap();
             assert_eq!(kept.ran.has(Stage::Mesh), speed == "2000 rpm");
             let fresh = solve(&inputs, wanted).unwrap();

@@ -125,10 +125,10 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     let load = solution.mesh_force / impact.force;
     let reason = if deviation.combined_deflection < deviation.equivalent_error {
         Reason::ContactLost
-    } else if impact.duration > velocity.transit_time {
-        Reason::Outlasts(impact.duration, velocity.transit_time)
-    } else if !(1.0 - 1e-9..=2.0 + 1e-9).contains(&impact.impulse_ratio) {
-        Reason::Impulse(impact.impulse_ratio)
+    } else if impact.duration() > velocity.transit_time {
+        Reason::Outlasts(impact.duration(), velocity.transit_time)
+    } else if !(1.0 - 1e-9..=2.0 + 1e-9).contains(&impact.impulse_ratio()) {
+        Reason::Impulse(impact.impulse_ratio())
     } else if load > inputs.within {
         Reason::LoadShared(load)
     } else {
@@ -141,7 +141,7 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     sharing(
         inputs,
         reason,
-        swing(2.0 * impact.duration_spring, velocity.transit_time),
+        swing(2.0 * impact.duration_spring(), velocity.transit_time),
     )
 }
 

@@ -248,6 +248,9 @@ impl Teeth {
     /// beyond the corner of a tip, the place from which it ends at the corner.
     #[must_use]
     pub fn under(&self, place: &ContactPlace, force: f64) -> ContactPlace {
+        if !self.driver.has_corner() && !self.driven.has_corner() {
+            return *place;
+        }
         let half_width = HalfWidth::of(&self.elasticity).at(place, force);
         let moved = |radius: f64, tooth: &Tooth| radius.min(tooth.last_radius(half_width));
         ContactPlace {

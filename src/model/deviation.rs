@@ -272,17 +272,18 @@ impl LoadedPairs {
     /// # Errors
     /// A [`Refusal`] where a contact has no compliance under the load.
     pub(super) fn deflected(&self, teeth: &Teeth, mesh_force: f64) -> Result<Deflected, Refusal> {
-        let places: Places = self
-            .places
-            .iter()
-            .map(|place| teeth.under(place, mesh_force))
-            .collect();
+        let under = |place: &ContactPlace| teeth.under(place, mesh_force);
+        let is_moved = |place: &ContactPlace| under(place) != *place;
         match &self.pairs {
-            Carriers::Coupled => shared(teeth, &places, mesh_force),
-            Carriers::Apart(pairs, coupling) if places == self.places => {
+            Carriers::Coupled => {
+                let places: Places = self.places.iter().map(under).collect();
+                shared(teeth, &places, mesh_force)
+            }
+            Carriers::Apart(pairs, coupling) if !self.places.iter().any(is_moved) => {
                 self.apart(pairs, *coupling, mesh_force)
             }
             Carriers::Apart(_, coupling) => {
+                let places: Places = self.places.iter().map(under).collect();
                 let coupling = if *coupling == 0.0 {
                     0.0
                 } else {

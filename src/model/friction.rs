@@ -38,13 +38,13 @@ pub fn friction(
     reduced_mass: f64,
 ) -> Friction {
     let speeds = (inputs.speed, inputs.speed / geometry.ratio);
-    let turn = speeds.1 * impact.duration_printed;
+    let turn = speeds.1 * impact.duration_printed();
     let from_contact = seen_from(geometry, tip);
     let end = match inputs.method {
         Method::Paper => printed_end(&from_contact, tip, turn),
         _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
-    let gained = impact.force * impact.duration_printed / (reduced_mass * tip.radius_driven);
+    let gained = impact.force * impact.duration_printed() / (reduced_mass * tip.radius_driven);
     let ratio = end
         .map(|end| changes_ratio(speeds, &end, gained))
         .filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);

@@ -21,22 +21,86 @@ pub struct Impact {
     pub effective_mass: f64,
     /// Pair compliance q_s, in m²/N.
     pub pair_compliance: f64,
-    /// Hertz half-width at F_S, in m.
-    pub hertz_half_width: f64,
     /// Normal kinetic energy E_k of the whole width, in J.
     pub energy: f64,
     /// Energy of the sliding W_f, whole width, in J.
     pub sliding_energy: f64,
+    /// What the durations and the half-width are computed from when they are read: a study of the
+    /// force does not compute them.
+    terms: Terms,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Terms {
+    method: Method,
+    /// Common face width b, in m.
+    width: f64,
+    /// Approach velocity ΔV_n, in m/s.
+    approach: f64,
+    /// Reduced mass of Eq. 33, in kg.
+    reduced_mass: f64,
+    /// Reduced radius of curvature ρ_S, in m.
+    curvature_radius: f64,
+    /// 1/E', in 1/Pa.
+    give: f64,
+    /// The contact.
+    spring: ContactSpring,
+}
+
+impl Impact {
+    /// Hertz half-width at F_S, in m.
+    #[must_use]
+    pub fn hertz_half_width(&self) -> f64 {
+        self.terms.spring.half_width(self.force)
+    }
+
     /// Impact duration T_S of the method, in s.
-    pub duration: f64,
-    /// Eq. 32 as printed, in s.
-    pub duration_printed: f64,
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        match self.terms.method {
+            Method::Paper => self.duration_printed(),
+            _ => self.duration_spring(),
+        }
+    }
+
+    /// Impact duration by Eq. 32 as printed, in s.
+    ///
+    /// # Formula
+    /// ```text
+    /// TS = (m_red²/(π² ΔVn ρS E'²))^(1/5)
+    /// ```
+    ///
+    /// # Source
+    /// Zhou & Chen 2014, Eq. 32, the reduced mass of Eq. 33 in kg. Hertz's duration for two spheres
+    /// is 4.53398 times as long; the prefactor is lost in print.
+    #[must_use]
+    pub fn duration_printed(&self) -> f64 {
+        let Terms {
+            approach,
+            curvature_radius,
+            ..
+        } = self.terms;
+        let ratio = self.terms.reduced_mass * self.terms.give / PI;
+        (ratio * ratio / (approach * curvature_radius)).powf(0.2)
+    }
+
     /// Eq. 32 with Hertz's prefactor, in s.
-    pub duration_hertz: f64,
+    #[must_use]
+    pub fn duration_hertz(&self) -> f64 {
+        HERTZ_PREFACTOR * self.duration_printed()
+    }
+
     /// Half period of the model's spring, in s.
-    pub duration_spring: f64,
+    #[must_use]
+    pub fn duration_spring(&self) -> f64 {
+        PI * (self.effective_mass * self.pair_compliance / self.terms.width).sqrt()
+    }
+
     /// (2/π) F_S T_S/(M ΔV_n): 2 for the elastic spring, below 1 impossible.
-    pub impulse_ratio: f64,
+    #[must_use]
+    pub fn impulse_ratio(&self) -> f64 {
+        2.0 / PI * self.force * self.duration() / (self.effective_mass * self.terms.approach)
+    }
 }
 
 /// What velocities, force and friction of an impact depend on, apart from geometry, masses and
@@ -51,17 +115,21 @@ pub struct ImpactInputs {
     pub tip_radius: Option<f64>,
     /// Elasticity of the pair.
     pub elasticity: Elasticity,
+    /// 1/E' of the pair, in 1/Pa.
+    pub give: f64,
 }
 
 impl Inputs {
     /// What velocities, force and friction of an impact depend on.
     #[must_use]
     pub fn impact(&self) -> ImpactInputs {
+        let elasticity = self.elasticity();
         ImpactInputs {
             method: self.method,
             speed: self.speed,
             tip_radius: self.driven.tip_radius,
-            elasticity: self.elasticity(),
+            give: plane_strain_compliance(&elasticity),
+            elasticity,
         }
     }
 }
@@ -147,47 +215,24 @@ pub fn impact(
         teeth.sum(),
         velocity.normal * (width * effective_mass).sqrt(),
     )?;
-    let duration_printed = printed_duration(
-        masses.reduced(),
-        velocity.normal,
-        reduced_curvature(inputs.tip_radius, geometry, tip),
-        plane_strain_compliance(&inputs.elasticity),
-    );
-    let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
-    let duration = match inputs.method {
-        Method::Paper => duration_printed,
-        _ => duration_spring,
-    };
     Ok(Impact {
         force,
         effective_mass,
         pair_compliance,
-        hertz_half_width: spring.half_width(force),
         energy: 0.5 * effective_mass * velocity.normal * velocity.normal,
         sliding_energy: 0.5 * effective_mass * velocity.sliding * velocity.sliding,
-        duration,
-        duration_printed,
-        duration_hertz: HERTZ_PREFACTOR * duration_printed,
-        duration_spring,
-        impulse_ratio: 2.0 / PI * force * duration / (effective_mass * velocity.normal),
+        terms: Terms {
+            method: inputs.method,
+            width,
+            approach: velocity.normal,
+            reduced_mass: masses.reduced(),
+            curvature_radius: reduced_curvature(inputs.tip_radius, geometry, tip),
+            give: inputs.give,
+            spring: *spring,
+        },
     })
 }
 
 /// What Eq. 32 lacks of Hertz's duration: 2.868265699 π^(2/5), where the first factor is
 /// 2 (15/16)^(2/5) ∫₀¹ dx/√(1 − x^(5/2)).
 pub const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;
-
-/// Impact duration by Eq. 32 as printed, in s.
-///
-/// # Formula
-/// ```text
-/// TS = (m_red²/(π² ΔVn ρS E'²))^(1/5)
-/// ```
-///
-/// # Source
-/// Zhou & Chen 2014, Eq. 32, the reduced mass of Eq. 33 in kg. Hertz's duration for two spheres is
-/// 4.53398 times as long; the prefactor is lost in print.
-fn printed_duration(reduced_mass: f64, approach: f64, curvature_radius: f64, give: f64) -> f64 {
-    let ratio = reduced_mass * give / PI;
-    (ratio * ratio / (approach * curvature_radius)).powf(0.2)
-}

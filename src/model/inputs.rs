@@ -122,16 +122,14 @@ impl Method {
     /// The stages that the method has.
     #[must_use]
     pub fn stages(self) -> Stages {
-        let impact = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
-        let at_rest = Stages::of(Stage::StaticSpectrum).with(Stage::Resonance);
+        const IMPACT: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
+        const AT_REST: Stages = Stages::of(Stage::StaticSpectrum).with(Stage::Resonance);
+        const STATIC: Stages = IMPACT.and(Stages::of(Stage::Static)).and(AT_REST);
+        const DYNAMIC: Stages = STATIC.with(Stage::Dynamic).with(Stage::SteadyMotion);
         match self {
             Method::Paper | Method::Exact => Stages::ALL.with(Stage::Clearing),
-            Method::Static => impact.and(Stages::of(Stage::Static)).and(at_rest),
-            Method::Dynamic => impact
-                .and(Stages::of(Stage::Static))
-                .with(Stage::Dynamic)
-                .and(at_rest)
-                .with(Stage::SteadyMotion),
+            Method::Static => STATIC,
+            Method::Dynamic => DYNAMIC,
             Method::Auto => Stages::EVERY,
         }
     }

@@ -10,7 +10,7 @@ use super::request::Earlier;
 use super::{Refusal, Solution, Stages};
 use by_choice::solve_by_choice;
 use by_method::solve_by_method;
-pub use repeat::solve_repeated;
+pub use repeat::{Change, differ_in_load_alone, solve_repeated};
 pub use setup::Setup;
 
 /// Solve the pair, running only the wanted stages and what they need.

@@ -59,6 +59,7 @@ pub struct TipContact<T = f64> {
 ///
 /// # Valid for
 /// Any angle at which the tip lies outside the driver's base circle (`N1E² + Q > 0`).
+#[inline]
 pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     let (half, two): (T, T) = (0.5.into(), 2.0.into());
     let (base, edge) = (geometry.driver.base, geometry.driven.edge);

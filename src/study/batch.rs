@@ -6,17 +6,13 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
+use super::chunks::chunks;
+use crate::case::evaluate::Point;
 use crate::case::{Evaluator, Problem, misfit_between};
 use crate::model::{Inputs, Outcome, Quantity, Refusal, Stages};
 
 /// How often the progress is reported.
 const TICK: Duration = Duration::from_millis(50);
-
-/// The most points of a chunk. A chunk is the work that a thread takes at once.
-const LONGEST_CHUNK: usize = 1024;
-
-/// Chunks per thread, so that no thread waits long for another.
-const CHUNKS_PER_JOB: usize = 32;
 
 /// The points of a study.
 pub trait Points: Sync {
@@ -25,6 +21,11 @@ pub trait Points: Sync {
 
     /// What puts the points into inputs on one thread.
     fn sequence(&self) -> Sequence<'_>;
+
+    /// Whether the points differ from the case in nothing but load and deviations.
+    fn differ_in_load_alone(&self, _inputs: &Inputs) -> bool {
+        false
+    }
 }
 
 /// Puts the values of a point, by its index, into inputs that hold the case or another point. It
@@ -119,6 +120,12 @@ impl Rows {
         self.values.extend(values);
     }
 
+    /// The values of every quantity, point by point; NaN stands for no value.
+    #[must_use]
+    pub fn all_values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// The indices of the points.
     #[must_use]
     pub fn range(&self) -> Range<usize> {
@@ -164,16 +171,15 @@ pub fn solve_all(
     take: &mut dyn FnMut(Rows) -> bool,
 ) -> Result<(), Stopped> {
     let jobs = jobs(control.jobs);
-    let chunk = (range.len() / (jobs * CHUNKS_PER_JOB)).clamp(1, LONGEST_CHUNK);
     let shared = Shared {
         batch: *batch,
+        chunks: chunks(&range, jobs),
         range,
-        chunk,
         next: AtomicUsize::new(0),
         stopped: AtomicBool::new(false),
         go_on: control.go_on,
     };
-    let solved: Vec<Solved> = (0..jobs.min(shared.chunks()))
+    let solved: Vec<Solved> = (0..jobs.min(shared.chunks.len()))
         .map(|_| Solved::default())
         .collect();
     let (send, receive) = mpsc::channel();
@@ -198,7 +204,7 @@ pub fn jobs(wanted: Option<usize>) -> usize {
 struct Shared<'a> {
     batch: Batch<'a>,
     range: Range<usize>,
-    chunk: usize,
+    chunks: Vec<Range<usize>>,
     next: AtomicUsize,
     stopped: AtomicBool,
     go_on: &'a (dyn Fn() -> bool + Sync),
@@ -211,17 +217,8 @@ struct Shared<'a> {
 struct Solved(AtomicUsize);
 
 impl Shared<'_> {
-    fn chunks(&self) -> usize {
-        self.range.len().div_ceil(self.chunk)
-    }
-
     fn goes_on(&self) -> bool {
         !self.stopped.load(Ordering::Relaxed) && (self.go_on)()
-    }
-
-    fn points(&self, chunk: usize) -> Range<usize> {
-        let first = self.range.start + chunk * self.chunk;
-        first..(first + self.chunk).min(self.range.end)
     }
 }
 
@@ -233,7 +230,7 @@ fn collect(
     take: &mut dyn FnMut(Rows) -> bool,
 ) -> Result<(), Stopped> {
     let (mut early, mut next) = (BTreeMap::new(), 0);
-    while next < shared.chunks() {
+    while next < shared.chunks.len() {
         match receive.recv_timeout(TICK) {
             Ok((chunk, rows)) => drop(early.insert(chunk, rows)),
             Err(RecvTimeoutError::Timeout) => {}
@@ -261,18 +258,19 @@ fn work(shared: &Shared, solved: &AtomicUsize, send: &Sender<(usize, Rows)>) {
     let mut solver = PointSolver::new(shared.batch);
     loop {
         let chunk = shared.next.fetch_add(1, Ordering::Relaxed);
-        if chunk >= shared.chunks() {
+        let Some(points) = shared.chunks.get(chunk) else {
             return;
-        }
-        let points = shared.points(chunk);
+        };
         let mut rows = Rows::starting_at(points.start);
+        rows.outcomes.reserve(points.len());
         rows.values
             .reserve(points.len() * shared.batch.quantities.len());
-        for index in points {
-            match solver.solve(index, &mut rows, &|| shared.goes_on()) {
-                Ok(()) => drop(solved.fetch_add(1, Ordering::Relaxed)),
-                Err(Stopped) => return,
+        for index in points.clone() {
+            if solver.solve(index, &mut rows, &|| shared.goes_on()) == Err(Stopped) {
+                return;
             }
+            // No other thread writes this number.
+            solved.store(solved.load(Ordering::Relaxed) + 1, Ordering::Relaxed);
         }
         if send.send((chunk, rows)).is_err() {
             return;
@@ -287,6 +285,7 @@ struct PointSolver<'a> {
     inputs: Inputs,
     evaluator: Evaluator,
     wanted: Stages,
+    differ_in_load_alone: bool,
 }
 
 impl<'a> PointSolver<'a> {
@@ -296,6 +295,7 @@ impl<'a> PointSolver<'a> {
             sequence: batch.points.sequence(),
             inputs: batch.inputs.clone(),
             evaluator: Evaluator::default(),
+            differ_in_load_alone: batch.points.differ_in_load_alone(batch.inputs),
             wanted: stages.fold(Stages::NONE, |stages, quantity| {
                 stages.and(Stages::of(quantity.stage))
             }),
@@ -343,9 +343,12 @@ impl<'a> PointSolver<'a> {
             Some(problem) => Err(Unsolved::from(problem)),
             None => Ok(()),
         };
-        let solution = self
-            .evaluator
-            .solve_point(&self.inputs, wanted, fits, &|_| go_on())?;
+        let point = Point {
+            inputs: &self.inputs,
+            wanted,
+            differs_in_load_alone: self.differ_in_load_alone,
+        };
+        let solution = self.evaluator.solve_point(&point, fits, &|_| go_on())?;
         let values = || {
             let all = batch.quantities.iter();
             all.map(|quantity| quantity.finite_value(solution))

@@ -7,6 +7,8 @@ use super::batch::{Points, Sequence};
 use super::distribution::Distribution;
 use crate::case::fields::FIELDS;
 use crate::case::{Problem, field_range};
+use crate::model::Inputs;
+use crate::model::solve::differ_in_load_alone;
 
 /// The samples, and after them the points of the ranking.
 ///
@@ -103,9 +105,16 @@ impl Points for Design {
 
     fn sequence(&self) -> Sequence<'_> {
         let mut numbers = self.numbers();
+        let ranges: Vec<(f64, f64)> = self
+            .distributions
+            .iter()
+            .map(|distribution| field_range(distribution.field))
+            .collect();
         Box::new(move |index, inputs| {
-            for (distribution, value) in self.distributions.iter().zip(numbers.values(index)) {
-                let (from, to) = field_range(distribution.field);
+            let values = numbers.values(index);
+            for ((distribution, &(from, to)), value) in
+                self.distributions.iter().zip(&ranges).zip(values)
+            {
                 if value < from || value > to {
                     return Err(outside(distribution.field));
                 }
@@ -113,6 +122,15 @@ impl Points for Design {
             }
             Ok(())
         })
+    }
+
+    fn differ_in_load_alone(&self, inputs: &Inputs) -> bool {
+        let is_of_load = |distribution: &Distribution| {
+            let mut changed = inputs.clone();
+            distribution.put(f64::MIN_POSITIVE, &mut changed);
+            differ_in_load_alone(inputs, &changed)
+        };
+        self.distributions.iter().all(is_of_load)
     }
 }
 

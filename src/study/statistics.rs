@@ -34,38 +34,44 @@ pub struct Figures {
     pub histogram: Vec<usize>,
 }
 
-/// The figures of values, of which those that a percentile needs are put in their places in order.
-/// `None` without values.
+/// The figures of values, `None` without values.
 ///
 /// A percentile is interpolated between two values (type 7 of Hyndman & Fan 1996). Its interval
 /// ends at values whose ranks enclose it with 95 % by the normal approximation of the binomial
 /// distribution, whatever the distribution of the values.
 #[must_use]
-pub fn figures(values: &mut [f64], bins: usize) -> Option<Figures> {
-    let least = values.iter().copied().min_by(f64::total_cmp)?;
-    let most = values.iter().copied().max_by(f64::total_cmp)?;
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
+pub fn figures(values: impl Iterator<Item = f64> + Clone, bins: usize) -> Option<Figures> {
+    let nothing = (0_usize, f64::INFINITY, f64::NEG_INFINITY, 0.0);
+    let (count, least, most, sum) =
+        values
+            .clone()
+            .fold(nothing, |(count, least, most, sum), value| {
+                (count + 1, value.min(least), value.max(most), sum + value)
+            });
+    if count == 0 {
+        return None;
+    }
+    let mean = sum / count as f64;
     let squares = values
-        .iter()
+        .clone()
         .map(|value| (value - mean).powi(2))
         .sum::<f64>();
-    let deviation = (squares / (count - 1.0).max(1.0)).sqrt();
-    let error = NORMAL_95 * deviation / count.sqrt();
-    let places = PERCENTILES.map(|percent| Places::of(percent / 100.0, values.len()));
+    let deviation = (squares / (count as f64 - 1.0).max(1.0)).sqrt();
+    let error = NORMAL_95 * deviation / (count as f64).sqrt();
+    let places = PERCENTILES.map(|percent| Places::of(percent / 100.0, count));
     let mut ranks: Vec<usize> = places.iter().flat_map(|places| places.ranks).collect();
     ranks.sort_unstable();
     ranks.dedup();
-    put_in_order(values, 0, &ranks);
+    let at_ranks = Ordered::of(values.clone(), (least, most), &ranks);
     Some(Figures {
-        count: values.len(),
+        count,
         mean: Estimate {
             value: mean,
             from: mean - error,
             to: mean + error,
         },
         deviation,
-        percentiles: places.map(|places| places.percentile(values)),
+        percentiles: places.map(|places| places.percentile(&at_ranks)),
         range: (least, most),
         histogram: histogram(values, (least, most), bins),
     })
@@ -95,8 +101,8 @@ impl Places {
         }
     }
 
-    fn percentile(&self, values: &[f64]) -> Estimate {
-        let [below, above, from, to] = self.ranks.map(|rank| values[rank]);
+    fn percentile(&self, values: &Ordered) -> Estimate {
+        let [below, above, from, to] = self.ranks.map(|rank| values.at(rank));
         Estimate {
             value: below + self.part * (above - below),
             from,
@@ -105,19 +111,65 @@ impl Places {
     }
 }
 
-/// Puts the values of these ranks, which are in order, in their places; `first` is the rank of the
-/// first value. Sorting all values would take several times as long.
-fn put_in_order(values: &mut [f64], first: usize, ranks: &[usize]) {
-    let (low, rest) = ranks.split_at(ranks.len() / 2);
-    let Some((&middle, high)) = rest.split_first() else {
-        return;
-    };
-    let (below, _, above) = values.select_nth_unstable_by(middle - first, f64::total_cmp);
-    put_in_order(below, first, low);
-    put_in_order(above, middle + 1, high);
+/// The values of some ranks. The values are counted in many intervals of equal width, and only
+/// those of the intervals with a wanted rank are sorted: sorting all of them would take many times
+/// as long.
+struct Ordered {
+    /// Of each interval with a wanted rank: the rank of its first value, and its values in order.
+    parts: Vec<(usize, Vec<f64>)>,
 }
 
-fn histogram(values: &[f64], (least, most): (f64, f64), bins: usize) -> Vec<usize> {
+impl Ordered {
+    /// The values of `ranks`, which are in order.
+    fn of(
+        values: impl Iterator<Item = f64> + Clone,
+        (least, most): (f64, f64),
+        ranks: &[usize],
+    ) -> Ordered {
+        const INTERVALS: usize = 4096;
+        const OTHER: u8 = u8::MAX;
+        let scale = INTERVALS as f64 / (most - least);
+        // Without a spread the product is no number and the interval the first one.
+        let interval = |value: f64| (((value - least) * scale) as usize).min(INTERVALS - 1);
+        let mut counts = [0_u32; INTERVALS];
+        values
+            .clone()
+            .for_each(|value| counts[interval(value)] += 1);
+        let (mut parts, mut numbers) = (Vec::<(usize, Vec<f64>)>::new(), [OTHER; INTERVALS]);
+        let (mut first, mut ranks) = (0, ranks.iter().peekable());
+        for (count, number) in counts.into_iter().zip(&mut numbers) {
+            let end = first + count as usize;
+            if ranks.next_if(|&&rank| rank < end).is_some() {
+                while ranks.next_if(|&&rank| rank < end).is_some() {}
+                *number = parts.len() as u8;
+                parts.push((first, Vec::with_capacity(count as usize)));
+            }
+            first = end;
+        }
+        for value in values {
+            if let Some((_, part)) = parts.get_mut(usize::from(numbers[interval(value)])) {
+                part.push(value);
+            }
+        }
+        for (_, part) in &mut parts {
+            part.sort_unstable_by(f64::total_cmp);
+        }
+        Ordered { parts }
+    }
+
+    /// The value of one of the wanted ranks.
+    fn at(&self, rank: usize) -> f64 {
+        let part = self.parts.partition_point(|(first, _)| *first <= rank);
+        let (first, values) = &self.parts[part - 1];
+        values[rank - first]
+    }
+}
+
+fn histogram(
+    values: impl Iterator<Item = f64>,
+    (least, most): (f64, f64),
+    bins: usize,
+) -> Vec<usize> {
     let bins = if least < most { bins } else { 1 };
     let mut counts = vec![0; bins];
     let width = (most - least) / bins as f64;
@@ -155,8 +207,7 @@ mod tests {
 
     #[test]
     fn figures_of_a_known_sample() {
-        let mut values: Vec<f64> = (0..=100).rev().map(f64::from).collect();
-        let found = figures(&mut values, 10).unwrap();
+        let found = figures((0..=100).rev().map(f64::from), 10).unwrap();
         let percentiles = found.percentiles.map(|estimate| estimate.value);
         assert!(
             percentiles
@@ -174,13 +225,43 @@ mod tests {
 
     #[test]
     fn equal_values_and_a_single_one_have_figures_without_nan() {
-        for mut values in [vec![3.0], vec![3.0; 7]] {
-            let found = figures(&mut values, 10).unwrap();
+        for values in [vec![3.0], vec![3.0; 7]] {
+            let found = figures(values.iter().copied(), 10).unwrap();
             assert_eq!(found.histogram.len(), 1);
             assert!(found.deviation.abs() < f64::MIN_POSITIVE);
             assert!(found.mean.from.is_finite() && found.percentiles[0].to.is_finite());
         }
-        assert_eq!(figures(&mut [], 10), None);
+        assert_eq!(figures(std::iter::empty(), 10), None);
+    }
+
+    #[test]
+    fn percentiles_are_those_of_the_sorted_values_whatever_their_distribution() {
+        let numbers = || (1..=5000_u32).map(|k| f64::from(k.wrapping_mul(2_654_435_761)));
+        let samples: [Vec<f64>; 4] = [
+            numbers().collect(),
+            // All but a few in one interval.
+            numbers().map(|x| (x / 2e8).exp()).collect(),
+            numbers().map(|x| (x / 1e9).round() - 2.0).collect(),
+            vec![-f64::MAX, 0.0, f64::MAX],
+        ];
+        for values in samples {
+            let found = figures(values.iter().copied(), 10).unwrap();
+            let mut sorted = values.clone();
+            sorted.sort_by(f64::total_cmp);
+            let ends = [found.range.0, found.range.1];
+            let wanted = [sorted[0], sorted[sorted.len() - 1]];
+            assert_eq!(ends.map(f64::to_bits), wanted.map(f64::to_bits));
+            for (percent, found) in PERCENTILES.iter().zip(&found.percentiles) {
+                let places = Places::of(percent / 100.0, sorted.len());
+                let [below, above, from, to] = places.ranks.map(|rank| sorted[rank]);
+                let value = below + places.part * (above - below);
+                let bits = |estimate: [f64; 3]| estimate.map(f64::to_bits);
+                assert_eq!(
+                    bits([found.value, found.from, found.to]),
+                    bits([value, from, to])
+                );
+            }
+        }
     }
 
     #[test]

@@ -177,15 +177,11 @@ impl Tolerance {
 
     fn quantity(&self, at: usize, samples: &Samples) -> OfQuantity {
         let column = &samples.columns[at][..self.design.samples];
-        let mut values: Vec<f64> = column
-            .iter()
-            .copied()
-            .filter(|value| !value.is_nan())
-            .collect();
+        let values = column.iter().copied().filter(|value| !value.is_nan());
         let ranked = self.ranked(at, samples);
         OfQuantity {
             quantity: self.quantities[at],
-            figures: figures(&mut values, BINS),
+            figures: figures(values, BINS),
             ranked: ranked.len(),
             indices: indices(&ranked),
         }
@@ -258,10 +254,9 @@ impl Samples {
     pub fn add(&mut self, rows: &Rows) {
         self.outcomes.extend(&rows.outcomes);
         self.refusals.count(rows);
-        for row in 0..rows.outcomes.len() {
-            for (column, value) in self.columns.iter_mut().zip(rows.values(row)) {
-                column.push(value.unwrap_or(f64::NAN));
-            }
+        let width = self.columns.len();
+        for (at, column) in self.columns.iter_mut().enumerate() {
+            column.extend(rows.all_values().iter().skip(at).step_by(width));
         }
     }
 

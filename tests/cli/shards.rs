@@ -141,10 +141,17 @@ fn stopped_by(signal: &str, arguments: &[&str], folder: &Path) -> Option<i32> {
     let begun = Instant::now();
     let has_rows = || {
         let mut files = fs::read_dir(folder).unwrap();
-        files.any(|file| file.unwrap().metadata().is_ok_and(|file| file.len() > 100_000))
+        files.any(|file| {
+            file.unwrap()
+                .metadata()
+                .is_ok_and(|file| file.len() > 100_000)
+        })
     };
     while !has_rows() {
-        assert!(begun.elapsed() < Duration::from_secs(300), "no row is written");
+        assert!(
+            begun.elapsed() < Duration::from_secs(300),
+            "no row is written"
+        );
         assert_eq!(program.try_wait().unwrap(), None, "{arguments:?}");
         std::thread::sleep(Duration::from_millis(20));
     }

@@ -463,11 +463,23 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
 #[test]
 fn a_tolerance_study_explains_a_quantity_that_its_method_does_not_compute() {
     let (_folder, case) = with_spread("\"deviations.base_pitch\" = { normal = \"2 um\" }");
-    let arguments = ["tolerance", &case, "--samples", "20", "--only", "dynamic_peak_force"];
+    let arguments = [
+        "tolerance",
+        &case,
+        "--samples",
+        "20",
+        "--only",
+        "dynamic_peak_force",
+    ];
     let reason = "method exact does not compute this quantity; dynamic and auto do";
     let text = stdout_of(&arguments);
-    assert!(text.contains(&format!("(dynamic_peak_force)\n  {reason}\n")), "{text}");
-    let found = &lines(&stdout_of(&[&arguments[..], &["--format", "json"]].concat()))[0];
+    assert!(
+        text.contains(&format!("(dynamic_peak_force)\n  {reason}\n")),
+        "{text}"
+    );
+    let found = &lines(&stdout_of(
+        &[&arguments[..], &["--format", "json"]].concat(),
+    ))[0];
     let quantities = &found["quantities"];
     assert_eq!(quantities["dynamic_peak_force"]["no_value"], reason);
     assert_eq!(quantities["impact_force"].get("no_value"), None);
@@ -496,6 +508,7 @@ fn refused_points_with_one_reason_take_one_line_whatever_its_numbers() {
     let refused = rows.lines().filter(|row| row.ends_with("refused")).count();
     assert!(code == 0 && refused > 50, "{rows}");
     assert_eq!(errors.lines().count(), 1, "{errors}");
-    let start = format!("{TABLE_1}: {refused} of 200 points refused, the first at pair.module = 0.5 mm");
+    let start =
+        format!("{TABLE_1}: {refused} of 200 points refused, the first at pair.module = 0.5 mm");
     assert!(errors.starts_with(&start), "{errors}");
 }

@@ -309,7 +309,10 @@ impl Reader {
         let only = table.and_then(|table| table.iter().next().filter(|_| table.len() == 1));
         let taken = match only.map(|(shape, width)| (shape.get_ref(), scalar(width.get_ref()))) {
             Some((shape, Some(width))) => Spread::new(path, shape, &width),
-            found => Err(Spread::malformed(path, found.map(|(shape, _)| shape.as_ref()))),
+            found => Err(Spread::malformed(
+                path,
+                found.map(|(shape, _)| shape.as_ref()),
+            )),
         };
         match taken {
             Ok(spread) => self.case.spread.push(spread),

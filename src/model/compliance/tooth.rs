@@ -55,6 +55,7 @@ pub struct ToothModel {
 }
 
 type ByRadius = fn(&ElasticGear, &Circles, f64) -> Result<f64, Refusal>;
+type Line = fn(&ElasticGear, &Circles) -> Result<StiffnessLine, Refusal>;
 type Build = fn(&ElasticGear, &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal>;
 
 /// Computes the compliance of one tooth, contact excluded, per unit width, in m²/N.
@@ -62,8 +63,43 @@ type Build = fn(&ElasticGear, &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal>
 pub enum Compliance {
     /// Computed from the radius of the load point at each call.
     AtRadius(ByRadius),
+    /// The stiffness is linear in the radius of the load point.
+    Line(Line),
     /// From an object that is built once per gear and then read at each radius.
     PerGear(Build),
+}
+
+/// N/(µm mm) in Pa.
+const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
+
+/// The stiffness of a tooth, linear in the height of the load point above the reference circle.
+#[derive(Debug, Clone, Copy)]
+pub struct StiffnessLine {
+    /// At the reference circle, in N/(µm mm).
+    pub at_reference: f64,
+    /// What it gains per unit of height, in N/(µm mm).
+    pub per_height: f64,
+    /// Radius of the reference circle, in m.
+    pub reference: f64,
+    /// The unit of the height, in m.
+    pub height: f64,
+}
+
+impl StiffnessLine {
+    /// Compliance of the tooth loaded at a radius, in m²/N.
+    ///
+    /// # Errors
+    /// [`Refusal::HeightOutsideFit`] where the stiffness is not above 0.
+    pub fn compliance(&self, radius: f64) -> Result<f64, Refusal> {
+        let height = (radius - self.reference) / self.height;
+        let stiffness =
+            NEWTON_PER_MICRON_MILLIMETRE * (self.at_reference + self.per_height * height);
+        if stiffness > 0.0 {
+            Ok(1.0 / stiffness)
+        } else {
+            Err(Refusal::HeightOutsideFit { height })
+        }
+    }
 }
 
 /// The teeth of one gear under a load, built by a [`Compliance::PerGear`].
@@ -113,6 +149,7 @@ pub struct Tooth {
 #[derive(Debug, Clone)]
 enum Serves {
     AtRadius(ByRadius),
+    Line(StiffnessLine),
     Built(Arc<dyn LoadedTooth>),
 }
 
@@ -136,6 +173,7 @@ impl Tooth {
     ) -> Result<Tooth, Refusal> {
         let serves = match compliance {
             Compliance::AtRadius(of) => Serves::AtRadius(*of),
+            Compliance::Line(of) => Serves::Line(of(gear, circles)?),
             Compliance::PerGear(build) => Serves::Built(build(gear, circles)?),
         };
         Ok(Tooth {
@@ -152,6 +190,7 @@ impl Tooth {
     pub fn at(&self, radius: f64) -> Result<f64, Refusal> {
         match &self.serves {
             Serves::AtRadius(of) => of(&self.gear, &self.circles, radius),
+            Serves::Line(line) => line.compliance(radius),
             Serves::Built(built) => built.at(&self.gear, radius),
         }
     }
@@ -162,7 +201,7 @@ impl Tooth {
     /// A [`Refusal`] outside the range of the model.
     pub fn contact(&self, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
         match &self.serves {
-            Serves::AtRadius(_) => Ok(None),
+            Serves::AtRadius(_) | Serves::Line(_) => Ok(None),
             Serves::Built(built) => built.contact(&self.gear, radius),
         }
     }
@@ -179,9 +218,15 @@ impl Tooth {
     /// A [`Refusal`] outside the range of the model.
     pub fn neighbour(&self, loaded: f64, measured: f64, pitches: i32) -> Result<f64, Refusal> {
         match &self.serves {
-            Serves::AtRadius(_) => Ok(0.0),
+            Serves::AtRadius(_) | Serves::Line(_) => Ok(0.0),
             Serves::Built(built) => built.neighbour(&self.gear, [loaded, measured], pitches),
         }
+    }
+
+    /// Whether the model knows the corner of the tip, so that [`Tooth::last_radius`] may be finite.
+    #[must_use]
+    pub fn has_corner(&self) -> bool {
+        matches!(self.serves, Serves::Built(_))
     }
 
     /// Radius in m of the load whose pressure over ± `half_width` ends at the corner of the tip: a
@@ -189,7 +234,7 @@ impl Tooth {
     #[must_use]
     pub fn last_radius(&self, half_width: f64) -> f64 {
         match &self.serves {
-            Serves::AtRadius(_) => f64::INFINITY,
+            Serves::AtRadius(_) | Serves::Line(_) => f64::INFINITY,
             Serves::Built(built) => built.last_radius(half_width),
         }
     }

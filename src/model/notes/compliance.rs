@@ -28,7 +28,7 @@ pub(super) fn outside_range(inputs: &Inputs, solution: &Solution) -> Option<Note
 /// The contact is not small against the tooth.
 pub(super) fn hertz_width(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     const SMALL: f64 = 0.1;
-    let half_width = solution.impact?.hertz_half_width;
+    let half_width = solution.impact?.hertz_half_width();
     let limit = SMALL * inputs.module;
     let message = || {
         format!(

@@ -100,7 +100,7 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
     let duration = solution
         .impact
         .filter(|_| !solution.method.shares_load())?
-        .duration
+        .duration()
         * MICRO;
     let transit = solution.velocity?.transit_time * MICRO;
     let message = || {
@@ -116,7 +116,7 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
 /// Force and duration contradict each other.
 pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     const ROUNDING: f64 = 1e-9;
-    let ratio = solution.impact?.impulse_ratio;
+    let ratio = solution.impact?.impulse_ratio();
     let cause = match solution.method {
         Method::Paper if ratio < 1.0 => "Eq. 32 as printed lacks Hertz's prefactor",
         Method::Paper => {

@@ -141,7 +141,7 @@ pub(super) fn pair_ahead(k: &Context) -> Option<Finding> {
 /// The impact ends before E.
 pub(super) fn within_approach(k: &Context) -> Option<Finding> {
     let (duration, transit) = (
-        k.solution.impact?.duration,
+        k.solution.impact?.duration(),
         k.solution.velocity?.transit_time,
     );
     Finding::new(
@@ -158,7 +158,7 @@ pub(super) fn within_approach(k: &Context) -> Option<Finding> {
 /// Force and duration belong to one impact.
 pub(super) fn possible(k: &Context) -> Option<Finding> {
     const ROUNDING: f64 = 1e-9;
-    let ratio = k.solution.impact?.impulse_ratio;
+    let ratio = k.solution.impact?.impulse_ratio();
     let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
     Finding::new(
         "1 <= κ <= 2: force and duration belong to one impact",
@@ -170,7 +170,7 @@ pub(super) fn possible(k: &Context) -> Option<Finding> {
 /// The printed duration equals Hertz's.
 pub(super) fn printed_shorter(k: &Context) -> Option<Finding> {
     let impact = k.solution.impact?;
-    let (printed, hertz) = (impact.duration_printed, impact.duration_hertz);
+    let (printed, hertz) = (impact.duration_printed(), impact.duration_hertz());
     Finding::new(
         "T_S,32 equals the duration after Hertz",
         format!(
@@ -198,7 +198,7 @@ pub(super) fn coulomb(k: &Context) -> Option<Finding> {
 
 /// D' is before E.
 pub(super) fn before_start(k: &Context) -> Option<Finding> {
-    let printed = k.solution.impact?.duration_printed;
+    let printed = k.solution.impact?.duration_printed();
     let transit = k.solution.velocity?.transit_time;
     Finding::new(
         "T_S,32 <= t_DE: D' is before E",
@@ -225,7 +225,7 @@ pub(super) fn teeth_of_deflection(k: &Context) -> Option<Finding> {
 /// The contact is small compared with the tooth.
 pub(super) fn contact_small(k: &Context) -> Option<Finding> {
     const SMALL: f64 = 0.1;
-    let half_width = k.solution.impact?.hertz_half_width;
+    let half_width = k.solution.impact?.hertz_half_width();
     let limit = SMALL * k.inputs.module;
     Finding::new(
         "the contact is small compared with the tooth: a_H <= m/10",

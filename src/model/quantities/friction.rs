@@ -74,7 +74,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 4,
         equation: "(2/π)F_S·T_S/(M·ΔV_n)",
         stage: Impact,
-        value: |s| Some(s.impact?.impulse_ratio),
+        value: |s| Some(s.impact?.impulse_ratio()),
         meaning: "The ratio of the impulse of a half-sine force, with peak F_S and duration T_S, \
             to the approach momentum M ΔV_n. An elastic impact gives 2, an impact without rebound \
             gives 1. Outside 1 to 2, force and duration contradict each other.",
@@ -105,7 +105,7 @@ struct End {
 impl End {
     fn of(k: &Context) -> Option<End> {
         let (geometry, impact) = (&k.solution.geometry, k.solution.impact?);
-        let (position, time) = (k.solution.position?, impact.duration_printed);
+        let (position, time) = (k.solution.position?, impact.duration_printed());
         let edge = geometry.driven.edge;
         let (tip, distance) = (geometry.driven.tip - edge, geometry.centre_distance);
         let turn = k.inputs.speed * time;

@@ -123,7 +123,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 4,
         equation: "by the method",
         stage: Impact,
-        value: |s| Some(s.impact?.duration),
+        value: |s| Some(s.impact?.duration()),
         meaning: "The duration of the impact by the method of the case.",
         formula: Cases(&[(paper, Text("T_S,32")), (always, Text("T_S,q"))]),
         source: "Method paper: Zhou & Chen 2014, Eq. 32. Method exact: half a period of the \
@@ -147,7 +147,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 4,
         equation: "Eq. 32",
         stage: Impact,
-        value: |s| Some(s.impact?.duration_printed),
+        value: |s| Some(s.impact?.duration_printed()),
         meaning: "The duration of Eq. 32 as printed. Methods paper and exact compute the friction \
             ratio with it, as published.",
         formula: Text("(m_red²/(π² ΔV_n ρ_S E'²))^(1/5)"),
@@ -166,7 +166,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 4,
         equation: "Hertz 1882",
         stage: Impact,
-        value: |s| Some(s.impact?.duration_hertz),
+        value: |s| Some(s.impact?.duration_hertz()),
         meaning: "The duration of the collision of two spheres after Hertz, with the prefactor \
             that Eq. 32 omits.",
         formula: Text("C_H T_S,32"),
@@ -186,7 +186,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 4,
         equation: "π√(Mq/b)",
         stage: Impact,
-        value: |s| Some(s.impact?.duration_spring),
+        value: |s| Some(s.impact?.duration_spring()),
         meaning: "Half a period of the effective mass on the pair compliance. The impact force \
             uses the same mass and compliance.",
         formula: Text("π √(M q_s/b)"),

@@ -127,7 +127,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 5,
         equation: "Eq. 55",
         stage: Impact,
-        value: |s| Some(s.impact?.hertz_half_width),
+        value: |s| Some(s.impact?.hertz_half_width()),
         meaning: "Half the width of the contact area of tip and flank under the impact force.",
         formula: Text("√(4 F_S ρ_S/(π b E'))"),
         source: "Hertz 1882, two cylinders. Zhou & Chen 2014 do not define a in Eq. 55.",

@@ -1,6 +1,6 @@
 //! A solve by one method: the stages in their order.
 
-use std::cell::{Cell, OnceCell};
+use std::cell::Cell;
 
 use twofloat::TwoFloat;
 
@@ -40,21 +40,21 @@ pub(super) fn solve_by_method(
     Solving {
         asked,
         setup: &Setup::of(inputs),
-        precise: OnceCell::new(),
     }
     .run(go_on)
 }
+
+/// The stages that every solve has.
+const BEGUN: Stages = Stages::of(Stage::Deviation).with(Stage::Masses);
 
 /// A solve on its way.
 pub(super) struct Solving<'a> {
     asked: Request<'a>,
     setup: &'a Setup,
-    /// Geometry in double-double arithmetic, where it is called for.
-    precise: OnceCell<Option<Geometry<TwoFloat>>>,
 }
 
 impl<'a> Solving<'a> {
-    /// One that begins with the load and has no other geometry than the one in f64.
+    /// One that begins with the load.
     pub(super) fn from_load(inputs: &'a Inputs, wanted: Stages, setup: &'a Setup) -> Solving<'a> {
         Solving {
             asked: Request {
@@ -64,7 +64,6 @@ impl<'a> Solving<'a> {
                 changed: Cell::default(),
             },
             setup,
-            precise: OnceCell::from(None),
         }
     }
 
@@ -77,7 +76,7 @@ impl<'a> Solving<'a> {
         solution.deviation = deviation.rounded();
         solution.kept.deviation = deviation;
         solution.outcome = outcome(&deviation);
-        solution.stages = Stages::of(Stage::Deviation).with(Stage::Masses);
+        solution.stages = BEGUN;
         solution.ran = Stages::NONE.with(Stage::Load).with(Stage::Deviation);
         solution.position = None;
         solution.velocity = None;
@@ -175,7 +174,7 @@ impl Solving<'_> {
             let bodies = inputs.bodies();
             let masses = self.precise(&geometry)?.map_or_else(
                 || Masses::of(&bodies, &geometry),
-                |pair| Masses::of(&bodies, &pair),
+                |pair| Masses::of(&bodies, pair),
             )?;
             self.asked.note(Stage::Masses, |s| s.kept.masses == masses);
             masses
@@ -193,7 +192,7 @@ impl Solving<'_> {
             method: inputs.method,
             choice: None,
             outcome: outcome(&deviation),
-            stages: Stages::of(Stage::Deviation).with(Stage::Masses),
+            stages: BEGUN,
             ran,
             geometry,
             mesh_force,
@@ -225,17 +224,19 @@ impl Solving<'_> {
         self.asked.note(Stage::Geometry, |_| false);
         let plain = geometry::geometry::<f64>(&self.asked.inputs.shape());
         let precise = self.precise_of(plain.as_ref().ok())?;
-        let _ = self.precise.set(precise);
-        precise.map_or(plain, |precise| Ok(precise.rounded()))
+        let rounded = precise.map(Geometry::rounded);
+        let _ = self.setup.precise.set(precise);
+        rounded.map_or(plain, Ok)
     }
 
     /// Geometry in double-double arithmetic, where it is asked for or small differences call for
     /// it.
-    fn precise(&self, plain: &Geometry) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
-        match self.precise.get() {
-            Some(&known) => Ok(known),
-            None => self.precise_of(Some(plain)),
+    fn precise(&self, plain: &Geometry) -> Result<Option<&Geometry<TwoFloat>>, Refusal> {
+        let known = &self.setup.precise;
+        if known.get().is_none() {
+            let _ = known.set(self.precise_of(Some(plain))?);
         }
+        Ok(known.get().and_then(Option::as_ref))
     }
 
     fn precise_of(&self, plain: Option<&Geometry>) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
@@ -256,12 +257,13 @@ impl Solving<'_> {
             let found = position::position(
                 &self.setup.search,
                 &solution.geometry,
-                precise.as_ref(),
+                precise,
                 self.setup.series(&solution.geometry),
                 &solution.kept.deviation,
             );
-            let position = found.as_ref().ok().copied().flatten();
-            self.asked.note(Stage::Position, |s| s.position == position);
+            self.asked.note(Stage::Position, |s| {
+                s.position == found.as_ref().ok().copied().flatten()
+            });
             found
         };
         solution.stages = solution.stages.with(Stage::Position);
@@ -283,58 +285,64 @@ impl Solving<'_> {
 
     /// The stages from the velocity on, as far as they are wanted and can be computed.
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
-        let (inputs, geometry, tip) = (self.asked.inputs, solution.geometry, &position.contact);
+        let (inputs, tip) = (self.asked.inputs, &position.contact);
         let (setup, strike) = (self.setup, &self.setup.impact);
-        let masses = solution.kept.masses;
+        let Solution {
+            geometry,
+            kept: Kept { masses, .. },
+            stages,
+            ran,
+            ..
+        } = solution;
+        let mut done = Done { stages, ran };
         solution.velocity = self.stage(
-            solution,
+            &mut done,
             Stage::Velocity,
             |s| s.velocity,
             || Ok(velocity::velocity(inputs.driven_speed(), tip)),
         )?;
-        let place = || ContactPlace::at_tip(strike.tip_radius, &geometry, tip);
-        let borne = || setup.teeth(&geometry)?.at(&place());
-        solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
+        let place = ContactPlace::at_tip(strike.tip_radius, geometry, tip);
+        let borne = || setup.teeth(geometry)?.at(&place);
+        solution.compliance = self.stage(&mut done, Stage::Compliance, |s| s.compliance, borne)?;
         let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
             return Ok(());
         };
         let struck = || {
-            let spring = setup.teeth(&geometry)?.spring(&place())?;
+            let spring = setup.teeth(geometry)?.spring(&place)?;
             let elastic = (&teeth, &spring);
-            impact::impact(strike, &geometry, &masses, tip, elastic, &velocity)
+            impact::impact(strike, geometry, masses, tip, elastic, &velocity)
         };
-        let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else {
+        solution.impact = self.stage(&mut done, Stage::Impact, |s| s.impact, struck)?;
+        let Some(impact) = &solution.impact else {
             return Ok(());
         };
-        solution.impact = Some(impact);
         let rubbed = || {
+            let reduced = masses.reduced();
             Ok(friction::friction(
-                strike,
-                &geometry,
-                tip,
-                &velocity,
-                &impact,
-                masses.reduced(),
+                strike, geometry, tip, &velocity, impact, reduced,
             ))
         };
-        solution.friction = self.stage(solution, Stage::Friction, |s| s.friction, rubbed)?;
+        solution.friction = self.stage(&mut done, Stage::Friction, |s| s.friction, rubbed)?;
         solution.band = self.stage(
-            solution,
+            &mut done,
             Stage::Band,
             |s| s.band,
             || Ok(stiffness_spread::band(inputs, impact.force, force)),
         )?;
         let stood = || {
+            let walk = (strike, Spacing::of(inputs));
             Ok(stations::stations(
-                (strike, Spacing::of(inputs)),
-                &geometry,
-                &masses,
+                walk,
+                geometry,
+                masses,
                 position,
                 impact.force,
             ))
         };
         let earlier = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
-        if let Some((stations, withheld)) = self.stage(solution, Stage::Stations, earlier, stood)? {
+        if let Some((stations, withheld)) =
+            self.stage(&mut done, Stage::Stations, earlier, stood)?
+        {
             (solution.stations, solution.stations_withheld) = (stations, withheld);
         }
         Ok(())
@@ -343,7 +351,7 @@ impl Solving<'_> {
     /// A stage's result: the earlier one where it still holds, else a new one where it is wanted.
     fn stage<T: PartialEq>(
         &self,
-        solution: &mut Solution,
+        done: &mut Done<'_>,
         stage: Stage,
         earlier: impl Fn(&Solution) -> Option<T>,
         new: impl FnOnce() -> Result<T, Refusal>,
@@ -352,16 +360,22 @@ impl Solving<'_> {
             return Ok(None);
         }
         if let Some(held) = self.asked.kept(stage).and_then(&earlier) {
-            solution.stages = solution.stages.with(stage);
+            *done.stages = done.stages.with(stage);
             return Ok(Some(held));
         }
         let found = new()?;
         self.asked
             .note(stage, |s| earlier(s).as_ref() == Some(&found));
-        solution.stages = solution.stages.with(stage);
-        solution.ran = solution.ran.with(stage);
+        *done.stages = done.stages.with(stage);
+        *done.ran = done.ran.with(stage);
         Ok(Some(found))
     }
+}
+
+/// The stages that a solution has, and those of them that ran.
+struct Done<'a> {
+    stages: &'a mut Stages,
+    ran: &'a mut Stages,
 }
 
 /// The impact force alone, where there is one.

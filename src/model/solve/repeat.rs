@@ -15,12 +15,17 @@ use crate::model::{Refusal, Solution};
 /// # Errors
 /// Those of [`solve`](super::solve); the solution is then of no use.
 pub fn solve_repeated(
-    before: &mut Inputs,
+    (before, change): (&mut Inputs, Change),
     solution: &mut Solution,
     setup: &mut Option<Setup>,
     inputs: &Inputs,
     wanted: Stages,
 ) -> Option<Result<(), Refusal>> {
+    if let (Change::LoadAlone, Some(setup)) = (change, &setup) {
+        LoadAndDeviation::of(inputs).put(before);
+        debug_assert_eq!(before, inputs);
+        return Some(Solving::from_load(inputs, wanted, setup).repeat(solution));
+    }
     let wanted = wanted.within(inputs.method.stages());
     let has_closed_form =
         Method::CLOSED_FORM.contains(&inputs.method) && Stages::ALL.covers(wanted);
@@ -35,6 +40,24 @@ pub fn solve_repeated(
     }
     let setup = setup.get_or_insert_with(|| Setup::of(inputs));
     Some(Solving::from_load(inputs, wanted, setup).repeat(solution))
+}
+
+/// How the inputs of a solve differ from those of the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// In load and deviations alone.
+    LoadAlone,
+    /// To be found by comparison.
+    Unknown,
+}
+
+/// Whether inputs differ in nothing but load and deviations, so that
+/// [`solve_repeated`] serves.
+#[must_use]
+pub fn differ_in_load_alone(one: &Inputs, other: &Inputs) -> bool {
+    let mut same_load = one.clone();
+    LoadAndDeviation::of(other).put(&mut same_load);
+    same_load == *other
 }
 
 /// What the stages of load and deviation read of the inputs, and no other stage with a closed form.
@@ -123,9 +146,15 @@ mod tests {
             let (mut inputs, mut setup) = (before.clone(), None);
             for edit in edits() {
                 edit(&mut inputs);
-                for wanted in [Stages::of(Stage::Impact), Stages::CLOSED_FORM] {
+                let cases = [Stages::of(Stage::Impact), Stages::CLOSED_FORM]
+                    .into_iter()
+                    .flat_map(|wanted| {
+                        [Change::Unknown, Change::LoadAlone].map(|change| (wanted, change))
+                    });
+                for (wanted, change) in cases {
+                    let before = (&mut before, change);
                     let repeated =
-                        solve_repeated(&mut before, &mut solution, &mut setup, &inputs, wanted);
+                        solve_repeated(before, &mut solution, &mut setup, &inputs, wanted);
                     assert_eq!(repeated, Some(Ok(())), "{inputs:?}");
                     let plain = solve(&inputs, wanted).unwrap();
                     let ran = solution.ran;
@@ -146,7 +175,13 @@ mod tests {
         };
         other.driven.density *= 1.1;
         let wanted = Stages::CLOSED_FORM;
-        let repeated = solve_repeated(&mut before, &mut solution, &mut None, &other, wanted);
+        let repeated = solve_repeated(
+            (&mut before, Change::Unknown),
+            &mut solution,
+            &mut None,
+            &other,
+            wanted,
+        );
         assert_eq!(repeated, None);
         assert_eq!((before, solution), (inputs, kept));
     }

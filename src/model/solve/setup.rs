@@ -3,6 +3,8 @@
 
 use std::cell::OnceCell;
 
+use twofloat::TwoFloat;
+
 use crate::model::compliance::Teeth;
 use crate::model::deviation::{Deflected, LoadedPairs};
 use crate::model::impact::ImpactInputs;
@@ -16,6 +18,8 @@ use crate::model::{Geometry, Refusal};
 pub struct Setup {
     pub(super) search: ContactSearch,
     pub(super) impact: ImpactInputs,
+    /// Geometry in double-double arithmetic, where it is called for.
+    pub(super) precise: OnceCell<Option<Geometry<TwoFloat>>>,
     series: OnceCell<GapSeries>,
     teeth: OnceCell<Result<Teeth, Refusal>>,
     loaded: OnceCell<Result<LoadedPairs, Refusal>>,
@@ -26,6 +30,7 @@ impl Setup {
         Setup {
             search: inputs.contact_search(),
             impact: inputs.impact(),
+            precise: OnceCell::new(),
             series: OnceCell::new(),
             teeth: OnceCell::new(),
             loaded: OnceCell::new(),

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::{Compliance, ToothModel};
+use super::{Compliance, NEWTON_PER_MICRON_MILLIMETRE, StiffnessLine, ToothModel};
 use crate::model::Refusal;
 use crate::model::compliance::ElasticGear;
 use crate::model::explanation::Formula::Text;
@@ -25,7 +25,7 @@ pub const MODEL: ToothModel = ToothModel {
     has_contact: false,
     has_coupling: false,
     steps: STEPS,
-    compliance: Compliance::AtRadius(tooth),
+    compliance: Compliance::Line(tooth),
 };
 
 impl ToothCompliance {
@@ -83,8 +83,6 @@ const STEPS: &[Step] = &[
     },
 ];
 
-const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
-
 /// Tooth numbers that the fit of Eq. 56 covers.
 const TEETH: (u32, u32) = (12, 100);
 /// Greatest profile shift, either way, that the fit of Eq. 56 covers.
@@ -137,7 +135,7 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
     })
 }
 
-/// Compliance of one tooth loaded at a radius, in m²/N.
+/// Stiffness of one tooth over the radius of the load.
 ///
 /// # Formula
 /// ```text
@@ -151,9 +149,9 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
 /// z = 12..100, |x| ≤ 0.6, 20° full-depth steel teeth. Being cubic in z it explodes outside.
 ///
 /// # Errors
-/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; [`Refusal::HeightOutsideFit`] on a
-/// tooth so high that the fit, linear in the height, falls below 0.
-pub fn tooth(gear: &ElasticGear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
+/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; the line itself refuses a tooth so
+/// high that the fit falls below 0.
+pub fn tooth(gear: &ElasticGear, circles: &Circles) -> Result<StiffnessLine, Refusal> {
     let (gear, (least, most)) = (&gear.rack, TEETH);
     if !(least..=most).contains(&gear.teeth) {
         return Err(Refusal::TeethOutsideFit {
@@ -168,21 +166,24 @@ pub fn tooth(gear: &ElasticGear, circles: &Circles, radius: f64) -> Result<f64, 
             limit: SHIFT,
         });
     }
-    let [a0, a1, a2, a3] = coefficients(gear.teeth);
-    let height = (radius - circles.reference) / ((1.0 + shift) * gear.module);
-    let stiffness = NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift + (a2 + a3 * shift) * height);
-    if stiffness > 0.0 {
-        Ok(1.0 / stiffness)
-    } else {
-        Err(Refusal::HeightOutsideFit { height })
-    }
+    let [at_reference, per_height] = line(gear.teeth, shift);
+    Ok(StiffnessLine {
+        at_reference,
+        per_height,
+        reference: circles.reference,
+        height: (1.0 + shift) * gear.module,
+    })
 }
 
 /// Offset and slope of the fit over the height, in Pa.
 fn fit(gear: &Gear) -> [f64; 2] {
-    let shift = gear.profile_shift;
-    let [a0, a1, a2, a3] = coefficients(gear.teeth);
-    [a0 + a1 * shift, a2 + a3 * shift].map(|part| NEWTON_PER_MICRON_MILLIMETRE * part)
+    line(gear.teeth, gear.profile_shift).map(|part| NEWTON_PER_MICRON_MILLIMETRE * part)
+}
+
+/// Offset and slope of the fit over the height, in N/(µm mm).
+fn line(teeth: u32, shift: f64) -> [f64; 2] {
+    let [a0, a1, a2, a3] = coefficients(teeth);
+    [a0 + a1 * shift, a2 + a3 * shift]
 }
 
 /// The coefficients A_0 to A_3 of the fit, in N/(µm mm).
@@ -208,8 +209,9 @@ mod tests {
         let inputs = standard_pair(59, 15, 5e-3);
         let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
         let gear = inputs.elasticity().driver;
-        assert!(tooth(&gear, &circles, circles.tip).is_ok());
-        let high = tooth(&gear, &circles, circles.reference + 5.0 * inputs.module);
+        let line = tooth(&gear, &circles).unwrap();
+        assert!(line.compliance(circles.tip).is_ok());
+        let high = line.compliance(circles.reference + 5.0 * inputs.module);
         assert!(
             matches!(high, Err(Refusal::HeightOutsideFit { .. })),
             "{high:?}"

@@ -152,7 +152,7 @@ fn points(picture: &Picture) -> Vec<Named> {
     let on_way = |angle: f64| tip_point(geometry, &tip_at(geometry, angle));
     let turn = solution
         .impact
-        .map(|impact| inputs.driven_speed() * impact.duration)
+        .map(|impact| inputs.driven_speed() * impact.duration())
         .filter(|_| !shares_load(solution));
     if let Some(contact) = contact {
         add("D", on_way(contact));

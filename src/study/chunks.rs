@@ -1,0 +1,42 @@
+//! The points of a study divided into chunks, the work that a thread takes at once.
+
+use std::ops::Range;
+
+/// The most points of a chunk.
+const LONGEST: usize = 4096;
+
+/// A chunk is this part of a thread's share of the points that are left, so that the last chunks
+/// are short and no thread waits long for another.
+const PARTS_OF_SHARE: usize = 8;
+
+/// The chunks of a range for so many threads, in order.
+pub(super) fn chunks(range: &Range<usize>, jobs: usize) -> Vec<Range<usize>> {
+    let after = |first: usize| {
+        let part = (range.end - first) / (jobs * PARTS_OF_SHARE);
+        first..(first + part.clamp(1, LONGEST)).min(range.end)
+    };
+    let is_left = |chunk: &Range<usize>| !chunk.is_empty();
+    std::iter::successors(Some(after(range.start)), |chunk| Some(after(chunk.end)))
+        .take_while(is_left)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chunks_cover_the_range_once_and_end_with_short_ones() {
+        for (range, jobs) in [(0..0, 2), (7..8, 4), (3..100_003, 2), (0..1_000, 64)] {
+            let found = chunks(&range, jobs);
+            let ends = found.iter().map(|chunk| chunk.end);
+            let firsts: Vec<usize> = found.iter().map(|chunk| chunk.start).collect();
+            let expected: Vec<usize> = std::iter::once(range.start).chain(ends).collect();
+            assert_eq!(firsts, expected[..found.len()]);
+            assert_eq!(expected.last(), Some(&range.end));
+            let is_short = |chunk: &Range<usize>| chunk.len() <= 1;
+            assert!(found.last().is_none_or(is_short), "{found:?}");
+            assert!(found.iter().all(|chunk| chunk.len() <= LONGEST));
+        }
+    }
+}
