@@ -1,7 +1,9 @@
 //! Variants of a case, and cases side by side, from a script's side.
 
 use crate::program::run;
+use clap::CommandFactory;
 use std::fs;
+use tipstrike::cli::Arguments;
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -162,21 +164,39 @@ fn an_input_without_a_symbol_has_its_label_where_labels_have_no_room() {
 fn every_command_that_takes_a_case_takes_a_variant() {
     let (_folder, case) = case();
     let page = format!("{case}.md");
-    let vary = ["--vary", "deviations.base_pitch=0..20 um"];
-    for arguments in [
-        &["solve"][..],
-        &["check"],
-        &["plot"],
-        &["stiffness", "--points", "3"],
-        &["sweep", vary[0], vary[1], "--points", "3"],
-        &["seek", vary[0], vary[1], "--until", "impact_force<=1 kN"],
-        &["report", "--out", &page],
-        &["trade", "--within", "5%"],
-    ] {
-        let rest = [&arguments[1..], &["--variant", "releived"]].concat();
-        let (code, _, errors) = run(&[&[arguments[0], &case], &rest[..]].concat());
-        assert_eq!(code, 2, "{arguments:?}: {errors}");
-        assert!(errors.contains("did you mean relieved?"), "{errors}");
+    let vary = "deviations.base_pitch=0..20 um";
+    // What a command needs beside its case.
+    let needed: &[(&str, &[&str])] = &[
+        ("seek", &["--vary", vary, "--until", "impact_force<=1 kN"]),
+        ("sweep", &["--vary", vary, "--points", "3"]),
+        ("report", &["--out", &page]),
+    ];
+    let all = Arguments::command();
+    let takes = |command: &&clap::Command| {
+        let mut arguments = command.get_arguments();
+        arguments.any(|argument| argument.get_long() == Some("variant"))
+    };
+    let names: Vec<&str> = all
+        .get_subcommands()
+        .filter(takes)
+        .map(clap::Command::get_name)
+        .collect();
+    assert!(names.len() >= 11, "{names:?}");
+    for name in names {
+        let before: &[&str] = if name == "explain" {
+            &["impact_force"]
+        } else {
+            &[]
+        };
+        let after = needed.iter().find(|(own, _)| *own == name);
+        let after = after.map_or(&[][..], |(_, arguments)| arguments);
+        let wrong = ["--variant", "releived"];
+        let (code, _, errors) = run(&[&[name], before, &[case.as_str()], after, &wrong].concat());
+        assert_eq!(code, 2, "{name}: {errors}");
+        assert!(
+            errors.contains("did you mean relieved?"),
+            "{name}: {errors}"
+        );
     }
     let (_, own, _) = run(&["explain", "impact_force", &case]);
     let (code, varied, _) = run(&["explain", "impact_force", &case, "--variant", "slow"]);

@@ -1,7 +1,7 @@
 //! What a result, a verdict and a hint mean: one thing in a method, and where a method means
 //! another it says so.
+use crate::program::{output as run, run as texts_of};
 use serde_json::Value;
-use std::process::{Command, Output, Stdio};
 use tipstrike::case::fields::{Kind, index_of};
 use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, partial_relevance, relevance};
 use tipstrike::model::{self, Quantity, Solution};
@@ -10,26 +10,15 @@ use tipstrike::report::{shown, value};
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 const METHODS: [&str; 5] = ["paper", "exact", "static", "dynamic", "auto"];
 
-fn run(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
-    command
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
 fn stdout_of(arguments: &[&str]) -> String {
-    String::from_utf8(run(arguments).stdout).unwrap()
+    texts_of(arguments).1
 }
 
 /// The one line with which a command refuses, and its exit code.
 fn refused(arguments: &[&str]) -> (i32, String) {
-    let output = run(arguments);
-    let line = String::from_utf8(output.stderr).unwrap();
+    let (code, _, line) = texts_of(arguments);
     assert_eq!(line.lines().count(), 1, "{line}");
-    (output.status.code().unwrap(), line.trim_end().to_owned())
+    (code, line.trim_end().to_owned())
 }
 
 /// The text of a solve of Table 1 with reliefs, without its line ends.

@@ -2,18 +2,36 @@
 
 use std::process::{Command, Output, Stdio};
 
-/// Runs it; its exit code, standard output and standard error.
-pub(crate) fn run(arguments: &[&str]) -> (i32, String, String) {
-    let Output {
-        status,
-        stdout,
-        stderr,
-    } = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+/// The program with arguments, in the folder of the sources.
+pub(crate) fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
+    command
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
+        .stdin(Stdio::null());
+    command
+}
+
+/// Runs it; its exit code and its streams.
+pub(crate) fn output(arguments: &[&str]) -> Output {
+    program(arguments).output().unwrap()
+}
+
+/// Runs it; its exit code, standard output and standard error.
+pub(crate) fn run(arguments: &[&str]) -> (i32, String, String) {
+    texts(output(arguments))
+}
+
+/// The exit code, standard output and standard error of a run.
+pub(crate) fn texts(output: Output) -> (i32, String, String) {
     let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code().unwrap(), text(stdout), text(stderr))
+    let code = output.status.code().unwrap();
+    (code, text(output.stdout), text(output.stderr))
+}
+
+/// Standard output of a run that must succeed in silence.
+pub(crate) fn stdout_of(arguments: &[&str]) -> String {
+    let (code, text, errors) = run(arguments);
+    assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
+    text
 }

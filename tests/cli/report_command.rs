@@ -2,33 +2,13 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
+use crate::program::{output as run, stdout_of};
 use roxmltree::Document;
 use tipstrike::report::graphs::GRAPHS;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 const FZG: &str = "cases/fzg-type-c.toml";
-
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .unwrap()
-}
-
-/// Standard output of a run that succeeds in silence.
-fn stdout_of(arguments: &[&str]) -> String {
-    let output = run(arguments);
-    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(
-        (output.status.code(), errors.as_str()),
-        (Some(0), ""),
-        "{arguments:?}"
-    );
-    String::from_utf8(output.stdout).unwrap()
-}
 
 /// The file of a report of these cases.
 fn report(cases: &[&str], ending: &str) -> String {

@@ -1,6 +1,5 @@
 //! The command `stiffness`: its text, CSV and JSON, and gears without values.
-use std::process::{Command, Output, Stdio};
-
+use crate::program;
 use serde_json::Value;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
@@ -11,23 +10,8 @@ const HEADER: &str = "gear,radius [m],kuang_yang [m2/N],beam [m2/N],finite_eleme
 /// Columns of the finite-element values.
 const FIELD_COLUMNS: [usize; 4] = [4, 6, 7, 8];
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-        .arg("stiffness")
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
-fn printed(output: &Output) -> (i32, String, String) {
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    program::run(&[&["stiffness"], arguments].concat())
 }
 
 /// The rows of the CSV without its header, and the lines on standard error.
@@ -37,7 +21,7 @@ fn csv(arguments: &[&str]) -> (Vec<Vec<String>>, String) {
         .copied()
         .chain(["--format", "csv"])
         .collect();
-    let (code, text, errors) = printed(&run(&all));
+    let (code, text, errors) = run(&all);
     assert_eq!(code, 0, "{errors}");
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some(HEADER));
@@ -47,7 +31,7 @@ fn csv(arguments: &[&str]) -> (Vec<Vec<String>>, String) {
 
 #[test]
 fn text_of_table_1_fits_80_columns() {
-    let (code, text, errors) = printed(&run(&[TABLE_1]));
+    let (code, text, errors) = run(&[TABLE_1]);
     assert_eq!((code, errors.as_str()), (0, ""));
     let wide = text.lines().find(|line| line.chars().count() > 80);
     assert_eq!(wide, None);
@@ -82,7 +66,7 @@ fn csv_has_one_row_per_gear_and_radius_from_the_form_circle_to_the_tip() {
 
 #[test]
 fn json_agrees_with_the_csv() {
-    let (code, text, errors) = printed(&run(&[TABLE_1, "--points", "3", "--format", "json"]));
+    let (code, text, errors) = run(&[TABLE_1, "--points", "3", "--format", "json"]);
     assert_eq!((code, errors.as_str()), (0, ""));
     let found: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(found["case"], TABLE_1);
@@ -125,7 +109,7 @@ fn a_gear_outside_the_fit_has_empty_cells_and_the_other_gear_has_values() {
         rows.iter()
             .all(|row| !row[3].is_empty() && !row[4].is_empty())
     );
-    let (_, text, _) = printed(&run(&arguments));
+    let (_, text, _) = run(&arguments);
     assert!(
         text.contains("no value by kuang-yang: covers z 12..100"),
         "{text}"
@@ -148,7 +132,7 @@ fn a_gear_without_a_field_is_named_and_keeps_the_values_of_the_models() {
                 .all(|&column| row[column].is_empty() == is_driver)
         );
     }
-    let (code, text, errors) = printed(&run(&arguments));
+    let (code, text, errors) = run(&arguments);
     assert_eq!((code, errors.as_str()), (0, ""));
     assert!(
         text.contains("  - no finite-element values: Poisson's ratio is 0.495"),
@@ -159,11 +143,11 @@ fn a_gear_without_a_field_is_named_and_keeps_the_values_of_the_models() {
 #[test]
 fn a_wrong_number_of_points_and_a_refused_case_have_exit_codes() {
     for points in ["1", "-3", "many", "10001"] {
-        let (code, text, errors) = printed(&run(&[TABLE_1, "--points", points]));
+        let (code, text, errors) = run(&[TABLE_1, "--points", points]);
         assert_eq!((code, text.as_str()), (2, ""), "{points}");
         assert!(errors.contains("from 2 to 10000"), "{errors}");
     }
-    let bore = printed(&run(&[TABLE_1, "--set", "driver.bore_radius=46 mm"]));
+    let bore = run(&[TABLE_1, "--set", "driver.bore_radius=46 mm"]);
     assert_eq!((bore.0, bore.1.as_str()), (3, ""));
     assert!(bore.2.contains("driver.bore_radius"), "{}", bore.2);
 }

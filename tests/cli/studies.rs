@@ -2,38 +2,13 @@
 
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
-use std::process::{Command, Output, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
+use crate::program::{program as command, run as printed, stdout_of};
 use serde_json::Value;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
-
-fn command(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
-    command
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdin(Stdio::null());
-    command
-}
-
-fn printed(arguments: &[&str]) -> (i32, String, String) {
-    let Output {
-        status,
-        stdout,
-        stderr,
-    } = command(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code().unwrap(), text(stdout), text(stderr))
-}
-
-/// Standard output of a study that must succeed in silence.
-fn stdout_of(arguments: &[&str]) -> String {
-    let (code, text, errors) = printed(arguments);
-    assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
-    text
-}
 
 fn lines(text: &str) -> Vec<Value> {
     text.lines()

@@ -9,7 +9,7 @@ use tipstrike::case::EXAMPLES;
 use tipstrike::case::units::{Dimension, System, parse};
 use tipstrike::model::inputs::{Gear, Method, ReliefShape};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, auto, solve};
-use tipstrike::report::relief::relief as sentence;
+use tipstrike::report::relief::relief as relief_words;
 
 const METHODS: [Method; 4] = [
     Method::Paper,
@@ -240,7 +240,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
                 continue;
             };
             for system in System::ALL {
-                let Some(words) = sentence(&solution, &[], system) else {
+                let Some(words) = relief_words(&solution, &[], system) else {
                     continue;
                 };
                 let read = |text: &str| {

@@ -164,8 +164,8 @@ fn assert_json(report: &Report) {
     let value: Value = serde_json::from_str(&line).expect("JSON parses again");
     assert_eq!(value["title"], report.title());
     assert!(!line.contains("null"));
-    let message = value["quantities"].as_object().expect("an object");
-    assert_eq!(message.len(), report.values().count());
+    let quantities = value["quantities"].as_object().expect("an object");
+    assert_eq!(quantities.len(), report.values().count());
     for (quantity, value) in report.values() {
         let start = format!("\"{}\":{{\"value\":", quantity.key);
         let number = line

@@ -163,6 +163,14 @@ impl Desk {
         }
     }
 
+    /// The effects of a key, which are not performed.
+    pub(crate) fn effects(&mut self, key: &str) -> Vec<Effect> {
+        let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
+        let event = named(key).unwrap_or_else(letter);
+        let action = actions::of_key(event, self.app.place()).expect("an action");
+        update(&mut self.app, action)
+    }
+
     /// Change the state and do at once what it asks for.
     pub(crate) fn act(&mut self, action: Action) {
         let mut actions = vec![action];

@@ -106,7 +106,7 @@ fn the_case_under_the_cursor_shows_its_verdict() {
         (
             "a-str",
             &[
-                "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N.",
+                "Corner contact: θ_1 = 1.366 deg before E; impact force 2191.0 N.",
                 "ok impact_force 2191.0 N <= 2500 N",
             ],
         ),
@@ -129,7 +129,7 @@ fn the_case_under_the_cursor_shows_its_verdict() {
             "e-new",
             &[
                 "Newer format: opens read-only.",
-                "Corner contact: θ_1 = 1.36628 deg",
+                "Corner contact: θ_1 = 1.366 deg",
             ],
         ),
         ("f-ref", &["Not solved: ", "unknown impact_force"]),
@@ -278,7 +278,7 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
     for start in ["z1", "z2", "z3", "z4"] {
         desk.keys(&["Ctrl-O", start]);
         assert!(
-            preview(&desk).contains("Corner contact: θ_1 = 1.36628 deg"),
+            preview(&desk).contains("Corner contact: θ_1 = 1.366 deg"),
             "{start}\n{}",
             desk.screen()
         );
@@ -412,7 +412,7 @@ fn while_a_folder_is_read_keys_are_taken_and_a_late_answer_is_dropped() {
 
 #[test]
 fn the_threads_answer_and_the_latest_wish_counts() {
-    let (sender, expected) = channel();
+    let (sender, replies) = channel();
     let mut workers =
         Workers::start(Arc::new(move |action| sender.send(action).is_ok())).expect("a thread");
     let folder = tempfile::tempdir().expect("a folder");
@@ -424,7 +424,7 @@ fn the_threads_answer_and_the_latest_wish_counts() {
     }
     let mut last = String::new();
     while last != "three/" {
-        let Ok(Action::Listed(listing)) = expected.recv_timeout(Duration::from_secs(20)) else {
+        let Ok(Action::Listed(listing)) = replies.recv_timeout(Duration::from_secs(20)) else {
             panic!("an answer comes")
         };
         assert!(listing.entries.is_ok());
@@ -434,7 +434,7 @@ fn the_threads_answer_and_the_latest_wish_counts() {
         .job(Job::Examples(tipstrike::case::units::System::Metric))
         .expect("a thread");
     assert!(
-        matches!(expected.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8)
+        matches!(replies.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8)
     );
 }
 

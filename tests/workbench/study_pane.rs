@@ -2,14 +2,13 @@
 //! variants kept from the edits.
 use crate::harness;
 
-use crossterm::event::KeyCode;
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use insta::assert_snapshot;
 use ratatui::layout::{Position, Size};
 use tipstrike::case::Document;
 use tipstrike::case::fields::index_of;
 use tipstrike::model::inputs::Method;
-use tipstrike::tui::testing::actions::{self, Action, Effect};
+use tipstrike::tui::testing::actions::{Action, Effect};
 use tipstrike::tui::testing::commands::Command;
 use tipstrike::tui::testing::jobs::Job;
 use tipstrike::tui::testing::study::{End, Found, Question, StudyPart, StudyRequest};
@@ -23,14 +22,6 @@ fn study(size: Size, key: &str) -> Desk {
     let mut desk = Desk::on(size, "case.toml", TABLE_1);
     desk.go_to(key).keys(&["Esc", "6", "z"]);
     desk
-}
-
-/// The effects of a key, not performed.
-fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
-    let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
-    let event = harness::named(key).unwrap_or_else(letter);
-    let action = actions::of_key(event, desk.app.place()).expect("an action");
-    update(&mut desk.app, action)
 }
 
 fn written(desk: &Desk, key: &str) -> String {
@@ -150,7 +141,7 @@ fn the_tolerance_fills_its_page_and_needs_distributions() {
 fn escape_stops_the_study_and_its_results_stay() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "z"]);
-    let effects = asked(&mut desk, "d");
+    let effects = desk.effects("d");
     let Some(Effect::Study(request)) = effects
         .into_iter()
         .find(|effect| matches!(effect, Effect::Study(_)))
@@ -169,7 +160,7 @@ fn escape_stops_the_study_and_its_results_stay() {
         "{}",
         desk.screen()
     );
-    let effects = asked(&mut desk, "Esc");
+    let effects = desk.effects("Esc");
     assert!(
         effects
             .iter()
@@ -253,7 +244,7 @@ fn variants_stand_beside_the_case_with_their_differences() {
         );
         assert_snapshot!(format!("variants_{name}"), desk.screen());
         assert!(
-            !desk.shows("% N") && !desk.shows("um um") && desk.shows("variants against"),
+            !desk.shows("% N") && !desk.shows("um um") && desk.shows(", variants"),
             "{}",
             desk.screen()
         );
@@ -283,7 +274,7 @@ fn a_study_left_by_another_tab_is_requested_again() {
     desk.keys(&["Ctrl-N"]);
     desk.act(Action::Do(Command::Tab(0)));
     desk.keys(&["Esc", "Esc"]);
-    let first = requested(asked(&mut desk, "6")).expect("a study of the first tab");
+    let first = requested(desk.effects("6")).expect("a study of the first tab");
     let answers = update(&mut desk.app, Action::Do(Command::Tab(1)));
     assert!(
         answers
@@ -321,7 +312,7 @@ fn the_labels_of_a_map_are_round_and_whole() {
 fn a_tolerance_that_fails_shows_the_reason() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "z"]);
-    let request = requested(asked(&mut desk, "d")).expect("a study");
+    let request = requested(desk.effects("d")).expect("a study");
     let part = StudyPart {
         serial: request.serial,
         found: Found::Nothing,
@@ -339,12 +330,12 @@ fn escape_in_a_field_leaves_the_field_while_a_study_runs() {
     desk.go_to("operation.speed")
         .keys(&["Esc", "6", "1", "Enter"]);
     assert!(desk.app.has_line());
-    assert!(requested(asked(&mut desk, "3")).is_some());
+    assert!(requested(desk.effects("3")).is_some());
     // The digit is taken back, then the field is left.
-    asked(&mut desk, "5");
-    asked(&mut desk, "Esc");
+    desk.effects("5");
+    desk.effects("Esc");
     assert!(!desk.app.has_line());
-    let effects = asked(&mut desk, "Esc");
+    let effects = desk.effects("Esc");
     let stops = |effect: &Effect| matches!(effect, Effect::CancelStudy);
     assert!(!effects.iter().any(stops));
 }
@@ -419,8 +410,8 @@ fn variants_lost_to_another_tab_are_requested_again() {
         effects.iter().filter(of).count()
     };
     desk.keys(&["Esc", "2"]);
-    assert_eq!(requests(&asked(&mut desk, "v")), 1);
-    assert_eq!(requests(&asked(&mut desk, "j")), 0, "one is enough");
+    assert_eq!(requests(&desk.effects("v")), 1);
+    assert_eq!(requests(&desk.effects("j")), 0, "one is enough");
     let path = desk.write("other.toml", &format!("{TABLE_1}{variants}"));
     let loaded = Document::read(&path).expect("a good case");
     let effects = update(&mut desk.app, Action::Loaded(path, Ok(Box::new(loaded))));

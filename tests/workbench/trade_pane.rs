@@ -1,7 +1,6 @@
 //! The pane of error against time: measuring, stopping, walking along the settings, taking one.
 use crate::harness;
 
-use crossterm::event::KeyCode;
 use harness::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
@@ -22,15 +21,6 @@ fn measured(size: Size) -> Desk {
 
 fn own(desk: &Desk) -> Setting {
     Setting::of(&desk.app.tab.case.inputs().expect("a valid form"))
-}
-
-/// The effects of a key, not performed.
-fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
-    let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
-    let event = harness::named(key).unwrap_or_else(letter);
-    let action =
-        tipstrike::tui::testing::actions::of_key(event, desk.app.place()).expect("an action");
-    update(&mut desk.app, action)
 }
 
 #[test]
@@ -154,7 +144,7 @@ fn another_case_makes_the_measurement_one_of_before() {
 fn esc_stops_a_measurement_and_what_was_measured_stays() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    let effects = asked(&mut desk, "m");
+    let effects = desk.effects("m");
     let serial = match &effects[..] {
         [Effect::Measure(measuring)] => {
             let Measuring { serial, .. } = **measuring;
@@ -169,7 +159,7 @@ fn esc_stops_a_measurement_and_what_was_measured_stays() {
             part: 0.0
         })
     );
-    assert!(matches!(asked(&mut desk, "Esc")[..], [Effect::CancelWork]));
+    assert!(matches!(desk.effects("Esc")[..], [Effect::CancelWork]));
     update(
         &mut desk.app,
         Action::Measured(Box::new(Measured {
@@ -185,20 +175,20 @@ fn esc_stops_a_measurement_and_what_was_measured_stays() {
 fn a_measurement_out_of_sight_stops() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
-    assert!(matches!(asked(&mut desk, "m")[..], [Effect::Measure(_)]));
+    assert!(matches!(desk.effects("m")[..], [Effect::Measure(_)]));
     assert!(
-        asked(&mut desk, "2")
+        desk.effects("2")
             .iter()
             .all(|effect| !matches!(effect, Effect::CancelWork)),
         "it is in sight"
     );
     assert!(
-        matches!(asked(&mut desk, "3")[..], [Effect::CancelWork]),
+        matches!(desk.effects("3")[..], [Effect::CancelWork]),
         "the chart takes its place"
     );
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
-    asked(&mut desk, "m");
+    desk.effects("m");
     let tiny = ratatui::layout::Size::new(20, 5);
     let effects = update(&mut desk.app, Action::Resize(tiny));
     assert!(
@@ -211,8 +201,8 @@ fn a_measurement_out_of_sight_stops() {
 fn what_a_later_measurement_overtook_changes_nothing() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    let first = asked(&mut desk, "m");
-    let second = asked(&mut desk, "m");
+    let first = desk.effects("m");
+    let second = desk.effects("m");
     let serials = [&first, &second].map(|effects| match &effects[..] {
         [Effect::Measure(measuring)] => measuring.serial,
         other => panic!("{other:?}"),
@@ -238,7 +228,7 @@ fn what_a_later_measurement_overtook_changes_nothing() {
 fn a_measurement_ends_although_its_case_was_closed() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Alt-T", "Esc", "5"]);
-    let serial = match &asked(&mut desk, "m")[..] {
+    let serial = match &desk.effects("m")[..] {
         [Effect::Measure(measuring)] => measuring.serial,
         other => panic!("{other:?}"),
     };
@@ -268,7 +258,7 @@ fn an_invalid_form_is_not_measured() {
     let mut desk = Desk::new(LARGE);
     desk.fill("pair.module", "x");
     desk.keys(&["Esc", "5"]);
-    assert!(asked(&mut desk, "m").is_empty());
+    assert!(desk.effects("m").is_empty());
     assert!(desk.shows("the form is not valid"));
 }
 
