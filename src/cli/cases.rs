@@ -9,6 +9,7 @@ use crate::case::rexs::{self, Imported};
 use crate::case::{Case, Document, Problem};
 use crate::model::{Inputs, Refusal};
 use crate::report::compare::Refused;
+use crate::report::pictures::Unsolved;
 use std::path::Path;
 
 /// A case that can be solved.
@@ -22,6 +23,15 @@ pub(super) struct Opened {
 }
 
 impl Opened {
+    /// The case, to be solved for a report or a picture.
+    pub(super) fn unsolved(&self) -> Unsolved<'_> {
+        Unsolved {
+            name: &self.name,
+            case: &self.document.case,
+            inputs: &self.inputs,
+        }
+    }
+
     /// Say why the model refuses the case, at the field where the fix begins.
     pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
         let problem = Problem::from(refusal).at_given(&self.document.case);

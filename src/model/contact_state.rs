@@ -79,6 +79,14 @@ pub fn first_contact(solution: &Solution) -> Option<f64> {
     )
 }
 
+/// The driver's angle before E at the first contact, in rad, by the solution's method; `None` where
+/// no tooth strikes.
+#[must_use]
+pub fn first_contact_of_driver(solution: &Solution) -> Option<f64> {
+    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
+    first_contact(solution).map(|angle| angle * ratio)
+}
+
 /// Whether the solution tells how the pairs share the load.
 #[must_use]
 pub fn shares_load(solution: &Solution) -> bool {

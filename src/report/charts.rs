@@ -1,7 +1,7 @@
 //! The charts of solved cases as pictures.
 
 use super::Report;
-use super::graphs::{GRAPHS, Graph};
+use super::graphs::Graph;
 use super::stations::{Column, Row, rows};
 use super::svg::{Chart, Kind, Labelled, Series, chart};
 use crate::case::units;
@@ -9,29 +9,29 @@ use crate::model::compliance::model_of;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Outcome, Refusal, Solution, contact_state};
+use crate::study::speeds::SpeedCurve;
 use crate::study::stiffness::{PATH_POINTS, compare_path};
 
 /// A longer interval between stations, in requested intervals, is a gap in the curve.
 const LEFT_OUT: f64 = 1.5;
 
-/// The curve of one case in a chart, by a name in the legend.
+/// A solved case, by a name in the legend.
 #[derive(Debug, Clone, Copy)]
-pub struct Drawn<'a> {
-    /// The name of the case.
+pub struct SolvedCase<'a> {
+    /// The name of the case; empty for a single case.
     pub name: &'a str,
     /// The solve by the case's own method and, for charts that this method lacks, by another.
     pub reports: &'a [Report],
+    /// The dynamic factor over speed, where it is known.
+    pub speeds: Option<&'a SpeedCurve>,
 }
 
-/// The chart of that key.
-#[must_use]
-pub fn find(key: &str) -> Option<&'static Graph> {
-    GRAPHS.iter().find(|graph| graph.key == key)
-}
+/// A point of a curve: the driver's roll angle after E in deg, and the value.
+pub type Point = (f64, f64);
 
 /// The chart as a picture; none where no case has a curve in it.
 #[must_use]
-pub fn picture(graph: &Graph, cases: &[Drawn]) -> Option<String> {
+pub fn picture(graph: &Graph, cases: &[SolvedCase]) -> Option<String> {
     if let Some(column) = graph.by_model {
         return stiffness(graph, column, cases);
     }
@@ -69,29 +69,22 @@ pub fn picture(graph: &Graph, cases: &[Drawn]) -> Option<String> {
     }))
 }
 
-/// Why the chart of that key has no curve for a case, with the fix.
-#[must_use]
-pub fn no_curve(key: &str, reports: &[Report]) -> String {
-    let reason = reports.first().map_or_else(
-        || "no case is solved".to_owned(),
-        |report| absence(key, report, reports),
-    );
-    format!("the chart {key} has no curve: {reason}: choose another chart")
-}
-
-fn absence(key: &str, own: &Report, reports: &[Report]) -> String {
-    let graph = find(key);
-    if graph.is_some_and(|graph| graph.by_model.is_some()) {
-        return match compare_path(&own.inputs, PATH_POINTS) {
+/// Why a chart has no curve for a case.
+pub(super) fn absence(graph: &Graph, reports: &[Report]) -> String {
+    let has = |method: Method| graph.column(method).is_some();
+    match reports.first().filter(|_| graph.by_model.is_some()) {
+        Some(own) => match compare_path(&own.inputs, PATH_POINTS) {
             Err(refusal) => refusal.to_string(),
             Ok(_) => "no compliance model covers the pair".to_owned(),
-        };
+        },
+        None => absent_of_methods(has, reports),
     }
-    let has = |method: Method| {
-        graph.map_or_else(
-            || method.shares_load(),
-            |graph| graph.column(method).is_some(),
-        )
+}
+
+/// Why a case has no values that some methods have.
+pub(super) fn absent_of_methods(has: impl Fn(Method) -> bool, reports: &[Report]) -> String {
+    let Some(own) = reports.first() else {
+        return "no case is solved".to_owned();
     };
     let solved = reports.iter().find(|report| has(report.solution.method));
     match solved {
@@ -107,7 +100,7 @@ fn absence(key: &str, own: &Report, reports: &[Report]) -> String {
 }
 
 /// The stiffness of the mesh by every model for one case, by the model of each for several.
-fn stiffness(graph: &Graph, column: &Column, cases: &[Drawn]) -> Option<String> {
+fn stiffness(graph: &Graph, column: &Column, cases: &[SolvedCase]) -> Option<String> {
     let factor = units::factor(column.shown).unwrap_or(1.0);
     let mut series = Vec::new();
     for case in cases {
@@ -164,7 +157,7 @@ pub fn stiffness_name(model: ToothCompliance, own: ToothCompliance) -> String {
     format!("{}{field}{case}", model.name())
 }
 
-fn label(case: &Drawn, report: &Report) -> String {
+fn label(case: &SolvedCase, report: &Report) -> String {
     let method = report.solution.method.name();
     if case.name.is_empty() {
         format!("method {method}")
@@ -182,23 +175,22 @@ fn shown_unit(unit: &'static str) -> String {
 
 /// E, and the first contact D.
 fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
-    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
-    let contact = contact_state::first_contact(solution).map(|angle| angle * ratio);
+    let contact = contact_state::first_contact_of_driver(solution);
     let contact = contact.filter(|angle| *angle > 0.0);
     let contact = contact.map(|angle| (-angle.to_degrees(), "D"));
     contact.into_iter().chain([(0.0, "E")]).collect()
 }
 
-fn curve(graph: &Graph, report: &Report) -> Option<Vec<Vec<(f64, f64)>>> {
+fn curve(graph: &Graph, report: &Report) -> Option<Vec<Vec<Point>>> {
     let column = graph.column(report.solution.method)?;
-    pieces(report, column.shown, |row| column.of(row))
+    lines(report, column.shown, |row| column.of(row))
 }
 
 fn bound(graph: &Graph, report: &Report) -> Option<Series> {
     let bound = graph.bound?;
     let solution = &report.solution;
     let column = graph.column(solution.method)?;
-    let pieces = pieces(report, column.shown, |row| (bound.value)(solution, row))?;
+    let pieces = lines(report, column.shown, |row| (bound.value)(solution, row))?;
     Some(Series {
         name: bound.symbols[usize::from(solution.method.shares_load())].to_owned(),
         pieces,
@@ -206,42 +198,55 @@ fn bound(graph: &Graph, report: &Report) -> Option<Series> {
     })
 }
 
-/// The curve in the unit, split at missing stations; none without a line.
-fn pieces(
+/// The pieces of a curve that are lines; none without one.
+fn lines(
     report: &Report,
+    unit: &'static str,
+    value: impl Fn(Row) -> Option<f64>,
+) -> Option<Vec<Vec<Point>>> {
+    let mut lines = curve_of(&report.inputs, &report.solution, unit, value);
+    lines.retain(|piece| piece.len() > 1);
+    (!lines.is_empty()).then_some(lines)
+}
+
+/// The curve of a value at the stations in a unit, in pieces.
+pub fn curve_of(
+    inputs: &Inputs,
+    solution: &Solution,
     unit: &str,
     value: impl Fn(Row) -> Option<f64>,
-) -> Option<Vec<Vec<(f64, f64)>>> {
+) -> Vec<Vec<Point>> {
     let factor = units::factor(unit).unwrap_or(1.0);
-    let longest = longest_interval(&report.inputs, &report.solution);
-    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
-    for row in rows(&report.solution) {
-        let angle = match row {
-            Row::Impact(station) => station.roll_angle_driver,
-            Row::Load(station) => station.roll_angle_driver,
-        };
-        let x = 0.0 - angle.to_degrees();
-        let Some(y) = value(row).filter(|y| y.is_finite()) else {
-            pieces.push(Vec::new());
+    let points = rows(solution)
+        .into_iter()
+        .map(|row| (row.angle_after_e(), value(row).map(|value| value / factor)));
+    pieces(points, longest_interval(inputs, solution))
+}
+
+/// Splits a curve at missing stations and at values that are not finite.
+pub fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec<Vec<Point>> {
+    let mut pieces: Vec<Vec<Point>> = Vec::new();
+    let mut follows = false;
+    for (x, y) in points {
+        let Some(y) = y.filter(|y| y.is_finite() && x.is_finite()) else {
+            follows = false;
             continue;
         };
-        let last = pieces.last().and_then(|piece| piece.last());
-        if last.is_some_and(|last| x - last.0 > longest) {
-            pieces.push(Vec::new());
+        match pieces
+            .last_mut()
+            .filter(|piece| follows && piece.last().is_some_and(|last| x - last.0 <= longest))
+        {
+            Some(piece) => piece.push((x, y)),
+            None => pieces.push(vec![(x, y)]),
         }
-        pieces.extend(pieces.is_empty().then(Vec::new));
-        if let Some(piece) = pieces.last_mut() {
-            piece.push((x, y / factor));
-        }
+        follows = true;
     }
-    pieces.retain(|piece| piece.len() > 1);
-    (!pieces.is_empty()).then_some(pieces)
+    pieces
 }
 
 /// The longest interval between two stations of a curve without a gap, in deg. The closed forms
 /// leave out stations whose force cannot be computed; the other methods have every station.
-#[must_use]
-pub fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
+fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {
         Some(position) if solution.stations_withheld.is_some() => {
             let count = Spacing::of(inputs).count().unwrap_or(Spacing::LOOKS) as f64;
@@ -278,4 +283,28 @@ fn solve_by_other_method(report: &Report) -> Result<Report, Refusal> {
         inputs,
         report.selection.clone(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pieces_of(points: &[(f64, Option<f64>)]) -> Vec<Vec<Point>> {
+        pieces(points.iter().copied(), 1.5)
+    }
+
+    #[test]
+    fn a_curve_has_a_gap_at_a_missing_or_invalid_station() {
+        let one = Some(1.0);
+        assert_eq!(
+            pieces_of(&[(0.0, one), (1.0, one), (3.0, one)]),
+            [vec![(0.0, 1.0), (1.0, 1.0)], vec![(3.0, 1.0)]]
+        );
+        assert_eq!(pieces_of(&[(0.0, one), (1.0, None), (2.0, one)]).len(), 2);
+        assert_eq!(
+            pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(),
+            2
+        );
+        assert_eq!(pieces_of(&[]), Vec::<Vec<Point>>::new());
+    }
 }

@@ -283,7 +283,7 @@ mod tests {
         );
         assert_eq!(
             digest.outcome,
-            "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N."
+            "Corner contact: θ_1 = 1.366 deg before E; impact force 2191.0 N."
         );
         assert_eq!(digest.verdict(), "corner contact: 2191.0 N; limit met");
         assert_eq!(digest.method, "exact");
@@ -329,9 +329,9 @@ mod tests {
             ["static", "dynamic", "auto"].map(|method| digest(&[("model.method", method)]));
         assert_eq!(
             forces[0].outcome,
-            "Corner contact: θ_st = 1.25226 deg before E; force 1466.2 N at E, 1524.3 N overall."
+            "Corner contact: θ_st = 1.252 deg before E; force 1466.2 N at E, 1524.3 N overall."
         );
-        let moving = "Corner contact: θ_d = 1.27924 deg before E; peak force 1410.8 N before E, 2003.0 N \
+        let moving = "Corner contact: θ_d = 1.279 deg before E; peak force 1410.8 N before E, 2003.0 N \
                 overall.";
         assert_eq!(forces[1].outcome, moving);
         let short = [

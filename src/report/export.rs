@@ -3,8 +3,11 @@
 use std::io;
 use std::path::Path;
 
-use super::page::{Page, Subject};
-use super::{csv, json};
+use super::charts::with_other_method;
+use super::page::{Page, Studies, Subject};
+use super::pictures::Unsolved;
+use super::{Report, csv, json};
+use crate::model::Refusal;
 
 /// Whether the ending of a file's name chooses a picture.
 #[must_use]
@@ -82,4 +85,44 @@ impl Format {
         }
         String::from_utf8(bytes).map_err(io::Error::other)
     }
+}
+
+/// What a file in a format shows of a solved case: on a page the studies that the case describes
+/// and a second method, in HTML also the dynamic factor over speed. `go_on` receives the computed
+/// parts and their number.
+///
+/// # Errors
+/// [`Refusal::Stopped`] where `go_on` says no.
+pub fn subject(
+    report: Report,
+    file: String,
+    format: Format,
+    go_on: &dyn Fn(usize, usize) -> bool,
+) -> Result<Subject, Refusal> {
+    if !format.is_page() {
+        return Ok(Subject {
+            reports: vec![report],
+            speeds: None,
+            studies: Studies::default(),
+            file,
+        });
+    }
+    let source = Unsolved {
+        name: &report.name,
+        case: &report.case,
+        inputs: &report.inputs,
+    };
+    let studies = Studies::of(source.case, source.inputs, go_on).map_err(|_| Refusal::Stopped)?;
+    let speeds = (format == Format::Html).then(|| source.speeds(go_on));
+    // A pair without steady motion has no such chart.
+    let speeds = match speeds {
+        Some(Err(Refusal::Stopped)) => return Err(Refusal::Stopped),
+        found => found.and_then(Result::ok),
+    };
+    Ok(Subject {
+        reports: with_other_method(report),
+        speeds,
+        studies,
+        file,
+    })
 }

@@ -19,7 +19,20 @@ pub struct Graph {
     /// The value whose curves are those of the compliance models; `None` for a chart of the
     /// stations.
     pub by_model: Option<&'static Column>,
+    /// Where else the values are shown.
+    places: &'static [Place],
 }
+
+/// A place beside the chart pane and `plot` that shows the values of a chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// The page of a report, which prints one case on two sheets.
+    Page,
+    /// The values at the cursor below the teeth.
+    Teeth,
+}
+
+use Place::{Page, Teeth};
 
 /// A value that a curve is compared with.
 #[derive(Debug, Clone, Copy)]
@@ -31,13 +44,14 @@ pub struct Bound {
 }
 
 macro_rules! graph {
-    ($key:literal, $label:literal, $columns:expr, $bound:expr) => {
+    ($key:literal, $label:literal, $columns:expr, $bound:expr, $places:expr) => {
         Graph {
             key: $key,
             label: $label,
             columns: &$columns,
             bound: $bound,
             by_model: None,
+            places: &$places,
         }
     };
 }
@@ -54,19 +68,25 @@ const CLOSED: Bound = Bound {
 /// Every chart, the most important first.
 #[rustfmt::skip]
 pub const GRAPHS: &[Graph] = &[
-    graph!("force", "Force", ["impact_force", "force"], None),
-    graph!("gap", "Gap", ["gap"], Some(CLOSED)),
-    graph!("normal_velocity", "Approach velocity", ["normal_velocity"], None),
-    graph!("sliding_velocity", "Sliding velocity", ["sliding_velocity"], None),
-    graph!("load_share", "Load share", ["load_share"], None),
-    graph!("pair_compliance", "Pair compliance", ["pair_compliance"], None),
-    Graph { by_model: Some(&MESH_STIFFNESS), ..graph!("mesh_stiffness", "Mesh stiffness", [], None) },
-    graph!("impact_energy", "Impact energy", ["impact_energy"], None),
-    graph!("transmission_error", "Transmission error", ["transmission_error"], None),
-    graph!("radius_driver", "Driver contact radius", ["radius_driver"], None),
+    graph!("force", "Force", ["impact_force", "force"], None, [Page, Teeth]),
+    graph!("gap", "Gap", ["gap"], Some(CLOSED), [Page, Teeth]),
+    graph!("normal_velocity", "Approach velocity", ["normal_velocity"], None, [Page, Teeth]),
+    graph!("sliding_velocity", "Sliding velocity", ["sliding_velocity"], None, [Teeth]),
+    graph!("load_share", "Load share", ["load_share"], None, [Page, Teeth]),
+    graph!("pair_compliance", "Pair compliance", ["pair_compliance"], None, []),
+    Graph { by_model: Some(&MESH_STIFFNESS), ..graph!("mesh_stiffness", "Mesh stiffness", [], None, [Page]) },
+    graph!("impact_energy", "Impact energy", ["impact_energy"], None, []),
+    graph!("transmission_error", "Transmission error", ["transmission_error"], None, [Page, Teeth]),
+    graph!("radius_driver", "Driver contact radius", ["radius_driver"], None, [Teeth]),
 ];
 
 impl Graph {
+    /// Whether a place beside the chart pane and `plot` shows the values.
+    #[must_use]
+    pub fn is_at(&self, place: Place) -> bool {
+        self.places.contains(&place)
+    }
+
     /// The column of a method.
     #[must_use]
     pub fn column(&self, method: Method) -> Option<&'static Column> {

@@ -51,22 +51,27 @@ pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
         .collect()
 }
 
-/// The words of a sentence, each number with its unit: no line ends between the two. A longer pair
-/// than `most` stays apart.
+/// The words of a sentence, each number with its unit and with the symbol and the sign of equality
+/// before it: no line ends within these. Longer ones than `most` stay apart.
 pub(crate) fn with_units(sentence: &str, most: usize) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
-    let mut after_number = false;
+    let (mut after_number, mut after_sign) = (false, false);
     for word in sentence.split(' ') {
-        let fits = |number: &String| count(number) + 1 + count(word) <= most;
+        let fits = |before: &String| count(before) + 1 + count(word) <= most;
         let is_unit = after_number && !word.is_empty();
-        match words.last_mut().filter(|number| is_unit && fits(number)) {
-            Some(number) => number.extend([" ", word]),
+        let is_sign = SIGNS.contains(&word);
+        let is_bound = is_unit || is_sign || after_sign;
+        match words.last_mut().filter(|before| is_bound && fits(before)) {
+            Some(before) => before.extend([" ", word]),
             None => words.push(word.to_owned()),
         }
-        after_number = !is_unit && is_number(word);
+        (after_number, after_sign) = (!is_unit && is_number(word), is_sign);
     }
     words
 }
+
+/// The signs between a symbol and its value.
+const SIGNS: [&str; 4] = ["=", "<=", ">", "<"];
 
 fn is_number(word: &str) -> bool {
     let is_digit = |letter: char| letter.is_ascii_digit();
@@ -116,6 +121,15 @@ mod tests {
                     && lines.iter().any(|line| line.contains("3 mm/N"))
             );
         }
+    }
+
+    #[test]
+    fn no_line_ends_between_a_symbol_and_its_value() {
+        assert_eq!(
+            with_units("contact: θ_1 = 1.709 deg before E; F_S <= 4 kN", 20),
+            ["contact:", "θ_1 = 1.709 deg", "before", "E;", "F_S <= 4 kN"]
+        );
+        assert_eq!(with_units("θ_1 = 1.709 deg", 10), ["θ_1 =", "1.709 deg"]);
     }
 
     #[test]

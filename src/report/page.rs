@@ -9,12 +9,10 @@ use askama::Template;
 
 pub use self::studies::Studies;
 use self::studies::StudyTable;
-use super::charts::{Drawn, picture};
-use super::graphs::GRAPHS;
+use super::charts::SolvedCase;
 use super::groups::{FREE_IMPACT, groups};
-use super::svg::teeth::teeth;
+use super::pictures::{Picture, pictures};
 use super::verdict::verdicts;
-use super::whine::charts::{spectrum, speed};
 use super::{Report, shown_with, text, unit_beside, value};
 use crate::case::changes::label;
 use crate::case::file::without_comments;
@@ -23,14 +21,6 @@ use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::{Quantity, Solution};
 use crate::study::speeds::SpeedCurve;
-
-/// Charts that a page leaves out, so that one case prints on two sheets.
-const LEFT_OUT: [&str; 4] = [
-    "sliding_velocity",
-    "pair_compliance",
-    "impact_energy",
-    "radius_driver",
-];
 
 /// A solved case with the text of its file.
 #[derive(Debug)]
@@ -94,8 +84,8 @@ struct ResultRow {
 struct Html<'a> {
     page: &'a Page<'a>,
     charts: Vec<String>,
-    /// The teeth of each case.
-    teeth: Vec<String>,
+    /// The pictures that each case has of its own.
+    own: Vec<String>,
 }
 
 /// Everything that a page shows, but for its pictures.
@@ -136,41 +126,35 @@ impl<'a> Page<'a> {
     /// # Errors
     /// Where the page cannot be filled in.
     pub fn html(&self) -> Result<String, askama::Error> {
-        let own = self
-            .subjects
-            .iter()
-            .filter_map(|subject| subject.reports.first());
+        let on_page = pictures().filter(|picture| picture.is_on_page());
+        let (of_one, of_all): (Vec<Picture>, Vec<Picture>) =
+            on_page.partition(|picture| picture.is_of_one_case());
+        let cases = self.cases();
         let page = Html {
             page: self,
-            charts: self.charts(),
-            teeth: own
-                .map(|report| teeth(&report.inputs, &report.solution))
+            charts: of_all
+                .iter()
+                .filter_map(|picture| picture.draw(&cases))
+                .collect(),
+            own: cases
+                .iter()
+                .map(|case| {
+                    let drawn = of_one.iter().filter_map(|picture| picture.draw(&[*case]));
+                    drawn.collect()
+                })
                 .collect(),
         };
         page.render()
     }
 
-    fn charts(&self) -> Vec<String> {
-        let drawn: Vec<Drawn> = self
-            .subjects
-            .iter()
-            .zip(&self.columns)
-            .map(|(subject, column)| Drawn {
+    fn cases(&self) -> Vec<SolvedCase<'_>> {
+        let columns = self.subjects.iter().zip(&self.columns);
+        columns
+            .map(|(subject, column)| SolvedCase {
                 name: if self.is_single() { "" } else { &column.title },
                 reports: &subject.reports,
+                speeds: subject.speeds.as_ref(),
             })
-            .collect();
-        let curves: Vec<(&str, &SpeedCurve)> = drawn
-            .iter()
-            .zip(self.subjects)
-            .filter_map(|(drawn, subject)| Some((drawn.name, subject.speeds.as_ref()?)))
-            .collect();
-        GRAPHS
-            .iter()
-            .filter(|graph| !LEFT_OUT.contains(&graph.key))
-            .filter_map(|graph| picture(graph, &drawn))
-            .chain(spectrum(&drawn))
-            .chain(speed(&curves))
             .collect()
     }
 

@@ -57,7 +57,7 @@ pub const COLUMNS: &[Column] = &[
     column!("roll_angle_driver", "θ_1", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driver, |s| s.roll_angle_driver))),
     column!("roll_angle_driven", "u", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driven, |s| s.roll_angle_driven))),
     column!("time", "t", "s", "us", 5, DYNAMIC, |row| row.load()?.time),
-    column!("radius_driver", "O1J", "m", "mm", 6, CLOSED_FORM, |row| Some(row.impact()?.radius_driver)),
+    column!("radius_driver", "O1J", "m", "mm", 5, CLOSED_FORM, |row| Some(row.impact()?.radius_driver)),
     column!("normal_velocity", "ΔV_n", "m/s", "m/s", 5, EVERY, |row| Some(row.both(|s| s.normal_velocity, |s| s.normal_velocity))),
     column!("sliding_velocity", "ΔV_τ", "m/s", "m/s", 5, EVERY, |row| Some(row.both(|s| s.sliding_velocity, |s| s.sliding_velocity))),
     column!("impact_force", "F_S", "N", "N", 5, CLOSED_FORM, |row| Some(row.impact()?.impact_force)),
@@ -99,6 +99,13 @@ impl<'a> From<&'a Interpolated> for Row<'a> {
 }
 
 impl<'a> Row<'a> {
+    /// The driver's roll angle after E, in deg.
+    #[must_use]
+    pub fn angle_after_e(self) -> f64 {
+        let before = self.both(|s| s.roll_angle_driver, |s| s.roll_angle_driver);
+        0.0 - before.to_degrees()
+    }
+
     fn both<T>(self, impact: fn(&Station) -> T, load: fn(&MeshStation) -> T) -> T {
         match self {
             Row::Impact(station) => impact(station),

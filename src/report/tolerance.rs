@@ -39,6 +39,14 @@ impl ToleranceReport<'_> {
         text::write(self, out)
     }
 
+    /// Writes the figures for a screen that shows the case already: the figures, then the spread.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_for_screen(&self, out: &mut dyn Write) -> io::Result<()> {
+        text::write_for_screen(self, out)
+    }
+
     /// Writes the figures as one JSON object on one line.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::model::{Quantity, Solution};
 use crate::numeric::decimal::significant;
 
 /// Significant digits of a frequency or a speed.
-const DIGITS: u8 = 3;
+const DIGITS: usize = 3;
 
 /// Between these ratios the pair is near resonance, ISO 6336-1.
 const RESONANCE: std::ops::RangeInclusive<f64> = 0.85..=1.15;
@@ -15,12 +15,12 @@ const RESONANCE: std::ops::RangeInclusive<f64> = 0.85..=1.15;
 /// The mesh frequency and the speed of resonance, in full and in fewer and fewer words; none where
 /// the method has no mesh.
 #[must_use]
-pub fn whine(solution: &Solution) -> Option<[String; 3]> {
+pub fn whine(solution: &Solution) -> Option<[String; 4]> {
     let of = |key| value(Quantity::find(key)?, solution);
     let (frequency, ratio) = (of("mesh_frequency")?, of("resonance_ratio")?);
     let speed = of("resonance_speed")? * 30.0 / std::f64::consts::PI;
     let (frequency, speed) = (rounded(frequency), rounded(speed));
-    let number = format!("N = {}", significant(ratio, 2));
+    let number = format!("now N = {}", significant(ratio, 2));
     let near = if RESONANCE.contains(&ratio) {
         ", near resonance"
     } else {
@@ -29,27 +29,18 @@ pub fn whine(solution: &Solution) -> Option<[String; 3]> {
     Some([
         format!("Mesh frequency {frequency} Hz; resonance at {speed} rpm ({number}{near})"),
         format!("Mesh {frequency} Hz; resonance at {speed} rpm ({number})"),
-        format!("Resonance at {speed} rpm ({number})"),
+        format!("Resonance {speed} rpm; {number}"),
+        format!("Resonance {speed} rpm"),
     ])
 }
 
-/// A number with three significant digits and commas between thousands.
+/// A number with three significant digits, and zeros in the places behind them.
 fn rounded(number: f64) -> String {
-    let scale = 10f64.powi(i32::from(DIGITS) - 1 - number.abs().log10().floor() as i32);
-    let rounded = (number * scale).round() / scale;
-    if !rounded.is_finite() || rounded.abs() < 1e3 {
-        return significant(number, DIGITS.into());
+    let rounded = format!("{number:.*e}", DIGITS - 1);
+    match rounded.parse::<f64>() {
+        Ok(rounded) if rounded >= 1e3 => format!("{rounded:.0}"),
+        _ => significant(number, DIGITS),
     }
-    let digits = format!("{rounded:.0}");
-    let length = digits.len();
-    let mut text = String::new();
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (length - at).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 #[cfg(test)]
@@ -61,13 +52,13 @@ mod tests {
     use crate::model::solve;
 
     #[test]
-    fn numbers_have_three_digits_and_commas() {
+    fn numbers_have_three_digits() {
         for (number, text) in [
             (666.67, "667"),
-            (5478.2, "5,480"),
-            (16_569.0, "16,600"),
-            (1_234_567.0, "1,230,000"),
-            (999.9, "1,000"),
+            (5478.2, "5480"),
+            (16_569.0, "16600"),
+            (1_234_567.0, "1230000"),
+            (999.9, "1000"),
             (0.123_45, "0.123"),
         ] {
             assert_eq!(rounded(number), text);
@@ -88,6 +79,6 @@ mod tests {
         assert!(slow.starts_with("Mesh frequency 318 Hz; resonance at "));
         assert!(!slow.contains("near resonance"), "{slow}");
         let (_, fast) = sentence(std::f64::consts::TAU * natural / 20.0);
-        assert!(fast.ends_with("(N = 1.0, near resonance)"), "{fast}");
+        assert!(fast.ends_with("(now N = 1.0, near resonance)"), "{fast}");
     }
 }

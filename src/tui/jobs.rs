@@ -10,6 +10,7 @@ use crate::case::{Case, Document};
 use crate::model::{Inputs, Quantity};
 use crate::report::Report;
 use crate::report::explain::Page;
+use crate::report::pictures::Picture;
 use crate::study::relief::{Demand, Specification};
 
 /// A job. Its result is an action.
@@ -26,7 +27,7 @@ pub enum Job {
     /// What the examples are.
     Examples(System),
     /// Where a result comes from.
-    Explain(Box<Asked>),
+    Explain(Box<Explaining>),
     /// Write results to a file.
     Export(Box<Exporting>),
     /// The results of the variants.
@@ -39,7 +40,7 @@ pub enum Job {
 
 /// A result to be explained.
 #[derive(Debug, Clone)]
-pub struct Asked {
+pub struct Explaining {
     /// The result.
     pub(crate) quantity: &'static Quantity,
     pub(crate) case: Case,
@@ -81,27 +82,8 @@ pub struct Exporting {
     pub(crate) document: Document,
     /// The pair.
     pub(crate) inputs: Inputs,
-    /// What a picture shows; `None` for a report.
-    pub(crate) figure: Option<Figure>,
-}
-
-/// The subject of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Figure {
-    /// The chart of that key.
-    Chart(&'static str),
-    Teeth,
-}
-
-impl Figure {
-    /// In words.
-    #[must_use]
-    pub(crate) fn name(self) -> String {
-        match self {
-            Figure::Chart(key) => format!("the chart {key}"),
-            Figure::Teeth => "the teeth".to_owned(),
-        }
-    }
+    /// The picture; `None` for a report.
+    pub(crate) picture: Option<Picture>,
 }
 
 /// An export that runs.
@@ -109,7 +91,7 @@ impl Figure {
 pub(crate) struct RunningExport {
     pub(crate) path: PathBuf,
     /// The picture, unless it is a report.
-    pub(crate) figure: Option<Figure>,
+    pub(crate) picture: Option<Picture>,
 }
 
 /// Why an export was not written.

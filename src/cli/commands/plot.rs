@@ -6,20 +6,12 @@ use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Changes;
 use crate::cli::progress::follow;
-use crate::model::{Inputs, Refusal};
-use crate::report::charts::{Drawn, find, no_curve, picture, with_other_method};
-use crate::report::graphs::GRAPHS;
-use crate::report::svg::teeth::teeth;
-use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
-use crate::report::{Report, Selection};
-use crate::study::speeds::{SPEEDS, SpeedCurve, speeds};
+use crate::report::Report;
+use crate::report::pictures::{NoPicture, find, pictures};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// The chart that shows the teeth.
-const TEETH: &str = "teeth";
 
 const AFTER_HELP: &str = "The chart shows the method of the case. If the method has no \
     such chart, the command draws another method: load_share of paper and exact shows static; \
@@ -61,46 +53,21 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
 }
 
 fn draw(opened: &Opened, options: &Options, streams: &mut Streams) -> Result<String, Exit> {
-    if options.chart == SPEED {
-        let curve =
-            speeds_of(&opened.inputs).map_err(|refusal| opened.refused(&refusal, streams))?;
-        return speed(&[("", &curve)]).ok_or_else(|| {
-            streams.say(&format!(
-                "{}: the chart {SPEED} has no curve: no motion becomes steady: give a greater \
-                 model.damping_ratio",
-                opened.name
-            ));
-            Exit::BadCase
-        });
-    }
-    let report = solve(opened, true, streams)?;
-    if options.chart == TEETH {
-        return Ok(teeth(&report.inputs, &report.solution));
-    }
-    let reports = with_other_method(report);
-    let subject = Drawn {
-        name: "",
-        reports: &reports,
+    let Some(picture) = find(&options.chart) else {
+        return Err(Exit::Usage);
     };
-    let drawn = if options.chart == SPECTRUM {
-        spectrum(&[subject])
+    let source = opened.unsolved();
+    let drawn = if picture.needs_speeds() {
+        follow("speeds", |go_on| picture.of_case(source, go_on))
     } else {
-        find(&options.chart).and_then(|graph| picture(graph, &[subject]))
+        picture.of_case(source, &|_, _| true)
     };
-    drawn.ok_or_else(|| {
-        let reason = no_curve(&options.chart, &reports);
-        streams.say(&format!("{}: {reason}", opened.name));
-        Exit::BadCase
-    })
-}
-
-/// The dynamic factor over speed, with a bar while it takes long.
-pub(super) fn speeds_of(inputs: &Inputs) -> Result<SpeedCurve, Refusal> {
-    follow("speeds", |report| {
-        speeds(inputs, &mut |curve| {
-            let done = curve.up.iter().chain(&curve.down).flatten().count();
-            report(done, 2 * SPEEDS)
-        })
+    drawn.map_err(|reason| match reason {
+        NoPicture::Refused(refusal) => opened.refused(&refusal, streams),
+        NoPicture::Absent(reason) => {
+            streams.say(&format!("{}: {reason}", opened.name));
+            Exit::BadCase
+        }
     })
 }
 
@@ -110,16 +77,7 @@ pub(super) fn solve(
     stations: bool,
     streams: &mut Streams,
 ) -> Result<Report, Exit> {
-    let selection = Selection {
-        only: Vec::new(),
-        stations,
-    };
-    let solved = Report::solve(
-        opened.name.clone(),
-        opened.document.case.clone(),
-        opened.inputs.clone(),
-        selection,
-    );
+    let solved = opened.unsolved().solve(stations);
     solved.map_err(|refusal| opened.refused(&refusal, streams))
 }
 
@@ -137,6 +95,5 @@ pub(super) fn write(
 }
 
 fn charts() -> PossibleValuesParser {
-    let names = GRAPHS.iter().map(|graph| graph.key);
-    PossibleValuesParser::new(names.chain([SPECTRUM, SPEED, TEETH]))
+    PossibleValuesParser::new(pictures().map(|picture| picture.key))
 }

@@ -6,9 +6,7 @@ use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Changes;
 use crate::cli::progress::follow;
-use crate::report::charts::with_other_method;
-use crate::report::export::Format;
-use crate::report::page::{Studies, Subject};
+use crate::report::export::{Format, subject};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -44,32 +42,13 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     for path in &options.cases {
         let solved = cases::open(path, &edits, streams).and_then(|opened| {
             let report = plot::solve(&opened, format.has_stations(), streams)?;
-            let (case, inputs) = (&report.case, &report.inputs);
-            let studies = if format.is_page() {
-                // Ctrl-C ends the program.
-                follow("studies", |go_on| Studies::of(case, inputs, go_on)).unwrap_or_default()
-            } else {
-                Studies::default()
-            };
-            Ok((report, studies, opened.document.render()))
+            let file = opened.document.render();
+            // Ctrl-C ends the program.
+            let subject = follow("parts", |go_on| subject(report, file, format, go_on));
+            subject.map_err(|refusal| opened.refused(&refusal, streams))
         });
         match solved {
-            Ok((report, studies, file)) => {
-                let reports = if format.is_page() {
-                    with_other_method(report)
-                } else {
-                    vec![report]
-                };
-                let speeds = (format == Format::Html)
-                    .then(|| plot::speeds_of(&reports[0].inputs))
-                    .and_then(Result::ok);
-                subjects.push(Subject {
-                    reports,
-                    speeds,
-                    studies,
-                    file,
-                });
-            }
+            Ok(subject) => subjects.push(subject),
             Err(exit) => worst = worst.max(exit),
         }
     }

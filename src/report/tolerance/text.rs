@@ -16,20 +16,38 @@ const LONGEST_BAR: usize = 40;
 
 pub(super) fn write(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
     let summary = report.study.summary(report.samples);
-    head(report, &summary, out)?;
+    let title = Some(report.case.title()).filter(|title| !title.is_empty());
+    writeln!(out, "{}", sanitize(title.unwrap_or(report.name)))?;
+    samples(report, &summary, out)?;
     spread(report, out)?;
-    probabilities(&summary, out)?;
+    figures(report, &summary, "#", out)
+}
+
+/// The same for a screen that shows the case already: the figures come first, and a bar is a row of
+/// blocks.
+pub(super) fn write_for_screen(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
+    let summary = report.study.summary(report.samples);
+    samples(report, &summary, out)?;
+    figures(report, &summary, "█", out)?;
+    spread(report, out)
+}
+
+fn figures(
+    report: &ToleranceReport,
+    summary: &Summary,
+    bar: &str,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    probabilities(summary, out)?;
     for of in &summary.quantities {
         writeln!(out)?;
-        quantity(report, of, out)?;
+        quantity(report, of, bar, out)?;
     }
     Ok(())
 }
 
-fn head(report: &ToleranceReport, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+fn samples(report: &ToleranceReport, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     let design = &report.study.design;
-    let title = Some(report.case.title()).filter(|title| !title.is_empty());
-    writeln!(out, "{}", sanitize(title.unwrap_or(report.name)))?;
     let refused = design.samples - summary.solved;
     let refused = if refused == 0 {
         String::new()
@@ -81,24 +99,38 @@ fn probabilities(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\nProbability (95 % interval)")?;
     for (name, probability) in rows {
         match probability {
-            Some(Estimate { value, from, to }) => writeln!(
-                out,
-                "  {name:width$}  {} ({} to {})",
-                percent(value),
-                percent(from),
-                percent(to)
-            )?,
+            Some(estimate) => writeln!(out, "  {name:width$}  {}", in_percent(&estimate))?,
             None => writeln!(out, "  {name:width$}  unknown: no sample has a value")?,
         }
     }
     Ok(())
 }
 
-fn percent(part: f64) -> String {
-    format!("{:.3} %", 100.0 * part)
+/// A probability with its interval, down to the first digit in which the ends of the interval
+/// differ.
+fn in_percent(estimate: &Estimate) -> String {
+    let Estimate { value, from, to } = estimate;
+    let width = 100.0 * (to - from);
+    let decimals = if width > 0.0 {
+        (-width.log10()).ceil().clamp(0.0, 6.0) as usize
+    } else {
+        0
+    };
+    let percent = |part: f64| format!("{:.decimals$} %", 100.0 * part);
+    format!(
+        "{} ({} to {})",
+        percent(*value),
+        percent(*from),
+        percent(*to)
+    )
 }
 
-fn quantity(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> io::Result<()> {
+fn quantity(
+    report: &ToleranceReport,
+    of: &OfQuantity,
+    bar: &str,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let OfQuantity { quantity, .. } = of;
     let heading = format!("{} {} ({})", quantity.label, quantity.symbol, quantity.key);
     let Some(figures) = &of.figures else {
@@ -120,13 +152,14 @@ fn quantity(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> i
     row("mean", &figures.mean)?;
     let deviation = printed(figures.deviation);
     writeln!(out, "  {:<20}{deviation:>12}", "standard deviation")?;
-    histogram(figures, &printed, out)?;
+    histogram(figures, &printed, bar, out)?;
     ranking(report, of, out)
 }
 
 fn histogram(
     figures: &Figures,
     printed: &dyn Fn(f64) -> String,
+    bar: &str,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let most = figures.histogram.iter().copied().max().unwrap_or(0).max(1);
@@ -142,7 +175,7 @@ fn histogram(
         .unwrap_or(0);
     for (count, lower) in figures.histogram.iter().zip(lower) {
         let length = (count * LONGEST_BAR).div_ceil(most);
-        let bar = "#".repeat(length);
+        let bar = bar.repeat(length);
         let gap = if bar.is_empty() { "" } else { " " };
         writeln!(out, "  {lower:>width$} | {bar}{gap}{count}")?;
     }
@@ -193,4 +226,21 @@ fn ranking(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> io
 fn index(estimate: &Estimate) -> String {
     let half = 0.5 * (estimate.to - estimate.from);
     format!("{:.3} +- {half:.3}", estimate.value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_probability_has_the_digits_that_its_interval_leaves() {
+        for ([value, from, to], text) in [
+            ([1.0, 0.999_62, 1.0], "100.00 % (99.96 % to 100.00 %)"),
+            ([0.5, 0.48, 0.52], "50 % (48 % to 52 %)"),
+            ([0.25, 0.02, 0.6], "25 % (2 % to 60 %)"),
+            ([1.0, 1.0, 1.0], "100 % (100 % to 100 %)"),
+        ] {
+            assert_eq!(in_percent(&Estimate { value, from, to }), text);
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::model::Solution;
 use crate::model::harmonics::Spectrum;
 use crate::report::Report;
-use crate::report::charts::Drawn;
+use crate::report::charts::SolvedCase;
 use crate::report::svg::{Chart, Kind, Labelled, Series, chart};
 use crate::study::speeds::{AtSpeed, SpeedCurve};
 
@@ -23,7 +23,7 @@ pub type NamedSpectra = Vec<(String, Spectrum)>;
 /// Harmonics of the transmission error at rest and in steady motion as a picture; none where no
 /// case has them.
 #[must_use]
-pub fn spectrum(cases: &[Drawn]) -> Option<String> {
+pub fn spectrum(cases: &[SolvedCase]) -> Option<String> {
     let all: NamedSpectra = cases.iter().flat_map(of_case).collect();
     spectrum_chart(all).map(|drawn| chart(&drawn))
 }
@@ -50,7 +50,7 @@ pub fn spectrum_chart(all: NamedSpectra) -> Option<Chart> {
     })
 }
 
-fn of_case(case: &Drawn) -> NamedSpectra {
+fn of_case(case: &SolvedCase) -> NamedSpectra {
     let has_mesh = |report: &&Report| matches!(report.solution.static_spectrum, Some(Ok(_)));
     let report = case.reports.iter().find(has_mesh);
     report.map_or_else(Vec::new, |report| spectra(case.name, &report.solution))

@@ -27,8 +27,8 @@ use crate::tui::whine::{Whine, WhineChart};
 use curves::curves;
 use range::{ChartView, Frame, Occasion, Refit, Scale};
 
+pub use crate::model::contact_state::first_contact_of_driver as first_contact;
 pub use readout::readout;
-pub use way::first_contact;
 pub(crate) use way::last_contact;
 use way::{path, way, way_by};
 

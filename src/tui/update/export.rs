@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use crate::report::export::{self as exports, Format};
+use crate::report::pictures::{Picture, find};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::export::ExportTo;
 use crate::tui::dialogs::question::Question;
-use crate::tui::jobs::{ExportFault, Exporting, Figure, Job, RunningExport};
+use crate::tui::jobs::{ExportFault, Exporting, Job, RunningExport};
 use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 
@@ -49,8 +50,8 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
         return Vec::new();
     }
     let is_picture = exports::is_picture(&path);
-    let figure = figure(app).filter(|_| is_picture);
-    if is_picture && figure.is_none() {
+    let picture = picture(app).filter(|_| is_picture);
+    if is_picture && picture.is_none() {
         app.complain(format!(
             "not exported: no chart is visible. Keys 3 and 4 show the chart and the teeth; {} \
                 write the report",
@@ -64,31 +65,31 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
         name: app.tab.name(),
         document: app.tab.as_edited(),
         inputs,
-        figure,
+        picture,
     };
     app.exporting = Some(RunningExport {
         path: exporting.path.clone(),
-        figure,
+        picture,
     });
     app.say("exporting");
     vec![Effect::Job(Job::Export(Box::new(exporting)))]
 }
 
 /// The picture of the focused pane, else of the visible chart, else of the visible teeth.
-fn figure(app: &App) -> Option<Figure> {
+fn picture(app: &App) -> Option<Picture> {
     let plan = app.layout.plan();
     let is_visible = |pane: &Pane| !plan.area(*pane).is_empty();
     let focused = Some(app.layout.focus()).filter(|pane| matches!(pane, Pane::Chart | Pane::Teeth));
     let visible = || [Pane::Chart, Pane::Teeth].into_iter().find(is_visible);
-    Some(match focused.or_else(visible)? {
-        Pane::Teeth => Figure::Teeth,
-        _ => Figure::Chart(app.chart.key()),
+    find(match focused.or_else(visible)? {
+        Pane::Teeth => "teeth",
+        _ => app.chart.key(),
     })
 }
 
 /// The export was written, or not.
 pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) {
-    let figure = app.exporting.take().and_then(|running| running.figure);
+    let picture = app.exporting.take().and_then(|running| running.picture);
     if app
         .prompts
         .last()
@@ -102,7 +103,7 @@ pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) 
             if is_asking {
                 app.prompts.pop();
             }
-            let subject = figure.map_or_else(String::new, |figure| format!(" {}", figure.name()));
+            let subject = picture.map_or_else(String::new, |picture| format!(" {picture}"));
             app.say(format!("exported{subject} to {}", path.display()));
         }
         Err(ExportFault::Exists) => {

@@ -4,19 +4,14 @@ use std::path::{Path, PathBuf};
 
 use crate::case::file::{self, SaveError};
 use crate::model::Refusal;
-use crate::report::charts::{Drawn, find, no_curve, picture, with_other_method};
-use crate::report::export::Format;
-use crate::report::page::{self, Studies};
-use crate::report::svg::teeth::teeth;
-use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
-use crate::report::{Report, Selection};
-use crate::study::speeds::speeds;
-use crate::tui::jobs::{ExportFault, Exporting, Figure};
+use crate::report::export::{self, Format};
+use crate::report::pictures::{NoPicture, Picture, Unsolved};
+use crate::tui::jobs::{ExportFault, Exporting};
 use crate::tui::store::at_home;
 
 /// The content of the file.
 enum Subject {
-    Picture(Figure),
+    Picture(Picture),
     Report(Format),
 }
 
@@ -42,8 +37,8 @@ pub(super) fn write(
 
 fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Result<String, String> {
     let format = Format::of(path);
-    let subject = match (exporting.figure, format) {
-        (Some(figure), _) => Subject::Picture(figure),
+    let subject = match (exporting.picture, format) {
+        (Some(picture), _) => Subject::Picture(picture),
         (None, Some(format)) => Subject::Report(format),
         (None, None) => {
             return Err(format!(
@@ -52,69 +47,34 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
             ));
         }
     };
-    let selection = Selection {
-        only: Vec::new(),
-        stations: format.is_none_or(Format::has_stations),
+    let source = Unsolved {
+        name: &exporting.name,
+        case: &exporting.document.case,
+        inputs: &exporting.inputs,
     };
-    let case = exporting.document.case.clone();
-    let report = Report::solve(
-        exporting.name.clone(),
-        case,
-        exporting.inputs.clone(),
-        selection,
-    )
-    .map_err(|refusal| format!("{refusal}: {}", refusal.fix()))?;
+    let go_on = |done: usize, of: usize| go_on(done as f64 / of.max(1) as f64);
     let format = match subject {
-        Subject::Picture(figure) => return drawn(report, figure, go_on),
+        Subject::Picture(picture) => {
+            return picture
+                .of_case(source, &go_on)
+                .map_err(|reason| match reason {
+                    NoPicture::Refused(refusal) => refused(&refusal),
+                    NoPicture::Absent(reason) => reason,
+                });
+        }
         Subject::Report(format) => format,
     };
-    let reports = if format.is_page() {
-        with_other_method(report)
-    } else {
-        vec![report]
-    };
+    let report = source.solve(format.has_stations());
+    let report = report.map_err(|refusal| refused(&refusal))?;
     let file = exporting.document.render();
-    let speeds = (format == Format::Html).then(|| speeds(&exporting.inputs, &mut |_| go_on(0.0)));
-    let speeds = match speeds {
-        Some(Err(Refusal::Stopped)) => return Err("the export is stopped".to_owned()),
-        found => found.and_then(Result::ok),
-    };
-    let case = &exporting.document.case;
-    let studies = if format.is_page() {
-        let go_on = |done: usize, of: usize| go_on(done as f64 / of.max(1) as f64);
-        Studies::of(case, &exporting.inputs, &go_on).map_err(|_| "the export is stopped")?
-    } else {
-        Studies::default()
-    };
-    let subject = page::Subject {
-        reports,
-        speeds,
-        studies,
-        file,
-    };
+    let subject = export::subject(report, file, format, &go_on);
+    let subject = subject.map_err(|refusal| refused(&refusal))?;
     format.render(&[subject]).map_err(|error| error.to_string())
 }
 
-fn drawn(report: Report, figure: Figure, go_on: &dyn Fn(f64) -> bool) -> Result<String, String> {
-    let key = match figure {
-        Figure::Teeth => return Ok(teeth(&report.inputs, &report.solution)),
-        Figure::Chart(key) => key,
-    };
-    if key == SPEED {
-        let curve = speeds(&report.inputs, &mut |_| go_on(0.0));
-        let curve = curve.map_err(|refusal| format!("{refusal}: {}", refusal.fix()))?;
-        return speed(&[("", &curve)])
-            .ok_or_else(|| "no motion becomes steady: give a greater damping ratio".to_owned());
+fn refused(refusal: &Refusal) -> String {
+    match refusal {
+        Refusal::Stopped => "the export is stopped".to_owned(),
+        refusal => format!("{refusal}: {}", refusal.fix()),
     }
-    let reports = with_other_method(report);
-    let drawn = Drawn {
-        name: "",
-        reports: &reports,
-    };
-    let found = if key == SPECTRUM {
-        spectrum(&[drawn])
-    } else {
-        find(key).and_then(|graph| picture(graph, &[drawn]))
-    };
-    found.ok_or_else(|| no_curve(key, &reports))
 }

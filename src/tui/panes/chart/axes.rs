@@ -5,8 +5,9 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
 use super::Charts;
-use super::way::{first_contact, last_contact};
+use super::way::last_contact;
 use crate::model::Solution;
+use crate::model::contact_state::first_contact_of_driver as first_contact;
 use crate::tui::panes::plot::put_where_free;
 use crate::tui::scale::{Span, Ticks};
 

@@ -2,14 +2,13 @@
 //! with.
 
 use super::Charts;
-use super::way::angle;
 use crate::case::units::{self, System};
 use crate::model::compliance::model_of;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::{Inputs, Solution};
-use crate::report::charts::longest_interval;
+use crate::report::charts::{Point, curve_of, pieces};
 use crate::report::graphs::Graph;
-use crate::report::stations::{Column, Row, rows};
+use crate::report::stations::{Column, Row};
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 
@@ -35,9 +34,6 @@ pub enum Whose {
         is_own: bool,
     },
 }
-
-/// A point: the driver's roll angle after E in deg, and the value in the display unit.
-pub(crate) type Point = (f64, f64);
 
 /// A curve in pieces, with gaps between them.
 #[derive(Debug, Clone)]
@@ -96,7 +92,7 @@ impl Drawn<'_> {
         self.curve(&answer.inputs, answer.of(answer.active)?, whose)
     }
 
-    // The elastic field last, on top of the others.
+    // The model of the case last, on top of the others, and the elastic field below it.
     fn models(self, answer: &Answer, column: &'static Column) -> Vec<Curve> {
         let Some(Ok(found)) = &answer.stiffness else {
             return Vec::new();
@@ -119,7 +115,7 @@ impl Drawn<'_> {
         };
         let mut curves: Vec<Curve> = found.models.iter().enumerate().map(curve).collect();
         curves.retain(|curve| !curve.pieces.is_empty());
-        curves.sort_by_key(|curve| is_field(curve.whose));
+        curves.sort_by_key(|curve| (is_own(curve.whose), is_field(curve.whose)));
         curves
     }
 
@@ -151,11 +147,7 @@ impl Drawn<'_> {
     ) -> Option<Curve> {
         let column = self.graph.column(solution.method)?;
         let unit = self.system.unit(column.shown);
-        let factor = units::factor(unit).unwrap_or(1.0);
-        let points = rows(solution)
-            .into_iter()
-            .map(|row| (angle(row), value(row).map(|value| value / factor)));
-        let pieces = pieces(points, longest_interval(inputs, solution));
+        let pieces = curve_of(inputs, solution, unit, value);
         (!pieces.is_empty()).then_some(Curve {
             whose,
             column,
@@ -170,6 +162,10 @@ impl Drawn<'_> {
 #[must_use]
 pub fn is_field(whose: Whose) -> bool {
     matches!(whose, Whose::Model { model, .. } if model.model().has_coupling)
+}
+
+fn is_own(whose: Whose) -> bool {
+    matches!(whose, Whose::Model { is_own: true, .. })
 }
 
 /// The curves without the parts that coincide with the active curve.
@@ -259,49 +255,9 @@ impl Curve {
     }
 }
 
-// Splits the curve at missing stations and at values that are not finite.
-fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec<Vec<Point>> {
-    let mut pieces: Vec<Vec<Point>> = Vec::new();
-    let mut follows = false;
-    for (x, y) in points {
-        let Some(y) = y.filter(|y| y.is_finite() && x.is_finite()) else {
-            follows = false;
-            continue;
-        };
-        match pieces
-            .last_mut()
-            .filter(|piece| follows && piece.last().is_some_and(|last| x - last.0 <= longest))
-        {
-            Some(piece) => piece.push((x, y)),
-            None => pieces.push(vec![(x, y)]),
-        }
-        follows = true;
-    }
-    pieces
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn pieces_of(points: &[(f64, Option<f64>)]) -> Vec<Vec<Point>> {
-        pieces(points.iter().copied(), 1.5)
-    }
-
-    #[test]
-    fn a_curve_has_a_gap_at_a_missing_or_invalid_station() {
-        let one = Some(1.0);
-        assert_eq!(
-            pieces_of(&[(0.0, one), (1.0, one), (3.0, one)]),
-            [vec![(0.0, 1.0), (1.0, 1.0)], vec![(3.0, 1.0)]]
-        );
-        assert_eq!(pieces_of(&[(0.0, one), (1.0, None), (2.0, one)]).len(), 2);
-        assert_eq!(
-            pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(),
-            2
-        );
-        assert_eq!(pieces_of(&[]), Vec::<Vec<Point>>::new());
-    }
 
     #[test]
     fn parts_that_coincide_with_the_active_curve_are_not_drawn() {

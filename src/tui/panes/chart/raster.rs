@@ -6,8 +6,9 @@ use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
 use super::Charts;
-use super::curves::{Curve, Point, Whose, is_field};
+use super::curves::{Curve, Whose, is_field};
 use crate::model::inputs::{Method, ToothCompliance};
+use crate::report::charts::Point;
 use crate::tui::panes::plot::PlotArea;
 use crate::tui::scale::Span;
 

@@ -1,17 +1,10 @@
 //! The roll angles between which the incoming tooth is shown.
 
+use crate::model::Solution;
 use crate::model::inputs::Method;
-use crate::model::{Solution, contact_state};
 use crate::report::stations::{Row, rows};
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
-
-/// The driver's angle before E at the first contact of the method, in rad.
-#[must_use]
-pub fn first_contact(solution: &Solution) -> Option<f64> {
-    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
-    contact_state::first_contact(solution).map(|angle| angle * ratio)
-}
 
 /// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
 /// `dynamic` have a last contact.
@@ -54,14 +47,6 @@ fn way_of(solution: &Solution) -> Span {
     [rows.first(), rows.last()]
         .into_iter()
         .flatten()
-        .map(|row| angle(*row))
+        .map(|row| row.angle_after_e())
         .fold(Span::NONE, Span::with)
-}
-
-pub(super) fn angle(row: Row) -> f64 {
-    let angle = match row {
-        Row::Impact(station) => station.roll_angle_driver,
-        Row::Load(station) => station.roll_angle_driver,
-    };
-    0.0 - angle.to_degrees()
 }

@@ -5,29 +5,17 @@ use std::fmt;
 use unicode_width::UnicodeWidthStr;
 
 use crate::case::units::System;
-use crate::case::units::system::shown;
+use crate::case::units::system::{shown, widest_beside};
 use crate::model::{ContactState, Inputs, Solution};
+use crate::report::graphs::{GRAPHS, Place};
 use crate::report::stations::{COLUMNS, Column, Row};
 
 /// Significant digits of the opening.
 const GAP_DIGITS: usize = 4;
 /// The key of the opening, which is no column of the stations.
 const OPEN: &str = "open";
-/// The values shown, the most important first. The charts show the others.
-const ORDER: [&str; 12] = [
-    "roll_angle_driver",
-    "impact_force",
-    "force",
-    OPEN,
-    "gap",
-    "normal_velocity",
-    "sliding_velocity",
-    "load_share",
-    "transmission_error",
-    "radius_driver",
-    "time",
-    "roll_angle_driven",
-];
+/// The key of the gap.
+const GAP: &str = "gap";
 /// The text of a missing number.
 const NONE: &str = "–";
 /// Cells of a number.
@@ -44,17 +32,15 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The width with any number, after a symbol of that width.
+    /// The width with any number in any unit of its kind, after a symbol of that width.
     #[must_use]
     pub(crate) fn width(&self, symbol: usize) -> usize {
-        symbol
-            + 1
-            + NUMBER
-            + if self.unit.is_empty() {
-                0
-            } else {
-                1 + self.unit.len()
-            }
+        let unit = if self.unit.is_empty() {
+            0
+        } else {
+            1 + widest_beside(self.unit)
+        };
+        symbol + 1 + NUMBER + unit
     }
 }
 
@@ -75,8 +61,7 @@ pub fn readings(
     solved: (&Inputs, &Solution),
     system: System,
 ) -> Vec<Reading> {
-    ORDER
-        .into_iter()
+    keys()
         .filter_map(|key| {
             if key == OPEN {
                 Some(open(moment, system))
@@ -85,6 +70,21 @@ pub fn readings(
             }
         })
         .collect()
+}
+
+/// The values shown: the driver's angle, those of the charts in their order, the others. The
+/// opening stands before the gap that it is a part of.
+fn keys() -> impl Iterator<Item = &'static str> {
+    let shown = GRAPHS.iter().filter(|graph| graph.is_at(Place::Teeth));
+    let of_charts = shown.flat_map(|graph| graph.columns.iter().copied());
+    let of_charts = of_charts.flat_map(|key| {
+        let before = (key == GAP).then_some(OPEN);
+        before.into_iter().chain([key])
+    });
+    let has_chart = |key: &str| GRAPHS.iter().any(|graph| graph.columns.contains(&key));
+    let others = COLUMNS.iter().map(|column| column.key);
+    let mut others = others.filter(move |key| !has_chart(key));
+    others.next().into_iter().chain(of_charts).chain(others)
 }
 
 fn open(moment: &ContactState, system: System) -> Reading {
@@ -191,12 +191,12 @@ mod tests {
         };
         assert_eq!(
             line([Some("2191.0"), Some("1")]),
-            ["F_S 2191.0 N   F_S 1 N"]
+            ["F_S 2191.0 N    F_S 1 N"]
         );
-        assert_eq!(line([None, Some("1")]), ["F_S –          F_S 1 N"]);
+        assert_eq!(line([None, Some("1")]), ["F_S –           F_S 1 N"]);
         assert_eq!(
             line([Some("-0.12345"), Some("1")]),
-            ["F_S -0.12345 N F_S 1 N"]
+            ["F_S -0.12345 N  F_S 1 N"]
         );
     }
 }

@@ -1,0 +1,240 @@
+//! The table of pictures: every chart and the teeth, each with its key, its drawing and the reason
+//! where there is none.
+
+use std::fmt;
+
+use super::charts::{self, SolvedCase, with_other_method};
+use super::graphs::{GRAPHS, Graph, Place};
+use super::svg::teeth::teeth;
+use super::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
+use super::{Report, Selection};
+use crate::case::Case;
+use crate::model::inputs::Method;
+use crate::model::{Inputs, Refusal};
+use crate::study::speeds::{SPEEDS, SpeedCurve, speeds};
+
+/// The pictures that are no chart of [`GRAPHS`], behind those.
+const OTHERS: [Picture; 3] = [
+    Picture {
+        key: SPECTRUM,
+        drawing: Drawing::Spectrum,
+    },
+    Picture {
+        key: SPEED,
+        drawing: Drawing::Speed,
+    },
+    Picture {
+        key: "teeth",
+        drawing: Drawing::Teeth,
+    },
+];
+
+/// A picture of solved cases.
+#[derive(Debug, Clone, Copy)]
+pub struct Picture {
+    /// The key, as `plot --chart` has it.
+    pub key: &'static str,
+    drawing: Drawing,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Drawing {
+    Graph(&'static Graph),
+    Spectrum,
+    Speed,
+    Teeth,
+}
+
+/// A case to be solved and drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Unsolved<'a> {
+    /// The name of the case, as the user gave it.
+    pub name: &'a str,
+    /// The case.
+    pub case: &'a Case,
+    /// The pair that it describes.
+    pub inputs: &'a Inputs,
+}
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoPicture {
+    /// The model refuses the case, or the computation is stopped.
+    Refused(Refusal),
+    /// The case has no values for the picture.
+    Absent(String),
+}
+
+/// Every picture: the charts of the stations, those of whine, the teeth.
+pub fn pictures() -> impl Iterator<Item = Picture> + Clone {
+    let graph = |graph: &'static Graph| Picture {
+        key: graph.key,
+        drawing: Drawing::Graph(graph),
+    };
+    GRAPHS.iter().map(graph).chain(OTHERS)
+}
+
+/// The picture of that key.
+#[must_use]
+pub fn find(key: &str) -> Option<Picture> {
+    pictures().find(|picture| picture.key == key)
+}
+
+impl Picture {
+    /// Whether the page of a report shows it.
+    #[must_use]
+    pub fn is_on_page(self) -> bool {
+        match self.drawing {
+            Drawing::Graph(graph) => graph.is_at(Place::Page),
+            Drawing::Spectrum | Drawing::Speed | Drawing::Teeth => true,
+        }
+    }
+
+    /// Whether it is computed at many speeds, which takes seconds.
+    #[must_use]
+    pub fn needs_speeds(self) -> bool {
+        matches!(self.drawing, Drawing::Speed)
+    }
+
+    /// Whether each case has a picture of its own.
+    #[must_use]
+    pub fn is_of_one_case(self) -> bool {
+        matches!(self.drawing, Drawing::Teeth)
+    }
+
+    /// Draws solved cases; of a picture of one case, the first. None where no case has values for
+    /// the picture.
+    #[must_use]
+    pub fn draw(self, cases: &[SolvedCase]) -> Option<String> {
+        match self.drawing {
+            Drawing::Graph(graph) => charts::picture(graph, cases),
+            Drawing::Spectrum => spectrum(cases),
+            Drawing::Speed => {
+                let named = cases
+                    .iter()
+                    .filter_map(|case| Some((case.name, case.speeds?)));
+                let curves: Vec<_> = named.collect();
+                speed(&curves)
+            }
+            Drawing::Teeth => {
+                let report = cases.first()?.reports.first()?;
+                Some(teeth(&report.inputs, &report.solution))
+            }
+        }
+    }
+
+    /// Solves a case and draws it. `go_on` receives the computed parts of a long computation and
+    /// their number, and stops it by returning false.
+    ///
+    /// # Errors
+    /// The model's refusal, or why the case has no such picture.
+    pub fn of_case(
+        self,
+        source: Unsolved<'_>,
+        go_on: &dyn Fn(usize, usize) -> bool,
+    ) -> Result<String, NoPicture> {
+        let (reports, speeds) = if self.needs_speeds() {
+            (Vec::new(), Some(source.speeds(go_on)?))
+        } else {
+            (with_other_method(source.solve(true)?), None)
+        };
+        let case = SolvedCase {
+            name: "",
+            reports: &reports,
+            speeds: speeds.as_ref(),
+        };
+        let drawn = self.draw(&[case]);
+        drawn.ok_or_else(|| NoPicture::Absent(self.absence(&reports)))
+    }
+
+    /// Why a case has no values for the picture, with the fix.
+    fn absence(self, reports: &[Report]) -> String {
+        let key = self.key;
+        let reason = match self.drawing {
+            Drawing::Graph(graph) => charts::absence(graph, reports),
+            Drawing::Spectrum => charts::absent_of_methods(Method::shares_load, reports),
+            Drawing::Speed => {
+                return format!(
+                    "the chart {key} has no curve: no motion becomes steady: give a greater \
+                     model.damping_ratio"
+                );
+            }
+            Drawing::Teeth => "no case is solved".to_owned(),
+        };
+        format!("{self} has no curve: {reason}: choose another chart")
+    }
+}
+
+/// The picture in words.
+impl fmt::Display for Picture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.drawing {
+            Drawing::Teeth => f.write_str("the teeth"),
+            _ => write!(f, "the chart {}", self.key),
+        }
+    }
+}
+
+impl PartialEq for Picture {
+    fn eq(&self, other: &Picture) -> bool {
+        self.key == other.key
+    }
+}
+
+impl Eq for Picture {}
+
+impl Unsolved<'_> {
+    /// Solves the case with every quantity, and the stations on request.
+    ///
+    /// # Errors
+    /// The model's refusal.
+    pub fn solve(&self, stations: bool) -> Result<Report, Refusal> {
+        let selection = Selection {
+            only: Vec::new(),
+            stations,
+        };
+        let (name, case) = (self.name.to_owned(), self.case.clone());
+        Report::solve(name, case, self.inputs.clone(), selection)
+    }
+
+    /// The dynamic factor over speed.
+    ///
+    /// # Errors
+    /// The model's refusal, and [`Refusal::Stopped`] where `go_on`, which receives the computed
+    /// speeds and their number, says no.
+    pub fn speeds(&self, go_on: &dyn Fn(usize, usize) -> bool) -> Result<SpeedCurve, Refusal> {
+        speeds(self.inputs, &mut |curve| {
+            let done = curve.up.iter().chain(&curve.down).flatten().count();
+            go_on(done, 2 * SPEEDS)
+        })
+    }
+}
+
+impl From<Refusal> for NoPicture {
+    fn from(refusal: Refusal) -> NoPicture {
+        NoPicture::Refused(refusal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_picture_has_a_key_of_its_own() {
+        let keys: Vec<&str> = pictures().map(|picture| picture.key).collect();
+        for (at, key) in keys.iter().enumerate() {
+            assert_eq!(
+                keys.iter().position(|other| other == key),
+                Some(at),
+                "{key}"
+            );
+            assert_eq!(find(key).map(|picture| picture.key), Some(*key));
+        }
+        assert!(
+            ["force", "spectrum", "speed", "teeth"]
+                .iter()
+                .all(|key| keys.contains(key))
+        );
+    }
+}
