@@ -15,6 +15,7 @@ pub mod groups;
 pub mod json;
 mod layout;
 pub mod page;
+pub mod pictures;
 pub mod relief;
 pub mod schema;
 pub mod seek;

@@ -9,6 +9,7 @@ use crate::case::{Case, Problem, Spread, field_range, units};
 use crate::model::Inputs;
 use crate::model::inputs::Gear;
 use crate::model::iso_1328::base_pitch_tolerance;
+use crate::numeric::decimal::{shortest, significant};
 
 /// Standard deviations at which a truncated normal distribution ends.
 const CUT: f64 = 3.0;
@@ -88,7 +89,8 @@ impl Distribution {
             .find(|&end| end < from - slack || end > to + slack)?;
         let unit = FIELDS[self.field].usual_unit();
         let value = end / units::factor(unit).unwrap_or(1.0);
-        let rounded = crate::numeric::decimal::significant(value, 6);
+        let rounded = significant(value, 6);
+        let rounded = rounded.parse().map_or(rounded, shortest);
         let by = match self.shape {
             Shape::Normal => format!(" at {ALLOWED} standard deviations"),
             _ => String::new(),
@@ -220,12 +222,12 @@ mod tests {
         };
         let message = refusal("driven.tip_relief", "uniform", "12 um").unwrap_err();
         assert!(
-            message.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2.00000 um"),
+            message.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2 um"),
             "{message}"
         );
         let message = refusal("driven.tip_relief", "normal", "3 um").unwrap_err();
         assert!(
-            message.contains("-5.00000 um at 5 standard deviations"),
+            message.contains("-5 um at 5 standard deviations"),
             "{message}"
         );
         assert!(refusal("driven.tip_relief", "truncated", "10 um").is_ok());

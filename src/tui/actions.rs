@@ -200,6 +200,7 @@ mod tests {
             Place::TEETH,
             Place::TRADE,
             Place::STUDY,
+            Place::TOLERANCE,
             Place::READ,
         ] {
             for letter in '!'..='~' {

@@ -264,6 +264,7 @@ mod tests {
             Place::TEETH,
             Place::TRADE,
             Place::STUDY,
+            Place::TOLERANCE,
         ] {
             for (letter, arrow) in [
                 ('h', KeyCode::Left),

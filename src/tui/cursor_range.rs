@@ -6,12 +6,15 @@ use super::panes::chart::curves::{Whose, curves};
 use super::panes::chart::{first_contact, last_contact, panels};
 use crate::case::units::{self, Dimension};
 use crate::model::Solution;
+use crate::numeric::decimal::{shortest, significant};
 use crate::report::graphs::GRAPHS;
 
 /// The instruction of the prompt.
 pub(super) const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
     or a point (D, E, B, L, peak).";
 
+/// Digits of an angle and of a time.
+const DIGITS: (usize, usize) = (5, 4);
 /// Pictures of a run: four seconds at twelve pictures a second.
 const PICTURES: f64 = 48.0;
 /// The start of a run in the teeth pane, before D, as a multiple of the angle from D to E.
@@ -126,11 +129,19 @@ pub(super) fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
     let side = if angle < 0.0 { "after" } else { "before" };
     let micros = 1e6 * angle.abs() / speed;
     let time = if micros.is_finite() {
-        format!(" ({micros:.1} us)")
+        format!(" ({} us)", short(micros, DIGITS.1))
     } else {
         String::new()
     };
-    format!("{:.4} deg{time} {side} E", angle.abs().to_degrees())
+    format!(
+        "{} deg{time} {side} E",
+        short(angle.abs().to_degrees(), DIGITS.0)
+    )
+}
+
+fn short(number: f64, digits: usize) -> String {
+    let rounded = significant(number, digits);
+    rounded.parse().map_or(rounded, shortest)
 }
 
 // A point by its name. `None` if the text is no name.

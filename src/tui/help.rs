@@ -35,7 +35,7 @@ const SIGNS: [&str; 6] = [
         before E. Crosses: named points. Bold dots: contacts.",
 ];
 
-const PLACES: [(&str, Place); 13] = [
+const PLACES: [(&str, Place); 14] = [
     ("Everywhere", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves one)", Place::FIELD),
@@ -44,6 +44,7 @@ const PLACES: [(&str, Place); 13] = [
     ("In chart and teeth", Place::CURSOR),
     ("In accuracy against run time", Place::TRADE),
     ("In the study", Place::STUDY),
+    ("In the tolerance", Place::TOLERANCE),
     ("In a list", Place::PICK),
     ("In the list of files", Place::BROWSE),
     ("In a question (or its first letter)", Place::ASK),

@@ -50,6 +50,8 @@ impl Place {
     pub(crate) const STUDY: Place = Place(16384);
     /// A chart of whine, which has no roll angle.
     pub(crate) const WHINE: Place = Place(32768);
+    /// The tolerance, a page in the place of the study.
+    pub(crate) const TOLERANCE: Place = Place(65536);
     /// A field that takes text or a name.
     pub(crate) const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
@@ -58,6 +60,7 @@ impl Place {
         .or(Place::CURSOR)
         .or(Place::TRADE)
         .or(Place::STUDY)
+        .or(Place::TOLERANCE)
         .or(Place::WHINE);
     /// Everywhere but in a prompt.
     pub(crate) const WORK: Place = Place::FORM.or(Place::OUTSIDE);

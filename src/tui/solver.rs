@@ -41,7 +41,7 @@ pub struct Answer {
     /// but the late ones while those are still being computed.
     pub stages: Stages,
     /// The stages that were asked for.
-    pub asked: Stages,
+    pub requested: Stages,
     /// The pair, as it was solved.
     pub inputs: Inputs,
     /// The method whose results stand first: that of the case, or `exact` while that one is not
@@ -105,13 +105,13 @@ impl Answer {
     /// Whether no stage that was asked for is still to come.
     #[must_use]
     pub(crate) fn is_whole(&self) -> bool {
-        self.stages.covers(self.asked)
+        self.stages.covers(self.requested)
     }
 
     /// Whether a stage that was asked for is still to come.
     #[must_use]
     pub fn lacks(&self, stage: Stage) -> bool {
-        self.asked.has(stage) && !self.stages.has(stage)
+        self.requested.has(stage) && !self.stages.has(stage)
     }
 
     /// What the active method finds of every quantity.

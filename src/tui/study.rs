@@ -3,6 +3,7 @@
 use ratatui::layout::Rect;
 
 use crate::case::Case;
+use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 use crate::study::axis::Axis;
@@ -137,6 +138,8 @@ pub struct StudyKey {
     pub second: Option<usize>,
     /// The zoom of the ranges.
     pub zoom: i32,
+    /// The display units.
+    pub units: System,
     /// Whether the pane shows the tolerance.
     pub is_tolerance: bool,
     /// The area of the pane.

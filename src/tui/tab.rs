@@ -50,9 +50,9 @@ pub struct Tab {
     /// The request that the form stands for. No two tabs share one.
     pub serial: u64,
     /// The stages that were asked for with it.
-    pub(crate) asked: Stages,
+    pub(crate) requested: Stages,
     /// Whether the mesh stiffness was asked for with it.
-    pub asked_stiffness: bool,
+    pub requested_stiffness: bool,
     /// How much of it is done, where it takes its time.
     pub(crate) solving: Option<f64>,
     /// Whether the worker has answered it, in whatever way.
@@ -117,8 +117,8 @@ impl Tab {
             history: History::default(),
             problems: Vec::new(),
             serial: 0,
-            asked: Stages::NONE,
-            asked_stiffness: false,
+            requested: Stages::NONE,
+            requested_stiffness: false,
             solving: None,
             is_settled: false,
             answer: None,
@@ -252,6 +252,7 @@ impl Tab {
             .unwrap_or(at);
         self.form = FormState {
             top: self.form.top,
+            lines: std::mem::take(&mut self.form.lines),
             ..FormState::at(&self.case, focus)
         };
         self.history.end_visit();
@@ -272,7 +273,7 @@ impl Tab {
         self.solving = self.solving.filter(|_| !self.is_settled);
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
-            if answer.stiffness.is_none() && self.asked_stiffness {
+            if answer.stiffness.is_none() && self.requested_stiffness {
                 // The chart keeps its curves until the new ones are computed.
                 answer.stiffness = self.answer.take().and_then(|earlier| earlier.stiffness);
             }

@@ -80,8 +80,10 @@ pub(super) fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
     };
     let is_end = |at: &usize| !text[..*at].ends_with("Eq") && !text[..*at].ends_with("Eqs");
     let whole = ends(". ").filter(is_end).map(|at| text[..=at].to_owned());
-    let parts = ends("; ")
-        .chain(ends(", "))
+    let mut ends_of_parts: Vec<usize> = ends("; ").chain(ends(", ")).collect();
+    ends_of_parts.sort_unstable_by_key(|&at| std::cmp::Reverse(at));
+    let parts = ends_of_parts
+        .into_iter()
         .map(|at| format!("{}…", &text[..at]));
     let words = ends(" ").map(|at| format!("{}…", &text[..at]));
     let mut sayings = whole
@@ -290,6 +292,13 @@ mod tests {
             };
             assert_eq!(letters(&lines.concat()), letters(text), "{width}");
         }
+    }
+
+    #[test]
+    fn a_long_text_fills_its_lines_up_to_the_last_part_that_has_room() {
+        let text = "at E: one 1 mm and some; two 2 mm, three 3 mm, four 4 mm.";
+        let lines = ["at E: one 1 mm and", "some; two 2 mm…"];
+        assert_eq!(sentences(text, 20, 2), lines);
     }
 
     #[test]

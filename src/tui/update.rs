@@ -80,15 +80,16 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     chart::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
     effects.extend(study::request(app));
-    effects.extend(whine::ask(app));
+    effects.extend(whine::request(app));
     effects.extend(variants::request(app));
     effects.extend(trade::stop_unseen(app));
     effects
 }
 
-/// What follows from the rest of the state: how far form and results are scrolled, and the axes of
-/// the charts.
+/// What follows from the rest of the state: the lines of the form, how far form and results are
+/// scrolled, and the axes of the charts.
 pub(crate) fn settle(app: &mut App) {
+    app.tab.form.lines = form::Lines::of(&app.form());
     if mem::take(&mut app.needs_scroll) {
         app.tab.form.top = form::top_for(&app.form());
         app.tab.results.top = results::top_for(&app.results());
@@ -347,4 +348,38 @@ fn solve(request: Option<Request>) -> Vec<Effect> {
         .map(|request| Effect::Solve(Box::new(request)))
         .into_iter()
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tui::actions::of_key;
+    use crate::tui::store;
+    use crossterm::event::{KeyCode, KeyEvent};
+
+    #[test]
+    fn after_every_event_the_lines_of_the_form_are_those_of_its_state() {
+        let mut app = opened(store::built_in(), None, Look::FULL, Size::new(80, 24));
+        let events = [
+            Action::Insert('x'),
+            Action::Do(Command::Next),
+            Action::Do(Command::Undo),
+            Action::Resize(Size::new(140, 45)),
+            Action::Do(Command::New),
+            Action::Do(Command::PreviousTab),
+            Action::Do(Command::Limit),
+            Action::Do(Command::Accept),
+            Action::Do(Command::Next),
+            Action::Do(Command::Zoom),
+            Action::Do(Command::Zoom),
+            Action::Resize(Size::new(60, 16)),
+            Action::Tick,
+        ];
+        let key = of_key(KeyEvent::from(KeyCode::Char('8')), app.place());
+        for event in key.into_iter().chain(events) {
+            let words = format!("{event:?}");
+            update(&mut app, event);
+            assert_eq!(app.tab.form.lines, form::Lines::of(&app.form()), "{words}");
+        }
+    }
 }

@@ -114,7 +114,7 @@ pub struct WhinePart {
 #[derive(Debug, Clone, Default)]
 pub struct Whine {
     /// The last request.
-    pub asked: Option<WhineRequest>,
+    pub request: Option<WhineRequest>,
     /// The values, of an earlier request until the first of the last one come.
     pub found: Option<(WhineChart, WhineFound)>,
     /// Whether the last request is being computed.
@@ -124,15 +124,15 @@ pub struct Whine {
 impl Whine {
     /// Takes a part of the answer to the last request.
     pub fn take(&mut self, part: WhinePart) {
-        let Some(asked) = self
-            .asked
+        let Some(request) = self
+            .request
             .as_ref()
-            .filter(|asked| asked.serial == part.serial)
+            .filter(|request| request.serial == part.serial)
         else {
             return;
         };
         if let Some(found) = part.found {
-            self.found = Some((asked.chart, found));
+            self.found = Some((request.chart, found));
         }
         self.is_running = !part.is_over;
     }

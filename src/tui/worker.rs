@@ -22,7 +22,7 @@ use super::study::StudyRequest;
 use super::whine::WhineRequest;
 use crate::case::stamp::Stamp;
 
-/// The threads. Those of benchmark, study and jobs start with their first request.
+/// The threads. All but those of the solver and of the watched files start with their first request.
 pub struct Workers {
     send: Send,
     solver: Worker<Request>,

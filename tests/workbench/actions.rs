@@ -6,6 +6,8 @@ use std::collections::BTreeSet;
 use harness::{Desk, LARGE, TABLE_1, time_evenly};
 use tipstrike::tui::testing::commands::BINDINGS;
 
+const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n";
+
 /// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is
 /// not without the key. `:name` calls a command by the palette.
 #[rustfmt::skip]
@@ -49,7 +51,11 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 6 +", "-", "l", "m = 5.05 mm:"),
     ("Esc 6 +", "0", "l", "m = 5.05 mm:"),
     ("Esc 6", "s", "", "Second field of the map"),
-    ("Esc 6", "d", "", "The case has no [spread]"),
+    ("Esc 6", "d", "", "▸ 6 Tolerance 1 to 14 of 27"),
+    ("Esc 6 d", "j", "", "▸ 6 Tolerance 2 to 15 of 27"),
+    ("Esc 6 d j j", "k", "", "▸ 6 Tolerance 2 to 15 of 27"),
+    ("Esc 6 d", "l", "", "▸ 6 Tolerance 14 to 27 of 27"),
+    ("Esc 6 d l", "h", "", "▸ 6 Tolerance 1 to 14 of 27"),
     ("Esc 2", "v", "", "the case has no variants"),
     ("", ":variant", "", "Commands"),
     ("X", ":reload", "", "[> Cancel <]"),
@@ -162,10 +168,10 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-P", "Tab", "", "▸ cursor to angle "),
     ("Ctrl-P Down Down", "BackTab", "", "▸ cursor to angle "),
     ("Esc 2 j j Enter j", "j", "", "m     pair.module"),
-    ("Esc 2 j j Enter j j", "k", "", "│ θ_1 = 1.36628 deg"),
+    ("Esc 2 j j Enter j j", "k", "", "│ θ_1 = 1.366 deg"),
     ("Esc 2 j j Enter", "PageDown", "", "pair.centre_distance = no backlash"),
     ("Esc 2 j j Enter", "Space", "", "pair.centre_distance = no backlash"),
-    ("Esc 2 j j Enter PageDown PageDown", "PageUp", "", "│ θ_1 = 1.36628 deg"),
+    ("Esc 2 j j Enter PageDown PageDown", "PageUp", "", "│ θ_1 = 1.366 deg"),
     ("Ctrl-P units", "Enter", "", "492.56"),
     ("F1", "Enter", "", "▸ Form"),
     ("Ctrl-P", "Esc", "", "▸ Form"),
@@ -190,7 +196,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
 ];
 
 fn bench() -> Desk {
-    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    let mut desk = Desk::on(LARGE, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     std::fs::create_dir(desk.path("sub")).expect("a folder");
     desk.recents = vec![desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"))];
     desk

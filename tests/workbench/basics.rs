@@ -644,7 +644,7 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
     let copied = desk.copied.clone().unwrap_or_default();
     for part in [
         "# Zhou & Chen 2014, Table 1",
-        "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N.",
+        "Corner contact: θ_1 = 1.366 deg before E; impact force 2191.0 N.",
         "| power | P | 15 kW |",
         "| impact force | F_S | 2191.0 | N |",
     ] {
@@ -672,13 +672,10 @@ fn what_is_too_long_for_a_clipboard_is_not_sent() {
 fn notes_are_never_off_the_screen() {
     for size in [TINY, SMALL, LARGE, HUGE] {
         let mut desk = Desk::new(size);
-        assert!(
-            desk.shows("key n: ") || desk.shows(": press n") || desk.shows("Note: "),
-            "{size}"
-        );
+        assert!(desk.shows("press n") || desk.shows("Note: "), "{size}");
         desk.keys(&["Esc", "2", "G"]);
         assert!(
-            desk.shows("key n: ") || desk.shows(": press n") || desk.shows("Note: "),
+            desk.shows("press n") || desk.shows("Note: "),
             "{}",
             desk.screen()
         );

@@ -919,9 +919,9 @@ fn a_key_changes_few_bytes_of_a_chart() {
 }
 
 #[test]
-fn the_mesh_stiffness_has_a_curve_for_every_model_with_the_field_on_top() {
+fn the_mesh_stiffness_has_a_curve_for_every_model_with_that_of_the_case_on_top() {
     let mut desk = at_method(SMALL, "exact");
-    let request = |desk: &Desk| desk.app.tab.asked_stiffness;
+    let request = |desk: &Desk| desk.app.tab.requested_stiffness;
     assert!(!request(&desk), "a chart out of sight costs nothing");
     desk.keys(&["1", ":", "chart: mesh stiffness", "Enter", "3"]);
     assert!(request(&desk));
@@ -931,7 +931,10 @@ fn the_mesh_stiffness_has_a_curve_for_every_model_with_the_field_on_top() {
     let charts = desk.app.charts();
     let graph = &GRAPHS[charts.shown()[0]];
     let curves = curves::curves(&charts, graph);
-    assert!(curves::is_field(curves.last().expect("a curve").whose));
+    let [.., field, own] = &curves[..] else {
+        panic!("curves of several models");
+    };
+    assert!(curves::is_field(field.whose) && !curves::is_field(own.whose));
     // From E to the end of the path of contact, the strike left aside.
     let window = charts.window();
     assert!(window.from < 0.0 && window.to > 20.0, "{window:?}");

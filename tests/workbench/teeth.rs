@@ -173,7 +173,7 @@ fn the_cursor_turns_the_gears_and_shows_the_values_of_the_solution() {
     let at_d = screen(&picture(&table_1, &view, 1.0), (140, 30));
     for value in [
         "1.3663 deg",
-        "O1J 47.8915 mm",
+        "O1J 47.891 mm",
         "ΔV_n 0.82106 m/s",
         "ΔV_τ 5.2227 m/s",
         "F_S 2191.0 N",

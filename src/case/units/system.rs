@@ -69,13 +69,18 @@ impl System {
     /// The unit of this system that stands for a metric one.
     #[must_use]
     pub fn unit(self, metric: &'static str) -> &'static str {
-        let inch = || {
-            PAIRS
-                .iter()
-                .find(|(from, _)| *from == metric)
-                .map_or(metric, |(_, to)| to)
-        };
-        if self == System::Inch { inch() } else { metric }
+        self.unit_of(metric)
+    }
+
+    /// The unit of this system that stands for a unit as a user writes it; that unit itself where
+    /// it is no metric one of these.
+    #[must_use]
+    pub fn unit_of(self, written: &str) -> &str {
+        let inch = PAIRS.iter().find(|(from, _)| *from == written);
+        match inch {
+            Some((_, inch)) if self == System::Inch => inch,
+            _ => written,
+        }
     }
 }
 
@@ -109,6 +114,17 @@ pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System)
         unit = next;
     }
     unit
+}
+
+/// The characters of the widest unit in which values stand that a person reads in this unit: a
+/// greater value takes a greater unit.
+#[must_use]
+pub fn widest_beside(unit: &str) -> usize {
+    let is_beside = |(less, more): &&(&str, &str)| *less == unit || *more == unit;
+    let widths = NEXT.iter().filter(is_beside);
+    widths.fold(unit.len(), |most, (less, more)| {
+        most.max(less.len()).max(more.len())
+    })
 }
 
 /// A value in SI counted in a unit, with that many significant digits and no more, in an exponent's

@@ -52,8 +52,8 @@ impl App {
         if problems.is_empty() {
             self.last_serial += 1;
             let tab = &mut self.tab;
-            tab.asked_stiffness = wants_stiffness;
-            (tab.serial, tab.asked, tab.is_settled, tab.solving) =
+            tab.requested_stiffness = wants_stiffness;
+            (tab.serial, tab.requested, tab.is_settled, tab.solving) =
                 (self.last_serial, stages, false, None);
             tab.problems.clear();
             return Some(Request {
@@ -76,10 +76,10 @@ impl App {
 
     /// The request for the results that the first frame could not wait for.
     pub(in crate::tui) fn unanswered(&mut self) -> Option<Request> {
-        let asked = self.tab.asked;
+        let requested = self.tab.requested;
         let lacks_stiffness = self.wants_stiffness();
         let is_partial = |answer: &Answer| {
-            answer.stages != asked || (lacks_stiffness && answer.stiffness.is_none())
+            answer.stages != requested || (lacks_stiffness && answer.stiffness.is_none())
         };
         let waits = !self.tab.is_settled || self.tab.answer.as_ref().is_some_and(is_partial);
         if waits { self.request() } else { None }
@@ -87,8 +87,11 @@ impl App {
 
     /// A request for the stages that became visible after the last request.
     pub(in crate::tui) fn catch_up(&mut self) -> Option<Request> {
-        let lacks = !self.wanted().iter().all(|stage| self.tab.asked.has(stage));
-        let lacks = lacks || (self.wants_stiffness() && !self.tab.asked_stiffness);
+        let lacks = !self
+            .wanted()
+            .iter()
+            .all(|stage| self.tab.requested.has(stage));
+        let lacks = lacks || (self.wants_stiffness() && !self.tab.requested_stiffness);
         if lacks && self.tab.problems.is_empty() {
             self.request()
         } else {

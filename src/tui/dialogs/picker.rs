@@ -28,8 +28,7 @@ const SIZE: Size = Size {
     width: 100,
     height: 20,
 };
-/// Room for a name and for the keys of a command; a longer name takes what it needs.
-const NAME: usize = 18;
+/// Room for the keys of a command.
 const KEYS: usize = 14;
 
 impl Dialog for Picker {
@@ -81,7 +80,7 @@ fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Op
     if let List::Examples(digests) = &picker.list {
         draw_examples(&items, digests, picker.marked, list, theme, buffer);
     } else {
-        let above = above_told(&items, list);
+        let above = above_detail(&items, list);
         draw_items(&items, picker.marked, above, theme, buffer);
         let below = Rect {
             y: above.bottom(),
@@ -108,7 +107,7 @@ fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
     let area = if matches!(picker.list, List::Examples(_)) {
         parted(list).0
     } else {
-        above_told(&items, list)
+        above_detail(&items, list)
     };
     line_at(items.len(), Some(picker.marked), area, at)
 }
@@ -121,7 +120,7 @@ fn below_line(inner: Rect) -> Rect {
     }
 }
 
-fn above_told(items: &[Item], list: Rect) -> Rect {
+fn above_detail(items: &[Item], list: Rect) -> Rect {
     Rect {
         height: list.height - detail_lines(items, list),
         ..list
@@ -138,23 +137,14 @@ fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: 
             .unwrap_or(0)
     };
     let keys = widest(|item| &item.keys, KEYS);
-    let has_places = items
-        .iter()
-        .any(|item| matches!(item.pick, Pick::Go(_) | Pick::Show(_)));
-    let most = if keys == 0 || has_places {
-        usize::from(area.width) * 2 / 5
-    } else {
-        NAME.max(usize::from(area.width) / 4)
-    };
-    let name = widest(|item| &item.name, most);
+    let name = widest(|item| &item.name, usize::from(area.width) * 2 / 5);
     let line = |item: &Item| {
         let keys = if keys == 0 {
             String::new()
         } else {
             format!("  {}", text::padded(&item.keys, keys))
         };
-        let gap = name.saturating_sub(item.name.width());
-        format!("{}{}{keys}  {}", item.name, " ".repeat(gap), item.about)
+        format!("{}{keys}  {}", text::padded(&item.name, name), item.about)
             .trim_end()
             .to_owned()
     };

@@ -56,8 +56,7 @@ pub(super) struct Panes {
     pub(super) focus: Pane,
     /// The one of the lower area that is shown where not all of them have room.
     pub(super) lower: Pane,
-    /// Whether the focused one has the screen: of form and results both, of the lower area it
-    /// alone.
+    /// Whether the focused one has the screen.
     pub(super) is_zoomed: bool,
 }
 
@@ -85,12 +84,10 @@ pub(super) fn plan(size: Size, panes: Panes) -> Plan {
         ..Plan::default()
     };
     let body = row(1, height - 4);
-    if panes.is_zoomed || height < LOWER_FROM {
-        if panes.focus.is_lower() {
-            *plan.area_mut(panes.focus) = body;
-        } else {
-            plan.split_upper(body);
-        }
+    if panes.is_zoomed || (height < LOWER_FROM && panes.focus.is_lower()) {
+        *plan.area_mut(panes.focus) = body;
+    } else if height < LOWER_FROM {
+        plan.split_upper(body);
     } else if holds(size, THREE_FROM) {
         plan.three_columns(body, panes);
     } else {
@@ -147,6 +144,7 @@ impl Plan {
             Pane::Chart,
             Pane::Teeth,
             Pane::Results,
+            Pane::Form,
         ];
         lowest.into_iter().find(|&pane| !self.area(pane).is_empty())
     }
@@ -292,7 +290,19 @@ mod tests {
                     ..usual
                 }
             ),
-            [Form, Results]
+            [Form]
+        );
+        assert_eq!(
+            seen(
+                80,
+                24,
+                Panes {
+                    is_zoomed: true,
+                    focus: Results,
+                    ..usual
+                }
+            ),
+            [Results]
         );
         assert_eq!(
             seen(

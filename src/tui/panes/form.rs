@@ -39,6 +39,8 @@ pub struct FormState {
     pub(crate) written_unit: Option<String>,
     /// The first visible line.
     pub top: usize,
+    /// The lines, computed once per event.
+    pub(crate) lines: Lines,
 }
 
 impl FormState {
@@ -50,6 +52,7 @@ impl FormState {
             input: Text::whole(rows::text(case, focus).unwrap_or_default()),
             written_unit: rows::written_unit(case, focus),
             top: 0,
+            lines: Lines::default(),
         }
     }
 }
@@ -79,6 +82,8 @@ pub(crate) struct Form<'a> {
     pub(crate) ending: Option<String>,
     /// The first visible line.
     pub(crate) top: usize,
+    /// The lines since the last event.
+    pub(crate) lines: &'a Lines,
     /// The capabilities of the terminal.
     pub(crate) look: Look,
     /// The title line.
@@ -114,10 +119,30 @@ enum Row {
     Reason(String),
 }
 
+/// The lines of the form in a pane of a width.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Lines {
+    width: u16,
+    rows: Vec<Row>,
+}
+
+impl Lines {
+    /// The lines of the form in its pane.
+    pub(crate) fn of(pane: &Form<'_>) -> Lines {
+        let width = pane.area.width;
+        Lines {
+            width,
+            rows: rows(pane, width),
+        }
+    }
+}
+
 /// Draw the form; where the cursor stands.
 pub(crate) fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
     let area = pane.area;
-    let rows = rows(pane, area.width);
+    // The terminal may have a new size that no event has reported yet.
+    let resized = (area.width != pane.lines.width).then(|| Lines::of(pane));
+    let rows = &resized.as_ref().unwrap_or(pane.lines).rows;
     let inner = pane.title.draw("Form", area, buffer);
     if inner.is_empty() {
         return None;
@@ -153,7 +178,7 @@ pub(crate) fn top_for(pane: &Form<'_>) -> usize {
         return pane.top;
     }
     let height = usize::from(area.height.saturating_sub(1)).max(1);
-    let rows = rows(pane, area.width);
+    let rows = &pane.lines.rows;
     let focused = rows
         .iter()
         .position(|row| *row == Row::Line(pane.focus))
@@ -176,7 +201,7 @@ pub(crate) fn top_for(pane: &Form<'_>) -> usize {
 pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
     let area = pane.area;
     let line = usize::from(at.y.checked_sub(area.y + 1)?);
-    match rows(pane, area.width).get(pane.top + line)? {
+    match pane.lines.rows.get(pane.top + line)? {
         Row::Line(index) => Some(*index),
         Row::Group(_) | Row::Reason(_) => None,
     }
@@ -186,9 +211,8 @@ pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
 #[must_use]
 pub(crate) fn scrolled(pane: &Form<'_>, by: isize) -> usize {
     let area = pane.area;
-    let most = rows(pane, area.width)
-        .len()
-        .saturating_sub(area.height.saturating_sub(1).into());
+    let height = usize::from(area.height.saturating_sub(1));
+    let most = pane.lines.rows.len().saturating_sub(height);
     pane.top.saturating_add_signed(by).min(most)
 }
 

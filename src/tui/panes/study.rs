@@ -25,7 +25,8 @@ pub(crate) const CURVE_POINTS: usize = 101;
 const MOST_CELLS: (u16, u16) = (60, 30);
 /// Columns and rows of a map that are not its cells.
 const MAP_MARGIN: (u16, u16) = (12, 6);
-/// Rows from which on the legend has one of its own.
+/// Rows from which on the legend has one of its own, and from which on two are for words.
+const LEGEND_FROM: u16 = 6;
 const TALL: u16 = 8;
 /// The words below a plot get at most one of so many rows.
 const WORDS: u16 = 4;
@@ -51,6 +52,10 @@ pub struct StudyState {
 pub enum StudyCommand {
     /// Moves the cursor, across and up.
     Move(isize, isize),
+    /// Scrolls the tolerance by lines.
+    Scroll(isize),
+    /// Scrolls the tolerance by pages.
+    Page(isize),
     /// Halves or doubles the range.
     Zoom(i32),
     /// Shows the usual range.
@@ -203,7 +208,7 @@ fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
 
 /// The rooms with so many lines of words below the plot, if the plot keeps most of the pane.
 fn rooms(inner: Rect, lines: usize) -> Rooms {
-    let legend = u16::from(inner.height >= TALL);
+    let legend = u16::from(inner.height >= LEGEND_FROM);
     let least = inner.height.min(if inner.height >= TALL { 2 } else { 1 });
     let most = least.max(inner.height / WORDS);
     let words = u16::try_from(lines).unwrap_or(most).clamp(least, most);
@@ -236,23 +241,44 @@ fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &m
         };
         return text::draw_words(words, inner, buffer);
     }
-    let last = shown.page.len().saturating_sub(usize::from(inner.height));
-    let lines = shown.page.iter().skip(pane.state.top.min(last));
-    for (line, y) in lines.zip(inner.top()..inner.bottom()) {
-        let width = usize::from(inner.width).saturating_sub(1);
-        buffer.set_stringn(inner.x + 1, y, text::cut(line, width), width, Style::new());
+    let top = top(pane, shown);
+    let lines = shown.page.iter().skip(top);
+    let page = Rect {
+        x: inner.x + 1,
+        width: inner.width.saturating_sub(2),
+        ..inner
+    };
+    for (line, y) in lines.zip(page.top()..page.bottom()) {
+        let width = usize::from(page.width);
+        buffer.set_stringn(page.x, y, text::cut(line, width), width, Style::new());
     }
+    text::scroll_bar_beside(top, shown.page.len(), page, buffer);
 }
 
-/// The first visible line of the page after so many lines downwards.
+/// The lines of the tolerance that have room.
+fn page_height(pane: &StudyPane<'_>) -> usize {
+    usize::from(pane.area.height.saturating_sub(1))
+}
+
+/// The first visible line of the tolerance.
+fn top(pane: &StudyPane<'_>, shown: &StudyResults) -> usize {
+    let last = shown.page.len().saturating_sub(page_height(pane));
+    pane.state.top.min(last)
+}
+
+/// The first visible line of the tolerance after so many lines downwards.
 #[must_use]
 pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
-    let lines = pane
-        .study
-        .shown
-        .as_ref()
-        .map_or(0, |shown| shown.page.len());
-    let rows = usize::from(pane.area.height.saturating_sub(1));
-    let top = pane.state.top.saturating_add_signed(by);
-    top.min(lines.saturating_sub(rows))
+    let Some(shown) = &pane.study.shown else {
+        return 0;
+    };
+    let last = shown.page.len().saturating_sub(page_height(pane));
+    top(pane, shown).saturating_add_signed(by).min(last)
+}
+
+/// The same after so many pages, which share a line.
+#[must_use]
+pub(crate) fn paged(pane: &StudyPane<'_>, by: isize) -> usize {
+    let page = page_height(pane).saturating_sub(1).max(1);
+    scrolled(pane, by * isize::try_from(page).unwrap_or(1))
 }

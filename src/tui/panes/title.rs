@@ -10,8 +10,11 @@ use crate::tui::pane::Pane;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
-/// Room for a title beside the names of hidden panes.
-const LEAST_TITLE: usize = 32;
+/// Room for a title beside the keys of hidden panes, and beside their names.
+const BESIDE_KEYS: usize = 32;
+const BESIDE_NAMES: usize = 44;
+/// The same beside names in a pane that has the screen: at least the room of the pane among others.
+const ALONE: usize = 80;
 /// Stands before the number of a pane while a field takes the digits.
 const LEAVE: &str = "Esc ";
 
@@ -52,7 +55,7 @@ impl Title {
                 self.theme.key,
             );
         }
-        if !names.is_empty() && room >= LEAST_TITLE {
+        if !names.is_empty() {
             buffer.set_string(area.x + room as u16, area.y, &names, Style::new());
         }
         inner
@@ -84,7 +87,8 @@ impl Title {
         }
     }
 
-    // Keys and names of the hidden panes; their keys alone where names have no room.
+    // Keys and names of the hidden panes; their keys alone where names have no room; nothing in a
+    // narrow pane.
     fn names(&self, width: u16) -> String {
         if self.hidden.is_empty() {
             return String::new();
@@ -95,21 +99,25 @@ impl Title {
             String::new()
         };
         let hidden = || self.hidden.iter();
-        let names = hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name()));
-        let named: String = std::iter::once(leave.clone()).chain(names).collect();
-        if room_beside(&named, width) >= LEAST_TITLE {
-            return named;
-        }
-        let numbers: String = hidden()
+        let names: Vec<String> = hidden()
+            .map(|pane| format!(" {} {} ", pane.number(), pane.name()))
+            .collect();
+        let names = names.concat();
+        let keys: String = hidden()
             .map(|pane| format!(" {}", pane.number()))
             .chain([" ".to_owned()])
             .collect();
-        let in_full = leave + &numbers;
-        if room_beside(&in_full, width) >= LEAST_TITLE {
-            in_full
-        } else {
-            numbers
-        }
+        let is_alone = self.hidden.len() + 1 == Pane::ALL.len();
+        let beside_names = if is_alone { ALONE } else { BESIDE_NAMES };
+        let sayings = [
+            (format!("{leave}{names}"), beside_names),
+            (format!("{leave}{keys}"), BESIDE_KEYS),
+            (keys, BESIDE_KEYS),
+        ];
+        let fits = sayings
+            .into_iter()
+            .find(|(words, least)| room_beside(words, width) >= *least);
+        fits.map_or_else(String::new, |(words, _)| words)
     }
 }
 

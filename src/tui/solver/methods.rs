@@ -43,7 +43,7 @@ pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
     let start = Instant::now();
     let answer = answer_while(&quick, &|| start.elapsed() < PATIENCE);
     Some(Answer {
-        asked: request.stages,
+        requested: request.stages,
         ..answer
     })
 }
@@ -178,7 +178,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
     let mut answer = Answer {
         serial: request.serial,
         stages: request.stages,
-        asked: request.stages,
+        requested: request.stages,
         inputs: request.inputs.clone(),
         active: if pending.is_some() {
             Method::Exact

@@ -92,7 +92,7 @@ fn stop_seeking(app: &mut App) -> Option<Effect> {
         .answer
         .as_mut()
         .filter(|answer| answer.strikes() && answer.lacks(Stage::Clearing))?;
-    answer.asked = answer.stages;
+    answer.requested = answer.stages;
     app.say("the search for the required relief is stopped until the next edit");
     Some(Effect::CancelSolve)
 }

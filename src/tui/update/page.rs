@@ -8,7 +8,7 @@ use crate::tui::app::App;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::explanation::Explanation;
 use crate::tui::dialogs::page::Page;
-use crate::tui::jobs::{Asked, Job};
+use crate::tui::jobs::{Explaining, Job};
 use crate::tui::panes::results;
 
 /// Open the page on the marked result.
@@ -39,7 +39,7 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
         app.tab.name(),
         value,
     )));
-    vec![Effect::Job(Job::Explain(Box::new(Asked {
+    vec![Effect::Job(Job::Explain(Box::new(Explaining {
         quantity,
         case: app.tab.case.clone(),
         inputs,

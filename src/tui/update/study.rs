@@ -12,7 +12,7 @@ use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::pane::Pane;
 use crate::tui::panes::results;
-use crate::tui::panes::study::range::{MOST_ZOOM, Steps, axis};
+use crate::tui::panes::study::range::{MOST_ZOOM, RangeOf, Steps};
 use crate::tui::panes::study::{self, CURVE_POINTS, StudyCommand, map_points};
 use crate::tui::rows::{self, Row};
 use crate::tui::study::{
@@ -72,6 +72,7 @@ fn key(app: &App, quantity: Option<&Quantity>) -> StudyKey {
         baseline: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
         second: app.study.second,
         zoom: app.study.zoom,
+        units: app.settings.units,
         is_tolerance: app.study.is_tolerance,
         area: app.layout.plan().area(Pane::Study),
     }
@@ -123,7 +124,12 @@ fn question(app: &App, quantity: Option<&'static Quantity>) -> Result<Question, 
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.layout.plan().area(Pane::Study));
     let second = app.study.second.filter(|second| *second != field);
-    let axis_of = |field, steps| axis(&tab.case, field, app.study.zoom, steps);
+    let place = RangeOf {
+        case: &tab.case,
+        units: app.settings.units,
+        zoom: app.study.zoom,
+    };
+    let axis_of = |field, steps| place.axis(field, steps);
     let axes = match second {
         Some(second) => vec![
             axis_of(second, Steps::Round(up))?,
@@ -246,10 +252,8 @@ pub(super) fn stop(app: &mut App) -> Option<Effect> {
 
 pub(super) fn run(app: &mut App, command: StudyCommand) -> Vec<Effect> {
     match command {
-        StudyCommand::Move(across, up) if app.study.is_tolerance => {
-            let by = if up == 0 { across } else { -up };
-            app.study.top = study::scrolled(&app.study(), by);
-        }
+        StudyCommand::Scroll(by) => app.study.top = study::scrolled(&app.study(), by),
+        StudyCommand::Page(by) => app.study.top = study::paged(&app.study(), by),
         StudyCommand::Move(across, up) => {
             let cursor = study::moved(&app.study(), across, up);
             app.tab.study.cursor = cursor.or(app.tab.study.cursor);

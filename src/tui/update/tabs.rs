@@ -26,7 +26,7 @@ pub(super) fn go_to(app: &mut App, at: usize) {
     app.place_of_tab = at;
     // A request of another case may have been put aside for a later one.
     if !app.tab.is_settled {
-        app.tab.asked = Stages::NONE;
+        app.tab.requested = Stages::NONE;
     }
     app.follow();
 }

@@ -6,7 +6,7 @@ use crate::tui::pane::Pane;
 use crate::tui::whine::{WhinePart, WhineRequest};
 
 /// Requests the visible chart, if another one was requested last; stops the one out of sight.
-pub(super) fn ask(app: &mut App) -> Vec<Effect> {
+pub(super) fn request(app: &mut App) -> Vec<Effect> {
     let is_visible = !app.layout.plan().area(Pane::Chart).is_empty();
     let Some(chart) = app.chart.whine.filter(|_| is_visible) else {
         return stop(app);
@@ -14,8 +14,8 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     let Some(inputs) = app.tab.inputs().cloned() else {
         return stop(app);
     };
-    let asked = app.tab.whine.asked.as_ref();
-    if asked.is_some_and(|asked| asked.chart == chart && asked.inputs == inputs) {
+    let last = app.tab.whine.request.as_ref();
+    if last.is_some_and(|last| last.chart == chart && last.inputs == inputs) {
         return Vec::new();
     }
     forget_running(app);
@@ -25,7 +25,7 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
         chart,
         inputs,
     };
-    app.tab.whine.asked = Some(request.clone());
+    app.tab.whine.request = Some(request.clone());
     app.tab.whine.is_running = true;
     vec![Effect::Whine(Box::new(request))]
 }
@@ -44,7 +44,7 @@ fn forget_running(app: &mut App) -> bool {
     let mut has_run = false;
     for tab in std::iter::once(&mut app.tab).chain(&mut app.others) {
         if std::mem::take(&mut tab.whine.is_running) {
-            tab.whine.asked = None;
+            tab.whine.request = None;
             has_run = true;
         }
     }

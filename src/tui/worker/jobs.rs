@@ -13,7 +13,7 @@ use crate::report::page::{Page, Studies, Subject};
 use crate::study::relief::{NoRelief, specify};
 use crate::tui::actions::Action;
 use crate::tui::jobs::{
-    Asked, Explained, ExportFault, Job, ReliefAnswer, ReliefRequest, Reporting,
+    Explained, Explaining, ExportFault, Job, ReliefAnswer, ReliefRequest, Reporting,
 };
 use crate::tui::store::{case_search, folder, preview, recents};
 use crate::tui::variants::{Variants, VariantsRequest};
@@ -61,7 +61,7 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
             let (path, result) = export::write(&exporting, go_on);
             Action::Exported(path, result)
         }
-        Job::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
+        Job::Explain(explaining) => Action::Explained(Box::new(explained(*explaining))),
         Job::Relief(request) => Action::Relieved(Box::new(relieved(*request, go_on)?)),
         Job::Markdown(reporting) => Action::Reported(markdown(*reporting)),
         Job::Variants(request) => Action::Compared(Box::new(compared(*request, go_on)?)),
@@ -121,12 +121,12 @@ fn relieved(request: ReliefRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Relie
 }
 
 // As `tipstrike explain` does it.
-fn explained(asked: Asked) -> Explained {
-    let Asked {
+fn explained(explaining: Explaining) -> Explained {
+    let Explaining {
         quantity,
         case,
         inputs,
-    } = asked;
+    } = explaining;
     let page = match model::solve(&inputs, Stages::of(quantity.stage)) {
         Ok(solution) => Ok(Box::new(explain::explain(
             quantity, &case, &inputs, &solution,

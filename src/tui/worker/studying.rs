@@ -189,7 +189,7 @@ fn page(question: &ToleranceQuestion, study: &Tolerance, samples: &Samples) -> F
     };
     let mut bytes = Vec::new();
     // Writing into memory does not fail.
-    drop(report.write(&mut bytes));
+    drop(report.write_for_screen(&mut bytes));
     let mut lines: Vec<String> = String::from_utf8_lossy(&bytes)
         .lines()
         .map(str::to_owned)

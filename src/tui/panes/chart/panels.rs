@@ -214,7 +214,7 @@ fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
                     .map(|name| format!("{name} over {label}{below}")),
             );
         }
-        titles.extend(names.last().map(|name| format!("{name}, x{below}")));
+        titles.extend(names.last().map(|name| format!("{name}, x axis{below}")));
         titles.extend(names.last().cloned());
     }
     let fitting = titles.into_iter().find(|title| title.width() <= room);

@@ -8,7 +8,7 @@ use crate::model::inputs::Method;
 use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::numeric::decimal::significant;
 use crate::report::graphs::{GRAPHS, Graph};
-use crate::report::stations::Row;
+use crate::report::stations::{Column, Row};
 use crate::tui::ascii::symbol;
 
 /// Significant digits of the time since E.
@@ -70,15 +70,15 @@ fn time(charts: &Charts, cursor: f64) -> String {
     }
 }
 
-// Every curve of a chart, the active method first.
+// Every curve of a chart, the active method first, in the unit of the greatest value.
 fn all(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(charts, graph);
-    let values: Vec<String> = curves
+    let readings: Vec<Reading> = curves
         .iter()
         .rev()
-        .filter_map(|curve| reading(charts, graph, curve, cursor))
+        .filter_map(|curve| Reading::of(charts, graph, curve, cursor))
         .collect();
-    (!values.is_empty()).then(|| values.join(", "))
+    in_words(charts, &readings)
 }
 
 // The active method's value alone.
@@ -87,7 +87,30 @@ fn own(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     let own = curves
         .iter()
         .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
-    reading(charts, graph, own, cursor)
+    in_words(charts, &[Reading::of(charts, graph, own, cursor)?])
+}
+
+// The value of a curve in SI, and its number of significant digits.
+struct Reading {
+    name: String,
+    column: &'static Column,
+    value: f64,
+    digits: usize,
+}
+
+fn in_words(charts: &Charts, readings: &[Reading]) -> Option<String> {
+    let units = readings.iter().map(|reading| {
+        let shown = reading.column.shown;
+        units::system::unit_for(reading.value.abs(), shown, reading.digits, charts.units)
+    });
+    let factor = |unit: &&str| units::factor(unit).unwrap_or(1.0);
+    let unit = units.max_by(|one, other| factor(one).total_cmp(&factor(other)))?;
+    let words = readings.iter().map(|reading| {
+        let number = units::system::counted(reading.value, unit, reading.digits);
+        let value = format!("{number} {}", units::system::named(unit));
+        format!("{} {}", reading.name, value.trim_end())
+    });
+    Some(words.collect::<Vec<_>>().join(", "))
 }
 
 // The value from the same evaluation as in the teeth pane, not from the drawn line, and its number
@@ -140,28 +163,29 @@ pub(crate) fn base_name(charts: &Charts, method: Method) -> String {
     }
 }
 
-fn reading(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
-    let name = |text: &'static str| symbol(text, charts.look.ascii).into_owned();
-    let (value, digits) = value(charts, graph, curve, cursor)?;
-    let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
-    let most = curve
-        .pieces
-        .iter()
-        .flatten()
-        .map(|(_, y)| y.abs())
-        .fold(0.0, f64::max);
-    let rounded = if in_unit.abs() < ROUNDING * most {
-        0.0
-    } else {
-        value
-    };
-    let (number, unit) = units::system::shown(rounded, curve.column.shown, digits, charts.units);
-    let number = format!("{number} {unit}").trim_end().to_owned();
-    Some(match curve.whose {
-        Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),
-        Whose::Other(method) => format!("{} {number}", method.name()),
-        Whose::Pinned(method) => format!("{} {number}", base_name(charts, method)),
-        Whose::Bound(bound) => format!("{} {number}", name(bound)),
-        Whose::Model { model, .. } => format!("{} {number}", model.name()),
-    })
+impl Reading {
+    fn of(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<Reading> {
+        let name = |text: &'static str| symbol(text, charts.look.ascii).into_owned();
+        let (value, digits) = value(charts, graph, curve, cursor)?;
+        let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
+        let most = curve
+            .pieces
+            .iter()
+            .flatten()
+            .map(|(_, y)| y.abs())
+            .fold(0.0, f64::max);
+        let is_zero = in_unit.abs() < ROUNDING * most;
+        Some(Reading {
+            name: match curve.whose {
+                Whose::Active(_) => name(curve.column.symbol),
+                Whose::Other(method) => method.name().to_owned(),
+                Whose::Pinned(method) => base_name(charts, method),
+                Whose::Bound(bound) => name(bound),
+                Whose::Model { model, .. } => model.name().to_owned(),
+            },
+            column: curve.column,
+            value: if is_zero { 0.0 } else { value },
+            digits,
+        })
+    }
 }

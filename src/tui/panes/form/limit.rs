@@ -51,7 +51,13 @@ pub(super) fn draw_limit(
     let offset = if is_whole {
         draw_name(&symbol, label, name, usual, style, buffer)
     } else {
-        let brief = format!("{symbol}{AT_MOST}");
+        let named = format!("{symbol} {label}{AT_MOST}");
+        let has_room = usize::from(MARK) + named.width() + needed <= line.width.into();
+        let brief = if has_room {
+            named
+        } else {
+            format!("{symbol}{AT_MOST}")
+        };
         buffer.set_stringn(name.x, name.y, &brief, name.width.into(), style);
         (MARK + brief.width() as u16).min(line.width)
     };
@@ -97,11 +103,11 @@ pub(super) fn draw_limit(
 // style.
 fn standing(pane: &Form<'_>, limit: &Limit) -> (Vec<String>, Style) {
     let theme = pane.look.theme;
-    let is_told = !pane.is_stale && !limit.text.is_empty();
+    let is_known = !pane.is_stale && !limit.text.is_empty();
     let solution = pane
         .answer
         .and_then(|answer| answer.of(answer.active))
-        .filter(|_| is_told);
+        .filter(|_| is_known);
     let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {
         return (Vec::new(), Style::new());
     };

@@ -73,8 +73,15 @@ fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
     }
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
-    let quantity = Quantity::find("impact_force_low")?;
-    let unit = report::unit_beside(quantity, [band.low, band.high].into_iter(), pane.units);
+    // In the unit of the force, with a digit more where the unit needs one.
+    let ends = || [band.low, band.high].into_iter();
+    let (few, usual) = (
+        Quantity::find("impact_force_low")?,
+        Quantity::find("impact_force")?,
+    );
+    let unit = report::unit_beside(usual, ends().chain([force]), pane.units);
+    let is_enough = report::unit_beside(few, ends(), pane.units) == unit;
+    let quantity = if is_enough { few } else { usual };
     let (low, high) = (
         report::shown_with(quantity, band.low, unit).number,
         report::shown_with(quantity, band.high, unit),
@@ -88,8 +95,9 @@ fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
     Some(Gauge(vec![
         format!("{whose}: F_S {low} to {high} ({parts})"),
         format!("{whose}: F_S {parts}"),
-        format!("Stiffness models: {force} {parts}"),
-        format!("{force} {parts}"),
+        format!("Other stiffness: {force} {parts}"),
+        format!("Models: {force} {parts}"),
+        format!("Models: {parts}"),
     ]))
 }
 

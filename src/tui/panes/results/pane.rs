@@ -33,7 +33,7 @@ pub struct Results<'a> {
     pub(crate) answer: Option<&'a Answer>,
     /// The pinned results.
     pub(crate) baseline: Option<&'a Baseline>,
-    /// The variants, if they stand in place of the methods.
+    /// The variants, if they are shown instead of the methods.
     pub(crate) variants: Option<&'a Variants>,
     /// The first visible one.
     pub(crate) first_variant: usize,
@@ -57,6 +57,8 @@ pub struct Results<'a> {
     pub(crate) is_focused: bool,
     /// Names the key that goes to the next wrong row.
     pub(crate) next_fault: fn() -> String,
+    /// Names the key that shows the outcome and every note in full.
+    pub(crate) notes_key: fn() -> String,
     /// The display units.
     pub(crate) units: System,
     /// The capabilities of the terminal.

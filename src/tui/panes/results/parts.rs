@@ -8,7 +8,6 @@ use super::gauges::{self, Gauge};
 use super::limits;
 use super::pane::Results;
 use super::words::{NOTE, faults, refused_variants, sentence};
-use crate::model::Note;
 use crate::report::digest;
 use crate::tui::solver::Answer;
 use crate::tui::text;
@@ -16,8 +15,9 @@ use crate::tui::text;
 /// So many quantities are to be in sight before gauges and notes get more than a line each.
 const ENOUGH_ROWS: usize = 8;
 
-/// So many at least, whatever stands above them.
-const LEAST_ROWS: usize = 2;
+/// So many at least below outcome and gauges, and below the reason why a case is not solved.
+const LEAST_ROWS: usize = 4;
+const LEAST_BELOW_FAULT: usize = 2;
 
 /// A pane with fewer lines and columns has room for the outcome in a few words only.
 const LOW: usize = 20;
@@ -41,6 +41,7 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
     let width = usize::from(area.width.saturating_sub(1));
     let height = usize::from(area.height.saturating_sub(1));
     let mut head = banner(pane, width);
+    let faults = head.len();
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = pane.answer {
         head.extend(outcome(pane, answer, width, height < LOW));
@@ -67,13 +68,19 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
     let (mut gauge_lines, mut note_lines) = (whole(&gauges), whole(&notes));
     if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
         gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
-        note_lines = pane
-            .answer
-            .into_iter()
-            .filter_map(|answer| shortened(&answer.notes, width))
-            .collect();
+        note_lines = shortened(pane, 0, width).into_iter().collect();
+        let least = if faults == 0 {
+            LEAST_ROWS
+        } else {
+            LEAST_BELOW_FAULT
+        };
+        let room = |notes: usize| height.saturating_sub(head.len() + 1 + least + notes);
+        if gauge_lines.len() > room(note_lines.len()) {
+            let hidden = gauge_lines.len() - room(1).min(gauge_lines.len());
+            gauge_lines.truncate(room(1));
+            note_lines = shortened(pane, hidden, width).into_iter().collect();
+        }
     }
-    let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
     let faint = if pane.is_stale {
         pane.look.theme.faint
     } else {
@@ -84,7 +91,7 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
             .into_iter()
             .map(|gauge| Line::styled(gauge, faint)),
     );
-    head.truncate(room_for_head);
+    head.truncate(height.saturating_sub(1 + LEAST_BELOW_FAULT + note_lines.len()));
     let rows = height.saturating_sub(head.len() + 1 + note_lines.len());
     let style = pane.look.theme.note.patch(faint);
     Parts {
@@ -97,9 +104,22 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
     }
 }
 
-// The only note in full, else as many as have room by their names, else how many there are.
-fn shortened(notes: &[Note], width: usize) -> Option<String> {
-    let count = notes.len();
+// The only note in full, else as many as have room by their names, else how many there are. With
+// hidden lines above, how many lines there are beside those on the screen.
+fn shortened(pane: &Results<'_>, hidden: usize, width: usize) -> Option<String> {
+    let notes = pane.answer.map_or(&[][..], |answer| &answer.notes[..]);
+    let count = notes.len() + hidden;
+    let key = (pane.notes_key)();
+    let noun = match (hidden, count) {
+        (0, 1) => "note",
+        (0, _) => "notes",
+        (_, 1) => "more line",
+        _ => "more lines",
+    };
+    let counted = format!("{count} {noun}: press {key}");
+    if hidden > 0 {
+        return Some(counted);
+    }
     let in_full = notes
         .first()
         .filter(|_| count == 1)
@@ -108,16 +128,14 @@ fn shortened(notes: &[Note], width: usize) -> Option<String> {
         .iter()
         .map(|note| note.code.replace('-', " "))
         .collect();
-    let noun = if count == 1 { "note" } else { "notes" };
     let by_names = (1..=count).rev().map(|shown| {
         let others = if shown < count {
             format!(", {} more", count - shown)
         } else {
             String::new()
         };
-        format!("key n: {}{others}", names[..shown].join(", "))
+        format!("{NOTE}{}{others} (press {key})", names[..shown].join(", "))
     });
-    let counted = format!("{count} {noun}: press n");
     let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
     (count > 0).then(|| {
         sayings

@@ -91,10 +91,10 @@ pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> 
             stages.and(method.stages())
         });
     let has_friction = answer.inputs.friction_coefficient.is_some();
-    let is_told = move |quantity: &&Quantity| {
+    let is_listed = move |quantity: &&Quantity| {
         !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction())
     };
-    let rest = groups::quantities(answer.active).filter(is_told);
+    let rest = groups::quantities(answer.active).filter(is_listed);
     first
         .iter()
         .filter_map(|key| Quantity::find(key))

@@ -9,6 +9,9 @@ use crate::tui::text;
 /// So much of the baseline's name, and of the word before it, tells something.
 const LEAST_OF_BASE: usize = ", against name…".len();
 
+/// Words for the variants, in full and in fewer.
+const VARIANTS: [&str; 2] = [", variants against the case", ", variants"];
+
 // Which lines of the table are in sight, where some are not; in words, in numbers, in arrows.
 fn position(pane: &Results<'_>, rows: usize) -> [String; 3] {
     let (lines, first) = (line_count(pane), pane.state.top + 1);
@@ -35,13 +38,17 @@ pub(super) fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
     } else {
         "Results"
     };
+    let left = room.saturating_sub(name.width());
     let name_of_base = match (pane.variants, pane.baseline) {
-        (Some(_), _) => Some(", variants against the case".to_owned()),
+        (Some(_), _) => VARIANTS
+            .into_iter()
+            .find(|words| words.width() <= left)
+            .map(str::to_owned),
         (None, baseline) => baseline.map(|baseline| format!(", against {}", baseline.name)),
     };
     let against = name_of_base.as_deref().unwrap_or_default();
-    let begun = text::cut(against, room.saturating_sub(name.width()));
-    let base = if begun.width() >= LEAST_OF_BASE {
+    let begun = text::cut(against, left);
+    let base = if begun.width() >= LEAST_OF_BASE || pane.variants.is_some() {
         begun.as_str()
     } else {
         ""

@@ -42,17 +42,13 @@ pub(super) fn draw(
         return;
     };
     let height = rooms.plot.height.saturating_sub(2);
-    let height = height.min(up.points.len() as u16);
-    let labels = labelled_rows(height).map(|row| {
-        let at = Map::at(row, height, up.points.len());
-        up.points[at].text.width()
-    });
+    let labels = labelled(up, height).map(|at| up.points[at].text.width());
     let margin = labels.max().unwrap_or(0).max(5) as u16 + 2;
     let width = rooms.plot.width.saturating_sub(margin + 1);
     let cells = Rect {
         x: rooms.plot.x + margin,
         y: rooms.plot.y,
-        width: width.min(across.points.len() as u16),
+        width,
         height,
     };
     if cells.width < 2 || cells.height < 2 {
@@ -85,11 +81,11 @@ pub(super) fn draw(
     map.legend((known, unit), rooms.legend, buffer);
 }
 
-/// The rows with a label, counted from below.
-fn labelled_rows(height: u16) -> impl Iterator<Item = u16> {
-    let few = if height < 5 { 2 } else { 1 };
-    let rows = [0, height / 2, height.saturating_sub(1)];
-    rows.into_iter().step_by(few)
+/// The points with a label beside so many cells: both ends and, where it has room, the middle.
+fn labelled(axis: &Axis, cells: u16) -> impl Iterator<Item = usize> + use<> {
+    let last = axis.points.len().saturating_sub(1);
+    let middle = Some(last / 2).filter(|&middle| cells >= 5 && middle > 0 && middle < last);
+    [Some(0), middle, Some(last)].into_iter().flatten()
 }
 
 fn positions(cells: Rect) -> impl Iterator<Item = (u16, u16)> {
@@ -97,7 +93,7 @@ fn positions(cells: Rect) -> impl Iterator<Item = (u16, u16)> {
 }
 
 impl Map<'_> {
-    /// The place of a cell on its axis: the first and the last cell show the ends.
+    /// The point nearest to a cell: the first and the last cell show the ends.
     fn at(cell: u16, cells: u16, points: usize) -> usize {
         let last = f64::from(cells.max(2) - 1);
         (f64::from(cell) / last * (points - 1) as f64).round() as usize
@@ -196,18 +192,18 @@ impl Map<'_> {
     fn frame(&self, buffer: &mut Buffer) {
         let (cells, rule) = (self.cells, self.pane.look.theme.rule);
         let (left, bottom) = draw_axes(cells, rule, buffer);
-        for below in labelled_rows(cells.height) {
-            let label = &self.up.points[Map::at(below, cells.height, self.up.points.len())].text;
-            let y = bottom - 1 - below;
+        for at in labelled(self.up, cells.height) {
+            let label = &self.up.points[at].text;
+            let y = bottom - 1 - Map::of(at, cells.height, self.up.points.len());
             let start = left.saturating_sub(label.width() as u16);
             buffer.set_string(start, y, label, Style::new());
             buffer.set_string(left, y, "┤", rule);
         }
         let mut free = 0;
-        for column in [0, cells.width / 2, cells.width - 1] {
-            let label =
-                &self.across.points[Map::at(column, cells.width, self.across.points.len())].text;
-            let (x, width) = (cells.x + column, label.width() as u16);
+        for at in labelled(self.across, cells.width) {
+            let label = &self.across.points[at].text;
+            let x = cells.x + Map::of(at, cells.width, self.across.points.len());
+            let width = label.width() as u16;
             let start = x
                 .saturating_sub(width / 2)
                 .min((cells.right() + 1).saturating_sub(width));

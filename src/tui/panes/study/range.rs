@@ -2,7 +2,7 @@
 
 use crate::case::dependencies::value_of;
 use crate::case::fields::{FIELDS, Field, Kind};
-use crate::case::units;
+use crate::case::units::{self, System};
 use crate::case::{Case, Problem, field_range};
 use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::significant;
@@ -34,40 +34,102 @@ pub(crate) enum Steps {
     Round(usize),
 }
 
-/// The axis of a field.
-///
-/// # Errors
-/// Why the field has no range.
-pub(crate) fn axis(case: &Case, field: usize, zoom: i32, steps: Steps) -> Result<Axis, String> {
-    let known = &FIELDS[field];
-    match known.kind {
-        Kind::Text => Err(format!(
-            "{} is a text: go to a field with a value.",
-            known.full_label()
-        )),
-        Kind::Choice(names, _) => {
-            let text = format!("{}={}", known.key, names.join(","));
-            Axis::parse(&text, Sampling::default()).map_err(|problem| worded(known, &problem.cause))
+/// The state that ranges are made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RangeOf<'a> {
+    /// The case in the form.
+    pub(crate) case: &'a Case,
+    /// The display units.
+    pub(crate) units: System,
+    /// How often the range is halved.
+    pub(crate) zoom: i32,
+}
+
+impl RangeOf<'_> {
+    /// The axis of a field.
+    ///
+    /// # Errors
+    /// Why the field has no range.
+    pub(crate) fn axis(self, field: usize, steps: Steps) -> Result<Axis, String> {
+        let known = &FIELDS[field];
+        match known.kind {
+            Kind::Text => Err(format!(
+                "{} is a text: go to a field with a value.",
+                known.full_label()
+            )),
+            Kind::Choice(names, _) => {
+                let text = format!("{}={}", known.key, names.join(","));
+                let axis = Axis::parse(&text, Sampling::default());
+                axis.map_err(|problem| worded(known, &problem.cause))
+            }
+            Kind::Number(..) => {
+                let range = self.number_range(field);
+                let axis = |steps| Ok(with_present(stepped(&range, steps)?, &range, self.case));
+                let found = match (axis(steps), steps) {
+                    (Ok(found), Steps::Round(most)) if found.points.len() > most => {
+                        axis(Steps::Round(most - 1))
+                    }
+                    (found, _) => found,
+                };
+                found.map_err(|problem: Problem| worded(known, &problem.cause))
+            }
+            Kind::Count(from, to, _) => {
+                let (Steps::Equal(points) | Steps::Round(points)) = steps;
+                let range = count_range(self.case, field, self.zoom, points, (from, to));
+                let axis = range.axis(Sampling::default());
+                axis.map_err(|problem| worded(known, &problem.cause))
+            }
         }
-        Kind::Number(..) => {
-            let range = number_range(case, field, zoom);
-            let axis = |steps| {
-                let axis = stepped(&range, steps)?;
-                Ok(with_present(axis, &range, case))
-            };
-            let found = match (axis(steps), steps) {
-                (Ok(found), Steps::Round(most)) if found.points.len() > most => {
-                    axis(Steps::Round(most - 1))
-                }
-                (found, _) => found,
-            };
-            found.map_err(|problem: Problem| worded(known, &problem.cause))
+    }
+
+    fn number_range(self, field: usize) -> AxisRange {
+        let unit = self.unit(field);
+        let factor = units::factor(&unit).unwrap_or(1.0);
+        let value = value(self.case, field);
+        let usual = if value == 0.0 {
+            around_zero(self.case, field)
+        } else {
+            REACH * value.abs()
+        };
+        let reach = usual * 2f64.powi(-self.zoom.clamp(-MOST_ZOOM, MOST_ZOOM));
+        let (least, most) = field_range(field);
+        let rounded = |si: f64| {
+            significant(si / factor, DIGITS)
+                .parse()
+                .unwrap_or(si / factor)
+        };
+        let end = |si: f64| {
+            let number: f64 = rounded(si);
+            // Rounding must not leave the limits of the field.
+            if number * factor < least || number * factor > most {
+                si.clamp(least, most) / factor
+            } else {
+                number
+            }
+        };
+        let (from, to) = (
+            end((value - reach).max(least)),
+            end((value + reach).min(most)),
+        );
+        AxisRange {
+            field,
+            unit,
+            from,
+            to,
         }
-        Kind::Count(from, to, _) => {
-            let (Steps::Equal(points) | Steps::Round(points)) = steps;
-            let range = count_range(case, field, zoom, points, (from, to));
-            let axis = range.axis(Sampling::default());
-            axis.map_err(|problem| worded(known, &problem.cause))
+    }
+
+    /// The unit in which the value is written, else the usual one; its inch unit where inches are
+    /// shown.
+    fn unit(self, field: usize) -> String {
+        let usual = match FIELDS[field].kind {
+            Kind::Number(_, range, _) => range.unit,
+            _ => "",
+        };
+        let written = rows::written_unit(self.case, field);
+        match written.as_deref().map(|unit| self.units.unit_of(unit)) {
+            Some(unit) => unit.to_owned(),
+            None => self.units.unit(usual).to_owned(),
         }
     }
 }
@@ -86,21 +148,27 @@ fn stepped(range: &AxisRange, steps: Steps) -> Result<Axis, Problem> {
 
 /// The axis with the present value of the field among its points.
 fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
-    let is_written = case.value(axis.field).is_some();
+    let written = rows::written_unit(case, axis.field).unwrap_or_default();
+    let is_written = case.value(axis.field).is_some() && written == range.unit;
     let digits = if is_written { ROUND_DIGITS } else { DIGITS };
     let rounded = |number: f64| significant(number, digits).parse::<f64>().unwrap_or(number);
     let Some(point) = present(&axis, case).and_then(|number| range.at(rounded(number)).ok()) else {
         return axis;
     };
-    let own = point.number.map(rounded);
-    if axis
+    let Some(own) = point.number.map(rounded) else {
+        return axis;
+    };
+    // A point that differs by rounding alone is the present value.
+    let rounding = own.abs() * 10f64.powi(1 - i32::try_from(digits).unwrap_or(0));
+    axis.points.retain(|other| {
+        other
+            .number
+            .is_none_or(|number| (number - own).abs() > rounding)
+    });
+    let at = axis
         .points
-        .iter()
-        .all(|other| other.number.map(rounded) != own)
-    {
-        let at = axis.points.partition_point(|other| other.number < own);
-        axis.points.insert(at, point);
-    }
+        .partition_point(|other| other.number < Some(own));
+    axis.points.insert(at, point);
     axis
 }
 
@@ -154,52 +222,6 @@ fn value(case: &Case, field: usize) -> f64 {
         _ => known.example().parse().ok(),
     };
     number(case, field).or_else(example).unwrap_or(0.0)
-}
-
-fn number_range(case: &Case, field: usize, zoom: i32) -> AxisRange {
-    let unit = unit(case, field);
-    let factor = units::factor(&unit).unwrap_or(1.0);
-    let value = value(case, field);
-    let usual = if value == 0.0 {
-        around_zero(case, field)
-    } else {
-        REACH * value.abs()
-    };
-    let reach = usual * 2f64.powi(-zoom.clamp(-MOST_ZOOM, MOST_ZOOM));
-    let (least, most) = field_range(field);
-    let rounded = |si: f64| {
-        significant(si / factor, DIGITS)
-            .parse()
-            .unwrap_or(si / factor)
-    };
-    let end = |si: f64| {
-        let number: f64 = rounded(si);
-        // Rounding must not leave the limits of the field.
-        if number * factor < least || number * factor > most {
-            si.clamp(least, most) / factor
-        } else {
-            number
-        }
-    };
-    let (from, to) = (
-        end((value - reach).max(least)),
-        end((value + reach).min(most)),
-    );
-    AxisRange {
-        field,
-        unit,
-        from,
-        to,
-    }
-}
-
-/// The unit in which the value is written, else the usual one.
-fn unit(case: &Case, field: usize) -> String {
-    let usual = match FIELDS[field].kind {
-        Kind::Number(_, range, _) => range.unit,
-        _ => "",
-    };
-    rows::written_unit(case, field).unwrap_or_else(|| usual.to_owned())
 }
 
 fn around_zero(case: &Case, field: usize) -> f64 {
@@ -265,9 +287,16 @@ mod tests {
     use super::*;
     use crate::case::fields::index_of;
 
+    fn range_of(case: &Case, zoom: i32) -> RangeOf<'_> {
+        let units = System::Metric;
+        RangeOf { case, units, zoom }
+    }
+
     fn ends(key: &str, zoom: i32) -> (String, String) {
         let field = index_of(key).expect("a field");
-        let axis = axis(&Case::table_1(), field, zoom, Steps::Equal(101)).expect("a range");
+        let axis = range_of(&Case::table_1(), zoom)
+            .axis(field, Steps::Equal(101))
+            .expect("a range");
         (axis.with_unit(0), axis.with_unit(axis.points.len() - 1))
     }
 
@@ -311,7 +340,9 @@ mod tests {
             ("operation.power", 3, 7, ["14.5 kW", "15 kW", "15.5 kW"]),
         ] {
             let field = index_of(key).expect("a field");
-            let axis = axis(&case, field, zoom, Steps::Round(most)).expect("a range");
+            let axis = range_of(&case, zoom)
+                .axis(field, Steps::Round(most))
+                .expect("a range");
             let last = axis.points.len() - 1;
             assert!(last < most, "{key}: {last}");
             assert_eq!([0, 1, last].map(|at| axis.with_unit(at)), expected, "{key}");
@@ -325,7 +356,7 @@ mod tests {
             for zoom in [-MOST_ZOOM, -1, 0, 5, MOST_ZOOM] {
                 for points in [2, 30, 101] {
                     for steps in [Steps::Equal(points), Steps::Round(points)] {
-                        let found = axis(&case, at, zoom, steps);
+                        let found = range_of(&case, zoom).axis(at, steps);
                         assert_eq!(
                             found.is_err(),
                             matches!(field.kind, Kind::Text),

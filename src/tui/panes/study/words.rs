@@ -2,7 +2,7 @@
 
 use unicode_width::UnicodeWidthStr;
 
-use super::{NO_CONTACT, REFUSED, StudyPane, axes, cursor};
+use super::{NO_CONTACT, REFUSED, StudyPane, axes, cursor, page_height, top};
 use crate::case::FIELDS;
 use crate::model::Outcome;
 use crate::model::inputs::Method;
@@ -26,7 +26,7 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
     };
     let state = progress(shown);
     let words = match &shown.request.question {
-        Question::Tolerance(_) => vec!["Tolerance".to_owned()],
+        Question::Tolerance(_) => vec![format!("Tolerance{}", position(pane, shown))],
         Question::Grid(grid) => {
             let fields = |label: fn(&Axis) -> String| -> Vec<String> {
                 grid.axes.iter().rev().map(label).collect()
@@ -60,6 +60,16 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
     let fits = all.iter().find(|words| words.width() <= room);
     fits.cloned()
         .unwrap_or_else(|| text::cut(all.last().map_or("Study", String::as_str), room))
+}
+
+/// The visible lines of a tolerance, if some have no room.
+fn position(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
+    let (lines, height) = (shown.page.len(), page_height(pane));
+    if lines <= height {
+        return String::new();
+    }
+    let top = top(pane, shown);
+    format!(" {} to {} of {lines}", top + 1, (top + height).min(lines))
 }
 
 fn in_unit(axis: &Axis) -> String {

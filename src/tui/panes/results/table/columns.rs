@@ -8,6 +8,7 @@ use unicode_width::UnicodeWidthStr;
 use super::difference::{WIDTH as DIFFERENCE, difference};
 use super::{Cells, methods};
 use crate::model::inputs::Method;
+use crate::report::difference::UNCHANGED;
 use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 use crate::tui::text;
@@ -24,6 +25,9 @@ const EQUATIONS: usize = 12;
 const TO_BASE: &str = "vs baseline";
 /// The headings of the closed forms beside a method that resolves the impact.
 const FREE: [&str; 3] = ["free impact: ", "free: ", ""];
+/// The signs of a value equal to that of the baseline and of another one, where words have no room.
+const EQUAL: &str = "=";
+const OTHER: &str = "!=";
 /// Columns of a symbol where value, unit and difference share the rest of the line.
 const SHARED_SYMBOL: usize = 7;
 
@@ -173,7 +177,7 @@ impl Columns {
             let start = SHARED_SYMBOL.max(cells.symbol.width() + 1);
             let room = self.width.saturating_sub(start);
             let number = cells.number(answer.active);
-            let rest = room.saturating_sub(number.width() + 1);
+            let rest = room.saturating_sub(number.width() + unit.width() + 2);
             let [value, base] = shared_row(number, unit, cells.mark, &base(rest), room);
             return Line::from(vec![
                 Span::raw(text::padded(&cells.symbol, start)),
@@ -257,7 +261,7 @@ fn to_base(pane: &Results<'_>, answer: &Answer, room: usize) -> String {
 }
 
 // The value with its unit, the mark and the difference; the mark and the blank before the percent
-// sign are left out where there is no room.
+// sign are left out where there is no room, and a sign stands for a longer difference.
 fn shared_row(number: &str, unit: &str, mark: &str, difference: &str, width: usize) -> [String; 2] {
     let joined = |parts: &[&str]| {
         let parts = parts.iter().filter(|part| !part.trim().is_empty());
@@ -265,17 +269,45 @@ fn shared_row(number: &str, unit: &str, mark: &str, difference: &str, width: usi
     };
     let (value, marked) = (joined(&[number, unit]), joined(&[number, unit, mark]));
     let close = difference.replace(" %", "%");
+    let sign = if difference == UNCHANGED {
+        EQUAL
+    } else {
+        OTHER
+    };
     let sayings = [
         (&marked, difference),
         (&marked, close.as_str()),
         (&value, difference),
         (&value, close.as_str()),
+        (&marked, sign),
     ];
     let fits = sayings
         .into_iter()
         .find(|(value, difference)| value.width() + 1 + difference.width() <= width);
-    let (value, difference) = fits.unwrap_or((&value, close.as_str()));
+    let (value, difference) = fits.unwrap_or((&value, sign));
     let gap = width.saturating_sub(value.width());
-    let difference = text::cut(difference, gap.saturating_sub(1));
     [value.clone(), format!("{difference:>gap$}")]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_without_room_is_a_sign_and_never_cut() {
+        for (difference, width, shown) in [
+            ("was 47.3", 18, ["216.79 kg mm2", "   !="]),
+            (UNCHANGED, 18, ["216.79 kg mm2", "    ="]),
+            (UNCHANGED, 24, ["216.79 kg mm2", "  unchanged"]),
+        ] {
+            assert_eq!(
+                shared_row("216.79", "kg mm2", " ", difference, width),
+                shown
+            );
+        }
+        assert_eq!(
+            shared_row("5354.2", "N", "!", "+48.1 %", 17),
+            ["5354.2 N !", " +48.1%"]
+        );
+    }
 }

@@ -210,9 +210,13 @@ impl Layout {
         if self.own == 0 {
             let others = seen.iter().flat_map(|&at| {
                 let (value, difference) = &cells.others[at];
-                let value = format!("{value:>0$} {1}", self.value, cells.unit);
+                let value = format!("{value} {}", cells.unit).trim_end().to_owned();
                 let rest = width.saturating_sub(self.symbol + value.width());
-                let difference = text::cut(difference, rest.saturating_sub(1));
+                let close = difference.replace(" %", "%");
+                let fits = [difference, &close]
+                    .into_iter()
+                    .find(|words| words.width() < rest);
+                let difference = fits.map_or("", |words| words);
                 [
                     Span::raw(value),
                     Span::styled(format!("{difference:>rest$}"), theme.baseline),
