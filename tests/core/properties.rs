@@ -1,7 +1,7 @@
 //! What must hold for every pair of the envelope.
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` looks at a million pairs
-//! in place of 50,000.
+//! in place of 25,000.
 use crate::envelope;
 
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ use tipstrike::model::{
 const WITHOUT_SPREAD: Stages = Stages::CLOSED_FORM.and(Stages::of(Stage::Stations));
 
 fn pairs() -> u64 {
-    std::env::var("TIPSTRIKE_PAIRS").map_or(50_000, |pairs| pairs.parse().expect("a count"))
+    std::env::var("TIPSTRIKE_PAIRS").map_or(25_000, |pairs| pairs.parse().expect("a count"))
 }
 
 /// One pair of a numbered sequence, the same on every machine and whatever thread asks for it.
