@@ -64,7 +64,39 @@ pub struct Quantity {
     pub checks: &'static [Check],
     /// Other words in some cases; the first variant whose condition is true is used.
     pub variants: &'static [Variant],
+    /// Whether it may be negative.
+    pub is_signed: bool,
+    /// Whether there is nothing of it without a friction coefficient.
+    pub needs_friction: bool,
+    /// The key of what `static` itself finds in place of a quantity of the free impact.
+    pub by_static: Option<&'static str>,
+    /// The same for `dynamic`.
+    pub by_dynamic: Option<&'static str>,
 }
+
+/// The members that most rows leave as they are; a test demands all others of each row.
+const PLAIN: Quantity = Quantity {
+    key: "",
+    symbol: "",
+    label: "",
+    unit: "",
+    shown: "",
+    digits: 0,
+    equation: "",
+    stage: Stage::Geometry,
+    value: |_| None,
+    meaning: "",
+    formula: Formula::Text(""),
+    source: "",
+    corrections: &[],
+    assumptions: "",
+    checks: &[],
+    variants: &[],
+    is_signed: false,
+    needs_friction: false,
+    by_static: None,
+    by_dynamic: None,
+};
 
 /// Other words on a quantity in some cases.
 #[derive(Debug, Clone, Copy)]
@@ -105,21 +137,6 @@ impl Quantity {
     #[must_use]
     pub fn is_flag(&self) -> bool {
         self.shown == "yes/no"
-    }
-
-    /// Whether it may be negative.
-    #[must_use]
-    pub fn is_signed(&self) -> bool {
-        matches!(
-            self.key,
-            "equivalent_error" | "total_deviation" | "modification" | "pitch_contact_jump"
-        )
-    }
-
-    /// Whether there is nothing of it without a friction coefficient.
-    #[must_use]
-    pub fn needs_friction(&self) -> bool {
-        matches!(self.key, "pitch_contact_jump" | "dynamic_friction_work")
     }
 
     /// The symbol in a method. It differs from the symbol of the closed form where the definition
@@ -178,16 +195,12 @@ impl Quantity {
     /// method is the closed form.
     #[must_use]
     pub fn by(&'static self, method: Method) -> Option<&'static Quantity> {
-        let at = match method {
-            Method::Paper | Method::Exact => return Some(self),
-            Method::Static => 1,
-            Method::Dynamic => 2,
-            Method::Auto => return None,
-        };
-        let row = RESOLVED
-            .iter()
-            .find(|[free, ..]| self.key == *free || self.key.starts_with(&format!("{free}_")))?;
-        Quantity::find(row[at])
+        match method {
+            Method::Paper | Method::Exact => Some(self),
+            Method::Static => self.by_static.and_then(Quantity::find),
+            Method::Dynamic => self.by_dynamic.and_then(Quantity::find),
+            Method::Auto => None,
+        }
     }
 
     /// The quantity of that name.
@@ -218,27 +231,6 @@ const FREE_IMPACT: [Stage; 7] = [
     Stage::Friction,
     Stage::Band,
     Stage::Stations,
-];
-
-/// A quantity of the free impact and its counterparts in `static` and `dynamic`; empty where a
-/// method has none. A suffixed key such as `impact_force_low` is a variant of the same quantity.
-const RESOLVED: [[&str; 3]; 4] = [
-    [
-        "approach_angle_driven",
-        "static_first_contact_angle",
-        "dynamic_first_contact_angle",
-    ],
-    [
-        "approach_angle_driver",
-        "static_first_contact_angle_driver",
-        "dynamic_first_contact_angle_driver",
-    ],
-    [
-        "impact_force",
-        "static_force_at_start",
-        "dynamic_peak_approach_force",
-    ],
-    ["impact_duration", "", "dynamic_impact_duration"],
 ];
 
 /// The rows by groups, in the order in which a person reads them.
@@ -304,6 +296,28 @@ fn of_driver(solution: &Solution, angle_driven: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_row_names_what_a_reader_needs_and_only_rows_of_the_table() {
+        for row in QUANTITIES {
+            let words = [
+                row.key,
+                row.symbol,
+                row.label,
+                row.unit,
+                row.shown,
+                row.equation,
+                row.meaning,
+                row.source,
+                row.assumptions,
+            ];
+            assert!(words.iter().all(|word| !word.is_empty()), "{}", row.key);
+            assert!(row.digits > 0 || row.is_flag(), "{}", row.key);
+            for key in [row.by_static, row.by_dynamic].into_iter().flatten() {
+                assert!(Quantity::find(key).is_some(), "{}: {key}", row.key);
+            }
+        }
+    }
 
     #[test]
     fn no_two_symbols_differ_by_case_alone() {

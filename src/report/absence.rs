@@ -40,7 +40,7 @@ impl Absence {
         match (quantity.stage, solution.withheld) {
             _ if is_without && !solution.method.shares_load() => no_contact,
             (Stage::Static | Stage::Dynamic, _)
-                if quantity.needs_friction() && !has_friction(solution) =>
+                if quantity.needs_friction && !has_friction(solution) =>
             {
                 Absence::NoFriction
             }

@@ -21,7 +21,7 @@ pub fn is_unchanged(now: f64, base: f64) -> bool {
 #[must_use]
 pub fn percent(quantity: &Quantity, now: f64, base: f64) -> Option<f64> {
     let part = (now - base) / base;
-    let has_meaning = !quantity.is_signed() && !quantity.is_flag() && base > 0.0 && now >= 0.0;
+    let has_meaning = !quantity.is_signed && !quantity.is_flag() && base > 0.0 && now >= 0.0;
     (has_meaning && part.is_finite() && now <= MOST_TIMES * base).then_some(100.0 * part)
 }
 

@@ -203,3 +203,61 @@ impl Runs<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points by tooth factor and loss of contact.
+    fn run(points: &[Option<(f64, bool)>]) -> Vec<Option<AtSpeed>> {
+        let at = |(tooth_factor, contact_lost)| AtSpeed {
+            speed: 0.0,
+            ratio: 0.0,
+            tooth_factor,
+            mesh_factor: 1.0,
+            peak_to_peak: 0.0,
+            contact_lost,
+        };
+        points.iter().map(|point| point.map(at)).collect()
+    }
+
+    fn curve(up: &[Option<(f64, bool)>], down: &[Option<(f64, bool)>]) -> SpeedCurve {
+        SpeedCurve {
+            speeds: (0..up.len()).map(|speed| speed as f64).collect(),
+            up: run(up),
+            down: run(down),
+            present: 1.0,
+            resonance: 1.0,
+            is_cut: false,
+        }
+    }
+
+    #[test]
+    fn contact_is_lost_over_each_gap_of_the_run_up_or_down() {
+        let (lost, kept) = (Some((1.0, true)), Some((1.0, false)));
+        let curve = curve(
+            &[lost, kept, kept, lost, lost, kept, None],
+            &[kept, kept, None, kept, lost, kept, lost],
+        );
+        assert_eq!(curve.lost(), [(0.0, 0.0), (3.0, 4.0), (6.0, 6.0)]);
+    }
+
+    #[test]
+    fn the_run_down_jumps_where_it_is_another_motion() {
+        let up = [
+            Some((1.2, false)),
+            Some((2.0, false)),
+            None,
+            Some((1.5, false)),
+        ];
+        let down = [
+            Some((1.2001, false)),
+            Some((1.4, true)),
+            Some((9.0, true)),
+            None,
+        ];
+        let curve = curve(&up, &down);
+        let jumps: Vec<f64> = curve.jumps().map(|point| point.tooth_factor).collect();
+        assert_eq!(jumps, [1.4]);
+    }
+}

@@ -4,10 +4,11 @@ use std::f64::consts::TAU;
 
 use tipstrike::case::Document;
 use tipstrike::model::harmonics::HARMONICS;
-use tipstrike::model::inputs::{Method, ToothCompliance};
+use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
 use tipstrike::model::{Inputs, Note, QUANTITIES, Refusal, Solution, Stages, Steady, notes, solve};
+use tipstrike::study::speeds::{SPEEDS, speeds};
 
 fn case(name: &str) -> Inputs {
     let path = format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -213,4 +214,35 @@ fn a_pair_with_little_damping_rattles_across_its_backlash() {
         (far / none - 1.0).abs() < 1e-8,
         "{far} {none}: no back flank is reached"
     );
+}
+
+#[test]
+fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
+    let inputs = case("fzg-type-c");
+    let curve = speeds(&inputs, &mut |_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
+    assert_eq!(curve.up.len(), SPEEDS);
+    assert!(!curve.is_cut);
+    // At a speed of the curve where both runs agree, a plain solve finds the same motion.
+    let middle = SPEEDS / 3;
+    let (up, down) = (curve.up[middle].unwrap(), curve.down[middle].unwrap());
+    assert!((up.tooth_factor / down.tooth_factor - 1.0).abs() < 1e-3);
+    let solution = solved(&Inputs {
+        speed: up.speed,
+        drive: Drive::Torque(inputs.torque()),
+        ..inputs.clone()
+    });
+    let peak_to_peak = steady(&solution).spectrum.peak_to_peak;
+    let off = up.peak_to_peak / peak_to_peak - 1.0;
+    assert!(off.abs() < 1e-4, "{off:e}");
+    // One range of the speed in which a resonance is below the main one.
+    let last = curve.speeds[SPEEDS - 1];
+    assert!(curve.speeds[0] < curve.resonance && curve.resonance < last);
+    // Whoever watches may end it.
+    let mut shown = 0;
+    let stopped = speeds(&inputs, &mut |_| {
+        shown += 1;
+        shown < 3
+    });
+    assert_eq!(stopped, Err(Refusal::Stopped));
+    assert_eq!(shown, 3);
 }

@@ -1,7 +1,7 @@
 //! Rows of the load that the pairs share at rest.
 
 use super::conditions::friction_given;
-use super::{Quantity, Variant, checks, of_driver};
+use super::{PLAIN, Quantity, Variant, checks, of_driver};
 use crate::model::Stage::{Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::explanation::Formula::{self, Difference, Found, Made, Solved, Text, Words};
@@ -45,7 +45,7 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The contact compliance is that under F_0, so the stiffness of a pair \
             depends on its place only.",
         checks: &[checks::teeth],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "static_first_contact_angle_driver",
@@ -64,7 +64,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20"],
         assumptions: AT_REST,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "static_first_contact_angle",
@@ -83,7 +83,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20"],
         assumptions: AT_REST,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "static_force_at_start",
@@ -102,7 +102,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 53", "Eq. 54"],
         assumptions: AT_REST,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "static_peak_force",
@@ -131,6 +131,7 @@ pub(super) const TABLE: &[Quantity] = &[
                 single-tooth contact it carries the whole mesh force and the addition by \
                 friction.",
         )],
+        ..PLAIN
     },
     Quantity {
         key: "static_last_contact_angle",
@@ -150,10 +151,9 @@ pub(super) const TABLE: &[Quantity] = &[
             SHARED,
         ),
         source: BALANCE,
-        corrections: &[],
         assumptions: AT_REST,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "static_transmission_error",
@@ -174,10 +174,9 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Displacement x of the driver along the line of action, max x − min x, by the \
             balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, coupled as in Conry & \
             Seireg 1973.",
-        corrections: &[],
         assumptions: AT_REST,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "pitch_contact_jump",
@@ -196,10 +195,11 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Friction in the balance of the driver, ΣF = F0 with weights. The introduction of \
             Zhou & Chen 2014 names pitch corner contact as the third kind of contact; the \
             friction force reverses at the pitch point.",
-        corrections: &[],
         assumptions: AT_REST,
         checks: &[checks::at_rest],
-        variants: &[],
+        is_signed: true,
+        needs_friction: true,
+        ..PLAIN
     },
 ];
 

@@ -5,7 +5,7 @@ use super::conditions::{
     driver_pitch_given, in_motion, own_base_pitch, paper, shared_load,
 };
 use super::deflection::deflection;
-use super::{Quantity, Variant, checks};
+use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};
 use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
@@ -36,7 +36,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The f_pb of both gears and j_bn are independent random deviations, which \
             add as squares: hence the factor 1/√2. The relief acts with its full amount at the \
             tip, where first contact occurs.",
-        checks: &[],
         variants: &[
             Variant::words(
                 shared_load,
@@ -57,6 +56,8 @@ pub(super) const TABLE: &[Quantity] = &[
                     exact counts its full amount.",
             ),
         ],
+        is_signed: true,
+        ..PLAIN
     },
     Quantity {
         key: "modification",
@@ -76,7 +77,6 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 1"],
         assumptions: "Both reliefs have their full amount at the first contact, whatever their \
             length.",
-        checks: &[],
         variants: &[
             Variant::words(
                 shared_load,
@@ -94,6 +94,8 @@ pub(super) const TABLE: &[Quantity] = &[
                     includes 1/√2 of it, as printed.",
             ),
         ],
+        is_signed: true,
+        ..PLAIN
     },
     Quantity {
         key: "combined_deflection",
@@ -141,6 +143,7 @@ pub(super) const TABLE: &[Quantity] = &[
                     compare the two.",
             ),
         ],
+        ..PLAIN
     },
     Quantity {
         key: "total_deviation",
@@ -187,6 +190,8 @@ pub(super) const TABLE: &[Quantity] = &[
                     angle before E.",
             ),
         ],
+        is_signed: true,
+        ..PLAIN
     },
     Quantity {
         key: "clearing_relief",
@@ -233,7 +238,7 @@ pub(super) const TABLE: &[Quantity] = &[
             reliefs, up to twice this relief (50 if contact is lost), and finds no contact before \
             E.",
         checks: &[checks::contact_kept],
-        variants: &[],
+        ..PLAIN
     },
 ];
 

@@ -1,7 +1,7 @@
 //! Rows of the friction ratio and of its limits.
 
 use super::conditions::{always, driven_rounded, paper};
-use super::{Quantity, Variant, checks};
+use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Friction, Impact, Velocity};
 use crate::model::explanation::Formula::{Cases, Difference, Text};
@@ -43,6 +43,7 @@ pub(super) const TABLE: &[Quantity] = &[
                 impact. D' is the point at which the triangle of Eq. 34 closes, after the time \
                 T_S,32.",
         )],
+        ..PLAIN
     },
     Quantity {
         key: "stick_limit",
@@ -63,7 +64,7 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The impact is elastic. The same mass applies along the normal and along the \
             flank.",
         checks: &[checks::coulomb],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "impulse_ratio",
@@ -84,7 +85,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 32"],
         assumptions: "The force follows half a sine over time.",
         checks: &[checks::possible],
-        variants: &[],
+        ..PLAIN
     },
 ];
 

@@ -2,7 +2,7 @@
 
 use super::checks;
 use super::conditions::{always, distance_given, driven_rounded, driver_rounded, power_given};
-use super::{Quantity, Variant};
+use super::{PLAIN, Quantity, Variant};
 use crate::model::Context;
 use crate::model::Stage::{Geometry, Load};
 use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
@@ -29,7 +29,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 16, 20"],
         assumptions: SPUR_PAIR,
         checks: &[checks::start, checks::end, checks::contact_ratio],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "base_pitch",
@@ -45,10 +45,8 @@ pub(super) const TABLE: &[Quantity] = &[
             need the same base pitch to mesh evenly.",
         formula: Text("π m cos α"),
         source: "ISO 21771:2007, base pitch.",
-        corrections: &[],
         assumptions: SPUR_PAIR,
-        checks: &[],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "centre_distance",
@@ -68,10 +66,9 @@ pub(super) const TABLE: &[Quantity] = &[
         ]),
         source: "ISO 21771:2007, working centre distance. Zhou & Chen 2014 use r_1 + r_2, which \
             is exact without profile shift.",
-        corrections: &[],
         assumptions: SPUR_PAIR,
         checks: &[checks::distance],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "working_pressure_angle",
@@ -91,10 +88,9 @@ pub(super) const TABLE: &[Quantity] = &[
         ]),
         source: "ISO 21771:2007, working pressure angle. Zhou & Chen 2014 use α, which is exact \
             without profile shift.",
-        corrections: &[],
         assumptions: SPUR_PAIR,
         checks: &[checks::distance],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "mesh_force",
@@ -112,13 +108,13 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Static balance of the driver, torque over base radius, T1/rb1.",
         corrections: &["section 6"],
         assumptions: "Constant torque and speed, no losses in the mesh.",
-        checks: &[],
         variants: &[Variant::meaning(
             super::conditions::deflection_used,
             "The steady force along the line of action. The dynamic factor compares the impact \
                 force with it. The case gives the deflection, so the load changes neither the \
                 place nor the force of the impact.",
         )],
+        ..PLAIN
     },
 ];
 

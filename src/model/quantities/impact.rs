@@ -1,7 +1,7 @@
 //! Rows of the impact: force, energy, duration, and the values behind them.
 
 use super::conditions::{always, paper, shared_load};
-use super::{Quantity, Variant, checks};
+use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Stage::{Band, Impact};
 use crate::model::explanation::Formula::{Cases, Made, Text};
 use crate::model::explanation::{Context, Step, step};
@@ -44,7 +44,9 @@ pub(super) const TABLE: &[Quantity] = &[
             checks::contact_small,
             checks::within_approach,
         ],
-        variants: &[],
+        by_static: Some("static_force_at_start"),
+        by_dynamic: Some("dynamic_peak_approach_force"),
+        ..PLAIN
     },
     Quantity {
         key: "impact_force_low",
@@ -70,6 +72,9 @@ pub(super) const TABLE: &[Quantity] = &[
                 cover the pair.",
             BAND_SHARED,
         )],
+        by_static: Some("static_force_at_start"),
+        by_dynamic: Some("dynamic_peak_approach_force"),
+        ..PLAIN
     },
     Quantity {
         key: "impact_force_high",
@@ -94,6 +99,9 @@ pub(super) const TABLE: &[Quantity] = &[
                 pair.",
             BAND_SHARED,
         )],
+        by_static: Some("static_force_at_start"),
+        by_dynamic: Some("dynamic_peak_approach_force"),
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_factor",
@@ -112,7 +120,7 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The ratio compares the impact alone with the steady load alone. It is not \
             the factor K_v of ISO 6336, which includes the whole mesh.",
         checks: &[checks::gap_closed, checks::within_approach],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "impact_duration",
@@ -137,6 +145,8 @@ pub(super) const TABLE: &[Quantity] = &[
             "Two spheres collide. The bending of the teeth, which determines the force, is \
                 neglected.",
         )],
+        by_dynamic: Some("dynamic_impact_duration"),
+        ..PLAIN
     },
     Quantity {
         key: "impact_duration_printed",
@@ -155,7 +165,8 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 32", "Eq. 33, Eq. 50"],
         assumptions: SPHERES,
         checks: &[checks::printed_shorter],
-        variants: &[],
+        by_dynamic: Some("dynamic_impact_duration"),
+        ..PLAIN
     },
     Quantity {
         key: "impact_duration_hertz",
@@ -174,8 +185,8 @@ pub(super) const TABLE: &[Quantity] = &[
             2.868266 π^(2/5).",
         corrections: &["Eq. 32"],
         assumptions: SPHERES,
-        checks: &[],
-        variants: &[],
+        by_dynamic: Some("dynamic_impact_duration"),
+        ..PLAIN
     },
     Quantity {
         key: "impact_duration_spring",
@@ -194,7 +205,8 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 32"],
         assumptions: SPRING,
         checks: &[checks::within_approach, checks::teeth],
-        variants: &[],
+        by_dynamic: Some("dynamic_impact_duration"),
+        ..PLAIN
     },
 ];
 

@@ -3,7 +3,7 @@
 use super::conditions::{
     always, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline,
 };
-use super::{Quantity, checks};
+use super::{PLAIN, Quantity, checks};
 use crate::model::Context;
 use crate::model::Stage::{Impact, Masses};
 use crate::model::compliance::contact::plane_strain_compliance;
@@ -35,7 +35,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 47"],
         assumptions: BODY,
         checks: &[checks::bodies],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "inertia_driven",
@@ -57,7 +57,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 47"],
         assumptions: BODY,
         checks: &[checks::bodies],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "reduced_mass",
@@ -76,7 +76,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 33, Eq. 50", "Eq. 46"],
         assumptions: BODY,
         checks: &[checks::bodies],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "effective_mass",
@@ -95,7 +95,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 33, Eq. 50", "Eq. 46"],
         assumptions: BODY,
         checks: &[checks::bodies],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "pair_compliance",
@@ -116,7 +116,7 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The teeth are linear elastic and of one width. The contact compliance is \
             that under the impact force.",
         checks: &[checks::teeth, checks::contact_small],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "hertz_half_width",
@@ -134,7 +134,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 55"],
         assumptions: "Smooth cylinders of the reduced radius at D over the full width.",
         checks: &[checks::contact_small, checks::edge],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "impact_energy",
@@ -153,7 +153,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 46", "Eq. 33, Eq. 50"],
         assumptions: "The gears approach at their steady speeds.",
         checks: &[checks::gap_closed],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "sliding_energy",
@@ -172,7 +172,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 46", "Eq. 33, Eq. 50"],
         assumptions: "The effective mass along the normal also applies to the sliding, as printed.",
         checks: &[checks::gap_closed, checks::keeps_sliding],
-        variants: &[],
+        ..PLAIN
     },
 ];
 

@@ -1,6 +1,6 @@
 //! Rows of the motion: the load that the pairs share with inertia.
 
-use super::{Quantity, checks, of_driver};
+use super::{PLAIN, Quantity, checks, of_driver};
 use crate::model::Context;
 use crate::model::Stage::Dynamic;
 use crate::model::explanation::Formula::{self, Found, Text};
@@ -46,7 +46,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20"],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_first_contact_angle",
@@ -65,7 +65,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20"],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_peak_approach_force",
@@ -84,7 +84,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20", "Eq. 54"],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_peak_force",
@@ -103,7 +103,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 54"],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_impact_duration",
@@ -122,7 +122,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 32"],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_last_contact_angle",
@@ -138,10 +138,9 @@ pub(super) const TABLE: &[Quantity] = &[
             motion.",
         formula: BY_MOTION,
         source: MOTION,
-        corrections: &[],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_contact_lost",
@@ -157,10 +156,9 @@ pub(super) const TABLE: &[Quantity] = &[
         formula: BY_MOTION,
         source: "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988: no pair \
             touches at some moment from one base pitch before E to the last contact of the tooth.",
-        corrections: &[],
         assumptions: IN_MOTION,
         checks: &[checks::teeth, checks::forgotten],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_back_strikes",
@@ -177,10 +175,9 @@ pub(super) const TABLE: &[Quantity] = &[
             away, and this result does not exist.",
         formula: BY_MOTION,
         source: RATTLE,
-        corrections: &[],
         assumptions: AT_BACK,
         checks: &[checks::teeth, checks::forgotten],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_peak_back_force",
@@ -196,10 +193,9 @@ pub(super) const TABLE: &[Quantity] = &[
             until the incoming tooth leaves.",
         formula: BY_MOTION,
         source: RATTLE,
-        corrections: &[],
         assumptions: AT_BACK,
         checks: &[checks::teeth, checks::forgotten],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "dynamic_friction_work",
@@ -219,7 +215,8 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 64"],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        needs_friction: true,
+        ..PLAIN
     },
 ];
 

@@ -1,7 +1,7 @@
 //! Rows of the first contact D and the velocities there.
 
 use super::conditions::{always, driven_rounded, edge_given, paper};
-use super::{Quantity, Variant, checks};
+use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Position, Velocity};
 use crate::model::explanation::Formula::{Cases, Difference, Solved, Text};
@@ -36,6 +36,9 @@ pub(super) const TABLE: &[Quantity] = &[
                 are linear in Δ. They place D so close to E that the tip has closed only a small \
                 part of its gap: see closed_gap.",
         )],
+        by_static: Some("static_first_contact_angle_driver"),
+        by_dynamic: Some("dynamic_first_contact_angle_driver"),
+        ..PLAIN
     },
     Quantity {
         key: "approach_angle_driven",
@@ -63,6 +66,9 @@ pub(super) const TABLE: &[Quantity] = &[
                 which are linear in Δ. They place D so close to E that the tip has closed only a \
                 small part of its gap: see closed_gap.",
         )],
+        by_static: Some("static_first_contact_angle"),
+        by_dynamic: Some("dynamic_first_contact_angle"),
+        ..PLAIN
     },
     Quantity {
         key: "contact_radius_driver",
@@ -84,7 +90,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20"],
         assumptions: TIP,
         checks: &[checks::on_flank, checks::gap_closed],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "contact_radius_driven",
@@ -103,10 +109,9 @@ pub(super) const TABLE: &[Quantity] = &[
             (always, Text("r_a2")),
         ]),
         source: "The geometry of the rounding, an arc tangent to the tip circle and to the flank.",
-        corrections: &[],
         assumptions: TIP,
         checks: &[checks::gap_closed],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "contact_normal_radius_driven",
@@ -125,7 +130,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 27, 42, 60"],
         assumptions: TIP,
         checks: &[checks::gap_closed],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "curvature_radius",
@@ -141,11 +146,10 @@ pub(super) const TABLE: &[Quantity] = &[
             and its stress depend on it.",
         formula: Text("ρ_1 ρ_2/(ρ_1 + ρ_2)"),
         source: "Zhou & Chen 2014, below Eq. 32.",
-        corrections: &[],
         assumptions: "A sharp tip has the curvature of its own flank, a rounded tip the radius of \
             its edge. A sharp edge causes far higher pressure than either.",
         checks: &[checks::edge],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "closed_gap",
@@ -166,7 +170,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20"],
         assumptions: TIP,
         checks: &[checks::gap_closed],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "transit_time",
@@ -185,7 +189,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 7-20"],
         assumptions: "Constant speed.",
         checks: &[checks::within_approach],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "normal_velocity",
@@ -204,7 +208,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eqs. 27, 42, 60", "Eqs. 7-20"],
         assumptions: TIP,
         checks: &[checks::gap_closed],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "sliding_velocity",
@@ -223,7 +227,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 22", "Eqs. 27, 42, 60"],
         assumptions: TIP,
         checks: &[checks::gap_closed, checks::keeps_sliding],
-        variants: &[],
+        ..PLAIN
     },
 ];
 

@@ -1,6 +1,6 @@
 //! Rows of the resonance: mesh frequency, natural frequency and their ratio.
 
-use super::{Quantity, checks};
+use super::{PLAIN, Quantity, checks};
 use crate::model::Stage::Resonance;
 use crate::model::explanation::Formula::Text;
 use crate::model::explanation::{Context, Finding, four};
@@ -26,10 +26,8 @@ pub(super) const TABLE: &[Quantity] = &[
             frequency and at its multiples.",
         formula: Text("z1 ω_1/(2 π)"),
         source: "Kinematics of the pair: z1 n1 tooth pairs per second.",
-        corrections: &[],
         assumptions: "Constant speed.",
-        checks: &[],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "natural_frequency",
@@ -44,10 +42,9 @@ pub(super) const TABLE: &[Quantity] = &[
         meaning: "The natural frequency of the two gears on the mean stiffness of the mesh.",
         formula: Text("√(k_m/m_red)/(2 π)"),
         source: ISO,
-        corrections: &[],
         assumptions: RIGID,
         checks: &[checks::teeth],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "resonance_ratio",
@@ -65,10 +62,9 @@ pub(super) const TABLE: &[Quantity] = &[
             up to 1.5 intermediate, and above it supercritical.",
         formula: Text("f_z/f_n"),
         source: ISO,
-        corrections: &[],
         assumptions: RIGID,
         checks: &[checks::teeth, subcritical],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "resonance_speed",
@@ -86,10 +82,9 @@ pub(super) const TABLE: &[Quantity] = &[
             frequency, N = 1.",
         formula: Text("2 π f_n/z1"),
         source: ISO,
-        corrections: &[],
         assumptions: RIGID,
         checks: &[checks::teeth],
-        variants: &[],
+        ..PLAIN
     },
 ];
 

@@ -2,7 +2,7 @@
 //! which no tooth deviates.
 
 use super::motion::AT_BACK;
-use super::{Quantity, checks};
+use super::{PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{StaticSpectrum, SteadyMotion};
 use crate::model::dynamic::steady::Steady;
@@ -62,10 +62,9 @@ macro_rules! at_rest {
                 &["F_0", "k_m"],
             ),
             source: SPECTRUM,
-            corrections: &[],
             assumptions: AT_REST,
             checks: &[checks::teeth],
-            variants: &[],
+            ..PLAIN
         }
     };
 }
@@ -99,10 +98,9 @@ macro_rules! in_motion {
                 STEADY,
             ),
             source: MOTION,
-            corrections: &[],
             assumptions: IN_MOTION,
             checks: CHECKS,
-            variants: &[],
+            ..PLAIN
         }
     };
 }
@@ -123,10 +121,9 @@ pub(super) const TABLE: &[Quantity] = &[
             whine.",
         formula: PERIODIC_AT_REST,
         source: SPECTRUM,
-        corrections: &[],
         assumptions: AT_REST,
         checks: &[checks::teeth],
-        variants: &[],
+        ..PLAIN
     },
     at_rest!(1, "first", "the mesh frequency"),
     at_rest!(2, "second", "2 times the mesh frequency"),
@@ -147,10 +144,9 @@ pub(super) const TABLE: &[Quantity] = &[
             steady motion of a pair in which no tooth deviates.",
         formula: PERIODIC,
         source: MOTION,
-        corrections: &[],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     in_motion!(1, "first", "the mesh frequency"),
     in_motion!(2, "second", "2 times the mesh frequency"),
@@ -174,10 +170,9 @@ pub(super) const TABLE: &[Quantity] = &[
             STEADY,
         ),
         source: MOTION,
-        corrections: &[],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "tooth_force_factor",
@@ -194,10 +189,9 @@ pub(super) const TABLE: &[Quantity] = &[
             mesh and includes deviations; compare mesh_force_factor.",
         formula: Found("max F_k in the steady motion over max F_k at rest", STEADY),
         source: MOTION,
-        corrections: &[],
         assumptions: IN_MOTION,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "steady_contact_lost",
@@ -213,10 +207,9 @@ pub(super) const TABLE: &[Quantity] = &[
             deviations.",
         formula: Found("from the steady motion", STEADY),
         source: MOTION,
-        corrections: &[],
         assumptions: IN_MOTION,
         checks: &[checks::teeth],
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "steady_back_strikes",
@@ -239,10 +232,9 @@ pub(super) const TABLE: &[Quantity] = &[
             STEADY,
         ),
         source: MOTION,
-        corrections: &[],
         assumptions: AT_BACK,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
     Quantity {
         key: "steady_back_force",
@@ -261,10 +253,9 @@ pub(super) const TABLE: &[Quantity] = &[
             STEADY,
         ),
         source: MOTION,
-        corrections: &[],
         assumptions: AT_BACK,
         checks: CHECKS,
-        variants: &[],
+        ..PLAIN
     },
 ];
 

@@ -18,10 +18,6 @@ pub const METHODS: [Method; 4] = [
 ];
 /// Intervals of the stations that are compared.
 pub const STATIONS: [usize; 8] = [8, 16, 32, 64, 128, 256, 512, 1024];
-/// Intervals of a case that leaves them out.
-const USUAL_STATIONS: usize = 64;
-/// Tolerance of a case that leaves it out.
-const USUAL_TOLERANCE: f64 = 1e-6;
 /// Tolerances that are compared: 1e-3, 1e-4 and so on.
 const TOLERANCE_EXPONENTS: std::ops::RangeInclusive<i32> = 3..=10;
 /// Intervals of the best setting of a method.
@@ -128,9 +124,10 @@ impl Setting {
     /// The same method and compliance as finely as a case has it that leaves the rest out.
     #[must_use]
     pub fn usual_fineness(self) -> Setting {
+        let usual = Inputs::default();
         Setting {
-            stations: Some(USUAL_STATIONS),
-            tolerance: (self.method == Method::Dynamic).then_some(USUAL_TOLERANCE),
+            stations: usual.stations,
+            tolerance: (self.method == Method::Dynamic).then_some(usual.tolerance),
             accurate: false,
             ..self
         }
@@ -218,19 +215,15 @@ impl Setting {
     /// Makes it the case's own; a case that names no compliance names none afterwards if this is
     /// its default.
     pub fn apply(&self, case: &mut Case) {
-        let mut write = |key: &str, text: &str| {
-            if let Some(field) = index_of(key) {
-                case.write(field, text);
-            }
-        };
-        write("model.method", self.method.name());
-        write("model.stations", &self.stations_text());
+        write(case, "model.method", self.method.name());
+        write(case, "model.stations", &self.stations_text());
         write(
+            case,
             "model.accurate",
             if self.accurate { "true" } else { "false" },
         );
         if let Some(tolerance) = self.tolerance {
-            write("model.tolerance", &format!("{tolerance:e}"));
+            write(case, "model.tolerance", &format!("{tolerance:e}"));
         }
         let own = case
             .inputs()
@@ -239,18 +232,20 @@ impl Setting {
         if own == self.models {
             return;
         }
-        let mut write = |key: &str, text: &str| {
-            if let Some(field) = index_of(key) {
-                case.write(field, text);
-            }
-        };
         write(
+            case,
             "model.tooth_compliance",
             self.models.map_or("", |models| models.tooth.name),
         );
         if let Some(contact) = self.models.and_then(|models| models.contact) {
-            write("model.contact_compliance", contact.name);
+            write(case, "model.contact_compliance", contact.name);
         }
+    }
+}
+
+fn write(case: &mut Case, key: &str, text: &str) {
+    if let Some(field) = index_of(key) {
+        case.write(field, text);
     }
 }
 

@@ -92,7 +92,7 @@ pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> 
         });
     let has_friction = answer.inputs.friction_coefficient.is_some();
     let is_listed = move |quantity: &&Quantity| {
-        !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction())
+        !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction)
     };
     let rest = groups::quantities(answer.active).filter(is_listed);
     first
