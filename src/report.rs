@@ -121,6 +121,7 @@ impl Report {
         inputs: Inputs,
         selection: Selection,
     ) -> Result<Report, Refusal> {
+        let inputs = inputs.needing(selection.only.iter().map(|quantity| quantity.stage));
         let solution = model::solve(
             &inputs,
             selection.stages().and(inputs.method.deciding_stages()),

@@ -7,7 +7,8 @@ mod value;
 
 use super::fields::{Absent, FIELDS, Field, index_of};
 use super::{Case, Limit};
-use crate::model::Inputs;
+use crate::model::inputs::Method;
+use crate::model::{Inputs, Quantity};
 pub use problem::{Problem, unknown_key, unknown_quantity};
 pub use together::misfit_between;
 use together::together;
@@ -46,6 +47,12 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     problems.extend(together);
     problems.sort_by_key(|problem| index_of(&problem.field));
     problems.extend(limits(case));
+    // No other method reads what is needed: a limit changes no other result.
+    if inputs.method == Method::Auto {
+        let limited = case.limits.iter();
+        let limited = limited.filter_map(|limit| Quantity::find(limit.quantity));
+        inputs = inputs.needing(limited.map(|quantity| quantity.stage));
+    }
     (inputs, problems)
 }
 

@@ -60,6 +60,8 @@ pub enum Reason {
     Impulse(f64),
     /// The load that the tooth takes over is no small part of the impact force.
     LoadShared(f64),
+    /// A limit of the case or a selected quantity that no cheaper method computes.
+    Needed,
 }
 
 /// The method that the pair needs, judged by the closed form.
@@ -75,8 +77,23 @@ pub enum Reason {
 /// on much else, and was measured over 300 pairs, see `Reason::part_felt`; between least and most
 /// the motion itself is the trial. Without contact `exact` stays where the gap left is greater than
 /// that part of the deflection, t being the time in which two pairs share the load.
+///
+/// A dearer method is taken where a limit or a selected quantity needs it ([`Inputs::needs`]).
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
+    judge(inputs, closed_form).at_least(needed(inputs))
+}
+
+/// The cheapest method that computes all that is needed; the dearest where none has all of it.
+fn needed(inputs: &Inputs) -> Method {
+    let computes = |method: &Method| inputs.needs.except(method.stages()) == Stages::NONE;
+    METHODS
+        .into_iter()
+        .find(computes)
+        .unwrap_or(Method::Dynamic)
+}
+
+fn judge(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     let Ok(solution) = closed_form else {
         return Choice {
             method: Method::Dynamic,
@@ -166,6 +183,23 @@ fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
 }
 
 impl Choice {
+    /// This choice, or the method that is needed where that is dearer.
+    fn at_least(self, needed: Method) -> Choice {
+        let place = |method| METHODS.iter().position(|&one| one == method);
+        let is_sure = place(self.method) >= place(needed) && !self.is_open();
+        if is_sure || needed == Method::Exact {
+            return self;
+        }
+        if needed == Method::Static && self.is_open() {
+            return self;
+        }
+        Choice {
+            method: needed,
+            reason: Reason::Needed,
+            inertia: None,
+        }
+    }
+
     /// Whether it takes a trial to tell.
     #[must_use]
     pub fn is_open(&self) -> bool {
@@ -319,6 +353,7 @@ impl fmt::Display for Reason {
                 f.write_str("the impact ends before E, and the load adds little to it")
             }
             Reason::Refused => f.write_str("the closed form has no solution"),
+            Reason::Needed => f.write_str("a limit or a selected quantity needs this method"),
             Reason::ContactLost => f.write_str("the pair ahead loses contact"),
             Reason::Outlasts(lasts, way) => {
                 write!(

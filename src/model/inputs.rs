@@ -271,6 +271,8 @@ pub struct Inputs {
     pub station_tolerance: f64,
     /// Geometry and position in double-double arithmetic.
     pub accurate: bool,
+    /// Stages of the limited and the selected quantities, which the method `auto` must compute.
+    pub needs: Stages,
 }
 
 /// What a case stands for that says nothing: no size, no gears, no load, which no check lets
@@ -301,11 +303,19 @@ impl Default for Inputs {
             stations: Some(64),
             station_tolerance: 1e-3,
             accurate: false,
+            needs: Stages::NONE,
         }
     }
 }
 
 impl Inputs {
+    /// The same, with these stages of quantities among those that the method `auto` must compute.
+    #[must_use]
+    pub fn needing(self, stages: impl IntoIterator<Item = Stage>) -> Inputs {
+        let needs = stages.into_iter().fold(self.needs, Stages::with);
+        Inputs { needs, ..self }
+    }
+
     /// Transmission ratio i = z₂/z₁ = ω₁/ω₂.
     #[must_use]
     pub fn ratio(&self) -> f64 {

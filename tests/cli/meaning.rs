@@ -489,3 +489,46 @@ fn no_result_has_more_places_than_digits() {
         "{page}"
     );
 }
+
+#[test]
+fn auto_computes_what_a_limit_or_a_selected_quantity_needs() {
+    let by_auto = |command: &[&str]| {
+        // With this relief no tooth strikes, and without a need the closed form is enough.
+        let case = [
+            TABLE_1,
+            "--method",
+            "auto",
+            "--set",
+            "driven.tip_relief=100 um",
+        ];
+        texts_of(&[command, &case].concat())
+    };
+    let (_, text, _) = by_auto(&["solve"]);
+    assert!(text.contains("auto chose exact"), "{text}");
+    for (quantity, method) in [
+        ("dynamic_peak_force", "dynamic"),
+        ("static_te_peak_to_peak", "static"),
+        ("clearing_relief", "exact"),
+    ] {
+        let (code, text, errors) = by_auto(&["solve", "--format", "json", "--only", quantity]);
+        let report: Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!((code, report["method"].as_str()), (0, Some(method)));
+        assert!(report["results"][quantity].is_number(), "{text} {errors}");
+    }
+    let limit = "limits.dynamic_peak_force=100 kN";
+    let (code, text, errors) = by_auto(&["check", "--set", limit]);
+    assert_eq!(code, 0, "{text} {errors}");
+    assert!(text.contains("dynamic_peak_force"), "{text}");
+    let vary = "driven.tip_relief=80..100 um";
+    let (_, rows, _) = by_auto(&[
+        "sweep",
+        "--vary",
+        vary,
+        "--points",
+        "2",
+        "--only",
+        "dynamic_peak_force",
+    ]);
+    let has_value = |row: &str| row.split(',').all(|cell| !cell.is_empty());
+    assert!(rows.lines().skip(1).all(has_value), "{rows}");
+}

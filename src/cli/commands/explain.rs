@@ -43,6 +43,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         inputs,
         ..
     } = &opened;
+    let inputs = &inputs.clone().needing([options.quantity.stage]);
     let solution = model::solve(inputs, Stages::of(options.quantity.stage))
         .map_err(|refusal| opened.refused(&refusal, streams))?;
     let page = explain(options.quantity, &document.case, inputs, &solution);

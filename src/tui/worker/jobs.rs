@@ -127,6 +127,7 @@ fn explained(explaining: Explaining) -> Explained {
         case,
         inputs,
     } = explaining;
+    let inputs = inputs.needing([quantity.stage]);
     let page = match model::solve(&inputs, Stages::of(quantity.stage)) {
         Ok(solution) => Ok(Box::new(explain::explain(
             quantity, &case, &inputs, &solution,
