@@ -68,6 +68,8 @@ pub struct Quantity {
     pub is_signed: bool,
     /// Whether there is nothing of it without a friction coefficient.
     pub needs_friction: bool,
+    /// Whether there is nothing of it without a backlash.
+    pub needs_backlash: bool,
     /// The key of what `static` itself finds in place of a quantity of the free impact.
     pub by_static: Option<&'static str>,
     /// The same for `dynamic`.
@@ -94,6 +96,7 @@ const PLAIN: Quantity = Quantity {
     variants: &[],
     is_signed: false,
     needs_friction: false,
+    needs_backlash: false,
     by_static: None,
     by_dynamic: None,
 };

@@ -20,6 +20,8 @@ pub enum Absence {
     NoFreeImpact,
     /// The quantity needs a friction coefficient, and the case has none.
     NoFriction,
+    /// The quantity needs a backlash, and the case has none.
+    NoBacklash,
     /// The event does not occur.
     NotReached,
     /// The model refuses it.
@@ -43,6 +45,14 @@ impl Absence {
                 if quantity.needs_friction && !has_friction(solution) =>
             {
                 Absence::NoFriction
+            }
+            (Stage::Dynamic, _) if quantity.needs_backlash && solution.dynamic.is_some() => {
+                Absence::NoBacklash
+            }
+            (Stage::SteadyMotion, _)
+                if quantity.needs_backlash && matches!(solution.steady, Some(Ok(_))) =>
+            {
+                Absence::NoBacklash
             }
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
             (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
@@ -169,6 +179,9 @@ impl fmt::Display for Absence {
             }
             Absence::NoFreeImpact => f.write_str("the closed form finds no first contact at D"),
             Absence::NoFriction => f.write_str("the case has no operation.friction_coefficient"),
+            Absence::NoBacklash => f.write_str(
+                "the case has no deviations.backlash; without it the back flanks are far away",
+            ),
             Absence::NotReached => f.write_str("the event does not occur"),
             Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
             Absence::Unclosed => {

@@ -177,6 +177,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: RATTLE,
         assumptions: AT_BACK,
         checks: &[checks::teeth, checks::forgotten],
+        needs_backlash: true,
         ..PLAIN
     },
     Quantity {
@@ -195,6 +196,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: RATTLE,
         assumptions: AT_BACK,
         checks: &[checks::teeth, checks::forgotten],
+        needs_backlash: true,
         ..PLAIN
     },
     Quantity {

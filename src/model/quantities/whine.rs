@@ -234,6 +234,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: MOTION,
         assumptions: AT_BACK,
         checks: CHECKS,
+        needs_backlash: true,
         ..PLAIN
     },
     Quantity {
@@ -255,6 +256,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: MOTION,
         assumptions: AT_BACK,
         checks: CHECKS,
+        needs_backlash: true,
         ..PLAIN
     },
 ];

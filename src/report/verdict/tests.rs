@@ -92,6 +92,14 @@ fn a_limit_without_a_value_gives_the_reason_and_passes_only_without_contact() {
         sentence.ends_with("the case has no operation.friction_coefficient"),
         "{sentence}"
     );
+    for key in ["steady_back_force", "dynamic_back_strikes"] {
+        let limit = if key.ends_with("force") { "1 N" } else { "1" };
+        let (_, sentence) = stands("dynamic", "0 um", key, limit);
+        assert!(
+            sentence.contains("the case has no deviations.backlash"),
+            "{sentence}"
+        );
+    }
     assert_eq!(
         stands("static", "80 um", "static_first_contact_angle", "1 deg").0,
         Standing::NotApplicable
