@@ -10,6 +10,7 @@ use std::cell::Cell;
 use std::fmt;
 
 use crate::model::budget::Meter;
+use crate::model::geometry::Geometry;
 use crate::model::inputs::{Drive, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
@@ -148,9 +149,9 @@ pub enum NoRelief {
         /// The overlap that remains with it, in m.
         overlap: f64,
     },
-    /// The part of the path with two pairs has no room for a relief.
+    /// The path of contact has no room for a relief.
     ShortPath {
-        /// Length of that part, in m.
+        /// The longest relief, in m.
         length: f64,
         /// The least length of a relief, in m.
         least: f64,
@@ -201,12 +202,16 @@ impl fmt::Display for NoRelief {
                 ratio,
             } => write!(
                 f,
-                "no tip relief prevents corner contact: two pairs share the load over {} of the path \
-                 (contact ratio {ratio:.4}), and the shortest relief for this load, {} (its length is at \
-                 least 20 times its amount), is longer and brings the contact ratio below 1 under light \
-                 load; raise the addendum or the number of teeth, or lower the greatest load",
+                "no tip relief prevents corner contact: for this load its length is at least {} (20 times \
+                 its amount), and beyond {} {} (contact ratio {ratio:.4}); raise the addendum or the \
+                 number of teeth, or lower the greatest load",
+                mm(least),
                 mm(length),
-                mm(least)
+                if *ratio < 2.0 {
+                    "it reaches the contact of a single pair"
+                } else {
+                    "the unrelieved flanks lose contact under light load"
+                }
             ),
             NoRelief::Beyond { most, overlap } => write!(
                 f,
@@ -357,15 +362,15 @@ fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, N
     /// The steepest relief, as its amount over its length.
     const STEEPEST: f64 = 0.05;
     let geometry = &solution.geometry;
-    let shared = geometry.shared_length();
+    let longest = longest(geometry);
     let needed = solution.deviation.loaded_deflection()
         + solution.deviation.equivalent_error.max(0.0)
         + 2.0 * demand.tolerance;
-    let length_step = round_step(shared / 40.0);
+    let length_step = round_step(longest / 40.0);
     let least = (needed / STEEPEST).max(length_step);
-    if least > shared {
+    if least > longest {
         return Err(NoRelief::ShortPath {
-            length: shared,
+            length: longest,
             least,
             ratio: geometry.contact_ratio,
         });
@@ -382,10 +387,17 @@ fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, N
     Ok(Grid {
         length_step,
         least_length: steps(least, length_step).max(1),
-        most_length: steps(shared * (1.0 + 1e-9), length_step),
+        most_length: steps(longest * (1.0 + 1e-9), length_step),
         most_amounts: tips.map(|tip| steps(tip.min(MOST * needed), AMOUNT_STEP)),
         tips,
     })
+}
+
+/// The longest relief, in m: as far as single contact, where one pair carries alone. Where two pairs
+/// always share the load, as far as the unrelieved flanks keep a contact ratio of 1.
+fn longest(geometry: &Geometry) -> f64 {
+    let kept = 0.5 * (geometry.contact_ratio - 1.0) * geometry.base_pitch;
+    geometry.shared_length().max(kept)
 }
 
 /// The round step at or above a length: 1, 2 or 5 times a power of ten.
