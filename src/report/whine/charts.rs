@@ -149,20 +149,30 @@ fn runs((name, curve): NamedCurve) -> Vec<Series> {
         pieces: pieces(down),
         kind: Kind::Curve,
     };
-    let points = curve.up.iter().flatten().chain(&jumps);
-    let lost: Vec<(f64, f64)> = points
-        .filter(|point| point.contact_lost)
-        .map(place)
-        .collect();
     let lost = Series {
         name: "contact lost".to_owned(),
-        pieces: lost.into_iter().map(|point| vec![point]).collect(),
+        pieces: lost(curve, &jumps),
         kind: Kind::Marks(None),
     };
     let all = [up, down, lost];
     all.into_iter()
         .filter(|series| !series.pieces.is_empty())
         .collect()
+}
+
+/// The points at which contact is lost: of neighbours the first and every fifth one, so that the
+/// curve between them shows.
+fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<(f64, f64)>> {
+    const STRIDE: usize = 5;
+    let of_run = |run: &[Option<AtSpeed>], counts: &dyn Fn(&AtSpeed) -> bool| {
+        let is_lost = |point: &&AtSpeed| point.contact_lost && counts(point);
+        let points = pieces(run.iter().map(|point| point.as_ref().filter(is_lost)));
+        let kept = points.into_iter().flat_map(|run| run.into_iter().step_by(STRIDE));
+        kept.map(|point| vec![point]).collect::<Vec<_>>()
+    };
+    let mut found = of_run(&curve.up, &|_| true);
+    found.extend(of_run(&curve.down, &|point| jumps.contains(point)));
+    found
 }
 
 fn place(point: &AtSpeed) -> (f64, f64) {

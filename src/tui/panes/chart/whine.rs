@@ -181,11 +181,9 @@ impl<'a> Plot<'a> {
         self.area.draw_pieces(&series.pieces, look, buffer);
     }
 
-    /// Points on a curve are in every other column, so that both show.
     fn points(&self, at: usize, series: &Series, buffer: &mut Buffer) {
         for (x, y) in series.pieces.iter().flatten() {
-            let column = self.area.column(*x);
-            if let Some(column) = column.filter(|column| column % 2 == 0) {
+            if let Some(column) = self.area.column(*x) {
                 buffer.set_string(column, self.area.row(*y), self.sign(at), self.style(at));
             }
         }
