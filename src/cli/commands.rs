@@ -45,7 +45,7 @@ pub enum Command {
     Sweep(sweep::Options),
     /// Sample the distributions of [spread]: percentiles, probabilities, ranking of the fields
     Tolerance(tolerance::Options),
-    /// Put the shards of a sweep or a tolerance study together
+    /// Merge the shards of a sweep or a tolerance study
     Gather(gather::Options),
     /// Compare the variants of a case, or several cases, side by side with their differences
     Compare(compare::Options),

@@ -103,7 +103,7 @@ pub(super) fn text(case: &Case, comments: &[(&str, String)]) -> String {
     let entries = entries(case);
     let mut text = format!(
         "# A gear pair for tipstrike.\n# A value with a dimension is a string with its unit; any \
-            unit of the dimension will do.\nformat = {FORMAT}\n"
+            unit of the dimension is valid.\nformat = {FORMAT}\n"
     );
     for (table, title) in GROUPS {
         if !table.is_empty() {

@@ -154,7 +154,7 @@ impl Reader {
             Some(number) if number == u64::from(FORMAT) => {}
             Some(number) if number > u64::from(FORMAT) => {
                 let cause = format!(
-                    "format {number} is newer than this version, which knows format {FORMAT}"
+                    "format {number} is newer than this version, which reads format {FORMAT}"
                 );
                 let problem = Problem::new("format", cause, "open it with a newer tipstrike");
                 self.faults.push(Found {

@@ -28,16 +28,16 @@ pub struct Options {
     /// Case files, each with its variants; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
-    /// Compare these variants alone
+    /// Compare only these variants
     #[arg(long = "variant", value_name = "NAME,...", value_delimiter = ',')]
     pub variants: Vec<String>,
-    /// Solve on this method instead of the cases'
+    /// Use this method instead of the methods of the cases
     #[arg(long, value_parser = methods())]
     method: Option<Method>,
     /// Change a field of every case and variant, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     settings: Vec<Setting>,
-    /// Compare these quantities alone, by name or symbol; `tipstrike fields --results` lists them
+    /// Compare only these quantities, by name or symbol; `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
     pub only: Vec<Vec<&'static Quantity>>,
     /// Format of the output

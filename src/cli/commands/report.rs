@@ -10,9 +10,9 @@ use crate::report::export::{Format, subject};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-const AFTER_HELP: &str = "The HTML page is complete in itself: verdict, inputs, results, charts, teeth, limits, notes and the case \
-    files; one case prints on two A4 pages. Markdown has the same without charts. CSV and JSON are those of `solve`, JSON with the \
-    stations.";
+const AFTER_HELP: &str = "The HTML page needs no other file: verdict, inputs, results, charts, \
+    teeth, limits, notes and the case files; one case prints on two A4 pages. Markdown has the \
+    same without charts. CSV and JSON are those of `solve`, JSON with the stations.";
 
 /// What the command line gives.
 #[derive(Debug, Args)]
@@ -24,7 +24,7 @@ pub struct Options {
     /// What differs from each case
     #[command(flatten)]
     pub changes: Changes,
-    /// File to write, over an older one; its ending chooses the format
+    /// File to write; the extension selects the format; replaces an existing file
     #[arg(long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: PathBuf,
 }

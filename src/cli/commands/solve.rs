@@ -25,7 +25,7 @@ pub struct Options {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Print these quantities alone, by name or symbol, and run only the stages that they need;
+    /// Print only these quantities, by name or symbol, and run only the stages that they need;
     /// `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
     pub only: Vec<Vec<&'static Quantity>>,

@@ -47,7 +47,7 @@ pub struct Options {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Compute these quantities alone, by name or symbol; `tipstrike fields --results` lists them
+    /// Compute only these quantities, by name or symbol; `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
     pub only: Vec<Vec<&'static Quantity>>,
     /// Format of the output

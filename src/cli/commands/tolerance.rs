@@ -46,7 +46,7 @@ pub struct Options {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Compute these quantities and those of [limits] alone, by name or symbol
+    /// Compute only these quantities and those of [limits], by name or symbol
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
     pub only: Vec<Vec<&'static Quantity>>,
     /// Format of the output

@@ -74,7 +74,7 @@ fn part(text: &str) -> Result<f64, String> {
         .ok()
         .map(|number| number / whole)
         .filter(|part| part.is_finite() && *part > 0.0);
-    value.ok_or_else(|| "write a part above 0, such as 5% or 0.05".to_owned())
+    value.ok_or_else(|| "write a number above 0, such as 5% or 0.05".to_owned())
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::model::tip_gap::TipContact;
 use crate::numeric::quadrature;
 
 const AT_REST: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
-    at rest. With finite-element compliance the force on a pair displaces the pairs up to two \
+    at rest. With finite-element compliance the force on a pair displaces the pairs up to three \
     pitches away; in the other models each pair deflects alone. Only the incoming pair has a \
     deviation, e = Δf_0; all pairs have their reliefs. The method ignores a deflection that the \
     case gives.";

@@ -90,7 +90,7 @@ impl ReliefDialog {
             (None, None) => "Searching. Esc ends the search.".to_owned(),
             (None, Some(_)) if typed != self.searched => "Enter searches again.".to_owned(),
             (None, Some(Ok(_))) => {
-                "Enter takes the relief into the case; Down and PageDown scroll.".to_owned()
+                "Enter writes the relief into the case; Down and PageDown scroll.".to_owned()
             }
             (None, Some(Err(_))) => "No relief is found.".to_owned(),
         }
