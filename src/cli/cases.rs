@@ -6,8 +6,8 @@ use super::options::{Edits, Setting};
 use crate::case::fields::FIELDS;
 use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::rexs::{self, Imported};
-use crate::case::{Case, Document, Problem};
-use crate::model::{Inputs, Refusal};
+use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance};
+use crate::model::{Inputs, Quantity, Refusal};
 use crate::report::compare::Refused;
 use crate::report::pictures::Unsolved;
 use std::path::Path;
@@ -23,6 +23,25 @@ pub(super) struct Opened {
 }
 
 impl Opened {
+    /// Lets the method `auto` compute these quantities, which the command names.
+    pub(super) fn need(&mut self, quantities: impl IntoIterator<Item = &'static Quantity>) {
+        let stages = quantities.into_iter().map(|quantity| quantity.stage);
+        self.inputs = self.inputs.clone().needing(stages);
+    }
+
+    /// Why a varied field changes no result, or only a part of what a user expects.
+    pub(super) fn without_effect(&self, field: usize, inputs: &Inputs) -> Option<String> {
+        let (name, key) = (&self.name, FIELDS[field].key);
+        match relevance(field, inputs) {
+            Acting::Yes => {
+                partial_relevance(field, inputs).map(|why| format!("{name}: {key}: {why}"))
+            }
+            Acting::No(why) | Acting::Beside(why) => {
+                Some(format!("{name}: {key} changes no quantity: {why}"))
+            }
+        }
+    }
+
     /// The case, to be solved for a report or a picture.
     pub(super) fn unsolved(&self) -> Unsolved<'_> {
         Unsolved {

@@ -487,3 +487,24 @@ fn refused_points_with_one_reason_take_one_line_whatever_its_numbers() {
         format!("{TABLE_1}: {refused} of 200 points refused, the first at pair.module = 0.5 mm");
     assert!(errors.starts_with(&start), "{errors}");
 }
+
+#[test]
+fn a_search_and_a_tolerance_say_that_a_varied_field_changes_nothing() {
+    let graded = ["--set", "driver.grade=6", "--set", "driven.grade=6"];
+    let seek = [
+        "seek",
+        "--vary",
+        "deviations.base_pitch=0..40 um",
+        "--until",
+        "impact_force<=2500 N",
+    ];
+    let (_folder, spread) = with_spread("\"deviations.base_pitch\" = { normal = \"4 um\" }");
+    let tolerance = ["tolerance", "--samples", "100", &spread];
+    for command in [&[&seek[..], &[TABLE_1]].concat()[..], &tolerance] {
+        let (_, _, errors) = printed(&[command, &graded].concat());
+        assert!(
+            errors.contains("deviations.base_pitch changes no quantity: "),
+            "{errors}"
+        );
+    }
+}

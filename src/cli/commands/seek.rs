@@ -59,7 +59,11 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     cases::keep_varied(&edits.settings, &[key])?;
     keep_inputs(out, &[&options.case])?;
     let first = (range.field, with_unit(&shortest(range.from), &range.unit));
-    let opened = cases::open_varied(&options.case, &edits, &[first], streams)?;
+    let mut opened = cases::open_varied(&options.case, &edits, &[first], streams)?;
+    opened.need(condition.quantity());
+    if let Some(sentence) = opened.without_effect(range.field, &opened.inputs) {
+        streams.say(&sentence);
+    }
     condition
         .check(opened.inputs.method)
         .map_err(|problem| Failure::of_option("--until", &options.until, &problem))?;

@@ -1,6 +1,5 @@
 //! A case solved over a grid of varied fields.
 
-use crate::case::{Acting, partial_relevance, relevance};
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
@@ -68,7 +67,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     cases::keep_varied(&edits.settings, &keys)?;
     let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
     let first: Vec<(usize, String)> = first.collect();
-    let opened = cases::open_varied(&options.case, &edits, &first, streams)?;
+    let mut opened = cases::open_varied(&options.case, &edits, &first, streams)?;
+    opened.need(options.only.iter().flatten().copied());
     for sentence in idle(&grid, &opened) {
         streams.say(&sentence);
     }
@@ -156,14 +156,7 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
         return Vec::new();
     }
     grid.put(0, &mut inputs);
-    let warning = |axis: &Axis| match relevance(axis.field, &inputs) {
-        Acting::Yes => partial_relevance(axis.field, &inputs)
-            .map(|why| format!("{}: {}: {why}", opened.name, axis.key())),
-        Acting::No(why) | Acting::Beside(why) => {
-            let (name, key) = (&opened.name, axis.key());
-            Some(format!("{name}: {key} changes no quantity: {why}"))
-        }
-    };
+    let warning = |axis: &Axis| opened.without_effect(axis.field, &inputs);
     grid.axes.iter().filter_map(warning).collect()
 }
 

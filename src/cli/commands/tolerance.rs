@@ -61,11 +61,17 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let out = options.running.out.as_deref();
     check_size(options)?;
     keep_inputs(out, &[&options.case])?;
-    let opened = cases::open(&options.case, &options.changes.edits(), streams)?;
+    let mut opened = cases::open(&options.case, &options.changes.edits(), streams)?;
+    opened.need(options.only.iter().flatten().copied());
     let study = study(options, &opened).map_err(|problem| {
         opened.report_problem(problem, streams);
         Exit::BadCase
     })?;
+    for spread in &study.design.distributions {
+        if let Some(sentence) = opened.without_effect(spread.field, &opened.inputs) {
+            streams.say(&sentence);
+        }
+    }
     if let Some(shard) = options.running.shard {
         let request = request(options, &opened, &study);
         let batch = Batch {

@@ -167,7 +167,9 @@ fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<(f64, f64)>> {
     let of_run = |run: &[Option<AtSpeed>], counts: &dyn Fn(&AtSpeed) -> bool| {
         let is_lost = |point: &&AtSpeed| point.contact_lost && counts(point);
         let points = pieces(run.iter().map(|point| point.as_ref().filter(is_lost)));
-        let kept = points.into_iter().flat_map(|run| run.into_iter().step_by(STRIDE));
+        let kept = points
+            .into_iter()
+            .flat_map(|run| run.into_iter().step_by(STRIDE));
         kept.map(|point| vec![point]).collect::<Vec<_>>()
     };
     let mut found = of_run(&curve.up, &|_| true);
