@@ -159,12 +159,19 @@ fn stiffness(value: Option<f64>, reference: Option<f64>) -> String {
     shown + &difference(value, reference)
 }
 
-/// The difference from a reference in brackets; empty without both.
+/// The difference from a reference in brackets, as a factor where it exceeds the column; empty
+/// without both.
 fn difference(value: Option<f64>, reference: Option<f64>) -> String {
-    value
-        .zip(reference)
-        .map(|(value, reference)| format!(" ({:+.0} %)", 100.0 * (value / reference - 1.0)))
-        .unwrap_or_default()
+    const LARGEST: f64 = 999.0;
+    let Some((value, reference)) = value.zip(reference) else {
+        return String::new();
+    };
+    let (factor, percent) = (value / reference, 100.0 * (value / reference - 1.0));
+    if percent > LARGEST {
+        format!(" ({factor:.0} x)")
+    } else {
+        format!(" ({percent:+.0} %)")
+    }
 }
 
 fn row(point: &Point) -> String {

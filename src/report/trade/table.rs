@@ -23,7 +23,10 @@ pub struct Cell {
 
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {:>5}", self.time, self.total)
+        // A column has room for five characters.
+        let is_long = self.total.len() > 5 && self.total.starts_with("0.0");
+        let total = if is_long { "<0.01" } else { &self.total };
+        write!(f, "{} {total:>5}", self.time)
     }
 }
 
