@@ -508,7 +508,7 @@ fn auto_computes_what_a_limit_or_a_selected_quantity_needs() {
     for (quantity, method) in [
         ("dynamic_peak_force", "dynamic"),
         ("static_te_peak_to_peak", "static"),
-        ("clearing_relief", "exact"),
+        ("mesh_force", "exact"),
     ] {
         let (code, text, errors) = by_auto(&["solve", "--format", "json", "--only", quantity]);
         let report: Value = serde_json::from_str(&text).expect("JSON");
