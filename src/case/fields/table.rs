@@ -18,15 +18,10 @@ mod gear;
 mod model;
 mod operation;
 
-use super::Absent::{Default, Either, Refused, Without};
-use super::reasons::Reason::{Beside, Idle, Partly};
-use super::reasons::{CURVE, IN_TIME, LOAD, MASS, WHOLE_RELIEF, always};
-use super::{FLAG, Field, Kind, Range};
+use super::Absent::{Default, Either, Without};
+use super::reasons::Reason::Beside;
+use super::{Field, Kind, Range};
 use crate::case::units::Dimension;
-use crate::model::compliance::contact_of;
-use crate::model::inputs::{
-    ContactCompliance, Drive, InertiaModel, Method, ReliefShape, ToothCompliance,
-};
 use gear::{DRIVEN, DRIVER};
 use model::MODEL;
 use operation::OPERATION;

@@ -1,8 +1,8 @@
 //! Rows of the model: method, compliance, inertia, numerical settings.
 
 use crate::case::fields::Absent::{Default, Without};
-use crate::case::fields::reasons::Reason::{Beside, Idle, Partly};
-use crate::case::fields::reasons::{CURVE, IN_TIME, LOAD, MASS, WHOLE_RELIEF, always};
+use crate::case::fields::reasons::Reason::{Idle, Partly};
+use crate::case::fields::reasons::{CURVE, IN_TIME, MASS, WHOLE_RELIEF, always};
 use crate::case::fields::{FLAG, Field, Kind, Range};
 use crate::case::units::Dimension;
 use crate::model::compliance::contact_of;

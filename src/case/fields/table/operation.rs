@@ -2,8 +2,8 @@
 
 use crate::case::fields::Absent::{Default, Either, Refused, Without};
 use crate::case::fields::reasons::Reason::{Beside, Idle, Partly};
-use crate::case::fields::reasons::{CURVE, IN_TIME, LOAD, MASS, WHOLE_RELIEF, always};
-use crate::case::fields::{FLAG, Field, Kind, Range};
+use crate::case::fields::reasons::{LOAD, always};
+use crate::case::fields::{Field, Kind, Range};
 use crate::case::units::Dimension;
 use crate::model::inputs::{Drive, Method};
 
