@@ -3,17 +3,22 @@
 use std::ops::Range;
 
 /// The most points of a chunk.
-const LONGEST: usize = 4096;
+const LONGEST: usize = 8192;
 
 /// A chunk is this part of a thread's share of the points that are left, so that the last chunks
 /// are short and no thread waits long for another.
-const PARTS_OF_SHARE: usize = 8;
+const PARTS_OF_SHARE: usize = 4;
+
+/// The shortest chunk is this part of a thread's share of all points: each chunk wakes the thread that
+/// collects the rows.
+const MOST_PARTS: usize = 1024;
 
 /// The chunks of a range for so many threads, in order.
 pub(super) fn chunks(range: &Range<usize>, jobs: usize) -> Vec<Range<usize>> {
+    let shortest = (range.len() / (jobs * MOST_PARTS)).clamp(1, LONGEST);
     let after = |first: usize| {
         let part = (range.end - first) / (jobs * PARTS_OF_SHARE);
-        first..(first + part.clamp(1, LONGEST)).min(range.end)
+        first..(first + part.clamp(shortest, LONGEST)).min(range.end)
     };
     let is_left = |chunk: &Range<usize>| !chunk.is_empty();
     std::iter::successors(Some(after(range.start)), |chunk| Some(after(chunk.end)))
@@ -34,7 +39,8 @@ mod tests {
             let expected: Vec<usize> = std::iter::once(range.start).chain(ends).collect();
             assert_eq!(firsts, expected[..found.len()]);
             assert_eq!(expected.last(), Some(&range.end));
-            let is_short = |chunk: &Range<usize>| chunk.len() <= 1;
+            let short = 1.max(range.len() / (jobs * MOST_PARTS));
+            let is_short = |chunk: &Range<usize>| chunk.len() <= short;
             assert!(found.last().is_none_or(is_short), "{found:?}");
             assert!(found.iter().all(|chunk| chunk.len() <= LONGEST));
         }
