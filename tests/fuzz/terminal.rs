@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::process::Command;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use portable_pty::ExitStatus;
@@ -78,15 +79,19 @@ fn floods_are_survived() {
     let flood = keys.repeat(100_000 / 6);
     let paste = |end: &[u8]| [b"\x1b[200~", "5 mm\r\n歯".repeat(1 << 17).as_bytes(), end].concat();
     let broken = b"\xff\xc3\x28\xf0\x9f\x1b[\xe2\x82".repeat(5000);
-    for bytes in [
+    let floods = [
         flood,
         paste(b"\x1b[201~"),
         paste(b""),
         broken,
         b"\x1b".repeat(20_000),
-    ] {
-        survive(&[bytes], &[(10, 30), (0, 0), (24, 80)]);
-    }
+    ];
+    // Each program waits for its terminal most of the time.
+    thread::scope(|scope| {
+        for bytes in floods {
+            scope.spawn(|| survive(&[bytes], &[(10, 30), (0, 0), (24, 80)]));
+        }
+    });
 }
 
 /// Without paths out of its folder.
