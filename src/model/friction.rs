@@ -21,7 +21,7 @@ pub struct Friction {
 /// ```
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 29-45 and 64. Mended: m_red in kg in Eq. 31; Eq. 34 finds O₁D' with the
+/// Zhou & Chen 2014, Eqs. 29-45 and 64. Corrected: m_red in kg in Eq. 31; Eq. 34 finds O₁D' with the
 /// chord for Eq. 36's arc; Eq. 42 is the law of cosines; Eqs. 44 and 45 are the changes between D
 /// and D'. In the method `paper` D' is that of Eq. 34, although the angle at O₁ in its triangle is
 /// not Δθ; in `exact` it is the driven tip at u − ω₂ T_S, not past E.

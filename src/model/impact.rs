@@ -195,7 +195,7 @@ impl Masses {
 /// with the Hertz half-width in q_H solved together with F_S.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 50-57. Mended: Eq. 53 is inverted (δ_s = F_S q_s/b, then Eq. 57 holds);
+/// Zhou & Chen 2014, Eqs. 50-57. Corrected: Eq. 53 is inverted (δ_s = F_S q_s/b, then Eq. 57 holds);
 /// the pair of Eq. 54 is the one in contact at D, whose driven tooth is loaded at its tip. The
 /// energies are of the whole width.
 ///

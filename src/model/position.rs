@@ -80,7 +80,7 @@ fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> Two
 /// ```
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 11-20. Mended: the differences of arctangents (Eqs. 14, 17-19), which
+/// Zhou & Chen 2014, Eqs. 11-20. Corrected: the differences of arctangents (Eqs. 14, 17-19), which
 /// jump by π where Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio.
 /// Kept as printed: the result is linear in Δ, where the tip's gap grows as u².
 fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) -> T {
