@@ -12,18 +12,24 @@ use crate::model::inputs::{Inputs, Method, ToothCompliance};
 use crate::model::sample::standard_pair;
 use crate::model::spacing::Spacing;
 use crate::model::static_load;
-use crate::model::{Stage, Stages, solve};
+use crate::model::{Solution, Stage, Stages, solve};
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::quadrature;
 
-/// A pair that strikes, its mesh, and how it is run.
-fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
+/// A pair that strikes, with its load at rest.
+pub(super) fn at_rest(adjust: impl FnOnce(&mut Inputs)) -> (Inputs, Solution) {
     let mut inputs = standard_pair(20, 30, 5e-3);
     inputs.base_pitch_deviation = 12e-6;
     inputs.method = Method::Static;
     inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
     adjust(&mut inputs);
     let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
+    (inputs, solution)
+}
+
+/// A pair that strikes, its mesh, and how it is run.
+fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
+    let (inputs, solution) = at_rest(adjust);
     let error = solution.deviation.equivalent_error;
     let mesh = Mesh::new(
         &inputs.mesh(),
@@ -38,12 +44,7 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
 
 /// The same pair with teeth that displace their neighbours.
 fn coupled(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
-    let mut inputs = standard_pair(20, 30, 5e-3);
-    inputs.base_pitch_deviation = 12e-6;
-    inputs.method = Method::Static;
-    inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
-    adjust(&mut inputs);
-    let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
+    let (inputs, solution) = at_rest(adjust);
     let flanks = Flanks::new(&inputs.elasticity(), &solution.geometry).unwrap();
     let load = (solution.mesh_force, solution.deviation.equivalent_error);
     let scale = inputs.common_width() / solution.mesh.as_ref().unwrap().mean_stiffness;

@@ -5,12 +5,11 @@ use crate::model::compliance::ContactPlace;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::dynamic::motion::{Motion, State};
 use crate::model::dynamic::steady::steady;
-use crate::model::dynamic::tests::{ran, settings};
+use crate::model::dynamic::tests::{at_rest, ran, settings};
 use crate::model::dynamic::*;
-use crate::model::inputs::{Drive, Inputs, Method, ToothCompliance};
+use crate::model::inputs::{Drive, Inputs};
 use crate::model::mesh::MeshInputs;
 use crate::model::pair_forces::PairSet;
-use crate::model::sample::standard_pair;
 use crate::model::static_load;
 use crate::model::{Stage, Stages, solve};
 
@@ -60,12 +59,7 @@ fn rattling() -> Vec<(&'static str, Rattling)> {
 }
 
 fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
-    let mut inputs = standard_pair(20, 30, 5e-3);
-    inputs.base_pitch_deviation = 12e-6;
-    inputs.method = Method::Static;
-    inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
-    adjust(&mut inputs);
-    let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
+    let (inputs, solution) = at_rest(adjust);
     let error = solution.deviation.equivalent_error;
     let swapped = Inputs {
         driver: inputs.driven.clone(),
