@@ -1,4 +1,4 @@
-//! Many solves of one case, for what a single one cannot tell.
+//! Studies: many solves of one case.
 
 pub mod axis;
 pub mod batch;

@@ -1,4 +1,4 @@
-//! A varied field: its values as a user writes them, and as the model reads them.
+//! A varied field, with its values in the user's unit and in SI.
 
 use crate::case::fields::{AUTO, FIELDS, Field, Kind, Value, index_of};
 use crate::case::units::{self, Dimension};
@@ -6,16 +6,16 @@ use crate::case::{Problem, field_value, unknown_key};
 use crate::model::Inputs;
 use crate::numeric::decimal::shortest;
 
-/// Number of points of a range where none is given.
+/// Default number of points of a range.
 pub const USUAL_POINTS: usize = 101;
 
-/// The most points of one range.
+/// Greatest number of points of a range.
 pub const MOST_POINTS: usize = 1_000_000;
 
 /// A varied field and its values, in order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// The place in [`FIELDS`].
+    /// Index in [`FIELDS`].
     pub field: usize,
     /// The unit in which the user gave the values; empty for a bare number or a choice.
     pub unit: String,
@@ -36,14 +36,13 @@ pub struct AxisPoint {
 /// How the points of a range are distributed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sampling {
-    /// Number of points; without it [`USUAL_POINTS`], or every whole number.
+    /// Number of points; by default [`USUAL_POINTS`], or every whole number of the range.
     pub points: Option<usize>,
     /// Equal ratios instead of equal steps.
     pub is_log: bool,
 }
 
 impl AxisPoint {
-    /// The point at a number in a unit.
     fn at(number: f64, unit: &str, field: usize) -> Result<AxisPoint, Problem> {
         let text = shortest(number);
         let value = field_value(field, &with_unit(&text, unit))?;
@@ -54,7 +53,6 @@ impl AxisPoint {
         })
     }
 
-    /// The point of a name.
     fn named(name: &str, field: usize) -> Result<AxisPoint, Problem> {
         Ok(AxisPoint {
             text: name.to_owned(),
@@ -63,18 +61,18 @@ impl AxisPoint {
         })
     }
 
-    /// Puts the value into a model's inputs.
+    /// Writes the value into the inputs of a model.
     pub fn put(&self, field: usize, inputs: &mut Inputs) {
         FIELDS[field].put(self.value, inputs);
     }
 }
 
 impl Axis {
-    /// The axis of a text such as `operation.speed=500..3000 rpm` or `driven.teeth=20,30,40`.
+    /// Parses a text such as `operation.speed=500..3000 rpm` or `driven.teeth=20,30,40`.
     ///
     /// # Errors
-    /// Where the field does not exist or has no such values, the range is reversed or empty, or the
-    /// points do not fit it.
+    /// Returns an error if the field does not exist or does not accept the values, if the range is
+    /// reversed or empty, or if the number of points does not suit the range.
     pub fn parse(text: &str, sampling: Sampling) -> Result<Axis, Problem> {
         let (field, values) = assignment(text)?;
         if is_range(values) {
@@ -83,7 +81,7 @@ impl Axis {
         list(field, values)
     }
 
-    /// Whether a text gives a range, so that the number of points applies to it.
+    /// Whether a text is a range, so that a number of points applies.
     #[must_use]
     pub fn is_range(text: &str) -> bool {
         text.split_once('=')
@@ -96,7 +94,7 @@ impl Axis {
         FIELDS[self.field].key
     }
 
-    /// The value at a place with its unit, as `--set` takes it.
+    /// The value at an index with its unit, in the syntax of `--set`.
     #[must_use]
     pub fn with_unit(&self, at: usize) -> String {
         with_unit(&self.points[at].text, &self.unit)
@@ -106,7 +104,7 @@ impl Axis {
 /// A range of a varied field, in the unit in which the user gave it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisRange {
-    /// The place in [`FIELDS`].
+    /// Index in [`FIELDS`].
     pub field: usize,
     /// The unit; empty for a bare number.
     pub unit: String,
@@ -117,10 +115,10 @@ pub struct AxisRange {
 }
 
 impl AxisRange {
-    /// The range of a text such as `operation.speed=500..3000 rpm`.
+    /// Parses a text such as `operation.speed=500..3000 rpm`.
     ///
     /// # Errors
-    /// As [`Axis::parse`], and where the text is no range of a number field.
+    /// As [`Axis::parse`]; also if the text is not the range of a number field.
     pub fn parse(text: &str) -> Result<AxisRange, Problem> {
         let (field, values) = assignment(text)?;
         let known = &FIELDS[field];
@@ -182,10 +180,10 @@ impl AxisRange {
         Err(problem(known, cause, fix))
     }
 
-    /// The value at a number in the unit of the range.
+    /// The point at a number in the unit of the range.
     ///
     /// # Errors
-    /// Where the field does not take the value.
+    /// Returns an error if the field does not accept the value.
     pub fn at(&self, number: f64) -> Result<AxisPoint, Problem> {
         AxisPoint::at(number, &self.unit, self.field)
     }
@@ -193,8 +191,8 @@ impl AxisRange {
     /// The points of the range.
     ///
     /// # Errors
-    /// Where the number of points is below 2 or does not fit whole numbers, or where equal ratios
-    /// begin at 0 or below.
+    /// Returns an error if there are fewer than 2 points, if the points do not fall on whole
+    /// numbers as the field requires, or if a logarithmic range begins at 0 or below.
     pub fn axis(&self, sampling: Sampling) -> Result<Axis, Problem> {
         let known = &FIELDS[self.field];
         let count = match known.kind {
@@ -241,7 +239,7 @@ impl AxisRange {
         }
     }
 
-    /// The number of points that fall on whole numbers.
+    /// The number of points if each of them is a whole number.
     fn whole_numbers(&self, sampling: Sampling) -> Result<usize, Problem> {
         let known = &FIELDS[self.field];
         if sampling.is_log {
@@ -267,12 +265,12 @@ impl AxisRange {
     }
 }
 
-/// Rounded to 15 digits, so that a step of a tenth reads as one.
+/// Rounds to 15 digits, so that steps of 0.1 print without rounding errors.
 fn rounded(number: f64) -> f64 {
     format!("{number:.14e}").parse().unwrap_or(number)
 }
 
-/// A number and its unit, as a case file has them.
+/// A number and its unit, in the syntax of a case file.
 #[must_use]
 pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() {
@@ -290,7 +288,7 @@ fn problem(field: &Field, cause: impl Into<String>, fix: impl Into<String>) -> P
     }
 }
 
-/// The field of a text `KEY=VALUES` and the values.
+/// Splits `KEY=VALUES` into the index of the field and the values.
 fn assignment(text: &str) -> Result<(usize, &str), Problem> {
     let unwritten = |cause: &str| Problem {
         field: text.to_owned(),
@@ -319,7 +317,6 @@ fn is_range(values: &str) -> bool {
     values.contains("..")
 }
 
-/// The values of a list.
 fn list(field: usize, values: &str) -> Result<Axis, Problem> {
     let known = &FIELDS[field];
     let items: Vec<&str> = values.split(',').map(str::trim).collect();
@@ -349,7 +346,7 @@ fn list(field: usize, values: &str) -> Result<Axis, Problem> {
     })
 }
 
-/// The first unit that the values give, for those without one.
+/// The first unit among the values, which applies to values without a unit.
 fn unit_of<'t>(
     field: &Field,
     values: impl IntoIterator<Item = &'t str>,
@@ -370,7 +367,7 @@ fn unit_of<'t>(
     Ok(String::new())
 }
 
-/// The number of a value in a unit; a bare number is in that unit already.
+/// The value in `unit`; a bare number is already in that unit.
 fn number_in(field: usize, value: &str, unit: &str) -> Result<f64, Problem> {
     let known = &FIELDS[field];
     let (number, own) = units::split(value, known.usual_unit()).unwrap_or((value, ""));

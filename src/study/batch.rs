@@ -16,20 +16,20 @@ const TICK: Duration = Duration::from_millis(50);
 
 /// The points of a study.
 pub trait Points: Sync {
-    /// How many points there are.
+    /// The number of points.
     fn count(&self) -> usize;
 
-    /// What puts the points into inputs on one thread.
+    /// A function that writes points into inputs on one thread.
     fn sequence(&self) -> Sequence<'_>;
 
-    /// Whether the points differ from the case in nothing but load and deviations.
+    /// Whether the points differ from the case only in load and deviations.
     fn differ_in_load_alone(&self, _inputs: &Inputs) -> bool {
         false
     }
 }
 
-/// Puts the values of a point, by its index, into inputs that hold the case or another point. It
-/// fails where a field does not take its value.
+/// Writes the values of the point with an index into inputs of the case or of another point. Fails
+/// if a field does not accept its value.
 pub type Sequence<'a> = Box<dyn FnMut(usize, &mut Inputs) -> Result<(), Problem> + 'a>;
 
 /// A study: one case, its points, and the quantities to compute at each.
@@ -43,19 +43,19 @@ pub struct Batch<'a> {
     pub quantities: &'a [&'static Quantity],
 }
 
-/// How a study runs and how its user follows it.
+/// How a study runs and how the caller follows it.
 #[derive(Clone, Copy)]
 pub struct Control<'a> {
-    /// Number of threads; without it one per core.
+    /// Number of threads; by default one per core.
     pub jobs: Option<usize>,
-    /// Whether to go on. Every thread asks at every point and during a long solve.
+    /// Whether to continue. Every thread calls it at every point and during a long solve.
     pub go_on: &'a (dyn Fn() -> bool + Sync),
-    /// Receives the number of points solved and their total, about twenty times a second.
+    /// Receives the number of solved points and the total, about twenty times a second.
     pub progress: &'a dyn Fn(usize, usize),
 }
 
 impl Control<'static> {
-    /// All cores, to the end, without progress.
+    /// All cores, without cancellation and without progress.
     pub const PLAIN: Control<'static> = Control {
         jobs: None,
         go_on: &|| true,
@@ -66,9 +66,9 @@ impl Control<'static> {
 /// How a point ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PointOutcome {
-    /// The model solved it.
+    /// The model solved the point.
     Solved(Outcome),
-    /// The case or the model refuses it.
+    /// The case or the model refuses the point.
     Refused,
 }
 
@@ -97,14 +97,14 @@ pub struct Rows {
     pub first: usize,
     /// How each point ended.
     pub outcomes: Vec<PointOutcome>,
-    /// Values in SI, point by point; NaN stands for no value.
+    /// Values in SI, point by point; NaN marks an absent value.
     values: Vec<f64>,
     /// Index and reason of each refused point.
     pub refusals: Vec<(usize, Problem)>,
 }
 
 impl Rows {
-    /// No rows yet, from this point on.
+    /// No rows yet; the first row to add has index `first`.
     #[must_use]
     pub fn starting_at(first: usize) -> Rows {
         Rows {
@@ -120,7 +120,7 @@ impl Rows {
         self.values.extend(values);
     }
 
-    /// The values of every quantity, point by point; NaN stands for no value.
+    /// The values of every quantity, point by point; NaN marks an absent value.
     #[must_use]
     pub fn all_values(&self) -> &[f64] {
         &self.values
@@ -158,12 +158,11 @@ impl Rows {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stopped;
 
-/// Solves the points of a range and hands their rows to `take` in order, as soon as they are ready.
-/// Neither the number of threads nor the order in which they finish changes a row. `take` returns
-/// whether to go on.
+/// Solves the points of a range and passes their rows to `take` in order, as soon as they are
+/// ready. The rows do not depend on the number of threads. `take` returns whether to continue.
 ///
 /// # Errors
-/// [`Stopped`] where [`Control::go_on`] or `take` says no.
+/// [`Stopped`] if [`Control::go_on`] or `take` returns false.
 pub fn solve_all(
     batch: &Batch,
     range: Range<usize>,
@@ -200,7 +199,7 @@ pub fn jobs(wanted: Option<usize>) -> usize {
     wanted.unwrap_or_else(cores).max(1)
 }
 
-/// What the threads of a study share.
+/// State that the threads of a study share.
 struct Shared<'a> {
     batch: Batch<'a>,
     range: Range<usize>,
@@ -222,7 +221,7 @@ impl Shared<'_> {
     }
 }
 
-/// Puts the chunks in order and follows the progress.
+/// Orders the chunks and reports the progress.
 fn collect(
     (shared, solved): (&Shared, &[Solved]),
     receive: &Receiver<(usize, Rows)>,
@@ -253,7 +252,7 @@ fn collect(
     Ok(())
 }
 
-/// One thread: takes chunks until none is left.
+/// One thread: solves chunks until none is left.
 fn work(shared: &Shared, solved: &AtomicUsize, send: &Sender<(usize, Rows)>) {
     let mut solver = PointSolver::new(shared.batch);
     loop {
@@ -278,7 +277,7 @@ fn work(shared: &Shared, solved: &AtomicUsize, send: &Sender<(usize, Rows)>) {
     }
 }
 
-/// Solves points one after the other; a stage whose inputs are equal keeps its result.
+/// Solves points one after the other; a stage with unchanged inputs reuses its result.
 struct PointSolver<'a> {
     batch: Batch<'a>,
     sequence: Sequence<'a>,
@@ -326,7 +325,7 @@ impl<'a> PointSolver<'a> {
         Ok(())
     }
 
-    /// Adds the row of a solved point, or returns the reason why a quantity has no value.
+    /// Adds the row of a solved point, or returns the reason why a quantity is absent.
     fn point(
         &mut self,
         index: usize,
@@ -353,7 +352,7 @@ impl<'a> PointSolver<'a> {
             let all = batch.quantities.iter();
             all.map(|quantity| quantity.finite_value(solution))
         };
-        // As a plain solve does with a quantity that is named.
+        // Refuses as a plain solve does if a named quantity is absent.
         if solution.withheld.is_some() && values().any(|value| value.is_none()) {
             return Ok(solution.withheld);
         }
@@ -362,7 +361,6 @@ impl<'a> PointSolver<'a> {
     }
 }
 
-/// Why a point has no solution.
 enum Unsolved {
     Refused(Problem),
     Stopped,

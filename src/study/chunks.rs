@@ -1,19 +1,19 @@
-//! The points of a study divided into chunks, the work that a thread takes at once.
+//! Chunks of points: the units of work of a thread.
 
 use std::ops::Range;
 
-/// The most points of a chunk.
+/// Greatest number of points of a chunk.
 const LONGEST: usize = 8192;
 
-/// A chunk is this part of a thread's share of the points that are left, so that the last chunks
+/// A chunk is this fraction of a thread's share of the remaining points, so that the last chunks
 /// are short and no thread waits long for another.
 const PARTS_OF_SHARE: usize = 4;
 
-/// The shortest chunk is this part of a thread's share of all points: each chunk wakes the thread that
-/// collects the rows.
+/// The shortest chunk is this fraction of a thread's share of all points: each chunk wakes the
+/// thread that collects the rows.
 const MOST_PARTS: usize = 1024;
 
-/// The chunks of a range for so many threads, in order.
+/// The chunks of a range for a number of threads, in order.
 pub(super) fn chunks(range: &Range<usize>, jobs: usize) -> Vec<Range<usize>> {
     let shortest = (range.len() / (jobs * MOST_PARTS)).clamp(1, LONGEST);
     let after = |first: usize| {

@@ -37,7 +37,7 @@ impl Relation {
         }
     }
 
-    /// Whether a quantity that does not occur is within the limit.
+    /// Whether an absent quantity is within the limit.
     fn is_met_without_value(self) -> bool {
         matches!(self, Relation::AtMost | Relation::Below)
     }
@@ -46,7 +46,7 @@ impl Relation {
 /// A condition on the result of a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Condition {
-    /// As the user wrote it.
+    /// The condition as the user wrote it.
     pub text: String,
     kind: Kind,
 }
@@ -60,16 +60,16 @@ enum Kind {
 /// Whether a point meets the condition.
 #[derive(Debug, Clone, PartialEq)]
 pub enum State {
-    /// It does.
+    /// The point meets the condition.
     Met,
-    /// It does not.
+    /// The point does not meet the condition.
     NotMet,
     /// The point is refused, or the quantity has no value for another reason than no contact.
     Unknown(Problem),
 }
 
 impl State {
-    /// Whether two states are the same answer, whatever the reason.
+    /// Whether both states are of the same variant; the reason may differ.
     #[must_use]
     pub fn is_like(&self, other: &State) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
@@ -77,10 +77,10 @@ impl State {
 }
 
 impl Condition {
-    /// The condition of a text such as `impact_force<=2500 N` or `outcome=no-corner-contact`.
+    /// Parses a text such as `impact_force<=2500 N` or `outcome=no-corner-contact`.
     ///
     /// # Errors
-    /// Where the quantity, the sign, the value or the outcome is unknown.
+    /// Returns an error if the quantity, the sign, the value or the outcome is unknown.
     pub fn parse(text: &str) -> Result<Condition, Problem> {
         let sign = Relation::SIGNS
             .into_iter()
@@ -119,7 +119,7 @@ impl Condition {
     /// Checks that a method computes the quantity.
     ///
     /// # Errors
-    /// Where another method does.
+    /// Returns an error if the method does not compute the quantity.
     pub fn check(&self, method: Method) -> Result<(), Problem> {
         let missing = self
             .quantity()
@@ -140,7 +140,7 @@ impl Condition {
         Err(problem(quantity.key, cause, fix))
     }
 
-    /// Whether a row meets the condition; its first value is that of the quantity.
+    /// Whether a row meets the condition; the first value of the row must be the quantity.
     #[must_use]
     pub fn state(&self, rows: &Rows, row: usize) -> State {
         let outcome = match rows.outcomes[row] {
@@ -180,7 +180,7 @@ impl Condition {
     }
 }
 
-/// Whether a quantity is missing because no tooth strikes.
+/// Whether a quantity is absent because no tooth strikes.
 fn is_without(key: &str, outcome: Outcome) -> bool {
     outcome == Outcome::NoCornerContact
         || Quantity::find(key).is_some_and(Quantity::is_of_free_impact)

@@ -1,4 +1,4 @@
-//! The samples of a tolerance study: each a pure function of the seed and its number.
+//! The samples of a tolerance study; each sample is a pure function of the seed and its index.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -10,10 +10,10 @@ use crate::case::{Problem, field_range};
 use crate::model::Inputs;
 use crate::model::solve::differ_in_load_alone;
 
-/// The samples, and after them the points of the ranking.
+/// The samples, followed by the points of the ranking.
 ///
-/// The ranking takes the first samples a second time. For each of them it has a second, independent
-/// sample b, and for each field a sample that has the value of b in this field alone.
+/// The ranking reuses the first samples. For each of them it adds a second, independent sample b,
+/// and for each field one point that has the value of b in this field only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
     /// Seed of the samples.
@@ -22,23 +22,24 @@ pub struct Design {
     pub distributions: Vec<Distribution>,
     /// Number of samples.
     pub samples: usize,
-    /// How many of them have points of the ranking.
+    /// Number of samples that have points of the ranking.
     pub ranked: usize,
 }
 
-/// What a point of a design is.
+/// The role of a point of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Member {
-    /// The sample of that number.
+    /// The sample with this index.
     Sample(usize),
-    /// The second sample of that number.
+    /// The second sample with this index.
     Second(usize),
-    /// The sample of that number with the value of the second one in a field.
+    /// The sample with the first index, with the value of its second sample in the field with the
+    /// second index.
     Swapped(usize, usize),
 }
 
 impl Design {
-    /// What a point is.
+    /// The role of the point with an index.
     #[must_use]
     pub fn member(&self, index: usize) -> Member {
         let Some(rest) = index.checked_sub(self.samples) else {
@@ -143,16 +144,16 @@ fn outside(field: usize) -> Problem {
     }
 }
 
-/// The random numbers of a design. Each sample has its own place in one stream, so that it is the
-/// same whichever was read before; samples in order are read without a search.
+/// The random numbers of a design. Each sample has its own position in one stream, so that its
+/// numbers do not depend on the order of reading. Samples in order are read without a seek.
 struct Numbers<'a> {
     design: &'a Design,
     stream: ChaCha8Rng,
-    /// The sample at whose place the stream is.
+    /// The sample at the position of the stream.
     next: usize,
-    /// The sample of the parts.
+    /// The sample of `parts`.
     last: Option<usize>,
-    /// For each field the number of the sample and that of the second sample.
+    /// For each field the random numbers of the sample and of the second sample.
     parts: Vec<[f64; 2]>,
 }
 
@@ -176,7 +177,7 @@ impl Numbers<'_> {
     }
 
     fn read(&mut self, number: usize) {
-        /// Words of the stream, of 32 bits, that a field takes.
+        /// Words of 32 bits that a field reads from the stream.
         const WORDS: u128 = 4;
         if self.last == Some(number) {
             return;

@@ -14,18 +14,18 @@ use crate::numeric::decimal::{shortest, significant};
 /// Standard deviations at which a truncated normal distribution ends.
 const CUT: f64 = 3.0;
 
-/// Standard deviations of a normal distribution that a field must allow. Of a million samples less
-/// than one is beyond them.
+/// Standard deviations of a normal distribution that the range of a field must contain. Fewer than
+/// one sample in a million is outside.
 const ALLOWED: f64 = 5.0;
 
 /// A distribution of a field around its value, in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
-    /// The place in [`FIELDS`].
+    /// Index in [`FIELDS`].
     pub field: usize,
     /// The value of the field.
     pub centre: f64,
-    /// Standard deviation of a normal distribution, else half the span.
+    /// Standard deviation of a normal distribution, otherwise half the span.
     pub width: f64,
     /// The shape; of a grade, [`Shape::Truncated`].
     pub shape: Shape,
@@ -35,7 +35,8 @@ impl Distribution {
     /// The distribution of a `[spread]` entry of a case.
     ///
     /// # Errors
-    /// Where the field has no value to spread around, or the distribution leaves its range.
+    /// Returns an error if the field has no value, or if the distribution exceeds the range of the
+    /// field.
     pub fn of(spread: &Spread, case: &Case, inputs: &Inputs) -> Result<Distribution, Problem> {
         let refused = |cause: String, fix: String| Problem {
             field: format!("spread.\"{}\"", spread.field),
@@ -76,7 +77,7 @@ impl Distribution {
         }
     }
 
-    /// The end of the distribution that its field does not allow.
+    /// The end of the distribution that is outside the range of the field.
     fn beyond(&self) -> Option<String> {
         let reach = match self.shape {
             Shape::Normal => ALLOWED * self.width,
@@ -98,7 +99,7 @@ impl Distribution {
         Some(with_unit(&rounded, unit) + &by)
     }
 
-    /// The value below which a part of all samples are, for a part above 0 and below 1.
+    /// The value below which a fraction `part` of all samples are; `part` is above 0 and below 1.
     #[must_use]
     pub fn quantile(&self, part: f64) -> f64 {
         let Distribution { centre, width, .. } = *self;
@@ -116,7 +117,7 @@ impl Distribution {
         }
     }
 
-    /// Puts a value into a model's inputs.
+    /// Writes a value into the inputs of a model.
     pub fn put(&self, value: f64, inputs: &mut Inputs) {
         FIELDS[self.field].put(Value::Number(value), inputs);
     }
@@ -141,12 +142,13 @@ fn normal_quantile(part: f64) -> f64 {
     Normal::standard().inverse_cdf(part)
 }
 
-/// Whether the case gives another field in place of this one.
+/// Whether another field of the case replaces this one.
 fn is_replaced(key: &str, case: &Case) -> bool {
     index_of(key).is_some_and(|field| case.effective(field).is_none())
 }
 
-/// The base pitch deviation that a class allows: of the gear in the key, or of the larger one.
+/// The base pitch deviation that a tolerance class allows: of the gear in the key, otherwise of the
+/// larger gear.
 fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
     let diameter = |gear: &Gear| inputs.module * f64::from(gear.teeth);
     let (driver, driven) = (diameter(&inputs.driver), diameter(&inputs.driven));
@@ -178,7 +180,7 @@ mod tests {
             (Shape::Normal, [9.42058549, 16.0, 22.57941451]),
             (Shape::Uniform, [12.4, 16.0, 19.6]),
             (Shape::Triangular, [13.26491106, 16.0, 18.73508894]),
-            // By Python's statistics.NormalDist, with 4/3 um of standard deviation.
+            // From Python's statistics.NormalDist with a standard deviation of 4/3 um.
             (Shape::Truncated, [13.82241824, 16.0, 18.17758176]),
         ] {
             for (part, wanted) in [0.05, 0.5, 0.95].into_iter().zip(quantiles) {

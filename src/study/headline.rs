@@ -1,10 +1,10 @@
-//! The quantities of a study for which its user names none.
+//! Default quantities of a study.
 
 use crate::case::Case;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 
-/// The limited quantities of a case, else the impact force; each with its counterparts in the
+/// The limited quantities of a case, otherwise the impact force; each with its counterparts in the
 /// methods that resolve the impact.
 #[must_use]
 pub fn headline(case: &Case, methods: &[Method]) -> Vec<&'static Quantity> {
@@ -29,8 +29,8 @@ pub fn headline(case: &Case, methods: &[Method]) -> Vec<&'static Quantity> {
     distinct(limited.into_iter().flat_map(with_counterparts))
 }
 
-/// A quantity of the free impact as each method finds it; `auto` may find that of each method that
-/// it chooses from.
+/// The counterpart of a quantity of the free impact in each method; for `auto`, in each method that
+/// `auto` may choose.
 fn in_methods(quantity: &'static Quantity, methods: &[Method]) -> Vec<&'static Quantity> {
     let single = |method: &Method| match method {
         Method::Auto => vec![Method::Exact, Method::Static, Method::Dynamic],
@@ -40,7 +40,7 @@ fn in_methods(quantity: &'static Quantity, methods: &[Method]) -> Vec<&'static Q
     all.filter_map(|method| quantity.by(method)).collect()
 }
 
-/// Quantities without repetition, in the order of their first mention.
+/// Quantities without duplicates, in the order of their first occurrence.
 #[must_use]
 pub fn distinct(quantities: impl IntoIterator<Item = &'static Quantity>) -> Vec<&'static Quantity> {
     let mut found: Vec<&'static Quantity> = Vec::new();

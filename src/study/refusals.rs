@@ -3,14 +3,14 @@
 use super::batch::Rows;
 use crate::case::Problem;
 
-/// Refused points that share a field and, but for its numbers, a fix.
+/// Refused points with the same field and the same fix, apart from the numbers in the fix.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused {
-    /// How many points.
+    /// Number of points.
     pub count: usize,
-    /// Index of the first one.
+    /// Index of the first point.
     pub first: usize,
-    /// The reason at the first one.
+    /// The reason at the first point.
     pub problem: Problem,
 }
 
@@ -48,7 +48,7 @@ impl Refusals {
     }
 }
 
-/// The characters of a text without its numbers, which may differ from point to point.
+/// The characters of a text without its numbers.
 fn words(text: &str) -> impl Iterator<Item = char> {
     text.chars()
         .filter(|character| !character.is_ascii_digit() && !".+-".contains(*character))

@@ -1,5 +1,5 @@
 //! The tip relief to specify: amounts and lengths on both gears without corner contact at the
-//! greatest load, and among those the least transmission error over the loads.
+//! greatest load and with the least transmission error over the loads.
 
 mod bench;
 pub mod demand;
@@ -18,32 +18,32 @@ use bench::Bench;
 pub use refusal::NoRelief;
 use search::{Grid, Search};
 
-/// Steps of an amount, in m: half micrometres.
+/// Step of an amount, in m: half a micrometre.
 pub const AMOUNT_STEP: f64 = 0.5e-6;
 
-/// Loads over the range at which the transmission error counts.
+/// Number of loads at which the transmission error is computed.
 const LOADS: usize = 6;
 
-/// Work of the search, in places of pairs.
+/// Budget of the search, in evaluations of a pair at a place.
 const WORK: u64 = 80_000_000;
-/// The part of it that an ordinary search takes.
+/// Fraction of the budget that a typical search uses.
 const USUAL_WORK: f64 = 0.25;
-/// The part of the progress that is the search; the rest are whole solves.
+/// Fraction of the progress that the search makes up; whole solves make up the rest.
 const SEARCH: f64 = 0.5;
 
-/// What a relief must serve.
+/// Load range and tolerance that a relief must satisfy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
-    /// Least and greatest load over that of the case.
+    /// Least and greatest load, relative to the load of the case.
     pub loads: (f64, f64),
-    /// How far each relief may be off on both sides, in m.
+    /// Deviation of each relief in both directions, in m.
     pub tolerance: f64,
 }
 
 /// The tip reliefs of both gears.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipReliefs {
-    /// How they grow along the path of contact.
+    /// Shape of the relief along the path of contact.
     pub shape: ReliefShape,
     /// Amounts on driver and driven gear, in m.
     pub amounts: [f64; 2],
@@ -51,22 +51,22 @@ pub struct TipReliefs {
     pub lengths: [f64; 2],
 }
 
-/// A choice of reliefs and what it gives.
+/// Reliefs with their transmission errors and gaps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// A few words.
+    /// Short name.
     pub name: &'static str,
     /// The reliefs.
     pub reliefs: TipReliefs,
     /// Peak-to-peak transmission error at each load, in m.
     pub errors: Vec<f64>,
-    /// The gap that remains before E and after B at the greatest load with the tolerance on its bad
-    /// side, in m; below 0 the overlap.
+    /// The gap that remains before E and after B at the greatest load with the least favourable
+    /// tolerance, in m; below 0 the overlap.
     pub margin: f64,
 }
 
 impl Demand {
-    /// Loads from 25 % to 110 % of the case, tolerance 5 um.
+    /// Loads from 25 % to 110 % of the load of the case, tolerance 5 um.
     pub const USUAL: Demand = Demand {
         loads: (0.25, 1.1),
         tolerance: 5e-6,
@@ -101,28 +101,28 @@ pub struct MapPoint {
 /// The relief to specify.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Specification {
-    /// The method that finds no corner contact with it.
+    /// The method that finds no corner contact with the specified relief.
     pub method: Method,
-    /// What it serves.
+    /// The demand of the specification.
     pub demand: Demand,
     /// Torque on the driver at load 1, in N m.
     pub torque: f64,
-    /// The loads, over that of the case.
+    /// The loads, relative to the load of the case.
     pub loads: Vec<f64>,
-    /// The reliefs that the case has, then the best of each kind; [`Specification::best`] among
-    /// them.
+    /// The reliefs of the case, then the best relief of each kind; [`Specification::best`] is one
+    /// of them.
     pub choices: Vec<Choice>,
-    /// The place of the one to specify.
+    /// Index of the choice to specify.
     pub best: usize,
-    /// The greatest load without corner contact at rest, over that of the case; at most three times
-    /// the greatest load of the demand. The motion is checked at the greatest load of the demand
-    /// only.
+    /// The greatest load without corner contact at rest, relative to the load of the case; at most
+    /// three times the greatest load of the demand. The motion is checked only at the greatest load
+    /// of the demand.
     pub greatest_load: f64,
-    /// Path of contact on unrelieved flanks, over the base pitch: the contact ratio without load.
+    /// Path of contact on unrelieved flanks over the base pitch: the contact ratio without load.
     pub unloaded_contact_ratio: f64,
     /// One row per length, shortest first; one point per amount.
     pub map: Vec<Vec<MapPoint>>,
-    /// Reliefs that were tried.
+    /// Number of reliefs that the search evaluated.
     pub tries: u64,
     /// Whether the budget ended the search early.
     pub is_cut: bool,
@@ -141,17 +141,18 @@ impl Specification {
 /// # Formula
 /// ```text
 /// least over C1, L1, C2, L2, shape of  max over the loads of (max x − min x)
-/// with x + e − S <= 0 before E and after B at the greatest load, each C less and more by the tolerance
+/// with x + e − S <= 0 before E and after B at the greatest load, for each C ± the tolerance
 /// ```
-/// x by the balance at rest. Where the method of the case is `dynamic`, the amounts grow until the
-/// motion has no corner contact either.
+/// x is the transmission error of the static balance. If the method of the case is `dynamic`, the
+/// amounts grow until the motion has no corner contact either.
 ///
 /// # Source
 /// Harris maps of the transmission error over the load: Harris 1958; long and short relief: Munro,
-/// Morrish & Palmer 1999. The reliefs that clear: [`clearing`](crate::model::clearing).
+/// Morrish & Palmer 1999. Reliefs that prevent corner contact:
+/// [`clearing`](crate::model::clearing).
 ///
 /// # Errors
-/// A [`NoRelief`].
+/// [`NoRelief`] with the reason.
 pub fn specify(
     inputs: &Inputs,
     demand: &Demand,
@@ -197,7 +198,7 @@ pub fn specify(
         figures.part.set(SEARCH + (1.0 - SEARCH) * part);
         match figures.cleared(name, reliefs) {
             Ok(choice) => choices.push(choice),
-            // Another kind of relief may still clear.
+            // Another kind of relief may still prevent corner contact.
             Err(none @ (NoRelief::Beyond { .. } | NoRelief::InMotion { .. })) => {
                 beyond = Some(none);
             }
@@ -229,7 +230,7 @@ pub fn specify(
     })
 }
 
-/// The method that decides whether a tooth strikes: the closed forms share no load.
+/// The method that decides whether a tooth strikes: the closed forms do not share the load.
 fn governing(inputs: &Inputs, go_on: &dyn Fn(f64) -> bool) -> Result<Method, NoRelief> {
     Ok(match inputs.method {
         Method::Auto => {
@@ -243,7 +244,7 @@ fn governing(inputs: &Inputs, go_on: &dyn Fn(f64) -> bool) -> Result<Method, NoR
     })
 }
 
-/// Loads over the range, both ends among them.
+/// Loads over the range, including both ends.
 fn loads((from, to): (f64, f64)) -> Vec<f64> {
     let steps = if to > from { LOADS } else { 1 };
     let last = (steps - 1).max(1) as f64;
@@ -252,20 +253,20 @@ fn loads((from, to): (f64, f64)) -> Vec<f64> {
         .collect()
 }
 
-/// The number of at most twelve decimal places next to one.
+/// Rounds a number to at most twelve decimal places.
 fn decimal(number: f64) -> f64 {
     const PLACES: f64 = 1e12;
     (number * PLACES).round() / PLACES
 }
 
-/// The figures that can be specified: amounts and lengths in round steps, up to what tip and path
-/// leave.
+/// The search grid: amounts and lengths in round steps, up to the limits of tip and path of
+/// contact.
 fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, NoRelief> {
-    /// Of the deflection and the deviation under the greatest load.
+    /// Greatest amount over the deflection and deviation at the greatest load.
     const MOST: f64 = 3.0;
-    /// A tip may lose this part of its thickness on one flank.
+    /// Greatest fraction of its thickness that a tip may lose on one flank.
     const PART_OF_TIP: f64 = 0.25;
-    /// The steepest relief, as its amount over its length.
+    /// Steepest relief, as amount over length.
     const STEEPEST: f64 = 0.05;
     let geometry = &solution.geometry;
     let longest = longest(geometry);
@@ -299,14 +300,14 @@ fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, N
     })
 }
 
-/// The longest relief, in m: as far as single contact, where one pair carries alone. Where two pairs
-/// always share the load, as far as the unrelieved flanks keep a contact ratio of 1.
+/// The longest relief, in m: up to single-tooth contact. If two pairs always share the load, up to
+/// the length at which the unrelieved flanks keep a contact ratio of 1.
 fn longest(geometry: &Geometry) -> f64 {
     let kept = 0.5 * (geometry.contact_ratio - 1.0) * geometry.base_pitch;
     geometry.shared_length().max(kept)
 }
 
-/// The round step at or above a length: 1, 2 or 5 times a power of ten.
+/// The least round step not below a length: 1, 2 or 5 times a power of ten.
 fn round_step(length: f64) -> f64 {
     let decade = 10f64.powf(length.log10().floor());
     let round = [1.0, 2.0, 5.0, 10.0].into_iter();

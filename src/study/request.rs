@@ -1,4 +1,4 @@
-//! A study as its user asked for it: enough to set it up again on another machine.
+//! A study as a serializable request, from which another machine can run the same study.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,10 +7,10 @@ use super::tolerance::{Size, Tolerance};
 use crate::case::{Case, Document, Problem, stamp, unknown_quantity};
 use crate::model::{Inputs, Quantity};
 
-/// A case and what is done with it.
+/// A case and the study of that case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Request {
-    /// The case's name, as the user gave it.
+    /// The name of the case, as the user gave it.
     pub name: String,
     /// The text of the case with the changes of the command line.
     pub case: String,
@@ -26,16 +26,16 @@ pub struct Request {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "study", rename_all = "lowercase")]
 pub enum PointsRequest {
-    /// Those of `sweep`.
+    /// The points of `sweep`.
     Sweep {
-        /// Each `--vary`.
+        /// The arguments of each `--vary`.
         vary: Vec<String>,
-        /// Each `--points`.
+        /// The arguments of each `--points`.
         points: Vec<usize>,
         /// Whether `--log` is given.
         log: bool,
     },
-    /// Those of `tolerance`.
+    /// The points of `tolerance`.
     Tolerance {
         /// Number of samples.
         samples: usize,
@@ -46,11 +46,11 @@ pub enum PointsRequest {
     },
 }
 
-/// A study that is set up again.
+/// A study that is restored from a request.
 pub struct Restored {
     /// The case.
     pub case: Case,
-    /// What the model reads of it.
+    /// The inputs of the model.
     pub inputs: Inputs,
     /// The quantities.
     pub quantities: Vec<&'static Quantity>,
@@ -58,11 +58,11 @@ pub struct Restored {
     pub study: Study,
 }
 
-/// The points of a study that is set up again.
+/// The points of a restored study.
 pub enum Study {
-    /// Of `sweep`.
+    /// The points of `sweep`.
     Sweep(Grid),
-    /// Of `tolerance`.
+    /// The points of `tolerance`.
     Tolerance(Tolerance),
 }
 
@@ -75,10 +75,10 @@ impl Request {
         format!("{:016x}", stamp::hash(versioned.as_bytes()))
     }
 
-    /// Sets the study up again.
+    /// Restores the study.
     ///
     /// # Errors
-    /// Where the request is not one that this version wrote.
+    /// Returns an error if this version did not write the request.
     pub fn restore(&self) -> Result<Restored, Problem> {
         let document = Document::parse(&self.name, &self.case).map_err(|faults| Problem {
             field: "case".to_owned(),

@@ -7,19 +7,19 @@ use super::sweep::Grid;
 use crate::case::Problem;
 use crate::model::Inputs;
 
-/// Number of points of the first scan where none is given.
+/// Default number of points of the first scan.
 pub const USUAL_SCAN: usize = 201;
 
-/// Width of the bracket of a crossing, over the value of the field.
+/// Width of the bracket of a crossing, relative to the value of the field.
 const WIDTH: f64 = 1e-9;
 
-/// Width of the bracket of a crossing at 0, over the range.
+/// Width of the bracket of a crossing at 0, relative to the range.
 const WIDTH_AT_ZERO: f64 = 1e-15;
 
-/// Pieces into which a round cuts an interval.
+/// Pieces into which a round divides an interval.
 const PIECES: usize = 16;
 
-/// Rounds after which a search ends. One round makes a bracket sixteen times narrower.
+/// Greatest number of rounds. One round makes a bracket sixteen times narrower.
 const MOST_ROUNDS: usize = 24;
 
 /// A point of the range.
@@ -27,13 +27,13 @@ const MOST_ROUNDS: usize = 24;
 pub struct Sample {
     /// The value of the field, in the unit of the range.
     pub at: f64,
-    /// Whether the condition is met there.
+    /// Whether this point meets the condition.
     pub state: State,
     /// The value of the quantity in SI.
     pub value: Option<f64>,
 }
 
-/// Two neighbouring points between which the answer changes.
+/// Two neighbouring points between which the state changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crossing {
     /// The lower end of the bracket.
@@ -42,21 +42,21 @@ pub struct Crossing {
     pub upper: Sample,
 }
 
-/// A part of the range with one answer.
+/// A part of the range with one state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
     /// Its first point.
     pub from: f64,
     /// Its last point.
     pub to: f64,
-    /// The answer; of an unknown one, the reason at the first point.
+    /// The state; an unknown state has the reason at its first point.
     pub state: State,
 }
 
 /// What a search found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    /// Every change of the answer, in order.
+    /// Every change of the state, in order.
     pub crossings: Vec<Crossing>,
     /// The parts of the range between them.
     pub segments: Vec<Segment>,
@@ -64,12 +64,12 @@ pub struct Found {
     pub solves: usize,
 }
 
-/// Why a search has no answer.
+/// Why a search fails.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unfound {
-    /// A field does not take a value, or the scan has too few points.
+    /// A field does not accept a value, or the scan has too few points.
     Bad(Problem),
-    /// Its user stopped it.
+    /// The user stopped the search.
     Stopped,
 }
 
@@ -85,14 +85,14 @@ impl From<Problem> for Unfound {
     }
 }
 
-/// Every value of a field at which a condition changes.
+/// Finds every value of a field at which a condition changes.
 ///
-/// The range is scanned with so many points. Where neighbours differ, their interval is cut until
-/// its width is 1e-9 of the value. Where the quantity turns back in front of its limit, the
-/// neighbourhood is cut as well, so that two crossings close together are found.
+/// The search first scans the range with `scan` points. It divides each interval with different
+/// states at its ends until its width is 1e-9 of the value. It also divides the interval where the
+/// quantity turns back close to its limit, so that it finds two crossings close to each other.
 ///
 /// # Errors
-/// Where the scan is not possible, or its user stopped it.
+/// Returns an error if the scan is not possible, or if the user stops the search.
 pub fn seek(
     inputs: &Inputs,
     range: &AxisRange,
@@ -158,7 +158,7 @@ impl Search<'_> {
         Ok(samples)
     }
 
-    /// New points in the intervals that need them.
+    /// New points in the intervals that need refinement.
     fn refinement(&self, samples: &[Sample]) -> Vec<f64> {
         let mut intervals = vec![false; samples.len()];
         for (at, pair) in samples.windows(2).enumerate() {
@@ -183,8 +183,8 @@ impl Search<'_> {
         upper.at - lower.at > (WIDTH * size).max(WIDTH_AT_ZERO * span)
     }
 
-    /// Whether the quantity comes so close to its limit at the middle of three points with one
-    /// answer that it may cross the limit between them.
+    /// Whether the quantity is so close to its limit at the middle of three points with one state
+    /// that it may cross the limit between them.
     fn turns_back(&self, three: &[Sample]) -> bool {
         let is_one_answer = three[0].state.is_like(&three[1].state)
             && three[1].state.is_like(&three[2].state)
@@ -200,12 +200,13 @@ impl Search<'_> {
         };
         let [left, middle, right] = [margins[0].abs(), margins[1].abs(), margins[2].abs()];
         let is_nearest = middle < left.max(right) && middle <= left.min(right);
-        // Between the points the margin falls by no more than it fell towards the middle one.
+        // Assumes that between the points the margin falls by at most as much as it fell towards
+        // the middle point.
         is_nearest && 2.0 * middle <= left.max(right) && self.is_wide(&three[0], &three[2])
     }
 }
 
-/// The numbers that cut an interval, without its ends.
+/// The numbers that divide an interval, without its ends.
 fn pieces(from: f64, to: f64) -> impl Iterator<Item = f64> {
     let step = (to - from) / PIECES as f64;
     (1..PIECES)

@@ -1,4 +1,4 @@
-//! A part of a study in a file of its own, and the parts put together again.
+//! Shards: parts of a study in separate files, which `gather` combines.
 
 mod complete;
 mod lines;
@@ -27,7 +27,7 @@ impl<'a> ShardWriter<'a> {
     /// Writes the first line.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn begin(
         shard: Shard,
         request: &Request,
@@ -51,7 +51,7 @@ impl<'a> ShardWriter<'a> {
     /// Writes rows.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write(&mut self, rows: &Rows) -> io::Result<()> {
         for row in 0..rows.outcomes.len() {
             let line = line(rows, row)?;
@@ -65,7 +65,7 @@ impl<'a> ShardWriter<'a> {
     /// Writes the last line, without which the shard is incomplete.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn finish(self) -> io::Result<()> {
         let footer = Footer {
             rows: self.rows,
@@ -75,7 +75,7 @@ impl<'a> ShardWriter<'a> {
     }
 }
 
-/// A row as a line: the place of its outcome in [`PointOutcome::ALL`], then its values or the
+/// A row as a line: the index of its outcome in [`PointOutcome::ALL`], then its values or the
 /// reason of its refusal.
 fn line(rows: &Rows, row: usize) -> io::Result<String> {
     let outcome = rows.outcomes[row];

@@ -1,4 +1,5 @@
-//! Which field drives the spread of a result: first-order and total Sobol indices.
+//! First-order and total Sobol indices: the part of the variance of a result that each field
+//! causes.
 
 use super::statistics::{Estimate, NORMAL_95};
 
@@ -7,22 +8,22 @@ use super::statistics::{Estimate, NORMAL_95};
 pub struct Indices {
     /// The part of the variance that the field causes on its own.
     pub first_order: Estimate,
-    /// The part that it causes alone or together with others.
+    /// The part of the variance that the field causes alone or together with others.
     pub total: Estimate,
 }
 
 /// The results of one sample of the ranking.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
-    /// Of the sample.
+    /// Result of the first sample.
     pub first: f64,
-    /// Of the second sample.
+    /// Result of the second sample.
     pub second: f64,
-    /// Of the first sample with the value of the second one in each field.
+    /// Results of the first sample with the value of the second sample in each field.
     pub swapped: Vec<f64>,
 }
 
-/// The indices of every field. `None` where the results do not vary.
+/// The indices of every field; `None` if the results do not vary.
 ///
 /// # Formula
 /// ```text

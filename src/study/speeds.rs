@@ -1,4 +1,4 @@
-//! The dynamic factors of a pair over its speed, in a run up and a run down.
+//! The dynamic factors of a pair over speed, in a run-up and a run-down.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ pub const SPEEDS: usize = 121;
 
 /// Least resonance ratio of the curve.
 const FROM: f64 = 0.1;
-/// Greatest resonance ratio of the curve, if that of the case is well below.
+/// Greatest resonance ratio of the curve, unless the ratio of the case is close to it or above.
 const TO: f64 = 1.6;
-/// Else the greatest ratio is that of the case times this.
+/// In that case the greatest ratio is this multiple of the ratio of the case.
 const BEYOND_PRESENT: f64 = 1.15;
 
 /// Work of one speed.
@@ -25,7 +25,7 @@ const WORK_OF_SPEED: u64 = 60_000;
 /// Work of all speeds.
 const WORK: u64 = 5_000_000;
 
-/// A factor of the run down that differs by more than this from the run up is another motion.
+/// A run-down factor that differs by more than this from the run-up belongs to another motion.
 const SAME: f64 = 1e-3;
 
 /// The steady motion at one speed.
@@ -35,13 +35,13 @@ pub struct AtSpeed {
     pub speed: f64,
     /// Resonance ratio N = f_z/f_n.
     pub ratio: f64,
-    /// Greatest force of a tooth over that at rest.
+    /// Greatest tooth force in motion over that at rest.
     pub tooth_factor: f64,
-    /// Greatest sum of forces over the mesh force.
+    /// Greatest sum of the forces of all pairs over the mesh force.
     pub mesh_factor: f64,
     /// Peak-to-peak transmission error, in m.
     pub peak_to_peak: f64,
-    /// Whether no pair touches at some moment.
+    /// Whether all pairs lose contact at some moment.
     pub contact_lost: bool,
 }
 
@@ -50,9 +50,10 @@ pub struct AtSpeed {
 pub struct SpeedCurve {
     /// The speeds, in rad/s, in rising order.
     pub speeds: Vec<f64>,
-    /// The run up, in the order of the speeds; none where there is no steady motion, or not yet.
+    /// The run-up, in the order of the speeds; `None` if the speed has no steady motion or is not
+    /// computed yet.
     pub up: Vec<Option<AtSpeed>>,
-    /// The run down, in the same order.
+    /// The run-down, in the same order.
     pub down: Vec<Option<AtSpeed>>,
     /// The speed of the case, in rad/s.
     pub present: f64,
@@ -63,7 +64,7 @@ pub struct SpeedCurve {
 }
 
 impl SpeedCurve {
-    /// The points of the run down that are another motion than those of the run up.
+    /// The points of the run-down whose motion differs from the run-up.
     pub fn jumps(&self) -> impl Iterator<Item = &AtSpeed> {
         let pairs = self.up.iter().zip(&self.down);
         pairs.filter_map(|(up, down)| {
@@ -73,7 +74,7 @@ impl SpeedCurve {
         })
     }
 
-    /// The speeds from which to which contact is lost in a run up or down, in rad/s.
+    /// The intervals of speed with loss of contact in the run-up or run-down, in rad/s.
     #[must_use]
     pub fn lost(&self) -> Vec<(f64, f64)> {
         let mut found: Vec<(usize, usize)> = Vec::new();
@@ -90,11 +91,12 @@ impl SpeedCurve {
     }
 }
 
-/// The steady motion of a pair at each of [`SPEEDS`] speeds, first with the speed rising from
-/// motion to motion, then falling. `show` receives the curve as it grows and says whether to go on.
+/// Computes the steady motion of a pair at each of [`SPEEDS`] speeds, first with rising speed, then
+/// with falling speed. Each motion starts from the previous one. `show` receives the growing curve
+/// and returns whether to continue.
 ///
 /// # Errors
-/// The [`Refusal`] of the pair, and [`Refusal::Stopped`] where `show` says no.
+/// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `show` returns false.
 pub fn speeds(
     inputs: &Inputs,
     show: &mut dyn FnMut(&SpeedCurve) -> bool,
@@ -148,7 +150,7 @@ pub fn speeds(
     Ok(curve)
 }
 
-/// The mesh of the pair without deviations, wide enough for the motion in resonance.
+/// The mesh of the pair without deviations, with a range wide enough for the motion in resonance.
 fn wide_mesh(inputs: &Inputs, solution: &Solution) -> Result<Mesh, Refusal> {
     const REACH: f64 = 60.0;
     let yields = solution.deviation.loaded_deflection() + inputs.reliefs().sum();
@@ -161,7 +163,6 @@ fn wide_mesh(inputs: &Inputs, solution: &Solution) -> Result<Mesh, Refusal> {
     )
 }
 
-/// Runs over the speed.
 struct Runs<'a> {
     mesh: &'a Arc<Mesh>,
     settings: Settings,
@@ -172,7 +173,7 @@ struct Runs<'a> {
 }
 
 impl Runs<'_> {
-    /// The steady motion at a speed, from that of the speed before.
+    /// The steady motion at a speed, starting from the motion at the previous speed.
     fn at(&self, speed: f64, last: &mut Option<Start>) -> Result<Option<AtSpeed>, Refusal> {
         let meter = Meter::new(WORK_OF_SPEED.min(self.work.limit() - self.work.spent().min(WORK)));
         let mesh = self.mesh.turning_at(speed);
@@ -181,7 +182,7 @@ impl Runs<'_> {
         let steady = match found {
             Ok(steady) => steady,
             Err(Refusal::Stopped) => return Err(Refusal::Stopped),
-            // The next speed begins at rest.
+            // The next speed starts at rest.
             Err(_) => {
                 *last = None;
                 return Ok(None);
@@ -208,7 +209,7 @@ impl Runs<'_> {
 mod tests {
     use super::*;
 
-    /// Points by tooth factor and loss of contact.
+    /// Points from tooth factor and loss of contact.
     fn run(points: &[Option<(f64, bool)>]) -> Vec<Option<AtSpeed>> {
         let at = |(tooth_factor, contact_lost)| AtSpeed {
             speed: 0.0,

@@ -34,11 +34,11 @@ pub struct Figures {
     pub histogram: Vec<usize>,
 }
 
-/// The figures of values, `None` without values.
+/// The figures of values; `None` without values.
 ///
-/// A percentile is interpolated between two values (type 7 of Hyndman & Fan 1996). Its interval
-/// ends at values whose ranks enclose it with 95 % by the normal approximation of the binomial
-/// distribution, whatever the distribution of the values.
+/// A percentile is interpolated between two values (type 7 of Hyndman & Fan 1996). The ends of its
+/// interval are the values at two ranks, from the normal approximation of the binomial distribution
+/// with 95 %. This is valid for any distribution of the values.
 #[must_use]
 pub fn figures(values: impl Iterator<Item = f64> + Clone, bins: usize) -> Option<Figures> {
     let nothing = (0_usize, f64::INFINITY, f64::NEG_INFINITY, 0.0);
@@ -77,11 +77,11 @@ pub fn figures(values: impl Iterator<Item = f64> + Clone, bins: usize) -> Option
     })
 }
 
-/// The places of a percentile among values in order.
+/// Ranks for a percentile of sorted values.
 struct Places {
-    /// Of the values below and above the percentile, and of the ends of its interval.
+    /// Ranks of the values below and above the percentile and of the ends of its interval.
     ranks: [usize; 4],
-    /// The part of the way from the value below to the one above.
+    /// Position of the percentile between the value below and the value above, from 0 to 1.
     part: f64,
 }
 
@@ -111,16 +111,16 @@ impl Places {
     }
 }
 
-/// The values of some ranks. The values are counted in many intervals of equal width, and only
-/// those of the intervals with a wanted rank are sorted: sorting all of them would take many times
-/// as long.
+/// The values at some ranks. The values are counted in many intervals of equal width, and only
+/// intervals with a requested rank are sorted: sorting all values would take many times as long.
 struct Ordered {
-    /// Of each interval with a wanted rank: the rank of its first value, and its values in order.
+    /// For each interval with a requested rank: the rank of its first value, and its values in
+    /// order.
     parts: Vec<(usize, Vec<f64>)>,
 }
 
 impl Ordered {
-    /// The values of `ranks`, which are in order.
+    /// The values at `ranks`, which must be sorted.
     fn of(
         values: impl Iterator<Item = f64> + Clone,
         (least, most): (f64, f64),
@@ -129,7 +129,7 @@ impl Ordered {
         const INTERVALS: usize = 4096;
         const OTHER: u8 = u8::MAX;
         let scale = INTERVALS as f64 / (most - least);
-        // Without a spread the product is no number and the interval the first one.
+        // If all values are equal, the product is NaN and the index is 0.
         let interval = |value: f64| (((value - least) * scale) as usize).min(INTERVALS - 1);
         let mut counts = [0_u32; INTERVALS];
         values
@@ -157,7 +157,7 @@ impl Ordered {
         Ordered { parts }
     }
 
-    /// The value of one of the wanted ranks.
+    /// The value at one of the requested ranks.
     fn at(&self, rank: usize) -> f64 {
         let part = self.parts.partition_point(|(first, _)| *first <= rank);
         let (first, values) = &self.parts[part - 1];
@@ -239,7 +239,7 @@ mod tests {
         let numbers = || (1..=5000_u32).map(|k| f64::from(k.wrapping_mul(2_654_435_761)));
         let samples: [Vec<f64>; 4] = [
             numbers().collect(),
-            // All but a few in one interval.
+            // All but a few values are in one interval.
             numbers().map(|x| (x / 2e8).exp()).collect(),
             numbers().map(|x| (x / 1e9).round() - 2.0).collect(),
             vec![-f64::MAX, 0.0, f64::MAX],

@@ -14,8 +14,8 @@ use crate::model::inputs::{Gear, ToothCompliance};
 use crate::model::profile::Profile;
 use crate::model::{Inputs, Refusal};
 
-/// The name of the field among the models; a model of the list with this name has no column of its
-/// own.
+/// The name of the elastic field among the models; a model of the list with this name has no column
+/// of its own.
 pub const FIELD: &str = "finite-element";
 
 /// Places of the path of contact at which a chart draws the stiffness.
@@ -35,7 +35,7 @@ pub struct Comparison {
     pub models: Vec<ToothCompliance>,
     /// Driver and driven gear.
     pub gears: [GearComparison; 2],
-    /// Pairs and mesh over the path of contact.
+    /// Stiffness of each pair and of the mesh over the path of contact.
     pub path: PathComparison,
 }
 
@@ -50,7 +50,7 @@ pub struct GearComparison {
     pub form_radius: f64,
     /// Active tip radius, in m.
     pub tip_radius: f64,
-    /// Displacement of every tooth by the twist of the body about its bore, in m²/N; absent for a
+    /// Displacement of every tooth by the twist of the body about its bore, in m²/N; `None` for a
     /// gear without a bore or without a field.
     pub twist: Option<f64>,
     /// Why the gear has no field, if it has none.
@@ -66,7 +66,7 @@ pub struct GearComparison {
 pub struct Gap {
     /// The model.
     pub model: ToothCompliance,
-    /// The range of a model that does not cover the gear, or the first refusal.
+    /// The validity range that does not cover the gear, or the first refusal.
     pub reason: String,
 }
 
@@ -75,9 +75,10 @@ pub struct Gap {
 pub struct Point {
     /// Radius of the load, in m.
     pub radius: f64,
-    /// Tooth without contact by each model; absent if the model does not cover the gear.
+    /// Compliance of the tooth without contact by each model; `None` if the model does not cover
+    /// the gear.
     pub models: Vec<Option<f64>>,
-    /// The same and more by finite elements.
+    /// Compliances of the finite elements.
     pub field: Option<FieldPoint>,
 }
 
@@ -90,7 +91,7 @@ pub struct FieldPoint {
     pub surface: f64,
     /// Displacement of the next tooth on the side that the force pushes to, at the same radius.
     pub ahead: f64,
-    /// The same of the tooth on the other side.
+    /// Displacement of the tooth on the other side, at the same radius.
     pub behind: f64,
 }
 
@@ -121,7 +122,7 @@ pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
 /// Compares the models at `points` places of the path of contact.
 ///
 /// # Errors
-/// Those of [`compare`].
+/// As [`compare`].
 pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Refusal> {
     let (geometry, mesh_force) = loaded(inputs)?;
     Ok(path::compare(inputs, &geometry, mesh_force, points))
@@ -130,7 +131,7 @@ pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Re
 /// Geometry and mesh force of the pair, in N.
 fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
     let geometry = geometry::<f64>(&inputs.shape())?;
-    // Refuses a bore that leaves no body.
+    // Refuses a bore that leaves no gear body.
     Masses::of(&inputs.bodies(), &geometry)?;
     let mesh_force = geometry.mesh_force(inputs.torque());
     Ok((geometry, mesh_force))
@@ -225,7 +226,7 @@ impl Flank<'_> {
         inner.chain([tip]).collect()
     }
 
-    /// The compliance by a model at each radius, and why it lacks one.
+    /// The compliance by a model at each radius, with the reason if values are absent.
     fn column(
         &self,
         inputs: &Inputs,
@@ -249,7 +250,8 @@ impl Flank<'_> {
         (values.into_iter().map(Result::ok).collect(), reason)
     }
 
-    /// Whether the model covers a pair of two such gears: its range is a property of each gear.
+    /// Whether the model covers a pair of two such gears: the validity range is a property of each
+    /// gear.
     fn is_covered(&self, inputs: &Inputs, model: &ToothModel) -> bool {
         (model.covers)(&Inputs {
             driver: self.gear.clone(),

@@ -6,7 +6,7 @@ use crate::case::{Case, Problem};
 use crate::model::Inputs;
 use crate::model::inputs::Method;
 
-/// The most points of a sweep.
+/// Greatest number of points of a sweep.
 pub const MOST_SWEPT: usize = 100_000_000;
 
 /// The grid of a sweep. The first axis varies slowest.
@@ -17,10 +17,10 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of axes.
+    /// A grid over axes.
     ///
     /// # Errors
-    /// Where two axes vary one field, or fields that exclude each other.
+    /// Returns an error if two axes vary one field, or fields that exclude each other.
     pub fn of(axes: Vec<Axis>) -> Result<Grid, Problem> {
         for (at, axis) in axes.iter().enumerate() {
             apart(&axes[..at], axis)?;
@@ -28,11 +28,11 @@ impl Grid {
         Ok(Grid { axes })
     }
 
-    /// The grid of texts such as `operation.speed=500..3000 rpm`. `points` has one number for every
-    /// range, or one for each in turn.
+    /// Parses texts such as `operation.speed=500..3000 rpm`. `points` has one number for all
+    /// ranges, or one for each range in order.
     ///
     /// # Errors
-    /// The text at fault and its problem.
+    /// Returns the invalid text and its problem.
     pub fn parse<'t>(
         texts: &'t [String],
         points: &[usize],
@@ -76,7 +76,7 @@ impl Grid {
             })
     }
 
-    /// The place on each axis of a point.
+    /// The axes of a point with the index of its value on each axis.
     pub fn places(&self, index: usize) -> impl Iterator<Item = (&Axis, usize)> {
         let mut step = self.count();
         let mut rest = index;
@@ -103,7 +103,7 @@ impl Grid {
         found
     }
 
-    /// Puts the values of a point into inputs.
+    /// Writes the values of a point into inputs.
     pub fn put(&self, index: usize, inputs: &mut Inputs) {
         for (axis, at) in self.places(index) {
             axis.points[at].put(axis.field, inputs);
@@ -134,7 +134,7 @@ impl Points for Grid {
     }
 }
 
-/// Checks that an axis varies another field than those before it.
+/// Checks that an axis varies another field than the previous axes.
 fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
     let refused = |cause: String| {
         Err(Problem {

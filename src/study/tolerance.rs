@@ -1,4 +1,4 @@
-//! Tolerances: the results of a case whose fields are spread around their values.
+//! Tolerance studies: the results of a case with distributed fields.
 
 use super::batch::{Batch, Control, PointOutcome, Points, Rows, Stopped, solve_all};
 use super::condition::State;
@@ -11,24 +11,24 @@ use super::statistics::{Estimate, Figures, figures, probability};
 use crate::case::{Case, Limit, Problem};
 use crate::model::{Inputs, Outcome, Quantity};
 
-/// Number of samples where none is given.
+/// Default number of samples.
 pub const USUAL_SAMPLES: usize = 10_000;
 
-/// The most samples of a study.
+/// Greatest number of samples of a study.
 pub const MOST_SAMPLES: usize = 100_000_000;
 
-/// Samples of the ranking where no number is given.
+/// Default number of samples of the ranking.
 pub const USUAL_RANKED: usize = 4096;
 
 /// Bins of a histogram.
 const BINS: usize = 12;
 
-/// A tolerance study: the samples and the wanted quantities.
+/// A tolerance study: the samples and the requested quantities.
 #[derive(Debug, Clone)]
 pub struct Tolerance {
     /// The points.
     pub design: Design,
-    /// The quantities; those of the limits are among them.
+    /// The quantities, including those of the limits.
     pub quantities: Vec<&'static Quantity>,
     /// The limits of the case.
     pub limits: Vec<Limit>,
@@ -41,16 +41,18 @@ pub struct Size {
     pub samples: usize,
     /// Seed of the samples.
     pub seed: u64,
-    /// How many samples rank the fields; without it [`USUAL_RANKED`], or all if they are fewer.
+    /// Number of samples of the ranking; by default [`USUAL_RANKED`], or all samples if there are
+    /// fewer.
     pub ranked: Option<usize>,
 }
 
 impl Tolerance {
-    /// The study of a case with `[spread]`. Without `only` the quantities are the headline.
+    /// The study of a case with `[spread]`. If `only` is empty, the quantities are the headline
+    /// quantities.
     ///
     /// # Errors
-    /// Where the case has no distributions, or one of them has no value or leaves its field's
-    /// range.
+    /// Returns an error if the case has no distributions, or if a distribution has no value or
+    /// exceeds the range of its field.
     pub fn of(
         case: &Case,
         inputs: &Inputs,
@@ -106,7 +108,7 @@ impl Tolerance {
     /// Solves every point.
     ///
     /// # Errors
-    /// [`Stopped`] where its user stops it.
+    /// [`Stopped`] if the user stops the study.
     pub fn run(&self, inputs: &Inputs, control: &Control) -> Result<Samples, Stopped> {
         let mut samples = Samples::of(self);
         let batch = Batch {
@@ -187,7 +189,7 @@ impl Tolerance {
         }
     }
 
-    /// The samples of the ranking of which every point has a value.
+    /// The samples of the ranking for which every point has a value.
     fn ranked(&self, at: usize, samples: &Samples) -> Vec<Ranked> {
         let value = |member| samples.value(at, self.design.index(member));
         let fields = 0..self.design.distributions.len();
@@ -205,8 +207,8 @@ impl Tolerance {
     }
 }
 
-/// Whether a sample meets a limit; `None` where it is refused or has no value for another reason
-/// than no contact.
+/// Whether a sample meets a limit; `None` if the sample is refused or the quantity is absent for
+/// another reason than no contact.
 fn limit_state(
     quantity: &Quantity,
     limit: &Limit,
@@ -233,7 +235,7 @@ pub struct Samples {
     pub outcomes: Vec<PointOutcome>,
     /// The refused points.
     pub refusals: Refusals,
-    /// A column for each quantity, in SI; NaN stands for no value.
+    /// One column per quantity, in SI; NaN marks an absent value.
     columns: Vec<Vec<f64>>,
 }
 
@@ -272,7 +274,7 @@ impl Samples {
 pub struct Summary {
     /// Number of samples that the model solved.
     pub solved: usize,
-    /// Probability of corner contact among them.
+    /// Probability of corner contact among the solved samples.
     pub contact: Option<Estimate>,
     /// The limits, in the order of the case.
     pub limits: Vec<Exceedance>,
@@ -287,9 +289,9 @@ pub struct Exceedance {
     pub quantity: &'static Quantity,
     /// The limit.
     pub limit: Limit,
-    /// Number of samples that can be compared with it.
+    /// Number of samples that can be compared with the limit.
     pub known: usize,
-    /// Probability of exceeding it.
+    /// Probability that the limit is exceeded.
     pub probability: Option<Estimate>,
 }
 
@@ -298,10 +300,10 @@ pub struct Exceedance {
 pub struct OfQuantity {
     /// The quantity.
     pub quantity: &'static Quantity,
-    /// The figures of its values; `None` without a value.
+    /// The figures of its values; `None` without values.
     pub figures: Option<Figures>,
     /// Number of samples that rank the fields.
     pub ranked: usize,
-    /// The indices of each spread field; `None` where nothing varies or nothing was ranked.
+    /// The indices of each spread field; `None` if nothing varies or nothing is ranked.
     pub indices: Option<Vec<Indices>>,
 }

@@ -1,4 +1,4 @@
-//! Speed against accuracy: every method by several settings and with every compliance, each timed
+//! Run time against accuracy: every method with several settings and every compliance, each timed
 //! and compared with one reference.
 
 mod answer;
@@ -21,11 +21,10 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal};
 use rounds::Rounds;
 
-/// What a trade is asked.
+/// The parameters of a trade study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// The error that a setting may have, relative to the reference; what the method `auto` may
-    /// leave as well.
+    /// Accepted error of a setting, relative to the reference; also the tolerance of method `auto`.
     pub within: f64,
     /// How long each setting is timed.
     pub patience: Patience,
@@ -33,20 +32,19 @@ pub struct Question {
 
 const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
 
-/// The answers with which the others are compared, with their curves: they are needed while it is
-/// measured, and no longer.
+/// Answers for the comparison, with their curves; only the running measurement needs them.
 struct Standards {
     truth: Option<Arc<Answer>>,
     /// Best settings with their answers.
     best: Vec<(Setting, Arc<Answer>)>,
 }
 
-/// Measure every setting on the case: first its errors, then all their times in rounds, until the
-/// median of each is steady. `show` receives the results after each setting and each round.
+/// Measures every setting on the case: first the errors, then all times in rounds until the median
+/// of each is steady. `show` receives the results after each setting and each round.
 ///
 /// # Errors
-/// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no method at all can be
-/// computed.
+/// [`Refusal::Stopped`] if `go_on` returns false; the refusal of the model if no method solves the
+/// case.
 pub fn trade(
     inputs: &Inputs,
     question: &Question,
@@ -88,7 +86,7 @@ pub fn trade(
     }
 }
 
-/// Every setting, the case's own among them.
+/// Every setting, including that of the case.
 fn settings(inputs: &Inputs) -> Vec<Setting> {
     let (mut settings, current) = (Setting::all(inputs), Setting::of(inputs));
     if !settings.contains(&current) {
@@ -97,7 +95,7 @@ fn settings(inputs: &Inputs) -> Vec<Setting> {
     settings
 }
 
-/// The best setting of each method, and of the case's own method and compliance.
+/// The finest setting of each method, and of the method and compliance of the case.
 fn finest(inputs: &Inputs) -> Vec<Setting> {
     let mut settings: Vec<Setting> = METHODS
         .iter()
@@ -111,7 +109,7 @@ fn finest(inputs: &Inputs) -> Vec<Setting> {
 }
 
 impl Standards {
-    /// The reference, its check, and the best of each method.
+    /// The reference, its check, and the finest setting of each method.
     fn find(
         inputs: &Inputs,
         question: &Question,
@@ -143,7 +141,7 @@ impl Standards {
             });
             best.extend(found.map(|found| (setting, found)));
         }
-        // A measurement is kept with its case: it has room for what it will hold, and no more.
+        // The capacity is exact, because a measurement stays in memory with its case.
         let settings = Vec::with_capacity(planned);
         let trade = Trade {
             within: question.within,
@@ -158,7 +156,7 @@ impl Standards {
         Ok((trade, Standards { truth, best }))
     }
 
-    /// Errors of a setting, and a first look at its time.
+    /// Errors of a setting, with a first time.
     fn measure(
         &self,
         inputs: &Inputs,
@@ -199,7 +197,7 @@ impl Standards {
     }
 }
 
-/// The reference and its whole answer.
+/// The reference with its full answer.
 fn reference(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, Answer), Refusal> {
     let setting = Setting::usual(Method::Dynamic, inputs).best();
     let inputs = setting.inputs(inputs);
@@ -220,10 +218,10 @@ fn reference(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, An
     ))
 }
 
-/// Two findings of one quantity: how far they lie apart, nothing where there is none.
+/// Relative difference of two results; `None` if one is absent.
 fn apart(second: Option<f64>, first: Option<f64>) -> Option<f64> {
     match (second?, first?) {
-        // Both 0 as well.
+        // Also if both are 0.
         (second, first) if first.to_bits() == second.to_bits() => Some(0.0),
         (second, first) => Some(((second - first) / first).abs()),
     }
@@ -241,7 +239,7 @@ fn answer_of(
     answer::solve(&setting.inputs(inputs), go_on).map(|solution| Answer::of(&solution))
 }
 
-/// A refusal is a finding; to be stopped is not.
+/// Passes on a stop as an error, and any other refusal as a result.
 fn stopped<T>(found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
     match found {
         Err(Refusal::Stopped) => Err(Refusal::Stopped),

@@ -100,7 +100,10 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
         "{message}"
     );
     let message = refusal(&[files[0].clone(), files[1].clone(), others[2].clone()]);
-    assert!(message.contains("of another study than"), "{message}");
+    assert!(
+        message.contains("belongs to another study than"),
+        "{message}"
+    );
 
     let text = fs::read_to_string(&files[0]).unwrap();
     let whole_lines: Vec<&str> = text.split_inclusive('\n').collect();

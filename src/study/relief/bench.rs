@@ -15,14 +15,14 @@ use crate::model::{Inputs, Refusal, Solution};
 /// Places over a base pitch at which the transmission error is always computed.
 const PLACES: usize = 48;
 
-/// Places between one of them and the next. Near each turn of the transmission error the search goes
-/// down to these: where a linear relief begins to carry, the turn is a corner.
+/// Places between two of these. Near each turning point of the transmission error the search
+/// refines to these places: where a linear relief begins to carry load, the curve has a corner.
 const BETWEEN: usize = 32;
 
-/// Places beyond each end of the path of contact at which corner contact is looked for.
+/// Places beyond each end of the path of contact that are checked for corner contact.
 const BEYOND: usize = 24;
 
-/// The pairs at a place, with the radii of curvature of both flanks of each.
+/// The pairs at a place, with the radii of curvature of both flanks of each pair.
 #[derive(Clone)]
 struct Place {
     pairs: PairSet,
@@ -36,7 +36,7 @@ struct Corners {
     places: Vec<Place>,
 }
 
-/// The places over a base pitch under one load, each prepared when it is first needed.
+/// The places over a base pitch under one load; each place is prepared on first use.
 struct Pitch {
     force: f64,
     mesh: Mesh,
@@ -51,16 +51,16 @@ pub(super) struct Bench {
     tolerance: f64,
     loads: Vec<Pitch>,
     corners: Corners,
-    /// Pairs at all places together, of the transmission error and of the corners.
+    /// Number of pairs at all places: of the transmission error and of the corners.
     costs: [u64; 2],
 }
 
 impl Bench {
-    /// The mesh of a pair whose solution at the greatest load is given, for reliefs up to `most`
-    /// together, in m.
+    /// The mesh of a pair with its solution at the greatest load; `most` is the greatest sum of
+    /// both reliefs, in m.
     ///
     /// # Errors
-    /// Those of the mesh.
+    /// Refusals of the mesh.
     pub(super) fn new(
         inputs: &Inputs,
         solution: &Solution,
@@ -92,7 +92,7 @@ impl Bench {
         })
     }
 
-    /// What the transmission error and the corners of one relief cost.
+    /// The costs of the transmission error and of the corners of one relief.
     pub(super) fn costs(&self) -> [u64; 2] {
         self.costs
     }
@@ -103,16 +103,16 @@ impl Bench {
         self.loads.iter().map(move |loaded| loaded.error(&relief))
     }
 
-    /// By how much the teeth overlap before E or after B at the greatest load, in m, with the
-    /// tolerance on its bad side; below 0 the gap that remains.
+    /// Overlap of the teeth before E or after B at the greatest load with the least favourable
+    /// tolerance, in m; below 0 the gap that remains.
     pub(super) fn overlap(&self, reliefs: &TipReliefs) -> f64 {
         self.overlap_of(reliefs, &self.corners)
     }
 
-    /// The same under another force, in N.
+    /// The same overlap under another force, in N.
     ///
     /// # Errors
-    /// Those of the mesh.
+    /// Refusals of the mesh.
     pub(super) fn overlap_under(
         &self,
         reliefs: &TipReliefs,
@@ -137,7 +137,7 @@ impl Bench {
     }
 }
 
-/// The ways in which both reliefs may be off.
+/// The combinations of deviations of both reliefs.
 pub(super) fn tolerances(tolerance: f64) -> Vec<[f64; 2]> {
     let both = [-tolerance, tolerance];
     let ends = &both[..if tolerance > 0.0 { 2 } else { 1 }];
@@ -147,7 +147,7 @@ pub(super) fn tolerances(tolerance: f64) -> Vec<[f64; 2]> {
     pairs.collect()
 }
 
-/// The reliefs with other tip reliefs, off by so much.
+/// The reliefs with other tip reliefs and their deviations.
 fn with(reliefs: Reliefs, tips: &TipReliefs, off: [f64; 2]) -> Reliefs {
     let mut all = Reliefs {
         shape: tips.shape,
@@ -174,7 +174,8 @@ fn bare(inputs: &Inputs) -> Inputs {
 }
 
 impl Pitch {
-    /// Pairs at all places of a transmission error, about half of them near the turns.
+    /// Number of pairs at all places of a transmission error, about half of them near the turning
+    /// points.
     fn cost(&self) -> u64 {
         let pairs = |at: usize| self.place(at * BETWEEN).radii.len() as u64;
         2 * (0..PLACES).map(pairs).sum::<u64>()
@@ -201,8 +202,8 @@ impl Pitch {
     }
 }
 
-/// The greatest value over a base pitch: of the even places, and between the neighbours of each one
-/// that exceeds both, by halving the stride.
+/// The greatest value over a base pitch: among the even places, and next to each local maximum by
+/// halving the stride.
 fn greatest(even: &[f64], value: &dyn Fn(usize) -> f64) -> f64 {
     let count = even.len();
     let exceeds = |at: &usize| {
@@ -210,7 +211,7 @@ fn greatest(even: &[f64], value: &dyn Fn(usize) -> f64) -> f64 {
         even[*at] >= before && even[*at] > after
     };
     let climbed = |turn: usize| {
-        // A base pitch further on, so that no place is before the first.
+        // One base pitch is added, so that no index is negative.
         let (mut at, mut most) = ((turn + count) * BETWEEN, even[turn]);
         let mut stride = BETWEEN / 2;
         while stride > 0 {
@@ -248,14 +249,13 @@ impl Place {
     }
 }
 
-/// What the radii of curvature at a place depend on.
+/// Data for the radii of curvature at a place.
 #[derive(Clone, Copy)]
 struct Curvatures {
     geometry: Geometry,
     swapped: Geometry,
 }
 
-/// Prepares the places.
 struct Survey<'a> {
     inputs: &'a Inputs,
     solution: &'a Solution,
@@ -286,7 +286,7 @@ impl<'a> Survey<'a> {
 
     fn mesh(&self, force: f64, error: f64) -> Result<Mesh, Refusal> {
         let mut inputs = self.inputs.mesh();
-        // The places take the root reliefs with the tip reliefs.
+        // The places apply the root reliefs together with the tip reliefs.
         (inputs.reliefs.driver.root, inputs.reliefs.driven.root) = (0.0, 0.0);
         Mesh::new(&inputs, &self.solution.geometry, force, error, self.reach)
     }
@@ -300,7 +300,7 @@ impl<'a> Survey<'a> {
         })
     }
 
-    /// Places from the ends of the path of contact outwards, closer to each other at the ends.
+    /// Places from the ends of the path of contact outwards, denser near the ends.
     fn corners(&self, force: f64) -> Result<Corners, Refusal> {
         let mesh = self.mesh(force, self.solution.deviation.equivalent_error)?;
         let (from, to) = mesh.ends();
@@ -327,7 +327,7 @@ impl Curvatures {
         }
     }
 
-    /// The radii of curvature of both flanks where a pair touches.
+    /// The radii of curvature of both flanks at the contact of a pair.
     fn at(&self, mesh: &Mesh, s: f64) -> (f64, f64) {
         let geometry = &self.geometry;
         if s < 0.0 {

@@ -1,13 +1,13 @@
-//! Load range and tolerance of a search for a relief, as a person writes them.
+//! Load range and tolerance of a relief search, as text.
 
 use super::Demand;
 use crate::case::units::{self, Dimension};
 use crate::numeric::decimal::shortest;
 
-/// A range of loads in percent, such as `25..110%`, or one load.
+/// Parses a range of loads in percent, such as `25..110%`, or one load.
 ///
 /// # Errors
-/// How to write one.
+/// Returns the syntax of a load range.
 pub fn loads(text: &str) -> Result<(f64, f64), String> {
     const FIX: &str = "write a range above 0 % and up to 1000 %, such as 25..110%";
     let number = |text: &str| {
@@ -24,10 +24,10 @@ pub fn loads(text: &str) -> Result<(f64, f64), String> {
     Ok((from, to))
 }
 
-/// A length from 0 to 1 mm.
+/// Parses a length from 0 to 1 mm.
 ///
 /// # Errors
-/// How to write one.
+/// Returns the syntax of a tolerance.
 pub fn tolerance(text: &str) -> Result<f64, String> {
     const MOST: f64 = 1e-3;
     let length = units::parse(text, Dimension::Length, "um")
@@ -40,10 +40,10 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 impl Demand {
-    /// The demand of a text such as `25..110 %, 5 um`; without a tolerance the usual one.
+    /// Parses a text such as `25..110 %, 5 um`; the tolerance is optional.
     ///
     /// # Errors
-    /// How to write it.
+    /// Returns the correct syntax.
     pub fn parse(text: &str) -> Result<Demand, String> {
         let (range, width) = text.split_once(',').unwrap_or((text, ""));
         let tolerance = match width.trim() {

@@ -1,5 +1,5 @@
-//! The figures of a relief by whole solves: transmission error at each load, gaps at the corners,
-//! the greatest load.
+//! Results of a relief from whole solves: transmission error at each load, gaps at the corners,
+//! greatest load.
 
 use std::cell::Cell;
 
@@ -10,10 +10,10 @@ use crate::model::inputs::{Drive, Gear};
 use crate::model::static_load::{lead_after_end, lead_before_start};
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve_while};
 
-/// Steps of amount by which a relief grows where a whole solve finds an overlap.
+/// Steps by which the amount of a relief grows if a whole solve finds an overlap.
 const GROWTHS: [i32; 12] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48];
 
-/// The case with a part of its load.
+/// The case with a fraction of its load.
 pub(super) fn loaded(inputs: &Inputs, part: f64) -> Inputs {
     Inputs {
         drive: Drive::Torque(part * inputs.torque()),
@@ -21,7 +21,7 @@ pub(super) fn loaded(inputs: &Inputs, part: f64) -> Inputs {
     }
 }
 
-/// The case with other tip reliefs, off by so much.
+/// The case with other tip reliefs and their deviations.
 fn relieved(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 2]) -> Inputs {
     let gear = |gear: &Gear, at: usize| Gear {
         tip_relief: (reliefs.amounts[at] + off[at]).max(0.0),
@@ -36,10 +36,10 @@ fn relieved(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 2]) -> Inputs {
     }
 }
 
-/// What the figures of a relief are computed from.
+/// Inputs of the results of a relief.
 pub(super) struct Figures<'a> {
     pub(super) inputs: &'a Inputs,
-    /// The same by method `dynamic`, where that governs.
+    /// The case with method `dynamic`, if this method decides.
     pub(super) motion: Option<&'a Inputs>,
     /// The case under the greatest load of the demand, and its solution.
     pub(super) at_most: (&'a Inputs, &'a Solution),
@@ -52,13 +52,13 @@ pub(super) struct Figures<'a> {
 }
 
 impl Figures<'_> {
-    /// The reliefs that the case has.
+    /// The reliefs of the case.
     pub(super) fn present(&self) -> Result<Choice, NoRelief> {
         let inputs = self.inputs;
         let usual = self.at_most.1.geometry.shared_length();
         let length = |gear: &Gear| gear.tip_relief_length.unwrap_or(usual);
         self.choice(
-            "as the case has it",
+            "relief of the case",
             TipReliefs {
                 shape: inputs.relief_shape,
                 amounts: [inputs.driver.tip_relief, inputs.driven.tip_relief],
@@ -67,7 +67,7 @@ impl Figures<'_> {
         )
     }
 
-    /// A relief, made greater until no whole solve finds corner contact.
+    /// Increases a relief until no whole solve finds corner contact.
     pub(super) fn cleared(
         &self,
         name: &'static str,
@@ -106,7 +106,7 @@ impl Figures<'_> {
         })
     }
 
-    /// By how much the teeth overlap at the greatest load with the tolerance on its bad side, in m.
+    /// Overlap of the teeth at the greatest load with the least favourable tolerance, in m.
     fn overlap(&self, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
         let mut worst = f64::NEG_INFINITY;
         for off in tolerances(self.demand.tolerance) {
@@ -119,7 +119,7 @@ impl Figures<'_> {
         Ok(worst)
     }
 
-    /// Whether a tip touches off the path of contact in motion, at the greatest load.
+    /// Whether a tip touches off the path of contact in motion at the greatest load.
     fn strikes_in_motion(&self, reliefs: &TipReliefs) -> Result<bool, NoRelief> {
         let Some(inputs) = self.motion else {
             return Ok(false);
@@ -143,8 +143,8 @@ impl Figures<'_> {
         })?)
     }
 
-    /// The greatest load at which nothing overlaps, over that of the case; three times the greatest
-    /// of the range at the most.
+    /// The greatest load without overlap, relative to the load of the case; at most three times the
+    /// greatest load of the range.
     pub(super) fn greatest_load(
         &self,
         bench: &Bench,

@@ -9,34 +9,34 @@ use crate::model::Refusal;
 pub enum NoRelief {
     /// The model refuses the pair.
     Refused(Refusal),
-    /// The relief that clears is more than the tip can lose.
+    /// The relief without corner contact exceeds the thickness that the tip can lose.
     ThinTip {
         /// The gear whose tip is too thin.
         gear: &'static str,
-        /// The most that its tip may lose, in m.
+        /// Greatest amount that its tip may lose, in m.
         most: f64,
-        /// The overlap that remains with it, in m.
+        /// Overlap that remains with this amount, in m.
         overlap: f64,
     },
     /// The path of contact has no room for a relief.
     ShortPath {
         /// The longest relief, in m.
         length: f64,
-        /// The least length of a relief, in m.
+        /// The least useful length, in m.
         least: f64,
-        /// ε.
+        /// Contact ratio ε.
         ratio: f64,
     },
-    /// No relief up to this amount clears.
+    /// No relief up to this amount prevents corner contact.
     Beyond {
-        /// In m.
+        /// The greatest amount, in m.
         most: f64,
-        /// The overlap that remains with it, in m.
+        /// Overlap that remains with this amount, in m.
         overlap: f64,
     },
-    /// Contact before E in motion with every relief tried.
+    /// In motion the teeth touch before E with every evaluated relief.
     InMotion {
-        /// The greatest amount tried, in m.
+        /// The greatest evaluated amount, in m.
         most: f64,
     },
 }

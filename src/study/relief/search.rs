@@ -12,25 +12,25 @@ use crate::model::inputs::ReliefShape;
 /// A relief in whole steps: amounts on driver and driven gear, then lengths.
 type Steps = [i32; 4];
 
-/// The kinds of relief in the order of the answer: the shape, its name, and its name where both
-/// gears have the same relief.
+/// The kinds of relief in the order of the answer: the shape, the name, and the name if both gears
+/// have the same relief.
 const KINDS: [(ReliefShape, &str, &str); 2] = [
     (ReliefShape::Linear, "linear", "linear, both alike"),
     (ReliefShape::Parabolic, "parabolic", "parabolic, both alike"),
 ];
 
-/// Lengths at which the search begins, in parts of the longest.
+/// Start lengths, relative to the longest length.
 const PARTS: [f64; 7] = [0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0];
-/// The same where both gears have one length, as the number of equal parts.
+/// The number of start lengths, in equal steps, if both gears have the same length.
 const PARTS_ALIKE: u32 = 20;
-/// Amounts at which it begins, times the least that clear.
+/// Start amounts, relative to the least amount without corner contact.
 const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
-/// Beginnings that are followed: of two free lengths, and of one.
+/// Number of starts that the search follows: with two free lengths, and with one.
 const FOLLOWED: [usize; 2] = [6, 16];
 /// Greatest stride of the search, in steps; it is halved down to one step.
 const STRIDE: i32 = 8;
 
-/// The round figures.
+/// The steps and bounds of amounts and lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
     /// Step of a length, in m.
@@ -40,22 +40,22 @@ pub(super) struct Grid {
     pub(super) most_length: i32,
     /// Greatest amounts on driver and driven gear, in steps.
     pub(super) most_amounts: [i32; 2],
-    /// What the tips may lose, in m.
+    /// Greatest amounts that the tips may lose, in m.
     pub(super) tips: [f64; 2],
 }
 
 impl Grid {
-    /// Both greatest amounts together, in m.
+    /// Sum of both greatest amounts, in m.
     pub(super) fn most_relief(&self) -> f64 {
         AMOUNT_STEP * f64::from(self.most_amounts[0] + self.most_amounts[1])
     }
 
-    /// The greatest amount on either gear, in m.
+    /// The greatest amount of either gear, in m.
     pub(super) fn most_amount(&self) -> f64 {
         AMOUNT_STEP * f64::from(self.most_amounts[0].max(self.most_amounts[1]))
     }
 
-    /// The reliefs one step of amount greater, as far as the tips allow it.
+    /// The reliefs with amounts increased by `steps`, if the tips allow it.
     pub(super) fn greater(&self, reliefs: &TipReliefs, steps: i32) -> Option<TipReliefs> {
         let more = |at: usize| {
             let amount = (reliefs.amounts[at] / AMOUNT_STEP).round() as i32 + steps;
@@ -84,7 +84,7 @@ impl Grid {
     }
 }
 
-/// What a relief costs: the transmission error, or the overlap if it does not clear. Any overlap
+/// The cost of a relief: the transmission error, or the overlap with corner contact. Any overlap
 /// costs more than any error.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 enum Cost {
@@ -92,7 +92,6 @@ enum Cost {
     Overlap(f64),
 }
 
-/// A search on its way.
 pub(super) struct Search<'a> {
     bench: &'a Bench,
     grid: &'a Grid,
@@ -119,15 +118,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Reliefs that were tried.
+    /// The number of evaluated reliefs.
     pub(super) fn tries(&self) -> u64 {
         self.tries.get()
     }
 
-    /// The best relief of each kind that has one.
+    /// The best relief of each kind without corner contact.
     ///
     /// # Errors
-    /// Where no kind has one, and where the user stopped.
+    /// Returns an error if no kind has such a relief, or if the user stops the search.
     pub(super) fn best_of_each_kind(&self) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
         let (mut own, mut alike) = (Vec::new(), Vec::new());
         for (shape, name, name_alike) in KINDS {
@@ -146,7 +145,7 @@ impl<'a> Search<'a> {
         Ok(own)
     }
 
-    /// Why no relief clears.
+    /// Why no relief prevents corner contact.
     fn none(&self) -> NoRelief {
         let grid = self.grid;
         let [one, other] = grid.most_amounts;
@@ -166,7 +165,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The best relief of a kind; `start` is followed besides those that are sampled.
+    /// The best relief of a kind; the search also follows `start`.
     fn best(
         &self,
         shape: ReliefShape,
@@ -190,7 +189,8 @@ impl<'a> Search<'a> {
         Ok(best.filter(|(_, cost)| matches!(cost, Cost::Error(_))))
     }
 
-    /// Reliefs of several lengths with the least amounts that clear, and with greater ones.
+    /// Reliefs of several lengths with the least amounts without corner contact, and with greater
+    /// amounts.
     fn starts(&self, shape: ReliefShape, is_alike: bool) -> Result<Vec<(Steps, Cost)>, NoRelief> {
         let grid = self.grid;
         let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
@@ -226,9 +226,9 @@ impl<'a> Search<'a> {
         Ok(starts)
     }
 
-    /// The least amount, the same on both gears, with which nothing overlaps; the greatest where
-    /// none clears. So great a relief that the pair ahead yields to it overlaps again, and so the
-    /// amounts are tried from the least up.
+    /// The least amount, the same on both gears, without overlap; the greatest amount if there is
+    /// none. Amounts are tried in rising order: a very large relief shifts load to the pair ahead,
+    /// whose deflection causes an overlap again.
     fn least_clear(&self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
         const STRIDES: i32 = 24;
         let most = self.grid.most_amounts;
@@ -261,7 +261,7 @@ impl<'a> Search<'a> {
         Ok(high)
     }
 
-    /// The best relief that is found from a start by steps in every direction, large ones first.
+    /// The best relief that steps in every direction find from a start, long steps first.
     fn followed(
         &self,
         shape: ReliefShape,
@@ -291,7 +291,8 @@ impl<'a> Search<'a> {
         Ok((at, cost))
     }
 
-    /// The cost of a relief. Once the budget is spent, an unknown relief costs an infinite overlap.
+    /// The cost of a relief. Once the budget is spent, a relief that is not cached costs an
+    /// infinite overlap.
     fn cost(&self, shape: ReliefShape, steps: Steps) -> Result<Cost, NoRelief> {
         let key = (shape == ReliefShape::Linear, steps);
         if let Some(&known) = self.known.borrow().get(&key) {
@@ -317,8 +318,8 @@ impl<'a> Search<'a> {
         Ok(cost)
     }
 
-    /// The greatest transmission error over the loads, and a thousandth of their mean, which
-    /// decides between equal ones.
+    /// The greatest transmission error over the loads, plus a thousandth of the mean, which decides
+    /// between equal errors.
     fn error(&self, reliefs: &TipReliefs) -> f64 {
         const MEAN: f64 = 1e-3;
         let errors: Vec<f64> = self.bench.errors(reliefs).collect();
@@ -326,12 +327,12 @@ impl<'a> Search<'a> {
         errors.into_iter().fold(0.0, f64::max) + MEAN * mean
     }
 
-    /// The map around a relief: both amounts and both lengths in proportion, those of the relief
-    /// itself among them.
+    /// The map around a relief over both amounts and both lengths in proportion; the map contains
+    /// the relief itself.
     pub(super) fn map(&self, reliefs: &TipReliefs) -> Vec<Vec<MapPoint>> {
         const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
         const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
-        /// A length nearer to that of the relief makes way for it.
+        /// A length of the map this close to the length of the relief is omitted.
         const CLOSE: f64 = 0.03;
         let longest = self.grid.length_step * f64::from(self.grid.most_length);
         let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
@@ -360,7 +361,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Every direction to a neighbour; both gears together where they are alike.
+/// Every direction to a neighbour; both gears together if they have the same relief.
 fn directions(is_alike: bool) -> Vec<Steps> {
     let of = |index: i32| {
         let digit = |place: u32| index / 3i32.pow(place) % 3 - 1;

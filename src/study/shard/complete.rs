@@ -1,4 +1,4 @@
-//! Shards that are put together again.
+//! Complete shards, read and ordered for `gather`.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -12,10 +12,10 @@ use super::lines::{Footer, Header, KIND, MOST, Reason};
 use crate::case::Problem;
 use crate::study::batch::{PointOutcome, Rows};
 
-/// Rows that are read at once.
+/// Number of rows per read.
 const PAGE: usize = 1024;
 
-/// A shard that is complete and of the wanted study.
+/// A complete shard of the requested study.
 #[derive(Debug)]
 pub struct Complete {
     path: PathBuf,
@@ -29,15 +29,15 @@ pub struct Complete {
 pub enum Unfit {
     /// A file cannot be read.
     Unreadable(String),
-    /// The files do not fit together, or one is no shard.
+    /// The files do not belong together, or a file is not a shard.
     Wrong(String),
 }
 
 impl Complete {
-    /// Reads a shard and checks that it is whole.
+    /// Reads a shard and checks that it is complete.
     ///
     /// # Errors
-    /// Where the file is no shard, or an incomplete or changed one.
+    /// Returns an error if the file is not a shard, or if the shard is incomplete or changed.
     pub fn read(path: &Path) -> Result<Complete, Unfit> {
         let name = path.display();
         let unreadable = |error| Unfit::Unreadable(format!("{name}: cannot be read: {error}"));
@@ -60,7 +60,7 @@ impl Complete {
         let version = env!("CARGO_PKG_VERSION");
         if header.version != version {
             return Err(Unfit::Wrong(format!(
-                "{name}: written by version {}, and this is {version}: run the shard again",
+                "{name}: version {} wrote this shard, and this is version {version}: run the shard again",
                 header.version
             )));
         }
@@ -78,10 +78,10 @@ impl Complete {
         }
     }
 
-    /// Hands over the rows, the first of which has that index.
+    /// Passes the rows to `take`; the first row has index `first`.
     ///
     /// # Errors
-    /// Those of the file, and of `take`.
+    /// Errors of the file and of `take`.
     pub fn rows(
         &self,
         first: usize,
@@ -100,7 +100,7 @@ impl Complete {
     }
 }
 
-/// The number of rows, where they are those that the last line promises.
+/// The number of rows, if it is equal to the number in the last line.
 fn body(mut file: impl BufRead) -> io::Result<Option<usize>> {
     let (mut hasher, mut rows) = (SipHasher24::new(), 0);
     let (mut line, mut next) = (Vec::new(), Vec::new());
@@ -120,7 +120,7 @@ fn body(mut file: impl BufRead) -> io::Result<Option<usize>> {
     Ok(footer.filter(is_whole).map(|_| rows))
 }
 
-/// Adds the row of a line with so many values.
+/// Adds the row of a line with `width` values.
 fn add(line: &str, width: usize, rows: &mut Rows) -> io::Result<()> {
     let bad = || io::Error::other("a row of the shard cannot be read");
     let (code, rest) = line.split_once(' ').unwrap_or((line, ""));
@@ -149,7 +149,7 @@ fn add(line: &str, width: usize, rows: &mut Rows) -> io::Result<()> {
 /// The shards of one study, in order.
 ///
 /// # Errors
-/// Where they belong to several studies, or one is missing or given twice.
+/// Returns an error if the shards belong to several studies, or if one is missing or given twice.
 pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, Unfit> {
     let wrong = |text| Err(Unfit::Wrong(text));
     let Some(one) = shards.first() else {
@@ -161,7 +161,7 @@ pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, Unfit> {
     if let Some(foreign) = shards.iter().find(|shard| shard.header.hash != hash) {
         let foreign = name(foreign);
         return wrong(format!(
-            "{foreign}: of another study than {first}: gather one study at a time"
+            "{foreign}: this shard belongs to another study than {first}: gather one study at a time"
         ));
     }
     if let Some(other) = shards.iter().find(|shard| shard.header.shard.of != of) {

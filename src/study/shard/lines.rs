@@ -1,4 +1,4 @@
-//! The number of a shard, and the lines of its file around the values.
+//! Shard numbers, and the first and last lines of shard files.
 
 use std::ops::Range;
 
@@ -7,26 +7,26 @@ use serde::{Deserialize, Serialize};
 use crate::case::sanitize::quoted;
 use crate::study::request::Request;
 
-/// The most shards of a study.
+/// Greatest number of shards of a study.
 pub(super) const MOST: usize = 100_000;
 
 /// The word in the first line of a shard.
 pub(super) const KIND: &str = "tipstrike-shard";
 
-/// One of the equal parts of a study, counted from 1.
+/// One of the equal parts of a study, numbered from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     /// The number of the part.
     pub number: usize,
-    /// How many parts there are.
+    /// The number of parts.
     pub of: usize,
 }
 
 impl Shard {
-    /// The shard of a text such as `3/8`.
+    /// Parses a text such as `3/8`.
     ///
     /// # Errors
-    /// Where the text is no such part.
+    /// Returns an error if the text is not a valid part.
     pub fn parse(text: &str) -> Result<Shard, String> {
         let parts = text.trim().split_once('/');
         let numbers = parts
@@ -67,7 +67,7 @@ impl std::fmt::Display for Shard {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     pub(super) kind: String,
-    /// The version of the program that wrote it.
+    /// The version of the program that wrote the shard.
     pub version: String,
     /// The part.
     pub shard: Shard,
@@ -84,7 +84,7 @@ pub(super) struct Footer {
     pub(super) hash: String,
 }
 
-/// The reason of a refused row.
+/// The reason of a refused row: field, cause and fix.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Reason(pub(super) String, pub(super) String, pub(super) String);
 

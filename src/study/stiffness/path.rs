@@ -11,7 +11,8 @@ use crate::model::{Inputs, Refusal};
 /// Stiffness over the path of contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathComparison {
-    /// Base radius of the driver, in m: a way over it is the driver's roll angle after E.
+    /// Base radius of the driver, in m: distance from E over this radius is the driver's roll angle
+    /// after E.
     pub base_radius: f64,
     /// Common face width, in m.
     pub width: f64,
@@ -24,11 +25,11 @@ pub struct PathComparison {
 /// Stiffness at one place of the incoming pair, per unit width, in N/m².
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPoint {
-    /// Way of the pair along the line of action since E, in m.
+    /// Distance of the contact from E along the line of action, in m.
     pub way: f64,
     /// Stiffness of the pair alone, contact included, by each model that covers the gears.
     pub pair: Vec<Option<f64>>,
-    /// Stiffness of all pairs on the line of action, neighbours included.
+    /// Stiffness of all pairs on the line of action, with the coupling of neighbouring teeth.
     pub mesh: Vec<Option<f64>>,
 }
 
@@ -57,7 +58,7 @@ pub(super) fn compare(
     let length = geometry.end - geometry.start;
     let last = points.max(super::LEAST_POINTS) - 1;
     let at = |step: usize| {
-        // The last place is B itself, where rounding must not lose the pair.
+        // The last place is B itself, so that rounding does not lose the pair.
         let way = if step == last {
             length
         } else {
@@ -130,7 +131,7 @@ impl<'a> Mesh<'a> {
         Some(1.0 / compliance.ok()?)
     }
 
-    /// 1ᵀ Q⁻¹ 1 with the compliances Q of all pairs on the line of action.
+    /// 1ᵀ Q⁻¹ 1, where Q is the compliance matrix of all pairs on the line of action.
     fn whole(&self, way: f64) -> Option<f64> {
         let (pitch, length) = (
             self.geometry.base_pitch,
@@ -151,8 +152,8 @@ impl<'a> Mesh<'a> {
         Some(matrix.lu().solve(&ones)?.sum())
     }
 
-    /// The force pushes the driver's teeth towards later pairs and those of the driven gear towards
-    /// earlier ones.
+    /// The force deflects the teeth of the driver towards later pairs and those of the driven gear
+    /// towards earlier pairs.
     fn compliance(
         &self,
         (of, loaded): &(i32, ContactPlace),

@@ -1,16 +1,16 @@
-//! What an engineer asks of a solve, whatever the method, and how far two answers lie apart.
+//! The results of a solve that all methods share, and the difference of two answers.
 
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 
-/// A question that several methods answer, each by a quantity of its own.
+/// A result that several methods compute, each as a quantity of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Subject {
     /// Driven gear's angle before E at the first contact.
     FirstContact,
     /// Greatest force of the incoming tooth.
     PeakForce,
-    /// Its greatest force before E.
+    /// Greatest force of the incoming tooth before E.
     PeakApproachForce,
     /// Duration of the first impact.
     Duration,
@@ -30,7 +30,7 @@ impl Subject {
         Subject::FrictionRatio,
         Subject::Curve,
     ];
-    /// What a setting must answer to be of use.
+    /// The subjects that a setting must answer to qualify.
     pub const NEEDED: [Subject; 3] = [Subject::FirstContact, Subject::PeakForce, Subject::Curve];
 
     /// The name in JSON.
@@ -46,7 +46,7 @@ impl Subject {
         }
     }
 
-    /// A few words for a person.
+    /// The label of the subject.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -59,7 +59,8 @@ impl Subject {
         }
     }
 
-    /// The quantity by which a method answers; none for the curve, and where the method has none.
+    /// The quantity of a method for this subject; `None` for the curve, and if the method has no
+    /// such quantity.
     #[must_use]
     pub fn quantity(self, method: Method) -> Option<&'static Quantity> {
         let free = match self {
@@ -76,46 +77,48 @@ impl Subject {
         }
     }
 
-    /// Whether the method answers at all.
+    /// Whether the method computes the subject.
     #[must_use]
     pub fn is_of(self, method: Method) -> bool {
         self == Subject::Curve || self.quantity(method).is_some()
     }
 }
 
-/// What a solve answers.
+/// The answer of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// By which method, that which was taken where the choice was the program's.
+    /// The method of the solve; for `auto`, the chosen method.
     pub method: Method,
     /// Whether the tooth strikes.
     pub outcome: Outcome,
-    /// Forces of [`Subject::quantity`], in SI, in the order of [`Subject::ALL`].
+    /// Values of [`Subject::quantity`], in SI, in the order of [`Subject::ALL`].
     values: [Option<f64>; Subject::ALL.len()],
     /// Driver's angle before E in rad and force in N, from the first contact to E.
     curve: Vec<(f64, f64)>,
-    /// What the motion took in the method `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
+    /// Evaluations of the motion in method `dynamic`, see
+    /// [`Effort`](crate::model::dynamic::Effort).
     pub evaluations: Option<u64>,
 }
 
-/// The stages that a method's answer needs.
+/// The stages that the answer of a method needs.
 #[must_use]
 pub fn stages(method: Method) -> Stages {
     match method {
         Method::Paper | Method::Exact => Stages::CLOSED_FORM.with(Stage::Stations),
         Method::Static => Stages::of(Stage::Static),
         Method::Dynamic => Stages::of(Stage::Dynamic),
-        // Where `static` is taken, it stands for `dynamic`.
+        // `static` replaces `dynamic` if `auto` chooses it.
         Method::Auto => Stages::CLOSED_FORM
             .with(Stage::Stations)
             .and(Stages::of(Stage::Dynamic)),
     }
 }
 
-/// Solve for the answer and no more.
+/// Solves the stages of the answer only.
 ///
 /// # Errors
-/// Why there is none, or not all of it; [`Refusal::Stopped`] where `go_on` says no.
+/// The refusal, also if a part of the answer is withheld; [`Refusal::Stopped`] if `go_on` returns
+/// false.
 pub(super) fn solve(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<Solution, Refusal> {
     let solution = model::solve_while(inputs, stages(inputs.method), &|_| go_on())?;
     match solution.withheld.or(solution.stations_withheld) {
@@ -145,15 +148,14 @@ impl Answer {
         }
     }
 
-    /// The value in SI, where there is one.
+    /// The value in SI, if any.
     #[must_use]
     pub fn value(&self, subject: Subject) -> Option<f64> {
         self.values[subject as usize]
     }
 
-    /// How far this answer is from the true one, relative to it: nothing where one of the methods
-    /// has no such quantity. That no tooth strikes by both is agreement, by one of them an error of
-    /// 1.
+    /// The error of this answer, relative to `truth`; `None` if one of the methods has no such
+    /// quantity. If neither finds a strike the error is 0; if only one does, it is 1.
     #[must_use]
     pub fn off(&self, truth: &Answer, subject: Subject) -> Option<f64> {
         if !(subject.is_of(self.method) && subject.is_of(truth.method)) {
@@ -173,8 +175,8 @@ impl Answer {
     }
 
     /// The greatest difference of the forces over the driver's roll angle from the earlier first
-    /// contact to E, over the true peak. Read linearly, both curves differ most at a station of one
-    /// of them.
+    /// contact to E, over the true peak. With linear interpolation the greatest difference is at a
+    /// station of one of the curves.
     fn off_curve(&self, truth: &Answer) -> f64 {
         let angles = self
             .curve
@@ -193,11 +195,11 @@ impl Answer {
         }
     }
 
-    /// The force at the driver's angle before E, as a reader of the stations takes it: linearly
-    /// between two of them, 0 before the first contact.
+    /// The force at the driver's angle before E, by linear interpolation between stations; 0 before
+    /// the first contact.
     #[must_use]
     pub fn force_at(&self, angle: f64) -> f64 {
-        /// A first contact that differs by rounding alone is the same one.
+        /// First contacts that differ by no more than rounding are equal.
         const ROUNDING: f64 = 1e-9;
         let next = self.curve.partition_point(|station| station.0 > angle);
         match (
@@ -236,7 +238,7 @@ fn curve(solution: &Solution) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// A difference over a size; 1 over none.
+/// A difference over a size; 1 if the size is 0.
 fn relative(difference: f64, size: f64) -> f64 {
     if difference == 0.0 {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Time of the elastic fields of a pair, apart from the solves that read them.
+//! Time to build the elastic fields of a pair, apart from the solves that read them.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -9,8 +9,7 @@ use crate::model::compliance::tooth::field_gear;
 use crate::model::inputs::Gear;
 use crate::model::{Inputs, Refusal};
 
-/// Seconds in which the field of each gear is built: driver and driven gear; the solves that
-/// follow read the kept fields.
+/// Seconds to build the field of each gear; later solves read the cached fields.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Build {
     /// Driver.
@@ -20,8 +19,8 @@ pub struct Build {
 }
 
 impl Build {
-    /// Builds both fields without the kept ones, several times if there is patience; the least time
-    /// counts.
+    /// Builds both fields without the cache, several times if `patience` allows; returns the least
+    /// time.
     ///
     /// # Errors
     /// The refusal of a gear without a field.

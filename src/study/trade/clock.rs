@@ -1,54 +1,54 @@
-//! How long solves take, here and now: all of them in rounds, so that what disturbs the machine
-//! hits all alike.
+//! Benchmark of solves on this machine: all solves in rounds, so that a disturbance affects all of
+//! them alike.
 
 use std::time::{Duration, Instant};
 
-/// How long solves are measured.
+/// Time limits of the measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Patience {
-    /// A round runs each solve again and again for so long, and once at least.
+    /// In each round a solve repeats for this time, at least once.
     pub batch: Duration,
-    /// No further round is begun after this.
+    /// No new round starts after this time.
     pub most: Duration,
 }
 
 impl Patience {
-    /// Enough for a figure that stands.
+    /// Enough time for a reliable figure.
     pub const STEADY: Patience = Patience {
         batch: Duration::from_micros(300),
         most: Duration::from_millis(2500),
     };
-    /// A single run: for those who want the errors alone.
+    /// A single run, if only the errors matter.
     pub const ONCE: Patience = Patience {
         batch: Duration::ZERO,
         most: Duration::ZERO,
     };
 }
 
-/// What a solve takes.
+/// The run time of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Time {
     /// The median of the batches, in s.
     pub seconds: f64,
-    /// Half of what the middle half of the batches lies apart, in s.
+    /// Half the interquartile range of the batches, in s.
     pub spread: f64,
-    /// From where to where the median lies in 95 of 100 measurements, relative to it; of too few
-    /// batches, all of them.
+    /// The 95 % interval of the median, relative to the median; of too few batches, their range.
     pub between: (f64, f64),
-    /// Solves that were run.
+    /// Number of measured runs.
     pub runs: u64,
 }
 
 /// The batches of a solve.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Batches {
-    /// Seconds of a solve, in each of them.
+    /// Seconds per solve of each batch.
     seconds: Vec<f64>,
     runs: u64,
 }
 
 impl Batches {
-    /// Run `once`, which says whether to go on, for so long, at least a time; whether it did.
+    /// Repeats `once` for the time `batch`, at least once, while it returns true; returns whether
+    /// all runs returned true.
     pub(super) fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
         let solves = self.seconds.last().map_or(1, |&last| {
             (batch.as_secs_f64() / last.max(1e-9))
@@ -58,7 +58,7 @@ impl Batches {
         let begin = Instant::now();
         let done = (0..solves).all(|_| once());
         if done {
-            // The first run of all fills the caches: it counts no more once there are others.
+            // The first run fills the caches: it is dropped once there are other runs.
             if self.runs == 1 {
                 self.seconds.clear();
             }
@@ -69,17 +69,17 @@ impl Batches {
         done
     }
 
-    /// Whether more of them would hardly move the median.
+    /// Whether more batches would hardly change the median.
     pub(super) fn are_steady(&self) -> bool {
-        /// Of the median, on both sides together.
+        /// Width of the interval of the median, relative to the median.
         const FEW_PERCENT: f64 = 0.03;
-        /// Of fewer the interval has no ends.
+        /// With fewer batches the interval is not defined.
         const LEAST: usize = 6;
         let is_narrow = |time: Time| time.between.1 - time.between.0 <= FEW_PERCENT;
         self.seconds.len() >= LEAST && self.time().is_some_and(is_narrow)
     }
 
-    /// What they tell; nothing where there is none.
+    /// The run time from the batches; `None` without batches.
     pub(super) fn time(&self) -> Option<Time> {
         let mut times = self.seconds.clone();
         times.sort_by(f64::total_cmp);
@@ -98,7 +98,7 @@ impl Batches {
 }
 
 impl Time {
-    /// Whether the batches cannot tell which of two solves is the quicker.
+    /// Whether the batches cannot show which of two solves is faster.
     #[must_use]
     pub fn ties(&self, other: &Time) -> bool {
         let ends = |time: &Time| (time.seconds * time.between.0, time.seconds * time.between.1);
@@ -107,8 +107,9 @@ impl Time {
     }
 }
 
-/// How many batches on either side of the median's 95 % interval, by order statistics: fewer than
-/// that many lie below the median with a chance of 2.5 %, as in as many throws of a coin.
+/// Number of batches on either side of the median's 95 % interval, by order statistics. The number
+/// of batches below the median follows a binomial distribution with probability one half, and fewer
+/// than this number occur with a probability of 2.5 %.
 fn outside(batches: usize) -> usize {
     const CHANCE: f64 = 0.025;
     let mut chance = 0.5f64.powi(i32::try_from(batches).unwrap_or(i32::MAX));
@@ -138,7 +139,8 @@ mod tests {
 
     #[test]
     fn ranks_of_the_interval_are_those_of_the_tables() {
-        // Binomial, one half: the 95 % interval of the median of 6, 9, 12, 20, 40 values.
+        // Binomial distribution with probability one half: the 95 % interval of the median of 6, 9,
+        // 12, 20, 40 values.
         assert_eq!(
             [1, 5, 6, 8, 9, 12, 20, 40].map(outside),
             [0, 0, 0, 0, 1, 2, 5, 13]

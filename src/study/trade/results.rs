@@ -1,4 +1,4 @@
-//! The measured settings of a case, and which of them to recommend.
+//! The measured settings of a case, and the recommended setting.
 
 use super::answer::Subject;
 use super::build::Build;
@@ -11,49 +11,49 @@ use crate::model::{Outcome, Refusal, auto};
 /// The methods and their settings, measured on one case.
 #[derive(Debug, Clone)]
 pub struct Trade {
-    /// The error that a setting may have.
+    /// The accepted error of a setting.
     pub within: f64,
-    /// How many settings there will be.
+    /// Number of settings to measure.
     pub planned: usize,
-    /// Those that are measured so far.
+    /// The settings measured so far.
     pub settings: Vec<Measured>,
-    /// How much of the measurement is done, from 0 to 1.
+    /// Progress of the measurement, from 0 to 1.
     pub part: f64,
-    /// The reference, or why there is none.
+    /// The reference, or the refusal.
     pub reference: Result<Reference, Refusal>,
-    /// The best setting of each method and compliance whose fineness varies, against the
-    /// reference: what its physics leaves out.
+    /// Model error of each method and compliance with variable fineness: its finest setting against
+    /// the reference.
     pub models: Vec<Model>,
-    /// Time of the fields that the reference reads, or why it reads none.
+    /// Time to build the fields of the reference, or the reason why it has none.
     pub build: Result<Build, Refusal>,
-    /// The place of the cheapest setting that qualifies.
+    /// Index of the fastest setting that qualifies.
     pub cheapest: Option<usize>,
 }
 
-/// The answer of the method `dynamic` with the finest setting, by the compliance of a case that
-/// names none: the elastic field, where both gears have one.
+/// The answer of method `dynamic` with the finest setting, by the default compliance: the elastic
+/// field if both gears have one.
 #[derive(Debug, Clone)]
 pub struct Reference {
-    /// How it was found.
+    /// The setting of the reference.
     pub setting: Setting,
-    /// What it finds, in SI, in the order of [`Subject::ALL`].
+    /// The values in SI, in the order of [`Subject::ALL`].
     pub values: [Option<f64>; Subject::ALL.len()],
-    /// How far a second way, that shares the mesh alone, is from it, in the order of
-    /// [`Subject::ALL`]; or why it is not known.
+    /// Difference of an independent computation, which shares only the mesh, in the order of
+    /// [`Subject::ALL`]; or the refusal.
     pub disagreement: Result<Differences, Refusal>,
 }
 
-/// Relative differences in the order of [`Subject::ALL`], where there are any.
+/// Relative differences in the order of [`Subject::ALL`]; `None` if a method has no such quantity.
 pub type Differences = [Option<f64>; Subject::ALL.len()];
 
-/// What a method's physics leaves out.
+/// The model error of a method.
 #[derive(Debug, Clone)]
 pub struct Model {
-    /// Its best setting.
+    /// Its finest setting.
     pub setting: Setting,
-    /// How far its best setting is from the reference.
+    /// Difference of this setting from the reference.
     pub off: Differences,
-    /// Whether the tooth strikes by its best setting, where that solves the case.
+    /// The outcome of this setting, if it solves the case.
     pub outcome: Option<Outcome>,
 }
 
@@ -62,39 +62,40 @@ pub struct Model {
 pub struct Measured {
     /// The setting.
     pub setting: Setting,
-    /// Whether it is the case's own.
+    /// Whether it is the setting of the case.
     pub is_current: bool,
-    /// What was measured, or why it does not solve the case.
+    /// The measured figures, or the refusal of the case.
     pub found: Result<Figures, Refusal>,
-    /// Whether no other setting is both as quick and as near to the reference.
+    /// Whether no other setting is both faster and more accurate.
     pub is_on_front: bool,
-    /// Whether it is within what was asked.
+    /// Whether the error is within the accepted error.
     pub qualifies: bool,
 }
 
 /// Time and errors.
 #[derive(Debug, Clone)]
 pub struct Figures {
-    /// The setting of the answer: another one where the method `auto` chose.
+    /// The setting that the solve used: another one if method `auto` chose it.
     pub taken: Setting,
-    /// Of a whole solve, as far as the answer needs it.
+    /// Time of a solve of the stages that the answer needs.
     pub time: Time,
-    /// What the motion took in the method `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
+    /// Evaluations of the motion in method `dynamic`, see
+    /// [`Effort`](crate::model::dynamic::Effort).
     pub evaluations: Option<u64>,
-    /// Against the same method by its best setting.
+    /// Difference from the finest setting of the same method.
     pub numerical: Differences,
-    /// Against the reference.
+    /// Difference from the reference.
     pub total: Differences,
 }
 
-/// The greatest of the differences there are.
+/// The greatest difference, if any.
 #[must_use]
 pub fn greatest(differences: &Differences) -> Option<f64> {
     differences.iter().flatten().copied().reduce(f64::max)
 }
 
 impl Trade {
-    /// How far the best setting of the same method and compliance is from the reference.
+    /// The model error of the method and compliance of a setting.
     #[must_use]
     pub fn model(&self, setting: &Setting) -> Option<&Model> {
         self.models
@@ -102,7 +103,7 @@ impl Trade {
             .find(|model| model.setting.is_finer_or_coarser(setting))
     }
 
-    /// The compliances that are compared, that of the reference first.
+    /// The compared compliances, first that of the reference.
     #[must_use]
     pub fn compliances(&self) -> Vec<StiffnessModels> {
         let mut found: Vec<StiffnessModels> = Vec::new();
@@ -121,7 +122,7 @@ impl Trade {
         found
     }
 
-    /// The setting of a method and compliance that a case has which names both alone.
+    /// The default setting of a method and compliance.
     #[must_use]
     pub fn usual(&self, method: Method, models: StiffnessModels) -> Option<&Measured> {
         self.settings.iter().find(|measured| {
@@ -132,8 +133,8 @@ impl Trade {
         })
     }
 
-    /// The cheapest setting that qualifies, or none where no method finds corner contact: there is
-    /// no force whose error a setting could reduce.
+    /// The fastest setting that qualifies; `None` if no method finds corner contact: without a
+    /// force, no setting can reduce its error.
     #[must_use]
     pub fn recommended(&self) -> Option<&Measured> {
         let cheapest = self.cheapest.filter(|_| !self.is_without_contact());
@@ -151,8 +152,8 @@ impl Trade {
         outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
     }
 
-    /// Mark who qualifies, who stands on the front, and who is the cheapest, by the times and
-    /// errors that stand there.
+    /// Marks the settings that qualify, the settings on the front and the fastest setting, from the
+    /// present times and errors.
     pub fn judge(&mut self) {
         let points: Vec<Option<(f64, f64)>> = self.settings.iter().map(Measured::point).collect();
         for (measured, point) in self.settings.iter_mut().zip(&points) {
@@ -167,8 +168,8 @@ impl Trade {
         self.cheapest = self.find_cheapest();
     }
 
-    /// The cheapest setting that qualifies among the methods from which `auto` chooses. `auto`
-    /// itself takes one of these, and `paper` repeats `exact`. Of settings whose times tie, the
+    /// The fastest setting that qualifies, among the methods from which `auto` chooses. `auto`
+    /// itself uses one of these, and `paper` repeats `exact`. Among settings with tied times, the
     /// most accurate.
     fn find_cheapest(&self) -> Option<usize> {
         let best = self.cheapest_where(|_| true)?;
@@ -177,7 +178,7 @@ impl Trade {
             .position(|measured| std::ptr::eq(measured, best))
     }
 
-    /// The cheapest of some settings that qualifies, see [`Trade::cheapest`].
+    /// The fastest of the admitted settings that qualifies, see [`Trade::cheapest`].
     #[must_use]
     pub fn cheapest_where(&self, admitted: impl Fn(&Setting) -> bool) -> Option<&Measured> {
         let is_candidate = |measured: &&Measured| {
@@ -195,7 +196,7 @@ impl Trade {
 }
 
 impl Measured {
-    /// Time of a solve in s; infinite where there is none.
+    /// Time of a solve in s; infinite without a solve.
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.found
@@ -203,7 +204,7 @@ impl Measured {
             .map_or(f64::INFINITY, |figures| figures.time.seconds)
     }
 
-    /// The greatest total error, where the setting answers all that is needed.
+    /// The greatest total error, if the setting answers all needed subjects.
     #[must_use]
     pub fn total(&self) -> Option<f64> {
         let figures = self.found.as_ref().ok()?;
@@ -213,7 +214,7 @@ impl Measured {
         greatest(&figures.total).filter(|_| answers)
     }
 
-    /// Whether the measurements do not show which of the two is faster.
+    /// Whether the measurements do not show which setting is faster.
     fn ties(&self, other: &Measured) -> bool {
         let time = |measured: &Measured| measured.found.as_ref().ok().map(|figures| figures.time);
         time(self)
@@ -221,7 +222,7 @@ impl Measured {
             .is_some_and(|(one, other)| one.ties(&other))
     }
 
-    /// Error and time.
+    /// Error and time as coordinates.
     fn point(&self) -> Option<(f64, f64)> {
         self.total().map(|total| (total, self.seconds()))
     }
@@ -231,7 +232,7 @@ impl Measured {
     }
 }
 
-/// One is nowhere worse than the other and somewhere better.
+/// Whether `one` is nowhere worse than the other and somewhere better.
 fn dominates(one: &(f64, f64), other: &(f64, f64)) -> bool {
     one.0 <= other.0 && one.1 <= other.1 && one != other
 }

@@ -1,4 +1,5 @@
-//! The settings of a trade timed in rounds, each in every one, until the times are steady.
+//! The settings of a trade study, timed in rounds until the times are steady; each round runs every
+//! setting.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -9,23 +10,21 @@ use super::setting::Setting;
 use super::stopped;
 use crate::model::{Inputs, Refusal};
 
-/// Of the whole, what the first look at every setting counts for.
+/// Fraction of the progress for the first run of every setting.
 const FIRST_LOOK: f64 = 0.2;
 
-/// A measurement on its way.
 pub(super) struct Rounds<'a> {
     inputs: &'a Inputs,
     patience: Patience,
     is_wanted: &'a dyn Fn() -> bool,
     timed: Vec<Timed>,
     begun: Instant,
-    /// What the first look at all settings took.
+    /// Total time of the first runs.
     first_look: Duration,
-    /// Rounds.
     done: u32,
 }
 
-/// A setting and its times, where it solves the case.
+/// A setting and its times, if it solves the case.
 struct Timed {
     inputs: Inputs,
     batches: Option<Batches>,
@@ -49,7 +48,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// One more setting: its answer and the time of that one solve, or why it has none.
+    /// Adds a setting: returns its answer and the time of one solve, or its refusal.
     pub(super) fn first(
         &mut self,
         setting: Setting,
@@ -72,8 +71,8 @@ impl<'a> Rounds<'a> {
         Ok(found.and_then(|solution| Ok((Answer::of(&solution), time.ok_or(Refusal::Stopped)?))))
     }
 
-    /// Whether to measure another round: some time is not steady yet, and the round ends within the
-    /// patience.
+    /// Whether to measure another round: a time is not steady yet, and the round ends within the
+    /// time limit.
     pub(super) fn go_on(&self) -> bool {
         let gone = self.begun.elapsed().saturating_sub(self.first_look);
         let round = if self.done == 0 {
@@ -90,7 +89,7 @@ impl<'a> Rounds<'a> {
         gone + round <= self.patience.most && self.timed.iter().any(is_unsteady)
     }
 
-    /// Every setting once more; their times so far.
+    /// Measures every setting once more; returns the times so far.
     pub(super) fn round(&mut self) -> Result<Vec<Option<Time>>, Refusal> {
         self.done += 1;
         for Timed { inputs, batches } in &mut self.timed {
@@ -112,7 +111,7 @@ impl<'a> Rounds<'a> {
             .collect())
     }
 
-    /// How much is done, from 0 to 1, of so many settings.
+    /// The progress, from 0 to 1, for a number of settings.
     pub(super) fn part(&self, planned: usize) -> f64 {
         if self.timed.len() < planned {
             return FIRST_LOOK * self.timed.len() as f64 / planned as f64;

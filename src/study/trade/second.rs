@@ -1,5 +1,6 @@
-//! A second way to the answers of the method `dynamic`, sharing with the first no more than the
-//! mesh: even steps of the extrapolated midpoint rule, and contacts found by looking at each step.
+//! An independent computation of the answers of method `dynamic`. It shares only the mesh with the
+//! first one: equal steps of the extrapolated midpoint rule, and contact changes found by checking
+//! each step.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +16,7 @@ use crate::numeric::root;
 /// Displacement of the driver ahead in m and its rate in m/s.
 type State = Vector2<f64>;
 
-/// What the second way finds, in SI.
+/// Results of the second computation, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Second {
     first_contact_angle: Option<f64>,
@@ -34,11 +35,11 @@ impl Second {
     }
 }
 
-/// The case once more, from the static balance to a base pitch after B.
+/// Computes the case again, from the static balance to a base pitch after B.
 ///
 /// # Errors
-/// Those of [`Mesh::new`], [`Refusal::TooSlow`] where it would take longer than a person waits for,
-/// and [`Refusal::Stopped`] where `go_on` says no.
+/// The refusals of [`Mesh::new`]; [`Refusal::TooSlow`] if the run time would exceed a few seconds;
+/// [`Refusal::Stopped`] if `go_on` returns false.
 pub(super) fn second_way(
     inputs: &Inputs,
     solution: &Solution,
@@ -69,13 +70,13 @@ struct Oscillator<'a> {
     mesh: &'a Mesh,
     mass: f64,
     damping: f64,
-    /// A place between the borders.
+    /// A place between two borders, which identifies the smooth section of the mesh.
     inside: f64,
-    /// How many base pitches ahead the pairs are that touch.
+    /// The touching pairs, each as its number of base pitches ahead.
     touching: Vec<i32>,
 }
 
-/// The pairs at a time.
+/// The pairs at one time.
 struct Moment {
     pairs: PairSet,
     touching: Touching,
@@ -84,7 +85,8 @@ struct Moment {
 }
 
 impl Moment {
-    /// What each pair keeps: pressed where it touches, apart where it does not; in m.
+    /// Margin of each pair against a change of contact, in m: approach of a touching pair, gap of a
+    /// separated pair.
     fn kept(&self) -> impl Iterator<Item = f64> {
         let of = |(index, lead): (usize, &f64)| {
             if self.touching.has(index) {
@@ -125,12 +127,12 @@ impl Oscillator<'_> {
         }
     }
 
-    /// The least of what each pair keeps, in m.
+    /// The least margin of all pairs, in m.
     fn kept(&self, t: f64, y: &State) -> f64 {
         self.moment(t, y[0]).kept().fold(f64::INFINITY, f64::min)
     }
 
-    /// The pair that keeps least turns.
+    /// Changes the contact of the pair with the least margin.
     fn turn(&mut self, t: f64, y: &State) -> Option<i32> {
         let moment = self.moment(t, y[0]);
         let (index, _) = moment
@@ -169,7 +171,7 @@ impl Equation<2> for Oscillator<'_> {
     }
 }
 
-/// A stretch on which the same pairs touch, short against the period.
+/// An interval in which the same pairs touch, short compared with the period.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     t: f64,
@@ -177,13 +179,12 @@ struct Stretch {
     length: f64,
 }
 
-/// A run on its way.
 struct Run<'a> {
     oscillator: Oscillator<'a>,
     borders: Vec<f64>,
     t: f64,
     y: State,
-    /// The longest stretch, in s.
+    /// The longest interval, in s.
     longest: f64,
     first_touch: Option<f64>,
     peak_force: f64,
@@ -194,7 +195,7 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn begin(mesh: &'a Mesh, inputs: &Inputs, mass: f64) -> Result<Run<'a>, Refusal> {
         const STRETCHES_OF_A_PERIOD: f64 = 16.0;
-        /// Two or three seconds.
+        /// A run time of two or three seconds.
         const MOST_SWINGS: f64 = 8e3;
         let frequency = (mesh.mean_stiffness / mass).sqrt();
         let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
@@ -234,7 +235,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// From border to border.
+    /// Integrates from border to border.
     fn go(&mut self, go_on: &dyn Fn() -> bool) -> Result<(), Refusal> {
         let mesh = self.oscillator.mesh;
         for at in 1..self.borders.len() {
@@ -251,7 +252,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// One stretch, to `end` at most and to the next change of a contact.
+    /// Integrates one interval, at most to `end` and to the next change of a contact.
     fn advance(&mut self, end: f64) {
         let stretches = ((end - self.t) / self.longest).ceil().max(1.0);
         let whole = Stretch {
@@ -280,9 +281,10 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// When a pair ceases to be what it is, as far as two looks show it.
+    /// Time of the next contact change, as far as checks at the middle and the end of the interval
+    /// find it.
     fn turn_within(&self, stretch: &Stretch) -> Option<f64> {
-        /// A pair that has just turned stands at 0, within rounding.
+        /// The margin of a pair that has just changed contact is 0 within rounding.
         const SHORTEST: f64 = 1e-9;
         let kept = |after: f64| {
             self.oscillator
@@ -305,7 +307,7 @@ impl<'a> Run<'a> {
         step(&self.oscillator, stretch.t, &stretch.y, length)
     }
 
-    /// Look for the incoming tooth's peaks.
+    /// Updates the peak forces of the incoming tooth.
     fn watch(&mut self, stretch: &Stretch) {
         if !self.oscillator.touching.contains(&0) {
             return;
@@ -318,9 +320,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The greatest force of a stretch: where it rises first and falls then, to the last digits.
+    /// The greatest force in an interval. If the force rises first and falls later, the peak is
+    /// found by a root of its slope.
     fn peak(&self, stretch: &Stretch) -> f64 {
-        /// A peak nearer to an end of the stretch is missed by the square of it.
+        /// Half the step of the difference quotient, relative to the interval. A peak closer to an
+        /// end of the interval is missed; its error is of second order.
         const ASIDE: f64 = 1e-5;
         let force = |after: f64| {
             self.oscillator

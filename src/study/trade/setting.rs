@@ -1,5 +1,5 @@
-//! The settings that a trade compares: a method, the compliance of the teeth, and the fineness of
-//! the computation.
+//! The settings that a trade study compares: a method, the compliance of the teeth, and the
+//! fineness of the computation.
 
 use std::fmt;
 
@@ -9,41 +9,40 @@ use crate::model::Inputs;
 use crate::model::inputs::Method;
 use crate::model::stiffness_spread::StiffnessModels;
 
-/// The methods that are compared, cheapest first.
+/// The compared methods, fastest first.
 pub const METHODS: [Method; 4] = [
     Method::Paper,
     Method::Exact,
     Method::Static,
     Method::Dynamic,
 ];
-/// Intervals of the stations that are compared.
+/// The compared numbers of intervals between stations.
 pub const STATIONS: [usize; 8] = [8, 16, 32, 64, 128, 256, 512, 1024];
-/// Tolerances that are compared: 1e-3, 1e-4 and so on.
+/// Exponents of the compared tolerances: 1e-3, 1e-4 and so on.
 const TOLERANCE_EXPONENTS: std::ops::RangeInclusive<i32> = 3..=10;
-/// Intervals of the best setting of a method.
+/// Number of intervals of the finest setting of a method.
 const BEST_STATIONS: usize = 4096;
-/// Tolerance of the best setting.
+/// Tolerance of the finest setting.
 const BEST_TOLERANCE: f64 = 1e-12;
 
-/// A method with a compliance, and how finely it is computed.
+/// A method with a compliance and a fineness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
-    /// How much of the physics is taken in.
+    /// The method.
     pub method: Method,
-    /// Compliance of teeth and contact; `None` for the choice of the method `auto`.
+    /// Compliance of teeth and contact; `None` if method `auto` chooses it.
     pub models: Option<StiffnessModels>,
-    /// Intervals between the first contact and E; without a number as many as the curve needs.
+    /// Number of intervals between the first contact and E; `None` for as many as the curve needs.
     pub stations: Option<usize>,
-    /// Relative error that the peak force may have; in the method `dynamic` alone.
+    /// Relative tolerance of the peak force; in method `dynamic` only.
     pub tolerance: Option<f64>,
     /// Geometry and position in double-double arithmetic.
     pub accurate: bool,
 }
 
 impl Setting {
-    /// Every setting that is compared: each method coarse and fine with the compliance of a case
-    /// that names none, then the usual setting of each method with every other compliance that
-    /// covers the pair.
+    /// Every compared setting: each method coarse and fine with the default compliance, then the
+    /// default setting of each method with every other compliance that covers the pair.
     #[must_use]
     pub fn all(inputs: &Inputs) -> Vec<Setting> {
         let mut settings = Setting::fineness(inputs);
@@ -61,7 +60,7 @@ impl Setting {
         settings
     }
 
-    /// Each method coarse and fine, the cheaper methods first, the program's own choice last.
+    /// Each method coarse and fine, the faster methods first, `auto` last.
     fn fineness(inputs: &Inputs) -> Vec<Setting> {
         let closed_form = Method::CLOSED_FORM.into_iter().flat_map(|method| {
             let plain = Setting::usual(method, inputs);
@@ -104,7 +103,7 @@ impl Setting {
             .collect()
     }
 
-    /// The setting of a case that names the method alone.
+    /// The setting of a case that sets only the method.
     #[must_use]
     pub fn usual(method: Method, inputs: &Inputs) -> Setting {
         let inputs = Inputs {
@@ -121,7 +120,7 @@ impl Setting {
         .usual_fineness()
     }
 
-    /// The same method and compliance as finely as a case has it that leaves the rest out.
+    /// The same method and compliance with the default fineness.
     #[must_use]
     pub fn usual_fineness(self) -> Setting {
         let usual = Inputs::default();
@@ -133,7 +132,7 @@ impl Setting {
         }
     }
 
-    /// This setting by every number of stations, and by as many as the curve needs.
+    /// This setting with every number of stations, and with as many as the curve needs.
     fn with_stations(self) -> impl Iterator<Item = Setting> {
         STATIONS
             .into_iter()
@@ -142,8 +141,7 @@ impl Setting {
             .map(move |stations| Setting { stations, ..self })
     }
 
-    /// The finest setting of the same method and compliance, against which the numerical error is
-    /// measured.
+    /// The finest setting of the same method and compliance, the reference of the numerical error.
     #[must_use]
     pub fn best(self) -> Setting {
         Setting {
@@ -154,13 +152,13 @@ impl Setting {
         }
     }
 
-    /// Whether the two differ in no more than their fineness.
+    /// Whether both settings differ only in their fineness.
     #[must_use]
     pub fn is_finer_or_coarser(&self, other: &Setting) -> bool {
         self.method == other.method && self.models == other.models
     }
 
-    /// The setting that the inputs ask for.
+    /// The setting of some inputs.
     #[must_use]
     pub fn of(inputs: &Inputs) -> Setting {
         Setting {
@@ -172,7 +170,7 @@ impl Setting {
         }
     }
 
-    /// The same pair, solved by this setting.
+    /// The inputs of the same pair with this setting.
     #[must_use]
     pub fn inputs(&self, inputs: &Inputs) -> Inputs {
         let inputs = self.models.map_or_else(
@@ -191,7 +189,7 @@ impl Setting {
         }
     }
 
-    /// The setting that the solve of this one took: another one where the method `auto` chose.
+    /// The setting that the solve used: another one if method `auto` chose it.
     #[must_use]
     pub fn taken(&self, inputs: &Inputs, method: Method) -> Setting {
         let inputs = Inputs {
@@ -205,15 +203,15 @@ impl Setting {
         }
     }
 
-    /// The number of stations as a case says it.
+    /// The number of stations in the syntax of a case file.
     #[must_use]
     pub fn stations_text(&self) -> String {
         self.stations
             .map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
     }
 
-    /// Makes it the case's own; a case that names no compliance names none afterwards if this is
-    /// its default.
+    /// Writes the setting into a case. If the case names no compliance and the setting has the
+    /// default compliance, the case still names none.
     pub fn apply(&self, case: &mut Case) {
         write(case, "model.method", self.method.name());
         write(case, "model.stations", &self.stations_text());
@@ -267,12 +265,12 @@ impl fmt::Display for Setting {
     }
 }
 
-/// Whether the method `auto` chooses the compliance as well.
+/// Whether method `auto` also chooses the compliance.
 fn is_left_to_auto(inputs: &Inputs) -> bool {
     inputs.method == Method::Auto && inputs.tooth_compliance.is_none()
 }
 
-/// 10^exponent as it is read from a file: the nearest double.
+/// The double nearest to 10^exponent, as a file reader parses it.
 fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
