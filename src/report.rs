@@ -1,4 +1,4 @@
-//! What a person or a script reads of a solve.
+//! Reports: the results of a solve as text, tables, data and pictures.
 
 pub mod absence;
 pub mod charts;
@@ -39,12 +39,12 @@ use crate::numeric::decimal::significant;
 #[cfg(all(unix, feature = "tui"))]
 pub(crate) use layout::with_units;
 
-/// A value as a person reads it.
+/// A value as text with its unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shown {
     /// The number, rounded to the quantity's digits.
     pub number: String,
-    /// The unit, empty for a number.
+    /// The unit; empty for a bare number.
     pub unit: &'static str,
 }
 
@@ -57,29 +57,30 @@ impl std::fmt::Display for Shown {
     }
 }
 
-/// What of a solve is asked for.
+/// The requested parts of a solve.
 #[derive(Debug, Clone, Default)]
 pub struct Selection {
-    /// These quantities and no others; empty for every quantity.
+    /// The requested quantities; empty for every quantity.
     pub only: Vec<&'static Quantity>,
-    /// The stations between D and E as well.
+    /// Whether to include the stations between D and E.
     pub stations: bool,
 }
 
 impl Selection {
-    /// Whether every quantity is asked for.
+    /// Whether every quantity is requested.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.only.is_empty()
     }
 
-    /// The quantities asked for, in the order they were asked for or else in the table's.
+    /// The requested quantities in their order; all quantities in the order of the table if none is
+    /// named.
     pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
         let table = if self.is_whole() { QUANTITIES } else { &[] };
         self.only.iter().copied().chain(table)
     }
 
-    /// The stages that have to run for it, and no others.
+    /// The stages that the requested quantities need.
     #[must_use]
     pub fn stages(&self) -> Stages {
         let stations = if self.stations {
@@ -96,25 +97,25 @@ impl Selection {
 /// A solved case, ready to be printed.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// The case's name, as the user gave it.
+    /// The name of the case, as the user gave it.
     pub name: String,
     /// The case as the user wrote it.
     pub case: Case,
-    /// What the model read of it.
+    /// The inputs of the model.
     pub inputs: Inputs,
-    /// What the model found.
+    /// The solution of the model.
     pub solution: Solution,
-    /// What a reader must know beside it.
+    /// Notes on the result.
     pub notes: Vec<Note>,
-    /// What of it was asked for.
+    /// The requested quantities and stations.
     pub selection: Selection,
 }
 
 impl Report {
-    /// Solve the case as far as the selection and the method's outcome need it.
+    /// Solves the case as far as the selection and the outcome of the method need it.
     ///
     /// # Errors
-    /// The model's refusal.
+    /// The refusal of the model.
     pub fn solve(
         name: String,
         case: Case,
@@ -129,7 +130,7 @@ impl Report {
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
-    /// A report of what the model found already.
+    /// A report of an existing solution.
     #[must_use]
     pub fn of(
         name: String,
@@ -154,13 +155,13 @@ impl Report {
         }
     }
 
-    /// The case's title, empty without one; not yet safe for a terminal.
+    /// The title of the case, empty without one; not sanitized for a terminal.
     #[must_use]
     pub fn title(&self) -> &str {
         self.case.title()
     }
 
-    /// What the user wrote in a field, empty without it; not yet safe for a terminal.
+    /// The text of a field as the user wrote it, empty without one; not sanitized for a terminal.
     #[must_use]
     pub fn text(&self, key: &str) -> &str {
         index_of(key)
@@ -168,7 +169,7 @@ impl Report {
             .unwrap_or_default()
     }
 
-    /// The quantities asked for that have a value, in SI: finite, and zero without a sign.
+    /// The requested quantities that have a value, in SI: finite, and zero without a sign.
     pub fn values(&self) -> impl Iterator<Item = (&'static Quantity, f64)> {
         self.selection
             .quantities()
@@ -176,13 +177,13 @@ impl Report {
     }
 }
 
-/// A value in SI, as a person reads it.
+/// Formats a value in SI with its usual metric unit.
 #[must_use]
 pub fn shown(quantity: &Quantity, value: f64) -> Shown {
     shown_in(quantity, value, System::Metric)
 }
 
-/// A value in SI, as a person reads it who counts in metric or in inch units.
+/// Formats a value in SI in metric or inch units.
 #[must_use]
 pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     if quantity.is_flag() {
@@ -195,8 +196,7 @@ pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     Shown { number, unit }
 }
 
-/// The unit in which values of a quantity that stand side by side are shown, by the greatest of
-/// them.
+/// The common unit of several values of a quantity, chosen for the greatest of them.
 #[must_use]
 pub fn unit_beside(
     quantity: &Quantity,
@@ -210,7 +210,7 @@ pub fn unit_beside(
     units::system::unit_for(greatest, quantity.shown, quantity.digits, system)
 }
 
-/// A value in SI, as a person reads it in that unit.
+/// Formats a value in SI in a unit.
 #[must_use]
 pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown {
     if quantity.is_flag() {
@@ -222,14 +222,13 @@ pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown 
     }
 }
 
-/// A quantity's value in SI where there is one: finite, and zero without a sign.
+/// The value of a quantity in SI, if any: finite, and zero without a sign.
 #[must_use]
 pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
     quantity.finite_value(solution)
 }
 
-/// A quantity's value in SI as another method defines the quantity, so that the two may be held
-/// against each other.
+/// The value of a quantity in SI as another method defines the quantity, for a comparison of both.
 #[must_use]
 pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> Option<f64> {
     match quantity.key {
@@ -243,7 +242,7 @@ pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> O
     }
 }
 
-/// A value in SI in another unit, with this many significant digits.
+/// Formats a value in SI in another unit, with `digits` significant digits.
 #[must_use]
 pub fn number(value: f64, unit: &str, digits: usize) -> String {
     significant(value / units::factor(unit).unwrap_or(1.0), digits)
@@ -254,7 +253,10 @@ fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
         .filter(|value| !value.is_finite())
         .map(|_| Note {
             code: "not-finite",
-            message: format!("{} left the range of numbers and is left out", quantity.key),
+            message: format!(
+                "{} exceeds the range of numbers and is omitted",
+                quantity.key
+            ),
         })
 }
 

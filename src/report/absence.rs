@@ -12,11 +12,11 @@ use super::shown_in;
 /// Why a quantity has no value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Absence {
-    /// This method has no such quantity; it is of one of the stages of another.
+    /// The method does not compute the quantity, which belongs to a stage of another method.
     OtherMethod(Method, Stage),
     /// No corner contact: the reason, and the total deviation in m.
     NoContact(&'static str, f64),
-    /// The closed form finds no first contact, although the method does.
+    /// The closed form finds no first contact, but the method does.
     NoFreeImpact,
     /// The quantity needs a friction coefficient, and the case has none.
     NoFriction,
@@ -24,14 +24,14 @@ pub enum Absence {
     NoBacklash,
     /// The event does not occur.
     NotReached,
-    /// The model refuses it.
+    /// The model withholds the quantity.
     Withheld(Refusal),
-    /// The end of the impact does not exist.
+    /// The impact has no end, because the triangle of Eq. 34 does not close.
     Unclosed,
 }
 
 impl Absence {
-    /// Why the quantity has no value in a solution that does without.
+    /// Why the quantity has no value in a solution.
     #[must_use]
     pub fn of(quantity: &Quantity, solution: &Solution) -> Absence {
         let is_without = solution.outcome == Outcome::NoCornerContact;
@@ -68,21 +68,21 @@ impl Absence {
         }
     }
 
-    /// Why a method has no such quantity, if only other methods compute it.
+    /// Why a method does not compute the quantity, if only other methods compute it.
     #[must_use]
     pub fn by_method(quantity: &Quantity, method: Method) -> Option<Absence> {
         let stage = quantity.stage;
         (!method.stages().has(stage)).then_some(Absence::OtherMethod(method, stage))
     }
 
-    /// Whether the reason is that no tooth strikes, so that no limit can be exceeded.
+    /// Whether no tooth strikes, so that no limit can be exceeded.
     #[must_use]
     pub fn is_for_want_of_contact(&self) -> bool {
         matches!(self, Absence::NoContact(..))
     }
 }
 
-/// Why the tooth does not strike; in a few words.
+/// Why the tooth does not strike, as a short phrase.
 #[must_use]
 pub fn without_contact(solution: &Solution) -> &'static str {
     match solution.method {
@@ -93,8 +93,8 @@ pub fn without_contact(solution: &Solution) -> &'static str {
     }
 }
 
-/// The same in full, with the total deviation, the remaining gap, or the gap that the load at rest
-/// would close.
+/// The same reason in full, with the total deviation, the remaining gap, or the gap that the load
+/// at rest would close.
 #[must_use]
 pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
     let (why, total) = (without_contact(solution), solution.deviation.total);
@@ -120,7 +120,7 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
     }
 }
 
-/// Names with commas and "and" between them.
+/// Joins names with commas and "and".
 #[must_use]
 pub fn listed(names: &[&str]) -> String {
     match names {
@@ -168,7 +168,7 @@ impl fmt::Display for Absence {
                     "method {own} does not compute this quantity; {methods} do"
                 )
             }
-            // A deviation above 0 is of the load at rest, and no reason.
+            // A deviation above 0 belongs to the load at rest and is not the reason.
             Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),
             Absence::NoContact(why, total) => {
                 write!(

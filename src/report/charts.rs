@@ -20,16 +20,17 @@ const LEFT_OUT: f64 = 1.5;
 pub struct SolvedCase<'a> {
     /// The name of the case; empty for a single case.
     pub name: &'a str,
-    /// The solve by the case's own method and, for charts that this method lacks, by another.
+    /// The solve by the method of the case and, for charts that this method lacks, a solve by
+    /// another method.
     pub reports: &'a [Report],
-    /// The dynamic factor over speed, where it is known.
+    /// The dynamic factor over speed, if computed.
     pub speeds: Option<&'a SpeedCurve>,
 }
 
 /// A point of a curve: the driver's roll angle after E in deg, and the value.
 pub type Point = (f64, f64);
 
-/// The chart as a picture; none where no case has a curve in it.
+/// Draws the chart; `None` if no case has a curve.
 #[must_use]
 pub fn picture(graph: &Graph, cases: &[SolvedCase]) -> Option<String> {
     if let Some(column) = graph.by_model {
@@ -81,7 +82,7 @@ pub(super) fn absence(graph: &Graph, reports: &[Report]) -> String {
     }
 }
 
-/// Why a case has no values that some methods have.
+/// Why a case lacks values that only some methods compute.
 pub(super) fn absent_of_methods(has: impl Fn(Method) -> bool, reports: &[Report]) -> String {
     let Some(own) = reports.first() else {
         return "no case is solved".to_owned();
@@ -99,7 +100,8 @@ pub(super) fn absent_of_methods(has: impl Fn(Method) -> bool, reports: &[Report]
     }
 }
 
-/// The stiffness of the mesh by every model for one case, by the model of each for several.
+/// The mesh stiffness: by every compliance model for one case, by the model of each case for
+/// several.
 fn stiffness(graph: &Graph, column: &Column, cases: &[SolvedCase]) -> Option<String> {
     let factor = units::factor(column.shown).unwrap_or(1.0);
     let mut series = Vec::new();
@@ -145,7 +147,7 @@ fn stiffness(graph: &Graph, column: &Column, cases: &[SolvedCase]) -> Option<Str
     })
 }
 
-/// The name of a model's curve: the elastic field and the model of the case are marked.
+/// The name of the curve of a model; it marks the elastic field and the model of the case.
 #[must_use]
 pub fn stiffness_name(model: ToothCompliance, own: ToothCompliance) -> String {
     let field = if model.model().has_coupling {
@@ -173,7 +175,7 @@ fn shown_unit(unit: &'static str) -> String {
     }
 }
 
-/// E, and the first contact D.
+/// Marks at E and at the first contact D.
 fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
     let contact = contact_state::first_contact_of_driver(solution);
     let contact = contact.filter(|angle| *angle > 0.0);
@@ -198,7 +200,7 @@ fn bound(graph: &Graph, report: &Report) -> Option<Series> {
     })
 }
 
-/// The pieces of a curve that are lines; none without one.
+/// A curve as line series; empty without a curve.
 fn lines(
     report: &Report,
     unit: &'static str,
@@ -209,7 +211,7 @@ fn lines(
     (!lines.is_empty()).then_some(lines)
 }
 
-/// The curve of a value at the stations in a unit, in pieces.
+/// The curve of a column over the stations, in a unit, in pieces.
 pub fn curve_of(
     inputs: &Inputs,
     solution: &Solution,
@@ -244,8 +246,8 @@ pub fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) ->
     pieces
 }
 
-/// The longest interval between two stations of a curve without a gap, in deg. The closed forms
-/// leave out stations whose force cannot be computed; the other methods have every station.
+/// The longest interval between two stations without a gap, in deg. The closed forms omit stations
+/// whose force cannot be computed; the other methods have every station.
 fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {
         Some(position) if solution.stations_withheld.is_some() => {
@@ -256,8 +258,8 @@ fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     }
 }
 
-/// The solve of a case, and one by another method for the charts that the method of the case lacks:
-/// `static` beside a closed form, `exact` beside a method that shares the load.
+/// The solve of a case, with a solve by another method for the charts that the method of the case
+/// lacks: `static` after a closed form, `exact` after a method that shares the load.
 #[must_use]
 pub fn with_other_method(report: Report) -> Vec<Report> {
     let beside = solve_by_other_method(&report);

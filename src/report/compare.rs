@@ -13,7 +13,7 @@ use crate::case::{Case, FIELDS, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
 
-/// A value that does not exist.
+/// Text of an absent value.
 const NONE: &str = "–";
 /// A value of a refused column.
 const REFUSED: &str = "refused";
@@ -29,7 +29,7 @@ pub struct Column {
     pub variant: Option<String>,
     /// The case with the overrides of the variant.
     pub case: Case,
-    /// The results, or why there are none.
+    /// The results, or the problems that prevent them.
     pub found: Result<Report, Vec<Refused>>,
 }
 
@@ -42,22 +42,20 @@ pub struct Refused {
     pub line: String,
 }
 
-/// Columns to compare; the first one is the reference of the differences.
+/// Columns to compare; the differences refer to the first one.
 #[derive(Debug)]
 pub struct Comparison {
     /// The columns.
     pub columns: Vec<Column>,
-    /// The quantities that the user asks for; empty for all.
+    /// The requested quantities; empty for all.
     pub selection: Selection,
 }
 
-/// A table of the comparison.
 struct Group {
     title: String,
     rows: Vec<Row>,
 }
 
-/// A line of a table.
 pub(super) struct Row {
     pub(super) symbol: String,
     pub(super) label: String,
@@ -75,7 +73,7 @@ impl Comparison {
         self.columns.iter().all(|column| column.found.is_err())
     }
 
-    /// The refused columns as lines of errors.
+    /// The refused columns as error lines.
     pub fn refusals(&self) -> impl Iterator<Item = String> {
         let refused = self
             .columns
@@ -155,7 +153,7 @@ impl Comparison {
         })
     }
 
-    /// The inputs that differ between the columns, limits and distributions among them.
+    /// The inputs that differ between the columns, including limits and distributions.
     fn inputs(&self) -> Group {
         let fields = FIELDS.iter().map(|field| field.key.to_owned());
         let first = self.columns.first().into_iter();

@@ -1,4 +1,4 @@
-//! The results of several methods: which method governs, and the others in a line.
+//! Comparison of several methods: the governing method, and the others in one line.
 
 use super::absence::listed;
 use super::digest::first_touch;
@@ -7,8 +7,8 @@ use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution};
 
-/// Where other methods find another outcome: which, and why the governing method counts; in full
-/// and in fewer words.
+/// A note if other methods find another outcome: which methods, and why the governing method
+/// counts; from the full text to the shortest.
 #[must_use]
 pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<[String; 3]> {
     let differs = |other: &&&Solution| other.outcome != governing.outcome;
@@ -43,7 +43,8 @@ pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<[String; 
     ])
 }
 
-/// The closed forms beside a method that resolves the impact, or the other closed form, in a line.
+/// The results of the closed forms beside a method that resolves the impact, or of the other closed
+/// form, in one line.
 #[must_use]
 pub fn closed_forms(
     governing: &Solution,

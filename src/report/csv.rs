@@ -1,4 +1,4 @@
-//! Solves as CSV in SI units and full precision: a row a case, or a row a station.
+//! Solves as CSV in SI units and full precision: one row per case, or one row per station.
 
 use super::stations::{columns, rows as stations};
 use super::{Report, value};
@@ -6,20 +6,19 @@ use crate::case::sanitize::sanitize;
 use csv::{ErrorKind, Writer};
 use std::io::{self, Write};
 
-/// Write what a case found of the quantities asked for, or of the stations where those are asked
-/// for.
+/// Writes the requested quantities of a case, or the stations if they are requested.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write(report: &Report, with_header: bool, out: &mut dyn Write) -> io::Result<()> {
     let header = with_header.then(|| header(report));
     write_rows(header.into_iter().chain(rows(report)), out)
 }
 
-/// Write rows of cells.
+/// Writes rows of cells.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub(super) fn write_rows(
     rows: impl IntoIterator<Item = Vec<String>>,
     out: &mut dyn Write,
@@ -31,7 +30,7 @@ pub(super) fn write_rows(
     writer.flush()
 }
 
-/// A closed pipe must stay recognisable as one.
+/// Keeps the kind of the error, so that the caller recognises a closed pipe.
 fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         ErrorKind::Io(error) => error,
@@ -79,7 +78,7 @@ fn rows(report: &Report) -> Vec<Vec<String>> {
     vec![head.into_iter().chain(cells).collect()]
 }
 
-/// The shortest number that reads back the same; empty where there is none.
+/// The shortest text that parses to the same number; empty for an absent value.
 pub(super) fn cell(value: Option<f64>) -> String {
     value.map(|value| format!("{value:?}")).unwrap_or_default()
 }

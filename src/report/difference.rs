@@ -3,21 +3,21 @@
 use crate::case::units::system::counted;
 use crate::model::Quantity;
 
-/// Below this part of the reference a difference is rounding.
+/// A difference below this fraction of the reference is rounding.
 const NO_DIFFERENCE: f64 = 5e-6;
-/// A value so many times its reference has no difference in percent.
+/// A value above this multiple of its reference has no difference in percent.
 const MOST_TIMES: f64 = 10.0;
-/// A value equal to its reference.
+/// Text of a value equal to its reference.
 pub const UNCHANGED: &str = "unchanged";
 
-/// Whether two values differ by no more than rounding.
+/// Whether two values differ only by rounding.
 #[must_use]
 pub fn is_unchanged(now: f64, base: f64) -> bool {
     now.to_bits() == base.to_bits() || ((now - base) / base).abs() < NO_DIFFERENCE
 }
 
-/// The difference in percent of the reference, where a percentage has a meaning: the quantity
-/// cannot be negative, and the reference is not close to 0 beside the value.
+/// The difference in percent of the reference. `None` if the quantity can be negative, or if the
+/// reference is close to 0 compared with the value.
 #[must_use]
 pub fn percent(quantity: &Quantity, now: f64, base: f64) -> Option<f64> {
     let part = (now - base) / base;
@@ -25,7 +25,7 @@ pub fn percent(quantity: &Quantity, now: f64, base: f64) -> Option<f64> {
     (has_meaning && part.is_finite() && now <= MOST_TIMES * base).then_some(100.0 * part)
 }
 
-/// A percentage with its sign, in nine characters at most.
+/// A percentage with its sign, at most nine characters wide.
 #[must_use]
 pub fn in_percent(percent: f64) -> String {
     match percent.abs() {
@@ -35,7 +35,7 @@ pub fn in_percent(percent: f64) -> String {
     }
 }
 
-/// The difference of two values: in percent, or with its sign in the unit of the values.
+/// The difference of two values: in percent, otherwise with its sign in the unit of the values.
 #[must_use]
 pub fn difference(quantity: &Quantity, now: f64, base: f64, unit: &'static str) -> String {
     if is_unchanged(now, base) {

@@ -1,4 +1,4 @@
-//! A case in a few lines: title, pair, load, outcome and limits.
+//! A short summary of a case: title, pair, load, outcome and limits.
 
 use super::absence::without_contact_in_full;
 use super::verdict::{self, Standing};
@@ -10,29 +10,29 @@ use crate::case::{Case, Evaluator};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 
-/// A case in a few lines, safe for a terminal.
+/// A summary of a case, sanitized for a terminal.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Digest {
-    /// Its title; empty where it has none.
+    /// Its title; empty without one.
     pub title: String,
-    /// Teeth, module, pressure angle, face width.
+    /// Numbers of teeth, module, pressure angle, face width.
     pub pair: String,
     /// Power or torque, and speed.
     pub load: String,
-    /// The method, and the one that `auto` took.
+    /// The method, with the method that `auto` chose.
     pub method: String,
-    /// The outcome in a sentence, or the model's refusal.
+    /// The outcome as a sentence, or the refusal of the model.
     pub outcome: String,
-    /// The same in a few words.
+    /// The outcome as a short phrase.
     pub short: String,
-    /// The word and the line of each limit.
+    /// The standing of each limit with its sentence.
     pub limits: Vec<(Standing, String)>,
     /// Notes on the result.
     pub notes: Vec<String>,
 }
 
 impl Digest {
-    /// Solve a case as far as its digest needs it, unless `go_on` says no.
+    /// Solves a case as far as its digest needs it; returns `None` if `go_on` returns false.
     #[must_use]
     pub fn solve(
         case: &Case,
@@ -48,7 +48,7 @@ impl Digest {
         }
     }
 
-    /// The digest of a case and of what the model says of it.
+    /// The digest of a case from its solution or refusal.
     #[must_use]
     pub fn of(
         case: &Case,
@@ -90,7 +90,7 @@ impl Digest {
         }
     }
 
-    /// Outcome and limits in a line.
+    /// Outcome and limits in one line.
     #[must_use]
     pub fn verdict(&self) -> String {
         match self.limits.len() {
@@ -99,7 +99,7 @@ impl Digest {
         }
     }
 
-    /// How many limits are met, in words.
+    /// The number of limits that are met, as text.
     #[must_use]
     pub fn of_limits(&self) -> String {
         let count = self.limits.len();
@@ -124,7 +124,7 @@ impl Digest {
     }
 }
 
-/// The outcome of a solve, in a sentence: angle and forces where their stages ran.
+/// The outcome of a solve as a sentence; angle and forces if their stages ran.
 #[must_use]
 pub fn sentence(solution: &Solution, system: System) -> String {
     match solution.outcome {
@@ -145,7 +145,7 @@ pub fn sentence(solution: &Solution, system: System) -> String {
     }
 }
 
-/// The outcome in a few words, with the forces of [`sentence`].
+/// The outcome as a short phrase with the forces of [`sentence`].
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
     if solution.outcome == Outcome::NoCornerContact {
@@ -171,7 +171,7 @@ pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64
     Some((quantity, value(quantity, solution)?))
 }
 
-/// The forces of the incoming tooth in words, where their stages ran.
+/// The forces of the incoming tooth as text, if their stages ran.
 fn force(method: Method, printed: impl Fn(&str) -> Option<String>) -> Option<String> {
     match method {
         Method::Static => {
@@ -197,7 +197,7 @@ fn printed(key: &str, solution: &Solution, system: System) -> Option<String> {
     Some(shown_in(quantity, value(quantity, solution)?, system).to_string())
 }
 
-/// The stages behind the outcome, the notes and the limits of a case.
+/// The stages of the outcome, the notes and the limits of a case.
 fn stages(case: &Case, method: Method) -> Stages {
     let shared = match method {
         Method::Static => Stages::of(Stage::Static),
@@ -235,7 +235,7 @@ fn pair(case: &Case) -> String {
     )
 }
 
-/// Module or diametral pitch, as the case gives it.
+/// Module or diametral pitch, whichever the case gives.
 fn size(case: &Case) -> String {
     let pitch = text(case, "pair.diametral_pitch");
     if pitch.is_empty() {

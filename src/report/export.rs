@@ -1,4 +1,4 @@
-//! Solved cases as a file: a page, a table or data, by the ending of the file's name.
+//! Solved cases as a file: a page, a table or data, chosen by the file extension.
 
 use std::io;
 use std::path::Path;
@@ -9,7 +9,7 @@ use super::pictures::Unsolved;
 use super::{Report, csv, json};
 use crate::model::Refusal;
 
-/// Whether the ending of a file's name chooses a picture.
+/// Whether the file extension selects a picture.
 #[must_use]
 pub fn is_picture(path: &Path) -> bool {
     path.extension()
@@ -19,21 +19,21 @@ pub fn is_picture(path: &Path) -> bool {
 /// The format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// A page for a browser and a printer.
+    /// A page for browsers and printers.
     Html,
     /// A page as text.
     Markdown,
     /// A table in SI units.
     Csv,
-    /// An object for each case in SI units.
+    /// One object per case in SI units.
     Json,
 }
 
 impl Format {
-    /// The endings, as a sentence names them.
+    /// The extensions, as an error message lists them.
     pub const ENDINGS: &str = ".html, .md, .csv or .json";
 
-    /// The format that the ending of a file's name chooses.
+    /// The format of a file extension.
     #[must_use]
     pub fn of(path: &Path) -> Option<Format> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -52,16 +52,16 @@ impl Format {
         matches!(self, Format::Html | Format::Markdown)
     }
 
-    /// Whether it shows the stations.
+    /// Whether it includes the stations.
     #[must_use]
     pub const fn has_stations(self) -> bool {
         !matches!(self, Format::Csv)
     }
 
-    /// The cases in this format.
+    /// Renders the cases.
     ///
     /// # Errors
-    /// When a template or a value cannot be written.
+    /// Errors of a template or a value that cannot be written.
     pub fn render(self, subjects: &[Subject]) -> io::Result<String> {
         let reports = || {
             subjects
@@ -87,12 +87,12 @@ impl Format {
     }
 }
 
-/// What a file in a format shows of a solved case: on a page the studies that the case describes
-/// and a second method, in HTML also the dynamic factor over speed. `go_on` receives the computed
-/// parts and their number.
+/// Computes the parts of a solved case that a format shows. A page includes the studies of the case
+/// and a second method; HTML also includes the dynamic factor over speed. `go_on` receives the
+/// number of computed parts and their total.
 ///
 /// # Errors
-/// [`Refusal::Stopped`] where `go_on` says no.
+/// [`Refusal::Stopped`] if `go_on` returns false.
 pub fn subject(
     report: Report,
     file: String,

@@ -1,4 +1,4 @@
-//! The fields of a case and the quantities of a result, listed for a person and for scripts.
+//! The lists of the fields of a case and of the quantities of a result, for readers and scripts.
 
 use super::json::write_line;
 use super::layout::{count, flow, widest};
@@ -11,17 +11,17 @@ use std::io::{self, Write};
 /// Greatest width of a line of a list.
 const WIDTH: usize = 100;
 
-/// What follows the quantities.
+/// Last line of the list of quantities.
 const TO_EXPLAIN: &str =
     "`tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a case.";
 
 const FIELD_HEAD: [&str; 6] = ["key", "symbol", "unit", "range", "default", "meaning"];
 const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"];
 
-/// Write every field as a table.
+/// Writes every field as a table.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
     let rows = FIELDS.iter().map(|field| {
         [
@@ -37,10 +37,10 @@ pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
     write_table(FIELD_HEAD, rows.collect(), out)
 }
 
-/// Write every quantity as a table.
+/// Writes every quantity as a table.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
     let rows = QUANTITIES.iter().map(|quantity| {
         [
@@ -56,20 +56,20 @@ pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n{TO_EXPLAIN}")
 }
 
-/// Write every field as JSON, an object a line.
+/// Writes every field as JSON, one object per line.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
     FIELDS
         .iter()
         .try_for_each(|field| write_line(&FieldLine::new(field), out))
 }
 
-/// Write every quantity as JSON, an object a line.
+/// Writes every quantity as JSON, one object per line.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write_quantities_json(out: &mut dyn Write) -> io::Result<()> {
     QUANTITIES.iter().try_for_each(|quantity| {
         let line = QuantityLine {
@@ -187,7 +187,7 @@ fn default(field: &Field) -> &'static str {
     }
 }
 
-/// A table of which the last column flows over as many lines as it needs.
+/// A table whose last column wraps over several lines.
 fn write_table<const N: usize>(
     head: [&str; N],
     rows: Vec<[String; N]>,

@@ -5,7 +5,7 @@ use crate::model::Solution;
 use crate::model::inputs::Method;
 
 /// A chart over the roll angle, with a curve for each method or for each compliance model. Columns
-/// of different methods share a chart if they are the same value.
+/// of different methods that mean the same value share a chart.
 #[derive(Debug, Clone, Copy)]
 pub struct Graph {
     /// The key in the settings.
@@ -14,16 +14,15 @@ pub struct Graph {
     pub label: &'static str,
     /// Keys of the columns; each method has at most one of them.
     pub columns: &'static [&'static str],
-    /// The value that the curve is compared with.
+    /// The comparison value of the curve.
     pub bound: Option<Bound>,
-    /// The value whose curves are those of the compliance models; `None` for a chart of the
-    /// stations.
+    /// The value with one curve per compliance model; `None` for a chart of the stations.
     pub by_model: Option<&'static Column>,
-    /// Where else the values are shown.
+    /// Other places that show the values.
     places: &'static [Place],
 }
 
-/// A place beside the chart pane and `plot` that shows the values of a chart.
+/// A place other than the chart pane and `plot` that shows the values of a chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// The page of a report, which prints one case on two sheets.
@@ -34,7 +33,7 @@ pub enum Place {
 
 use Place::{Page, Teeth};
 
-/// A value that a curve is compared with.
+/// A comparison value of a curve.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
     /// The symbol in `paper` and `exact`, and in `static` and `dynamic`.
@@ -56,7 +55,8 @@ macro_rules! graph {
     };
 }
 
-/// The tip touches at the gap Δ; a pair carries load if it is closed by more than the gap.
+/// The tip touches where the curve reaches the gap Δ; a pair carries load if its approach exceeds
+/// the gap.
 const CLOSED: Bound = Bound {
     symbols: ["Δ", "x+Δf_0"],
     value: |solution, row| match row {
@@ -81,7 +81,7 @@ pub const GRAPHS: &[Graph] = &[
 ];
 
 impl Graph {
-    /// Whether a place beside the chart pane and `plot` shows the values.
+    /// Whether a place other than the chart pane and `plot` shows the values.
     #[must_use]
     pub fn is_at(&self, place: Place) -> bool {
         self.places.contains(&place)

@@ -1,22 +1,22 @@
-//! The quantities in groups under headings, in the order in which a method tells them: what it
-//! resolves itself first.
+//! The quantities in groups with headings, in the order of a method: first the results of its last
+//! stages.
 
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity, Stage};
 
-/// What stands above the quantities of the free impact where the method resolves the impact itself.
+/// Heading of the quantities of the free impact if the method resolves the impact itself.
 pub const FREE_IMPACT: &str = "Free impact at D, closed form";
 
-/// Quantities that stand together.
+/// A group of quantities.
 #[derive(Debug, Clone, Copy)]
 pub struct Group {
     /// The heading.
     pub title: &'static str,
-    /// The stages that they come from.
+    /// The stages of its quantities.
     stages: &'static [Stage],
 }
 
-/// Every group, in the order of a method in closed form.
+/// Every group, in the order of a closed form.
 static GROUPS: [Group; 15] = [
     Group {
         title: "Geometry",
@@ -81,7 +81,7 @@ static GROUPS: [Group; 15] = [
 ];
 
 impl Group {
-    /// Its quantities, in the table's order.
+    /// Its quantities, in the order of the table.
     pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
         let stages = self.stages;
         QUANTITIES
@@ -89,13 +89,13 @@ impl Group {
             .filter(move |quantity| stages.contains(&quantity.stage))
     }
 
-    /// Whether it is of the free impact, which the method resolves itself.
+    /// Whether the group belongs to the free impact while the method resolves the impact.
     #[must_use]
     pub fn is_beside(&self, method: Method) -> bool {
         method.shares_load() && self.quantities().any(Quantity::is_of_free_impact)
     }
 
-    // The last stages first, the closed form of what they resolve at the end.
+    // The last stages first; the closed form of the resolved impact at the end.
     fn rank(&self, method: Method) -> usize {
         match self.stages {
             _ if !method.shares_load() => 0,
@@ -114,7 +114,7 @@ impl Group {
     }
 }
 
-/// The groups in the order in which a method tells them.
+/// The groups in the order of a method.
 #[must_use]
 pub fn groups(method: Method) -> Vec<&'static Group> {
     let mut groups: Vec<&Group> = GROUPS.iter().collect();
@@ -122,7 +122,7 @@ pub fn groups(method: Method) -> Vec<&'static Group> {
     groups
 }
 
-/// Every quantity, in that order.
+/// Every quantity in the same order.
 pub fn quantities(method: Method) -> impl Iterator<Item = &'static Quantity> {
     groups(method).into_iter().flat_map(Group::quantities)
 }

@@ -1,4 +1,4 @@
-//! A solve as one JSON object on one line: SI units, full precision, what does not exist is absent.
+//! A solve as one JSON object on one line: SI units, full precision, without absent values.
 
 use super::{Report, stations};
 use crate::case::file::FORMAT;
@@ -28,7 +28,7 @@ struct Line<'a> {
 pub(super) struct Measured {
     value: Value,
     unit: &'static str,
-    /// What it is of, where that is not what the method resolves.
+    /// The subject of the value, if it differs from the result of the method.
     #[serde(skip_serializing_if = "Option::is_none")]
     of: Option<&'static str>,
 }
@@ -103,10 +103,10 @@ impl Serialize for Cells<'_> {
     }
 }
 
-/// Write the report as one line.
+/// Writes the report as one line.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let solution = &report.solution;
     let line = Line {
@@ -134,16 +134,16 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     write_line(&line, out)
 }
 
-/// Write anything as one line of JSON that a terminal may be shown.
+/// Writes a value as one line of JSON that is safe to print on a terminal.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write_line(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
     value.serialize(&mut serde_json::Serializer::with_formatter(&mut *out, Safe))?;
     out.write_all(b"\n")
 }
 
-/// Compact JSON in which the characters that a terminal obeys or hides are escaped as well.
+/// Compact JSON that also escapes the characters that a terminal interprets or hides.
 struct Safe;
 
 impl Formatter for Safe {

@@ -1,9 +1,9 @@
-//! Lines of a page of text.
+//! Line layout of text reports.
 
 /// Greatest width of a line of a text report.
 pub(super) const WIDTH: usize = 80;
 
-/// The words set into lines of at most `width` characters; a longer word is cut.
+/// Wraps words into lines of at most `width` characters; a longer word is cut.
 pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for piece in words.into_iter().flat_map(|word| pieces(word, width)) {
@@ -18,7 +18,7 @@ pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -
     lines
 }
 
-/// A text as Markdown that shows the text itself: the marks of Markdown and HTML are escaped.
+/// Escapes the marks of Markdown and HTML, so that the text appears unchanged.
 pub(super) fn plain_markdown(text: &str) -> String {
     let mut plain = String::new();
     for letter in text.chars() {
@@ -30,7 +30,7 @@ pub(super) fn plain_markdown(text: &str) -> String {
     plain
 }
 
-/// The sentence set into lines, those after the first moved in as far as the mark before it.
+/// Wraps a sentence behind a mark; further lines are indented by the width of the mark.
 pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
     let indent = count(mark);
     let width = WIDTH.saturating_sub(indent);
@@ -51,8 +51,8 @@ pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
         .collect()
 }
 
-/// The words of a sentence, each number with its unit and with the symbol and the sign of equality
-/// before it: no line ends within these. Longer ones than `most` stay apart.
+/// The words of a sentence. A number with its unit, and with the symbol and relation sign before
+/// it, is one word, unless it is longer than `most`.
 pub(crate) fn with_units(sentence: &str, most: usize) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let (mut after_number, mut after_sign) = (false, false);
@@ -78,12 +78,12 @@ fn is_number(word: &str) -> bool {
     word.contains(is_digit) && word.parse::<f64>().is_ok()
 }
 
-/// The greatest number of characters among the texts.
+/// The greatest length of the texts, in characters.
 pub(super) fn widest<'a>(texts: impl IntoIterator<Item = &'a str>) -> usize {
     texts.into_iter().map(count).max().unwrap_or(0)
 }
 
-/// Characters of a text, each of which takes one column in all that the tables hold.
+/// Number of characters of a text; each character of the tables takes one column.
 pub(super) fn count(text: &str) -> usize {
     text.chars().count()
 }

@@ -1,4 +1,4 @@
-//! Solved cases side by side as one page to send: HTML with charts, or Markdown.
+//! Solved cases side by side as one page: HTML with charts, or Markdown.
 
 mod markdown;
 mod studies;
@@ -25,11 +25,11 @@ use crate::study::speeds::SpeedCurve;
 /// A solved case with the text of its file.
 #[derive(Debug)]
 pub struct Subject {
-    /// The solve by the method of the case, then one for the charts that this method lacks.
+    /// The solve by the method of the case, then a solve for the charts that this method lacks.
     pub reports: Vec<Report>,
-    /// The dynamic factor over speed, where it is known.
+    /// The dynamic factor over speed, if computed.
     pub speeds: Option<SpeedCurve>,
-    /// The studies that the case describes.
+    /// The studies of the case.
     pub studies: Studies,
     /// The text of the case file.
     pub file: String,
@@ -47,7 +47,7 @@ struct Column {
     studies: Vec<StudyTable>,
     /// The file without its comments.
     lines: String,
-    /// The whole file as an address.
+    /// The whole file as a data URL.
     link: String,
     /// The file's name without folders.
     file_name: String,
@@ -84,11 +84,11 @@ struct ResultRow {
 struct Html<'a> {
     page: &'a Page<'a>,
     charts: Vec<String>,
-    /// The pictures that each case has of its own.
+    /// The pictures of each single case.
     own: Vec<String>,
 }
 
-/// Everything that a page shows, but for its pictures.
+/// The content of a page, without its pictures.
 pub struct Page<'a> {
     subjects: &'a [Subject],
     title: String,
@@ -99,7 +99,7 @@ pub struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    /// The page of the cases; empty without a case.
+    /// The page of some cases; empty without cases.
     #[must_use]
     pub fn of(subjects: &'a [Subject]) -> Page<'a> {
         let own: Vec<&Report> = subjects
@@ -121,10 +121,10 @@ impl<'a> Page<'a> {
         }
     }
 
-    /// As a page for a browser, complete in itself.
+    /// Renders a self-contained HTML page.
     ///
     /// # Errors
-    /// Where the page cannot be filled in.
+    /// Errors of the template.
     pub fn html(&self) -> Result<String, askama::Error> {
         let on_page = pictures().filter(|picture| picture.is_on_page());
         let (of_one, of_all): (Vec<Picture>, Vec<Picture>) =
@@ -158,7 +158,7 @@ impl<'a> Page<'a> {
             .collect()
     }
 
-    /// As Markdown, without charts.
+    /// Renders Markdown, without charts.
     #[must_use]
     pub fn markdown(&self) -> String {
         markdown::render(self)
@@ -216,7 +216,7 @@ fn column(subject: &Subject) -> Option<Column> {
     })
 }
 
-/// A text as an address that a browser saves.
+/// A text as a data URL that a browser can save.
 fn address(text: &str) -> String {
     let mut address = "data:text/plain;charset=utf-8,".to_owned();
     for byte in text.bytes() {
@@ -229,7 +229,7 @@ fn address(text: &str) -> String {
     address
 }
 
-/// The fields that differ from their defaults in some case.
+/// The fields that differ from their defaults in at least one case.
 fn inputs(reports: &[&Report]) -> Vec<InputRow> {
     let defaults = Case::empty();
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
@@ -254,7 +254,7 @@ fn inputs(reports: &[&Report]) -> Vec<InputRow> {
     rows.collect()
 }
 
-/// The results in groups, in the order of the first case's method.
+/// The results in groups, in the order of the method of the first case.
 fn tables(reports: &[&Report]) -> Vec<Table> {
     let Some(first) = reports.first() else {
         return Vec::new();

@@ -1,5 +1,5 @@
-//! The table of pictures: every chart and the teeth, each with its key, its drawing and the reason
-//! where there is none.
+//! The table of pictures: every chart and the teeth, each with its key, its drawing and its reason
+//! of absence.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal};
 use crate::study::speeds::{SPEEDS, SpeedCurve, speeds};
 
-/// The pictures that are no chart of [`GRAPHS`], behind those.
+/// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 3] = [
     Picture {
         key: SPECTRUM,
@@ -32,7 +32,7 @@ const OTHERS: [Picture; 3] = [
 /// A picture of solved cases.
 #[derive(Debug, Clone, Copy)]
 pub struct Picture {
-    /// The key, as `plot --chart` has it.
+    /// The key, as in `plot --chart`.
     pub key: &'static str,
     drawing: Drawing,
 }
@@ -45,14 +45,14 @@ enum Drawing {
     Teeth,
 }
 
-/// A case to be solved and drawn.
+/// A case to solve and draw.
 #[derive(Debug, Clone, Copy)]
 pub struct Unsolved<'a> {
     /// The name of the case, as the user gave it.
     pub name: &'a str,
     /// The case.
     pub case: &'a Case,
-    /// The pair that it describes.
+    /// The pair of the case.
     pub inputs: &'a Inputs,
 }
 
@@ -65,7 +65,7 @@ pub enum NoPicture {
     Absent(String),
 }
 
-/// Every picture: the charts of the stations, those of whine, the teeth.
+/// Every picture: the charts of the stations, the charts of whine, the teeth.
 pub fn pictures() -> impl Iterator<Item = Picture> + Clone {
     let graph = |graph: &'static Graph| Picture {
         key: graph.key,
@@ -74,14 +74,14 @@ pub fn pictures() -> impl Iterator<Item = Picture> + Clone {
     GRAPHS.iter().map(graph).chain(OTHERS)
 }
 
-/// The picture of that key.
+/// The picture with a key.
 #[must_use]
 pub fn find(key: &str) -> Option<Picture> {
     pictures().find(|picture| picture.key == key)
 }
 
 impl Picture {
-    /// Whether the page of a report shows it.
+    /// Whether the page of a report includes the picture.
     #[must_use]
     pub fn is_on_page(self) -> bool {
         match self.drawing {
@@ -90,19 +90,19 @@ impl Picture {
         }
     }
 
-    /// Whether it is computed at many speeds, which takes seconds.
+    /// Whether the picture needs solves at many speeds, which take seconds.
     #[must_use]
     pub fn needs_speeds(self) -> bool {
         matches!(self.drawing, Drawing::Speed)
     }
 
-    /// Whether each case has a picture of its own.
+    /// Whether each case has a separate picture.
     #[must_use]
     pub fn is_of_one_case(self) -> bool {
         matches!(self.drawing, Drawing::Teeth)
     }
 
-    /// Draws solved cases; of a picture of one case, the first. None where no case has values for
+    /// Draws solved cases; a picture of one case draws the first. `None` if no case has values for
     /// the picture.
     #[must_use]
     pub fn draw(self, cases: &[SolvedCase]) -> Option<String> {
@@ -123,11 +123,11 @@ impl Picture {
         }
     }
 
-    /// Solves a case and draws it. `go_on` receives the computed parts of a long computation and
-    /// their number, and stops it by returning false.
+    /// Solves a case and draws it. `go_on` receives the number of computed parts and their total,
+    /// and stops the computation by returning false.
     ///
     /// # Errors
-    /// The model's refusal, or why the case has no such picture.
+    /// The refusal of the model, or the reason why the case has no such picture.
     pub fn of_case(
         self,
         source: Unsolved<'_>,
@@ -147,7 +147,7 @@ impl Picture {
         drawn.ok_or_else(|| NoPicture::Absent(self.absence(&reports)))
     }
 
-    /// Why a case has no values for the picture, with the fix.
+    /// Why a case has no values for the picture, with a fix.
     fn absence(self, reports: &[Report]) -> String {
         let key = self.key;
         let reason = match self.drawing {
@@ -155,7 +155,7 @@ impl Picture {
             Drawing::Spectrum => charts::absent_of_methods(Method::shares_load, reports),
             Drawing::Speed => {
                 return format!(
-                    "the chart {key} has no curve: no motion becomes steady: give a greater \
+                    "the chart {key} has no curve: the motion does not become steady: give a greater \
                      model.damping_ratio"
                 );
             }
@@ -165,7 +165,7 @@ impl Picture {
     }
 }
 
-/// The picture in words.
+/// The name of the picture in a sentence.
 impl fmt::Display for Picture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.drawing {
@@ -184,10 +184,10 @@ impl PartialEq for Picture {
 impl Eq for Picture {}
 
 impl Unsolved<'_> {
-    /// Solves the case with every quantity, and the stations on request.
+    /// Solves the case with every quantity, and with the stations on request.
     ///
     /// # Errors
-    /// The model's refusal.
+    /// The refusal of the model.
     pub fn solve(&self, stations: bool) -> Result<Report, Refusal> {
         let selection = Selection {
             only: Vec::new(),
@@ -197,11 +197,11 @@ impl Unsolved<'_> {
         Report::solve(name, case, self.inputs.clone(), selection)
     }
 
-    /// The dynamic factor over speed.
+    /// The dynamic factor over speed. `go_on` receives the number of computed speeds and their
+    /// total.
     ///
     /// # Errors
-    /// The model's refusal, and [`Refusal::Stopped`] where `go_on`, which receives the computed
-    /// speeds and their number, says no.
+    /// The refusal of the model; [`Refusal::Stopped`] if `go_on` returns false.
     pub fn speeds(&self, go_on: &dyn Fn(usize, usize) -> bool) -> Result<SpeedCurve, Refusal> {
         speeds(self.inputs, &mut |curve| {
             let done = curve.up.iter().chain(&curve.down).flatten().count();

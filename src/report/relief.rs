@@ -1,17 +1,17 @@
-//! The tip relief that prevents corner contact, rounded up to figures that can be typed in.
+//! The tip relief that prevents corner contact, rounded up for input.
 
 use super::value;
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
 
-/// The most decimal places of a relief, by system of units.
+/// Decimal places of a relief, by system of units.
 const LEAST_DIGIT: [(System, i32); 2] = [(System::Metric, 3), (System::Inch, 4)];
 /// Significant digits of the additional relief.
 const DIGITS: i32 = 3;
 
-/// The required tip relief of the driven gear by the governing method and by the others, in full
-/// and in fewer and fewer words; none without corner contact, or where it is unknown.
+/// The required tip relief of the driven gear by the governing method and by the others, from the
+/// full text to the shortest; `None` without corner contact, or if the relief is unknown.
 #[must_use]
 pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Option<[String; 4]> {
     let unit = unit(system)?;
@@ -26,8 +26,8 @@ pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Opt
     ))
 }
 
-/// The same while the figure of the governing method is not known yet, for a gear that has that
-/// relief, in m.
+/// The same text while the relief of the governing method is not known yet; `given` is the present
+/// relief of the gear, in m.
 #[must_use]
 pub fn pending(
     method: Method,
@@ -50,7 +50,7 @@ fn unit(system: System) -> Option<&'static str> {
     Some(system.unit(Quantity::find("clearing_relief")?.shown))
 }
 
-/// The relief that the gear has, in m; and the additional and the total one, as they are shown.
+/// The present relief of the gear, in m, with the additional and the total relief as text.
 fn figures(solution: &Solution, unit: &str, system: System) -> Option<(f64, [String; 2])> {
     let least = value(Quantity::find("clearing_relief")?, solution)?;
     let given = solution.clearing?.given;
@@ -92,11 +92,11 @@ fn phrases(
 }
 
 /// The additional and the total relief, rounded up to the same digit, so that the given and the
-/// additional relief add up to no less than the total.
+/// additional relief add up to at least the total.
 fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2] {
-    /// Rounding error of the unit's factor and of the sum.
+    /// Rounding error of the factor of the unit and of the sum.
     const ROUNDING: f64 = 1.0 + 4.0 * f64::EPSILON;
-    /// The part of a digit that is rounding error.
+    /// The fraction of a digit that is rounding error.
     const NONE: f64 = 1e-9;
     let factor = units::factor(unit).unwrap_or(1.0);
     let last = LEAST_DIGIT

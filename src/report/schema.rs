@@ -1,4 +1,4 @@
-//! JSON Schemas of the case file and of the results, derived from the fields and the quantities.
+//! JSON Schemas of the case file and of the results, generated from the fields and the quantities.
 
 use std::io::{self, Write};
 
@@ -14,13 +14,13 @@ use crate::model::{Outcome, QUANTITIES, Quantity, Stage};
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-/// A number and a unit after it.
+/// A number followed by a unit.
 const MEASURE: &str = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$";
 
 /// Writes the schema of a case file.
 ///
 /// # Errors
-/// Those of the writer.
+/// Errors of the writer.
 pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
     let mut tables = Map::new();
     tables.insert("format".to_owned(), json!({"const": FORMAT}));
@@ -54,7 +54,7 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
 /// Writes the schema of a line of `solve --format json`.
 ///
 /// # Errors
-/// Those of the writer.
+/// Errors of the writer.
 pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
     let quantities = QUANTITIES
         .iter()
@@ -180,8 +180,8 @@ fn of_quantity(quantity: &Quantity) -> Value {
     })
 }
 
-/// The variants: the tables of a case without their required keys, or dotted keys. An empty text
-/// leaves a key out.
+/// The variants: tables of a case without required keys, or dotted keys. An empty text removes a
+/// key.
 fn of_variants(tables: &Map<String, Value>) -> Value {
     let or_empty = |value: &Value| json!({"anyOf": [value, {"const": ""}]});
     let mut members = Map::new();
@@ -197,18 +197,18 @@ fn of_variants(tables: &Map<String, Value>) -> Value {
         }
         members.insert(name.clone(), object(name, table));
     }
-    let mut variant = object("Values in place of those of the case.", members);
+    let mut variant = object("Values that replace those of the case.", members);
     variant["minProperties"] = 1.into();
     json!({
         "description": "Named overrides of the case.",
         "type": "object",
-        // Of ASCII only letters, digits, _ and -. Python's validators do not know \p{L}.
+        // ASCII is limited to letters, digits, _ and -. Validators in Python do not know \p{L}.
         "propertyNames": {"pattern": r"^[^\x00-,./:-@\[-^`{-\x7f]{1,40}$"},
         "additionalProperties": variant,
     })
 }
 
-/// The distributions that a field takes.
+/// The distributions that a field accepts.
 fn of_spread(field: &Field) -> Option<Value> {
     let Kind::Number(dimension, ..) = field.kind else {
         return None;

@@ -15,20 +15,20 @@ use crate::study::axis::{AxisRange, with_unit};
 use crate::study::condition::{Condition, State};
 use crate::study::seek::{Crossing, Found, Sample, Segment};
 
-/// A search and its answer.
+/// A search and its result.
 #[derive(Clone, Copy)]
 pub struct SeekReport<'a> {
-    /// The case's name, as the user gave it.
+    /// The name of the case, as the user gave it.
     pub name: &'a str,
-    /// The case's title.
+    /// The title of the case.
     pub title: &'a str,
     /// The name of the method.
     pub method: &'a str,
-    /// The range that was searched.
+    /// The searched range.
     pub range: &'a AxisRange,
     /// The condition.
     pub condition: &'a Condition,
-    /// The answer.
+    /// The result.
     pub found: &'a Found,
 }
 
@@ -37,7 +37,7 @@ impl SeekReport<'_> {
         FIELDS[self.range.field].key
     }
 
-    /// The answer in one word.
+    /// The result in one word.
     fn answer(&self) -> &'static str {
         match &self.found.segments[..] {
             [one] => match one.state {
@@ -53,10 +53,10 @@ impl SeekReport<'_> {
         with_unit(&shortest(number), &self.range.unit)
     }
 
-    /// Writes the answer for a person.
+    /// Writes the result as text.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let (from, to) = (self.value(self.range.from), self.value(self.range.to));
         let title = if self.title.is_empty() {
@@ -74,7 +74,10 @@ impl SeekReport<'_> {
         )?;
         match self.answer() {
             "crossings" => {}
-            "unknown" => writeln!(out, "  unknown: no point of the range has an answer")?,
+            "unknown" => writeln!(
+                out,
+                "  unknown: the condition is unknown at every point of the range"
+            )?,
             answer => writeln!(out, "  {answer}")?,
         }
         for crossing in &self.found.crossings {
@@ -142,10 +145,10 @@ impl SeekReport<'_> {
         Ok(())
     }
 
-    /// Writes the answer as one JSON object on one line.
+    /// Writes the result as one JSON object on one line.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
         let quantity = self.condition.quantity();
         let unit = self.range.unit.as_str();
@@ -176,7 +179,7 @@ impl SeekReport<'_> {
     }
 }
 
-/// How a state reads.
+/// A state in the text report.
 fn word(state: &State) -> &'static str {
     match state {
         State::Met => "met",
@@ -185,7 +188,7 @@ fn word(state: &State) -> &'static str {
     }
 }
 
-/// How a script reads a state.
+/// A state in JSON.
 fn name(state: &State) -> &'static str {
     match state {
         State::NotMet => "not-met",

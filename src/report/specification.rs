@@ -17,21 +17,21 @@ use tables::{choices, harris, map};
 /// A relief to specify with the name of its case.
 #[derive(Clone, Copy)]
 pub struct ReliefReport<'a> {
-    /// The case's name, as the user gave it.
+    /// The name of the case, as the user gave it.
     pub name: &'a str,
-    /// The case's title.
+    /// The title of the case.
     pub title: &'a str,
     /// The method of the case.
     pub method: Method,
-    /// The answer.
+    /// The specification.
     pub found: &'a Specification,
 }
 
 impl ReliefReport<'_> {
-    /// Writes the answer for a person.
+    /// Writes the specification as text.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let title = if self.title.is_empty() {
             self.name
@@ -40,7 +40,7 @@ impl ReliefReport<'_> {
         };
         writeln!(out, "{}", sanitize(title))?;
         for line in self.lines() {
-            // Tables fit; sentences are wrapped.
+            // Rows of tables fit; only sentences are wrapped.
             let is_short = line.chars().count() <= WIDTH;
             let parts = if is_short {
                 vec![line]
@@ -54,7 +54,8 @@ impl ReliefReport<'_> {
         Ok(())
     }
 
-    /// The answer without the title: rows of tables of at most 80 columns, and whole sentences.
+    /// The specification without the title: rows of tables of at most 80 columns, and unwrapped
+    /// sentences.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         let found = self.found;
@@ -112,7 +113,7 @@ impl ReliefReport<'_> {
         }
     }
 
-    /// Why the relief is computed by another method than that of the case.
+    /// Why the relief is computed by a method other than that of the case.
     fn reason(&self) -> String {
         match self.method {
             Method::Auto => "chosen by auto".to_owned(),
@@ -159,18 +160,18 @@ impl ReliefReport<'_> {
         }
     }
 
-    /// Writes the answer as one JSON object on one line.
+    /// Writes the specification as one JSON object on one line.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
         json::line(self.name, self.title, self.found, out)
     }
 
-    /// Writes the map over amount and length as CSV in SI units, the choices first.
+    /// Writes the choices and then the map over amount and length as CSV in SI units.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut rows = csv::Writer::from_writer(out);
         rows.write_record([

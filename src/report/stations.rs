@@ -1,32 +1,32 @@
-//! The one table of what a station of the incoming tooth tells, for text, JSON, CSV and charts.
+//! The table of station values of the incoming tooth, for text, JSON, CSV and charts.
 
 use crate::model::inputs::Method;
 use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::model::{Inputs, Interpolated, MeshStation, Solution, Station};
 
-/// A place of the incoming tooth.
+/// A station of the incoming tooth.
 #[derive(Debug, Clone, Copy)]
 pub enum Row<'a> {
-    /// Between D and E, the impact as if it happened there.
+    /// Between D and E: the free impact if it happened at this station.
     Impact(&'a Station),
-    /// From the first contact to the last, with the load shared.
+    /// From the first contact to the last, with load sharing.
     Load(&'a MeshStation),
 }
 
-/// A value that the stations of some methods have.
+/// A value at the stations of some methods.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
     /// The name in JSON and CSV.
     pub key: &'static str,
-    /// The symbol in the field's writing.
+    /// The symbol.
     pub symbol: &'static str,
     /// The SI unit.
     pub unit: &'static str,
-    /// The unit in which a person reads it.
+    /// The unit in reports and charts.
     pub shown: &'static str,
-    /// Significant digits that a person reads.
+    /// Significant digits in reports.
     pub digits: usize,
-    /// The methods whose stations have it.
+    /// The methods whose stations have this value.
     pub methods: &'static [Method],
     /// The value in SI.
     pub value: fn(Row) -> Option<f64>,
@@ -69,7 +69,7 @@ pub const COLUMNS: &[Column] = &[
     column!("impact_energy", "E_k", "J", "J", 5, CLOSED_FORM, |row| Some(row.impact()?.impact_energy)),
 ];
 
-/// The columns that the stations of a method have.
+/// The columns of the stations of a method.
 pub fn columns(method: Method) -> impl Iterator<Item = &'static Column> + Clone {
     COLUMNS
         .iter()
@@ -130,12 +130,12 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Below this part of the radii and speeds that they are differences of, lengths and speeds are
-/// what rounding leaves of 0.
+/// Lengths and speeds below this fraction of the radii and speeds whose difference they are consist
+/// of rounding errors.
 const RESOLUTION: f64 = 1e-12;
 
-/// The stiffness of the mesh over the path of contact, which no station has: each compliance model
-/// has a curve of its own.
+/// The mesh stiffness over the path of contact. No station has this value: each compliance model
+/// has its own curve.
 pub static MESH_STIFFNESS: Column = Column {
     key: "mesh_stiffness",
     symbol: "k",
@@ -147,7 +147,7 @@ pub static MESH_STIFFNESS: Column = Column {
 };
 
 impl Column {
-    /// The value in SI, 0 where it is below the resolution of what it is a difference of.
+    /// The value in SI; 0 below the resolution of the difference that it is computed from.
     #[must_use]
     pub fn resolved(&self, value: f64, inputs: &Inputs, solution: &Solution) -> f64 {
         let radius = solution.geometry.driver.base;
@@ -163,7 +163,7 @@ impl Column {
         }
     }
 
-    /// Significant digits that a person reads of it there: no more than are good.
+    /// Significant digits of an interpolated value, at most as many as are reliable.
     #[must_use]
     pub fn digits_of(&self, interpolated: &Interpolated) -> usize {
         let is_of_motion = ["force", "load_share", "transmission_error"].contains(&self.key);
@@ -175,7 +175,7 @@ impl Column {
         }
     }
 
-    /// The station's value in SI where it is a number, zero without a sign.
+    /// The value at a station in SI, if it is a number; zero has no sign.
     #[must_use]
     pub fn of(&self, row: Row<'_>) -> Option<f64> {
         (self.value)(row)
@@ -183,7 +183,7 @@ impl Column {
             .map(|value| value + 0.0)
     }
 
-    /// The station's value as a person reads it, without the unit; a dash where it has none.
+    /// The value at a station as text without the unit; a dash if it is absent.
     #[must_use]
     pub fn printed(&self, row: Row<'_>) -> String {
         (self.value)(row).map_or_else(

@@ -1,4 +1,4 @@
-//! The stiffness models beside finite elements as text, CSV and JSON.
+//! The stiffness models compared with finite elements as text, CSV and JSON.
 
 use std::io::{self, Write};
 
@@ -16,25 +16,25 @@ use crate::study::stiffness::{
     Comparison, FIELD, FieldPoint, GearComparison, PathComparison, PathPoint, Point,
 };
 
-/// m²/N in a µm mm/N.
+/// The factor from um mm/N to m²/N.
 const MICRON_MILLIMETRE: f64 = 1e-9;
 const MILLIMETRE: f64 = 1e-3;
 
 /// A comparison and its case.
 #[derive(Debug, Clone, Copy)]
 pub struct StiffnessReport<'a> {
-    /// The case's name, as the user gave it.
+    /// The name of the case, as the user gave it.
     pub name: &'a str,
-    /// The case's title, empty without one.
+    /// The title of the case, empty without one.
     pub title: &'a str,
     /// The compliances.
     pub comparison: &'a Comparison,
 }
 
-/// Write it for a person, 80 columns wide.
+/// Writes the comparison as text, 80 columns wide.
 ///
 /// # Errors
-/// The errors of the writer.
+/// Errors of the writer.
 pub fn write(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let mut sections = vec![heading(report), legend(report.comparison)];
     for gear in &report.comparison.gears {
@@ -159,8 +159,8 @@ fn stiffness(value: Option<f64>, reference: Option<f64>) -> String {
     shown + &difference(value, reference)
 }
 
-/// The difference from a reference in brackets, as a factor where it exceeds the column; empty
-/// without both.
+/// The difference from a reference in brackets, as a factor if the percentage is too wide; empty if
+/// a value is absent.
 fn difference(value: Option<f64>, reference: Option<f64>) -> String {
     const LARGEST: f64 = 999.0;
     let Some((value, reference)) = value.zip(reference) else {
@@ -234,10 +234,10 @@ fn reason(gear: &GearComparison) -> Option<String> {
     })
 }
 
-/// Write it as CSV in SI units, one row per gear and radius; a missing value is an empty cell.
+/// Writes CSV in SI units, one row per gear and radius; an absent value is an empty cell.
 ///
 /// # Errors
-/// The errors of the writer.
+/// Errors of the writer.
 pub fn write_csv(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     let models = comparison.models.iter().map(|model| column(model.name()));
     let header = ["gear".to_owned(), "radius [m]".to_owned()]
@@ -312,10 +312,10 @@ struct GearLine {
     points: Vec<Map<String, Value>>,
 }
 
-/// Write it as one line of JSON in SI units; a missing value is absent.
+/// Writes one line of JSON in SI units without absent values.
 ///
 /// # Errors
-/// The errors of the writer.
+/// Errors of the writer.
 pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let comparison = report.comparison;
     let line = Line {

@@ -14,15 +14,15 @@ use style::{LOOKS, STYLE};
 /// A chart.
 #[derive(Debug, Clone)]
 pub struct Chart {
-    /// Above the field.
+    /// Title above the field.
     pub title: String,
     /// The horizontal axis.
     pub across: Labelled,
     /// The vertical axis.
     pub up: Labelled,
-    /// The curves; the first is drawn on top.
+    /// The curves; the first is on top of the others.
     pub series: Vec<Series>,
-    /// Places on the horizontal axis with a name above the field.
+    /// Marks on the horizontal axis, with names above the field.
     pub marks: Vec<(f64, &'static str)>,
 }
 
@@ -33,7 +33,7 @@ pub struct Labelled {
     pub label: String,
     /// Linear or logarithmic.
     pub scale: Scale,
-    /// Writes the value of a tick; none for a plain number.
+    /// Formats the value of a tick; `None` for a plain number.
     pub tick: Option<fn(f64) -> String>,
 }
 
@@ -52,24 +52,25 @@ impl Labelled {
 /// A curve, or single points joined by a thin line.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// In the legend.
+    /// Name in the legend.
     pub name: String,
     /// Pieces with gaps between them.
     pub pieces: Vec<Vec<(f64, f64)>>,
-    /// How it is drawn.
+    /// Style of the series.
     pub kind: Kind,
 }
 
-/// How a series is drawn.
+/// Style of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A line.
     Curve,
-    /// A thin grey line that a curve is compared with.
+    /// A thin grey comparison line.
     Bound,
-    /// A mark at each point; the point with this number has a ring.
+    /// A mark at each point; the point with this index has a ring.
     Marks(Option<usize>),
-    /// A bar from 0 at each whole number, in this place of so many side by side.
+    /// Bars from 0 at whole numbers: the index of this series in each group, and the number of
+    /// series.
     Bars(usize, usize),
 }
 
@@ -78,7 +79,7 @@ impl Series {
         matches!(self.kind, Kind::Bars(..))
     }
 
-    /// The ends of the field of bars.
+    /// The outer ends of the bars on the horizontal axis.
     fn bar_edges(&self) -> impl Iterator<Item = f64> {
         let points = self.pieces.iter().flatten();
         points.flat_map(|point| [point.0 - BARS, point.0 + BARS])
@@ -86,21 +87,21 @@ impl Series {
 }
 
 const WIDTH: f64 = 760.0;
-/// Left, top, right, bottom of the field.
+/// Left, top, right and bottom of the field.
 const FIELD: (f64, f64, f64, f64) = (92.0, 58.0, 736.0, 316.0);
-/// The first line of the legend.
+/// Vertical position of the first line of the legend.
 const LEGEND: f64 = 388.0;
 const LINE: f64 = 23.0;
-/// Width of all bars at a number, in numbers.
+/// Width of all bars at a whole number; 1 is the distance of two numbers.
 const BARS: f64 = 0.7;
-/// Width of a letter of the legend, at most.
+/// Greatest width of a letter of the legend.
 const LETTER: f64 = 9.4;
 /// Width of a symbol of the legend with its gaps.
 const SYMBOL: f64 = 52.0;
-/// A name of the legend is cut after this many letters.
+/// Greatest number of letters of a name in the legend.
 const MOST_LETTERS: usize = 62;
 
-/// The chart as a picture.
+/// Draws the chart.
 #[must_use]
 pub fn chart(chart: &Chart) -> String {
     let (left, top, right, bottom) = FIELD;
@@ -131,7 +132,7 @@ pub fn chart(chart: &Chart) -> String {
     let lines = places.last().map_or(0.0, |(_, y)| y - LEGEND + LINE);
     let mut text = frame(chart, LEGEND + lines);
     grid(&mut text, &across, &up, chart);
-    // Single marks are below the curves that they lie on.
+    // Single marks are below the curves.
     let is_mark = |series: &Series| matches!(series.kind, Kind::Marks(_));
     let order = chart.series.iter().enumerate().rev();
     let (below, above): (Vec<_>, Vec<_>) = order.partition(|(_, series)| is_mark(series));
@@ -161,7 +162,7 @@ fn frame(chart: &Chart, height: f64) -> String {
     )
 }
 
-/// The root element, the styles and the ground of a picture; the title is escaped already.
+/// The root element, the styles and the background of a picture; the title must be escaped.
 fn opening(title: &str, width: f64, height: f64) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
@@ -201,7 +202,7 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
         text,
         "<path d=\"M{left} {top}V{bottom}H{right}\" class=\"axis\"/>"
     );
-    // Where the names of each row end.
+    // The ends of the names in each row.
     let mut ends = [f64::NEG_INFINITY; 2];
     for (value, name) in &chart.marks {
         let (x, half) = (
@@ -236,7 +237,7 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
     };
     for piece in &series.pieces {
         if let ([point], Kind::Curve | Kind::Bound) = (piece.as_slice(), series.kind) {
-            // A line of one point is invisible.
+            // A line with a single point is invisible.
             let (x, y) = place(*point);
             let _ = writeln!(
                 text,
@@ -273,7 +274,7 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
     }
 }
 
-/// Bars from 0. All bars at a number are [`BARS`] wide together.
+/// Bars from 0. All bars at a whole number are [`BARS`] wide together.
 fn bars(
     text: &mut String,
     series: &Series,
@@ -294,7 +295,7 @@ fn bars(
     }
 }
 
-/// The places of the names below the field, in rows.
+/// The positions of the names in the legend, in rows.
 fn places(series: &[Series]) -> Vec<(f64, f64)> {
     let (mut x, mut y) = (FIELD.0, LEGEND);
     let mut places = Vec::new();

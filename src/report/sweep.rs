@@ -13,12 +13,12 @@ use crate::study::batch::{PointOutcome, Rows};
 use crate::study::refusals::Refused;
 use crate::study::sweep::Grid;
 
-/// How a sweep is written.
+/// The format of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableFormat {
-    /// A header and a row per point.
+    /// A header and one row per point.
     Csv,
-    /// An object per line and point.
+    /// One object per line and point.
     Json,
 }
 
@@ -32,7 +32,7 @@ impl TableFormat {
         }
     }
 
-    /// The format of that name.
+    /// The format with a name.
     #[must_use]
     pub fn named(name: &str) -> TableFormat {
         if name == TableFormat::Json.name() {
@@ -43,22 +43,22 @@ impl TableFormat {
     }
 }
 
-/// A sweep on its way to a file or a stream.
+/// Writer of a sweep to a file or a stream.
 #[derive(Clone, Copy)]
 pub struct SweepTable<'a> {
     /// The points.
     pub grid: &'a Grid,
     /// The columns after those of the varied fields.
     pub quantities: &'a [&'static Quantity],
-    /// How it is written.
+    /// The format.
     pub format: TableFormat,
 }
 
 impl SweepTable<'_> {
-    /// Writes what stands before the first row.
+    /// Writes the part before the first row.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn begin(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.format == TableFormat::Json {
             return Ok(());
@@ -78,7 +78,7 @@ impl SweepTable<'_> {
     /// Writes rows.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write(&self, rows: &Rows, out: &mut dyn Write) -> io::Result<()> {
         match self.format {
             TableFormat::Csv => self.write_csv(rows, out),
@@ -137,7 +137,6 @@ struct Line<'a> {
     refusal: Option<Reason<'a>>,
 }
 
-/// Why a point is refused.
 #[derive(Serialize)]
 pub(super) struct Reason<'a> {
     field: &'a str,

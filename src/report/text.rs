@@ -1,4 +1,4 @@
-//! A solve as a page of text for a person, 80 columns wide.
+//! A solve as a page of text, 80 columns wide.
 
 use super::absence::Absence;
 use super::comparison::{closed_forms, differing};
@@ -18,7 +18,7 @@ use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages};
 use std::io::{self, Write};
 
-/// The sections of a page, in order; empty sections are left out.
+/// The sections of a page, in order; empty sections are omitted.
 const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [
     heading,
     outcome,
@@ -29,7 +29,7 @@ const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [
     station_table,
 ];
 
-/// The inputs that identify the pair. A missing input, a zero and a usual value are left out.
+/// The inputs that identify the pair. Missing inputs, zeros and defaults are omitted.
 const SHOWN_INPUTS: &[&str] = &[
     "driver.teeth",
     "driven.teeth",
@@ -66,10 +66,10 @@ const SHOWN_INPUTS: &[&str] = &[
     "model.deflection",
 ];
 
-/// Write the page.
+/// Writes the page.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     out.write_all(render(report).as_bytes())
 }
@@ -135,8 +135,8 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     sentences
 }
 
-/// The methods beside the governing one that cost little: the load at rest below its inertia, and
-/// the closed forms.
+/// Solutions of other, fast methods: the load at rest if `dynamic` governs, and the closed
+/// forms.
 fn others(report: &Report) -> Vec<Solution> {
     let governing = report.solution.method;
     let at_rest = (governing == Method::Dynamic).then_some(Method::Static);
@@ -214,7 +214,7 @@ fn quantities(report: &Report) -> Vec<String> {
     groups(method).into_iter().flat_map(group).collect()
 }
 
-/// The selected quantities without a value, each with the reason.
+/// The selected quantities without a value, each with its reason.
 fn absent(report: &Report) -> Vec<String> {
     let solution = &report.solution;
     let line = |quantity: &Quantity| {
@@ -229,7 +229,6 @@ fn absent(report: &Report) -> Vec<String> {
         .collect()
 }
 
-// A heading within another.
 fn lower(title: &str) -> String {
     let mut letters = title.chars();
     letters
@@ -238,7 +237,7 @@ fn lower(title: &str) -> String {
         .unwrap_or_default()
 }
 
-/// A quantity and its value as it is shown.
+/// A quantity and its value as text.
 struct Row {
     quantity: &'static Quantity,
     symbol: &'static str,
@@ -317,7 +316,8 @@ fn limits(report: &Report) -> Vec<String> {
     )
 }
 
-// As many tables beside the angle as a line has no room for the columns of one.
+// The table of the stations, split into several tables, each with the angle, if its columns do not
+// fit a line.
 fn station_table(report: &Report) -> Vec<String> {
     const CELL: usize = 12;
     const IN_A_LINE: usize = 5;

@@ -15,10 +15,10 @@ use crate::study::design::Member;
 use crate::study::refusals::Refused;
 use crate::study::tolerance::{Samples, Tolerance};
 
-/// A study and its results.
+/// A tolerance study and its results.
 #[derive(Clone, Copy)]
 pub struct ToleranceReport<'a> {
-    /// The case's name, as the user gave it.
+    /// The name of the case, as the user gave it.
     pub name: &'a str,
     /// The case.
     pub case: &'a Case,
@@ -31,26 +31,26 @@ pub struct ToleranceReport<'a> {
 }
 
 impl ToleranceReport<'_> {
-    /// Writes the figures for a person.
+    /// Writes the results as text.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         text::write(self, out)
     }
 
-    /// Writes the figures for a screen that shows the case already: the figures, then the spread.
+    /// Writes the results for a screen that already shows the case: the figures, then the spread.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_for_screen(&self, out: &mut dyn Write) -> io::Result<()> {
         text::write_for_screen(self, out)
     }
 
-    /// Writes the figures as one JSON object on one line.
+    /// Writes the results as one JSON object on one line.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
         json::write(self, out)
     }
@@ -58,7 +58,7 @@ impl ToleranceReport<'_> {
     /// Writes one row per solve: the samples, then the points of the ranking.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let study = self.study;
         let spread = study.design.distributions.iter().map(|distribution| {

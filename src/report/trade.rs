@@ -1,4 +1,4 @@
-//! A trade of speed against accuracy as a person or a script reads it.
+//! A trade study of run time against accuracy as text, JSON and pictures.
 
 mod json;
 pub mod plot;
@@ -14,21 +14,21 @@ use crate::case::sanitize::sanitize;
 use crate::numeric::decimal::significant;
 use crate::study::trade::{Build, Differences, Measured, Setting, Subject, Trade, greatest};
 
-/// A trade and the case it was made of.
+/// A trade study and its case.
 #[derive(Debug, Clone, Copy)]
 pub struct TradeReport<'a> {
-    /// The case's name, as the user gave it.
+    /// The name of the case, as the user gave it.
     pub name: &'a str,
-    /// The case's title, empty without one.
+    /// The title of the case, empty without one.
     pub title: &'a str,
-    /// What was measured.
+    /// The measurement.
     pub trade: &'a Trade,
 }
 
-/// Write it for a person, 80 columns wide.
+/// Writes the study as text, 80 columns wide.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let sections = [
         heading(report),
@@ -86,7 +86,7 @@ fn reference(trade: &Trade) -> Vec<String> {
     flow(sentence.split(' '), WIDTH)
 }
 
-/// The time of the fields, in a sentence.
+/// The time to build the fields, as a sentence.
 #[must_use]
 pub fn build(trade: &Trade) -> String {
     match &trade.build {
@@ -100,10 +100,10 @@ pub fn build(trade: &Trade) -> String {
     }
 }
 
-/// The conclusion where no method finds corner contact.
+/// The conclusion if no method finds corner contact.
 pub const NO_CONTACT: &str = "No method finds corner contact: no setting is recommended";
 
-/// The recommendation in a sentence.
+/// The recommendation as a sentence.
 #[must_use]
 pub fn conclusion(trade: &Trade) -> String {
     let within = percent(trade.within);
@@ -131,7 +131,7 @@ pub fn summary(measured: &Measured) -> String {
     }
 }
 
-/// Where the error of a setting comes from, where it has one.
+/// The causes of the error of a setting, if it has an error.
 #[must_use]
 pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
     let figures = measured.found.as_ref().ok()?;
@@ -152,7 +152,7 @@ pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
     (!known.is_empty()).then(|| known.join(", "))
 }
 
-/// A relative difference in per cent, without the sign.
+/// A relative difference in percent, without the sign.
 #[must_use]
 pub fn percent(difference: f64) -> String {
     significant(100.0 * difference, if difference < 0.1 { 2 } else { 3 })
@@ -169,7 +169,7 @@ pub fn duration(seconds: f64) -> String {
     format!("{} {unit}", significant(factor * seconds, 3))
 }
 
-/// What the physics of a setting leaves out.
+/// The model error of a setting.
 fn model_off(trade: &Trade, setting: &Setting) -> Differences {
     trade
         .model(setting)

@@ -15,7 +15,7 @@ pub use json::write as write_json;
 
 use std::fmt;
 
-/// How a quantity stands to its limit.
+/// The comparison of a quantity with its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standing {
     /// At most the limit.
@@ -24,7 +24,7 @@ pub enum Standing {
     Exceeded,
     /// No corner contact, so that nothing can exceed the limit.
     NotApplicable,
-    /// The quantity has no value, although corner contact is possible: the limit is not met.
+    /// The quantity is absent, although corner contact is possible: the limit is not met.
     Unknown,
 }
 
@@ -57,18 +57,18 @@ impl Standing {
     }
 }
 
-/// A limit of a case and what was found of it.
+/// A limit of a case with its result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict<'a> {
     /// The limit.
     pub limit: &'a Limit,
-    /// The quantity's value in SI.
+    /// The value of the quantity in SI.
     pub value: Option<f64>,
-    /// How the two stand.
+    /// The comparison.
     pub standing: Standing,
-    /// Why there is no value.
+    /// Why the value is absent.
     pub absence: Option<Absence>,
-    /// The counterpart in the method, where the limited quantity is of the free impact.
+    /// The counterpart in the method, if the limited quantity belongs to the free impact.
     pub beside: Option<Beside>,
 }
 
@@ -77,9 +77,9 @@ pub struct Verdict<'a> {
 pub struct Beside {
     /// The method.
     pub method: Method,
-    /// Its own quantity and the value in SI, where it has them.
+    /// The quantity of the method and its value in SI, if it has them.
     pub own: Option<(&'static str, Option<f64>)>,
-    /// Whether the case limits that quantity, too.
+    /// Whether the case also limits that quantity.
     pub is_limited: bool,
 }
 
@@ -100,7 +100,7 @@ impl Beside {
         })
     }
 
-    /// In words, the value in metric or inch units.
+    /// The counterpart as a sentence, with the value in metric or inch units.
     #[must_use]
     pub fn sentence(&self, system: System) -> String {
         let own = self
@@ -120,7 +120,7 @@ impl Beside {
     }
 }
 
-/// The verdict on every limit, in the case's order.
+/// The verdict on every limit, in the order of the case.
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
     let is_limited = |beside: &Beside| {
@@ -141,13 +141,13 @@ pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
         .collect()
 }
 
-/// The stages that every limit of a case needs.
+/// The stages for every limit of a case.
 #[must_use]
 pub fn stages(case: &Case) -> Stages {
     of_all(limited(case))
 }
 
-/// The stages of the counterparts that a method has of the limited quantities.
+/// The stages of the counterparts of the limited quantities in a method.
 #[must_use]
 pub fn stages_beside(case: &Case, method: Method) -> Stages {
     of_all(
@@ -183,7 +183,7 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         (None, Some(absence)) if absence.is_for_want_of_contact() => Standing::NotApplicable,
         (None, _) => Standing::Unknown,
     };
-    // Without corner contact there is nothing to compare.
+    // Without corner contact there is no counterpart to compare.
     let beside = quantity
         .filter(|_| value.is_some())
         .and_then(|quantity| Beside::of(quantity, solution));
@@ -211,7 +211,7 @@ pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
 }
 
 impl Verdict<'_> {
-    /// The value as a part of the limit, where both are in range.
+    /// The value as a fraction of the limit, if both are in range.
     #[must_use]
     pub fn part(&self) -> Option<f64> {
         let value = self.value.filter(|&value| {
@@ -220,7 +220,8 @@ impl Verdict<'_> {
         Some(value / self.limit.value)
     }
 
-    /// The verdict in a sentence, the value in metric or inch units; the limit as it was written.
+    /// The verdict as a sentence, with the value in metric or inch units, and the limit as the user
+    /// wrote it.
     #[must_use]
     pub fn sentence(&self, system: System) -> String {
         let said = self.said(system);
@@ -237,7 +238,7 @@ impl Verdict<'_> {
         format!("{said} for {}{also}", beside.sentence(system))
     }
 
-    /// Whether the counterpart in the method is above the limit on the free impact.
+    /// Whether the counterpart in the method exceeds the limit on the free impact.
     #[must_use]
     pub fn is_exceeded_beside(&self) -> bool {
         let own = self.beside.and_then(|beside| beside.own);

@@ -1,4 +1,4 @@
-//! Mesh frequency and resonance in a sentence.
+//! Mesh frequency and resonance as a sentence.
 
 pub mod charts;
 
@@ -9,11 +9,11 @@ use crate::numeric::decimal::significant;
 /// Significant digits of a frequency or a speed.
 const DIGITS: usize = 3;
 
-/// Between these ratios the pair is near resonance, ISO 6336-1.
+/// Range of the resonance ratio for main resonance, ISO 6336-1.
 const RESONANCE: std::ops::RangeInclusive<f64> = 0.85..=1.15;
 
-/// The mesh frequency and the speed of resonance, in full and in fewer and fewer words; none where
-/// the method has no mesh.
+/// The mesh frequency and the speed of resonance, from the full text to the shortest; `None` if the
+/// method has no mesh.
 #[must_use]
 pub fn whine(solution: &Solution) -> Option<[String; 4]> {
     let of = |key| value(Quantity::find(key)?, solution);
@@ -34,7 +34,7 @@ pub fn whine(solution: &Solution) -> Option<[String; 4]> {
     ])
 }
 
-/// A number with three significant digits, and zeros in the places behind them.
+/// A number with three significant digits, followed by zeros.
 fn rounded(number: f64) -> String {
     let rounded = format!("{number:.*e}", DIGITS - 1);
     match rounded.parse::<f64>() {

@@ -18,7 +18,7 @@ impl Comparison {
     /// differences from the first one.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// Errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let names = self.columns.iter().map(|column| sanitize(&column.name));
         let differences = names
@@ -47,7 +47,7 @@ impl Comparison {
     fn csv_row(&self, quantity: &Quantity) -> Vec<String> {
         let values = self.values(quantity);
         let base = values.first().copied().flatten();
-        // Yes and no have no difference.
+        // Flags have no difference.
         let base = base.filter(|_| !quantity.is_flag());
         let difference = |value: &Option<f64>| cell(value.zip(base).map(|(now, base)| now - base));
         let cells = values.iter().map(|value| cell(*value));
@@ -66,10 +66,10 @@ impl Comparison {
         quantities.filter(move |quantity| has_value(quantity))
     }
 
-    /// Writes one object in SI units; a missing value is absent.
+    /// Writes one object in SI units without absent values.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
         let columns = (0..self.columns.len()).map(|at| self.json_column(at));
         let all = json!({

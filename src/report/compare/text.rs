@@ -12,7 +12,7 @@ impl Comparison {
     /// Writes the comparison as text, at most 80 columns wide.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// Errors of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         for (at, column) in self.columns.iter().enumerate() {
             for line in heading(at, column) {
@@ -44,7 +44,7 @@ impl Comparison {
     /// Writes the comparison as Markdown.
     ///
     /// # Errors
-    /// What the writer refuses.
+    /// Errors of the writer.
     pub fn write_markdown(&self, out: &mut dyn Write) -> io::Result<()> {
         for (at, column) in self.columns.iter().enumerate() {
             let (name, sentence) = (plain(&named(column)), plain(&described(column)));
@@ -92,14 +92,14 @@ fn heading(at: usize, column: &Column) -> Vec<String> {
     lines
 }
 
-/// The name with the method.
+/// The name of a column with its method.
 fn named(column: &Column) -> String {
     let method = column.solution().map(|solution| solution.method.name());
     let method = method.map_or_else(String::new, |method| format!(" ({method})"));
     format!("{}{method}", column.name)
 }
 
-/// The outcome, or why there is none.
+/// The outcome, or the reason for its absence.
 fn described(column: &Column) -> String {
     match &column.found {
         Ok(report) => digest::sentence(&report.solution, System::Metric),
@@ -131,10 +131,10 @@ fn letter(at: usize) -> String {
     }
 }
 
-/// Widths of the columns, and how many columns stand beside the reference.
+/// Widths of the columns, and the number of columns beside the reference.
 struct Layout {
     symbol: usize,
-    /// 0 where labels have no room.
+    /// 0 if labels do not fit.
     label: usize,
     value: usize,
     difference: usize,
@@ -162,7 +162,7 @@ impl Layout {
             return wide;
         }
         let (with_labels, without) = (fitting(wide.label), fitting(0).max(1));
-        // Labels go where they have no room, or where that saves tables.
+        // Labels are shown if there is room, or if they reduce the number of tables.
         let tables = |others: usize| wide.others.div_ceil(others.max(1));
         if with_labels == 0 || tables(without) < tables(with_labels) {
             return Layout {
@@ -187,7 +187,7 @@ impl Layout {
         };
         let others: String = others.iter().map(of).collect();
         let cells = format!("{:>1$}{others}", "A", self.value);
-        // A long title keeps its place, and the letters move on.
+        // A long title is not cut; the letters move to the right.
         let title = &group.title;
         if count(title) < names + self.value - 1 {
             let room = names.saturating_sub(count(title));

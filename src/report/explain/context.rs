@@ -13,7 +13,7 @@ use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::value;
 
-/// Units of steps that are no units of a field or a quantity, and one of each in SI.
+/// Units of steps that no field or quantity has, with their factors to SI.
 pub const STEP_UNITS: [(&str, f64); 5] = [
     ("mm4", 1e-12),
     ("N/(um mm)", 1e9),
@@ -22,10 +22,10 @@ pub const STEP_UNITS: [(&str, f64); 5] = [
     ("N s/m", 1.0),
 ];
 
-/// Digits of a field's value that follows from other fields.
+/// Digits of a field value that is derived from other fields.
 const DERIVED_DIGITS: usize = 6;
 
-/// A solved case with its texts.
+/// A solved case for the explanation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Known<'a> {
     /// The case as the user wrote it.
@@ -34,7 +34,7 @@ pub(super) struct Known<'a> {
     pub(super) context: Context<'a>,
 }
 
-/// Where the value of a symbol comes from.
+/// The source of the value of a symbol.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Source {
     /// A quantity, which has a page of its own.
@@ -43,7 +43,7 @@ pub(super) enum Source {
     Step(&'static Step),
     /// The impact force by another stiffness model.
     Force(&'static Force),
-    /// A field of the case, by its place.
+    /// A field of the case, by index.
     Field(usize),
 }
 
@@ -65,7 +65,7 @@ static FORCES: LazyLock<Vec<Force>> = LazyLock::new(|| {
 });
 
 impl Known<'_> {
-    /// Where the value of a symbol comes from.
+    /// The source of the value of a symbol.
     pub(super) fn source(&self, symbol: &str) -> Option<Source> {
         let method = self.context.solution.method;
         let quantity = QUANTITIES
@@ -88,7 +88,7 @@ impl Known<'_> {
         quantity.or_else(step).or_else(force).or_else(field)
     }
 
-    /// A step that the case does not give in a field, as the torque may be.
+    /// A step whose value no field of the case gives; the torque can be either.
     fn step(&self, symbol: &str) -> Option<&'static Step> {
         let inputs = self.context.inputs;
         let contact = contact_of(inputs).map_or(&[][..], |contact| contact.model().steps);
@@ -118,7 +118,7 @@ impl Known<'_> {
             .map(|value| value + 0.0)
     }
 
-    /// The value of a symbol as a formula shows it.
+    /// The value of a symbol as text of a formula.
     pub(super) fn term(&self, symbol: &str) -> Option<Term> {
         let source = self.source(symbol)?;
         let value = self.value(source)?;
@@ -131,14 +131,14 @@ impl Known<'_> {
         })
     }
 
-    /// A field's value, given or from other fields.
+    /// The value of a field, given or derived.
     fn field_value(&self, field: usize) -> Option<f64> {
         let given = self.case.value(field);
         given.or_else(|| self.case.derived(field, self.context.given))
     }
 
-    /// A field's value as the user wrote it, or in the field's usual unit where that text could be
-    /// misread in a formula.
+    /// The value of a field as the user wrote it; in the usual unit of the field if that text would
+    /// be ambiguous in a formula.
     fn field_text(&self, field: usize, value: f64) -> String {
         let usual = match FIELDS[field].kind {
             Kind::Number(_, range, _) => range.unit,
@@ -159,7 +159,7 @@ impl Known<'_> {
     }
 }
 
-/// One of a unit in SI; `None` for an unknown unit.
+/// The factor of a unit to SI; `None` for an unknown unit.
 pub(super) fn factor(unit: &str) -> Option<f64> {
     let of_step = || {
         STEP_UNITS
@@ -170,7 +170,7 @@ pub(super) fn factor(unit: &str) -> Option<f64> {
     units::factor(unit).or_else(of_step)
 }
 
-/// A number and a unit in letters and strokes, with one space between them.
+/// A number with a unit of letters and slashes, separated by one space.
 fn plainly_written(text: &str) -> Option<String> {
     let (number, unit) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
     let is_number = number

@@ -1,9 +1,9 @@
-//! Errors in print in Zhou & Chen 2014, and the forms that the program uses.
+//! Misprints in Zhou & Chen 2014, and the corrected forms that the program uses.
 
-/// An error in print.
+/// A misprint and its correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Correction {
-    /// The equation, or the place.
+    /// The equation, or another place in the paper.
     pub equation: &'static str,
     /// The error.
     pub error: &'static str,
@@ -19,7 +19,7 @@ const fn row(equation: &'static str, error: &'static str, used: &'static str) ->
     }
 }
 
-/// Every error that affects a quantity.
+/// Every misprint that affects a quantity.
 pub static CORRECTIONS: &[Correction] = &[
     row(
         "Eq. 1",
@@ -127,7 +127,7 @@ pub static CORRECTIONS: &[Correction] = &[
     ),
 ];
 
-/// The error of that equation.
+/// The correction of an equation.
 pub(super) fn find(equation: &str) -> Option<&'static Correction> {
     CORRECTIONS
         .iter()

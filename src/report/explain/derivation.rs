@@ -11,13 +11,13 @@ use crate::report::{Shown, shown};
 /// Significant digits of a step.
 const STEP_DIGITS: usize = 5;
 
-/// How many digits a term has more than the result.
+/// Additional digits of a term compared with the result.
 const MORE_DIGITS: usize = 1;
 
-/// How many digits the terms have of a formula that subtracts close numbers.
+/// Digits of the terms of a formula that subtracts close numbers.
 const DIFFERENCE_DIGITS: usize = 10;
 
-/// Bounds with which a page reports how closely the two sides of an equation agree.
+/// Bounds for the agreement of both sides of an equation.
 const BOUNDS: [f64; 3] = [1e-12, 1e-9, 1e-6];
 
 /// A value and how it is computed.
@@ -25,21 +25,21 @@ const BOUNDS: [f64; 3] = [1e-12, 1e-9, 1e-6];
 pub struct Work {
     /// The symbol in formulas.
     pub symbol: &'static str,
-    /// A few words on a step; empty for the quantity itself.
+    /// The meaning of a step; empty for the quantity itself.
     pub meaning: &'static str,
-    /// The right-hand side, the equation, or words.
+    /// The right-hand side, the equation, or a description.
     pub formula: String,
     /// How the formula gives the value.
     pub how: How,
     /// The right-hand side with numbers. No line ends between a number and its unit.
     pub numbers: Option<String>,
-    /// The value as a person reads it.
+    /// The value as text.
     pub shown: Option<Shown>,
     /// Its significant digits.
     pub digits: usize,
     /// The value in SI.
     pub value: Option<f64>,
-    /// How closely the root of an equation satisfies it.
+    /// The agreement of both sides of an equation at its root.
     pub residual: Option<String>,
 }
 
@@ -50,20 +50,20 @@ pub enum How {
     Equals,
     /// The value is the root of an equation.
     Solves,
-    /// Words describe the computation.
+    /// A description replaces the formula.
     Described,
 }
 
-/// A symbol that a formula takes from another page or from the form.
+/// A symbol of a formula whose value comes from another page or from the form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leaf {
     /// The symbol.
     pub symbol: &'static str,
-    /// Its value as a person reads it.
+    /// Its value as text.
     pub shown: String,
     /// Its value in SI.
     pub value: Option<f64>,
-    /// A few words for a person.
+    /// Its meaning.
     pub meaning: &'static str,
     /// The key of the quantity or of the field.
     pub key: &'static str,
@@ -71,7 +71,7 @@ pub struct Leaf {
     pub is_quantity: bool,
 }
 
-/// The derivation of a quantity, and what its formulas take from elsewhere.
+/// The derivation of a quantity, and the symbols that its formulas read from elsewhere.
 pub(super) fn of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
     let mut work = derived(&Target::of(quantity, known), quantity.formula, known);
     let mut seen = vec![quantity.symbol_in(known.context.solution.method)];
@@ -105,7 +105,6 @@ pub(super) fn of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<
     (work, leaves)
 }
 
-/// The value that a formula gives.
 struct Target {
     symbol: &'static str,
     meaning: &'static str,
@@ -192,7 +191,7 @@ fn derived(target: &Target, formula: Formula, known: &Known) -> Vec<Work> {
     }
 }
 
-/// The root of an equation, how closely it satisfies the equation, and both sides.
+/// The root of an equation, its agreement, and both sides.
 fn solved(target: &Target, equation: &'static Equation, known: &Known) -> Vec<Work> {
     let sides = target.value.and_then(|_| (equation.sides)(&known.context));
     let mut work = vec![Work {
@@ -213,7 +212,7 @@ fn agreement([left, right]: [f64; 2]) -> String {
     format!("both sides agree within {within} of either")
 }
 
-/// The symbols of a formula, in the order of reading.
+/// The symbols of a formula, in reading order.
 fn symbols_of(formula: Formula, known: &Known) -> Vec<String> {
     match formula.resolved(known.context.inputs) {
         Formula::Solved(equation) => [equation.left, equation.right]

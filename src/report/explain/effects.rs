@@ -1,4 +1,4 @@
-//! The sensitivity of a quantity: the fields that it depends on, and its change by a small step of
+//! The sensitivity of a quantity: the fields that it depends on, and its change for a small step of
 //! each.
 
 use super::context::{Known, factor};
@@ -16,7 +16,7 @@ use crate::report::{shown, value};
 /// The tolerance of the motion at which a small step is distinguishable.
 const FINE: f64 = 1e-6;
 
-/// A field and the change by a small step of it.
+/// A field and the change of the quantity for a small step of the field.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Effect {
     /// The field's key.
@@ -31,10 +31,11 @@ pub struct Effect {
     pub change: String,
 }
 
-/// The fields behind a quantity, in the order of the form; method `auto` derives the tolerance from
-/// `model.within`.
+/// The fields behind a quantity, in the order of the form. For method `auto`, the tolerance follows
+/// from `model.within`.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
-    // A step must not switch the stiffness model and must exceed the steps of the motion.
+    // The change must exceed the error of the motion, and a step must not switch the stiffness
+    // model.
     let tolerance = known.context.inputs.tolerance.min(FINE);
     let fixed = Inputs {
         tooth_compliance: Some(model_of(known.context.inputs)),

@@ -86,10 +86,10 @@ struct EffectLine<'a> {
     change: &'a str,
 }
 
-/// Write the page as one line; `name` is that of the case.
+/// Writes the page as one line; `name` is the name of the case.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()> {
     let quantity = page.quantity;
     let line = Line {

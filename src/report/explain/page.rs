@@ -1,4 +1,4 @@
-//! The page of a quantity: all that the program knows of it in a case.
+//! The explanation of a quantity in a case.
 
 use super::context::Known;
 use super::corrections::{self, Correction};
@@ -19,43 +19,43 @@ use crate::report::{Shown, shown, value};
 pub struct Page {
     /// The quantity.
     pub quantity: &'static Quantity,
-    /// Its symbol in this method.
+    /// Its symbol in the method of the solution.
     pub symbol: &'static str,
-    /// Its label in this method.
+    /// Its label in the method of the solution.
     pub label: &'static str,
     /// The method of the solution.
     pub method: &'static str,
-    /// Whether the method `auto` chose the method.
+    /// Whether method `auto` chose this method.
     pub is_by_auto: bool,
-    /// The value in SI, if there is one.
+    /// The value in SI, if any.
     pub value: Option<f64>,
-    /// The value as a person reads it.
+    /// The value as text.
     pub shown: Option<Shown>,
-    /// Why there is no value.
+    /// Why the value is absent.
     pub missing: Option<String>,
-    /// What the quantity is and what it is used for.
+    /// The meaning and the use of the quantity.
     pub meaning: &'static str,
-    /// The quantity of the method itself that corresponds to a quantity of the free impact.
+    /// For a quantity of the free impact, its counterpart in the method.
     pub beside: Option<String>,
-    /// The formula of the quantity, then those of each step before it.
+    /// The formula of the quantity, then the formula of each step.
     pub derivation: Vec<Work>,
     /// The other quantities and the fields in the formulas.
     pub leaves: Vec<Leaf>,
     /// Author, year, equation.
     pub source: &'static str,
-    /// Corrected errors in print.
+    /// Corrected misprints.
     pub corrections: Vec<&'static Correction>,
-    /// What the formula assumes.
+    /// The assumptions of the formula.
     pub assumptions: &'static str,
     /// The ranges of validity with the values of the case.
     pub validity: Vec<Finding>,
     /// Sentences on the accuracy.
     pub accuracy: Vec<String>,
-    /// The fields that the quantity depends on, with its change by a small step of each.
+    /// The fields that the quantity depends on, with its change for a small step of each.
     pub effects: Vec<Effect>,
 }
 
-/// Explain a quantity of a solved case. The solution must have run the quantity's stage.
+/// Explains a quantity of a solved case. The solution must include the stage of the quantity.
 #[must_use]
 pub fn explain(
     quantity: &'static Quantity,

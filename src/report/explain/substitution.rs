@@ -1,8 +1,8 @@
-//! A formula with the values of a case in place of its symbols, token by token.
+//! Substitution of the values of a case for the symbols of a formula, token by token.
 
 use crate::model::explanation::tidy;
 
-/// A space at which no line ends, between a number and its unit.
+/// A no-break space, between a number and its unit.
 pub(super) const GLUE: &str = "\u{a0}";
 
 /// Names of functions; √ has no name.
@@ -15,14 +15,14 @@ const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
 /// The value of a symbol.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Term {
-    /// The text of the case.
+    /// A text of the case.
     Written(String),
     /// A value in a unit.
     Value(f64, &'static str),
 }
 
 impl Term {
-    /// The value with its unit, with at most that many significant digits.
+    /// The value with its unit, with at most `digits` significant digits.
     pub(super) fn text(&self, digits: usize) -> String {
         match self {
             Term::Written(text) => text.clone(),
@@ -55,7 +55,7 @@ pub enum Token<'a> {
     Mark(char),
 }
 
-/// The tokens of a formula; `None` for a character that no formula has.
+/// The tokens of a formula; `None` if a character is not part of any token.
 #[must_use]
 pub fn tokens(text: &str) -> Option<Vec<Token<'_>>> {
     let mut found = Vec::new();
@@ -91,7 +91,7 @@ fn is_letter(c: char) -> bool {
     c.is_alphanumeric() && !SUPERSCRIPTS.contains(&c)
 }
 
-/// How many bytes of the text belong to its first token.
+/// Length in bytes of the first token of the text.
 fn length(text: &str, belongs: impl Fn(char, char) -> bool) -> usize {
     let next = |at: usize, c: char| text[at + c.len_utf8()..].chars().next().unwrap_or(' ');
     text.char_indices()
@@ -99,7 +99,7 @@ fn length(text: &str, belongs: impl Fn(char, char) -> bool) -> usize {
         .map_or(text.len(), |(at, _)| at)
 }
 
-/// Every symbol of a formula, in the order of reading.
+/// Every symbol of a formula, in reading order.
 pub(super) fn symbols(text: &str) -> Vec<String> {
     let symbol = |token| match token {
         Token::Symbol(symbol) => Some(symbol.to_owned()),
@@ -109,8 +109,8 @@ pub(super) fn symbols(text: &str) -> Vec<String> {
     tokens.into_iter().filter_map(symbol).collect()
 }
 
-/// The formula with the value and the unit of each symbol, with at most that many digits; `None`
-/// where a symbol has no value.
+/// The formula with the value and the unit of each symbol, with at most `digits` digits; `None` if
+/// a symbol has no value.
 pub(super) fn substituted(
     text: &str,
     digits: usize,
@@ -118,7 +118,7 @@ pub(super) fn substituted(
 ) -> Option<String> {
     let tokens = tokens(text)?;
     let mut written = String::new();
-    // Whether an operand ends here, and whether a function waits for its argument.
+    // Whether the last token ends an operand, and whether a function expects its argument.
     let (mut is_operand, mut is_argument) = (false, false);
     for (at, &token) in tokens.iter().enumerate() {
         let before = at.checked_sub(1).map(|before| tokens[before]);
@@ -170,7 +170,7 @@ pub(super) fn substituted(
     Some(written)
 }
 
-/// A mark with the spaces around it; a stroke between two numbers has none.
+/// A mark with its spaces; a slash between two numbers has none.
 fn marked(mark: char, is_behind_operand: bool, is_between_numbers: bool) -> String {
     match mark {
         '+' | '-' | '·' if is_behind_operand => format!(" {mark} "),
@@ -180,7 +180,7 @@ fn marked(mark: char, is_behind_operand: bool, is_between_numbers: bool) -> Stri
     }
 }
 
-/// Whether a value must be in parentheses between these tokens.
+/// Whether a value needs parentheses between these tokens.
 fn needs_parentheses(text: &str, before: Option<Token>, after: Option<Token>) -> bool {
     let is_raised = match after {
         Some(Token::Mark(mark)) => mark == '^' || SUPERSCRIPTS.contains(&mark),

@@ -1,4 +1,4 @@
-//! A page as lines of text, for a terminal of any width.
+//! An explanation as lines of text, for a terminal of any width.
 
 use super::corrections::Correction;
 use super::derivation::{How, Leaf, Work};
@@ -19,18 +19,16 @@ pub enum Kind {
     Formula,
     /// A formula with numbers, or its result.
     Numbers,
-    /// Words and tables.
+    /// Sentences and tables.
     Text,
-    /// A range that the case is outside of.
+    /// A validity range that does not contain the case.
     Outside,
 }
 
 /// A line of a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line {
-    /// Its kind.
     pub kind: Kind,
-    /// Its text.
     pub text: String,
 }
 
@@ -52,7 +50,7 @@ pub fn render(page: &Page, name: &str) -> String {
         .collect()
 }
 
-/// The page in lines of at most `width` columns; `name` is that of the case.
+/// The page as lines of at most `width` columns; `name` is the name of the case.
 #[must_use]
 pub fn lines(page: &Page, name: &str, width: usize) -> Vec<Line> {
     let width = width.max(20);
@@ -130,7 +128,7 @@ fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
     lines
 }
 
-/// A value, its formula, its numbers.
+/// A value, its formula and its numbers.
 fn worked(work: &Work, width: usize) -> Vec<Line> {
     let (symbol, sign) = (work.symbol, sign(work.how));
     let lead = format!("  {symbol}{sign}");
@@ -185,7 +183,7 @@ fn sign(how: How) -> &'static str {
     }
 }
 
-/// The meaning of a step to the right of its formula, or else below it.
+/// Adds the meaning of a step to the right of its formula, or below it if it does not fit.
 fn with_meaning(mut lines: Vec<Line>, meaning: &str, more: &str, width: usize) -> Vec<Line> {
     const COLUMN: usize = 38;
     let room = lines
@@ -306,7 +304,7 @@ fn paragraph(text: &str, indent: usize, width: usize) -> Vec<Line> {
     block(Kind::Text, text, &lead, &lead, width)
 }
 
-/// Words set into lines: the first behind `lead`, the others behind `more`.
+/// Wraps words into lines: the first starts with `lead`, the others with `more`.
 fn block(kind: Kind, text: &str, lead: &str, more: &str, width: usize) -> Vec<Line> {
     let indent = count(lead).max(count(more));
     let rows = flow(

@@ -7,8 +7,7 @@ use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::report::{shown, value, value_as_in};
 
-/// The relative change below which a value counts as unchanged: rounding, or the steps of the
-/// motion.
+/// The relative change below which a value is unchanged: rounding, or the step error of the motion.
 pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
     const ROUNDING: f64 = 1e-11;
     const AT_REST: f64 = 1e-10;
@@ -42,7 +41,6 @@ pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<String> {
     .collect()
 }
 
-/// The numerical error.
 fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
     let error = match quantity.stage {
@@ -75,7 +73,7 @@ fn tolerance(known: &Known) -> String {
     }
 }
 
-/// The quantity by every stiffness model that covers the pair.
+/// The values of the quantity by every stiffness model that covers the pair.
 fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
     let found = StiffnessModels::covering(inputs)
@@ -96,7 +94,7 @@ fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
     })
 }
 
-/// The methods side by side, if they differ.
+/// The values by other methods, if they differ.
 fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
     let by = |method: Method| {
@@ -127,8 +125,8 @@ fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
         .then(|| format!("Methods: {}.", listed.join(", ")))
 }
 
-/// The method; for a free impact in a method that resolves the impact itself, the closed form with
-/// the deflection of that method.
+/// The name of the method. A free impact in a method that resolves the impact is the closed form
+/// with the deflection of that method.
 fn name(quantity: &Quantity, method: Method) -> String {
     let is_beside = method.shares_load() && quantity.is_of_free_impact();
     if is_beside {

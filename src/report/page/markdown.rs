@@ -3,7 +3,6 @@
 use super::{Column, Page};
 use crate::report::layout::plain_markdown as plain;
 
-/// The page as Markdown.
 pub(super) fn render(page: &Page<'_>) -> String {
     let sections = [
         heading(page),
@@ -66,7 +65,7 @@ fn notes(page: &Page<'_>) -> Vec<String> {
     list(page, "## Notes", |column| column.notes.clone())
 }
 
-/// The lines of every case under a heading; nothing without lines.
+/// The lines of every case under a heading; empty without lines.
 fn list(page: &Page<'_>, title: &str, of: impl Fn(&Column) -> Vec<String>) -> Vec<String> {
     let mut lines = Vec::new();
     for column in &page.columns {
@@ -136,7 +135,7 @@ fn studies(page: &Page<'_>) -> Vec<String> {
     lines
 }
 
-/// The names of the columns, the cases to the right, and the line below them.
+/// The header row with one column per case, and the separator row.
 fn header(page: &Page<'_>, before: &[&str], after: &[&str]) -> [String; 2] {
     let titles = page.columns.iter().map(|column| column.title.as_str());
     let names = before.iter().copied().chain(titles);
@@ -173,7 +172,7 @@ fn files(page: &Page<'_>) -> Vec<String> {
     lines
 }
 
-/// Backticks around a text that may have backticks itself.
+/// A text in backticks, with more backticks than the text contains.
 fn fence(text: &str) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     "`".repeat(longest.max(2) + 1)

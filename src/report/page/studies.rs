@@ -1,4 +1,4 @@
-//! The studies of a case on its page: its variants, and its tolerance.
+//! The studies of a case on its page: its variants and its tolerance.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,13 +15,13 @@ use crate::study::tolerance::{Samples, Size, Tolerance};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 
-/// Samples of a closed form, as the command `tolerance` takes them.
+/// Samples of a closed form, as in the command `tolerance`.
 const SAMPLES: usize = 10_000;
 /// Samples of a method that shares the load: a solve takes a hundred times as long.
 const FEW_SAMPLES: usize = 1000;
-/// The seed of the command `tolerance`.
+/// Seed of the command `tolerance`.
 const SEED: u64 = 1;
-/// Quantities of variants beside the headline.
+/// Quantities of variants in addition to the headline quantities.
 const OF_VARIANTS: [&str; 4] = [
     "total_deviation",
     "static_te_peak_to_peak",
@@ -36,7 +36,6 @@ pub struct Studies {
     tolerance: Option<(Tolerance, Samples)>,
 }
 
-/// A study as a table.
 pub(super) struct StudyTable {
     pub(super) title: String,
     pub(super) names: Vec<String>,
@@ -45,10 +44,11 @@ pub(super) struct StudyTable {
 }
 
 impl Studies {
-    /// Computes the studies that the case describes: its `[variants]` and its `[spread]`.
+    /// Computes the studies of the case: its `[variants]` and its `[spread]`. `go_on` receives the
+    /// number of solved points and their total.
     ///
     /// # Errors
-    /// [`Stopped`] where `go_on`, which receives the points solved and their number, says no.
+    /// [`Stopped`] if `go_on` returns false.
     pub fn of(
         case: &Case,
         inputs: &Inputs,
@@ -90,7 +90,7 @@ impl Studies {
     }
 }
 
-/// The case and its variants; none where it has no variants.
+/// The case and its variants; `None` without variants.
 fn variants(
     case: &Case,
     inputs: &Inputs,

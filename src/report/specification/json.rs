@@ -8,10 +8,10 @@ use super::numbers::shape;
 use crate::report::json::write_line;
 use crate::study::relief::{Choice, MapPoint, Specification, TipReliefs};
 
-/// Writes the answer on one line.
+/// Writes the specification on one line.
 ///
 /// # Errors
-/// Those of the writer.
+/// Errors of the writer.
 pub(super) fn line(
     name: &str,
     title: &str,

@@ -1,4 +1,4 @@
-//! Numbers of a relief as a person reads them.
+//! Numbers of a relief as text.
 
 use crate::model::explanation::tidy;
 use crate::model::inputs::ReliefShape;

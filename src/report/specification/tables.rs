@@ -5,7 +5,7 @@ use crate::model::explanation::tidy;
 use crate::report::layout::widest;
 use crate::study::relief::{Choice, MapPoint, Specification};
 
-/// A row per choice.
+/// One row per choice.
 pub(super) fn choices(found: &Specification) -> Vec<String> {
     let head = [
         "  choice", "C_a1", "L_1", "C_a2", "L_2", "max TE", "mean TE", "gap",
@@ -39,7 +39,7 @@ pub(super) fn choices(found: &Specification) -> Vec<String> {
     )
 }
 
-/// A row per load: the case as it is, and the relief to specify.
+/// One row per load: the relief of the case and the relief to specify.
 pub(super) fn harris(found: &Specification) -> Vec<String> {
     let chosen = found.chosen();
     let cells = |name: &str, values: Vec<String>| {
@@ -57,12 +57,12 @@ pub(super) fn harris(found: &Specification) -> Vec<String> {
         .map(|&load| format!("{} %", percent(load)));
     table(&[
         cells("load", loads.collect()),
-        cells("as the case has it", errors(&found.choices[0])),
+        cells("relief of the case", errors(&found.choices[0])),
         cells("relief to specify", errors(chosen)),
     ])
 }
 
-/// A row per length: the greatest error by amount.
+/// One row per length: the greatest transmission error by amount.
 pub(super) fn map(found: &Specification) -> Vec<String> {
     let chosen = found.chosen().reliefs;
     let is_chosen = |point: &MapPoint| {
@@ -92,7 +92,7 @@ pub(super) fn map(found: &Specification) -> Vec<String> {
     table(&rows)
 }
 
-/// The amounts of the columns: one row, or one per gear.
+/// The header rows with the amounts: one row, or one per gear.
 fn amounts(points: &[MapPoint]) -> Vec<Vec<String>> {
     let row = |name: &str, at: usize| {
         let amounts = points.iter().map(|point| um(point.reliefs.amounts[at]));
@@ -117,7 +117,7 @@ fn length(lengths: [f64; 2]) -> String {
     }
 }
 
-/// The first column to the left, the others to the right.
+/// Aligns the first column to the left and the others to the right.
 fn table(rows: &[Vec<String>]) -> Vec<String> {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let cell = |row: &Vec<String>, at: usize| row.get(at).cloned().unwrap_or_default();

@@ -1,31 +1,31 @@
-//! An axis of a picture: from values to places, with round ticks.
+//! An axis of a picture: positions of values, and round ticks.
 
-/// How values are spread over an axis.
+/// The scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly.
+    /// Linear.
     Linear,
-    /// By their logarithm; values must be above 0.
+    /// Logarithmic; values must be above 0.
     Logarithmic,
 }
 
-/// An axis between two places of the picture.
+/// An axis between two positions of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
     scale: Scale,
-    /// Ends in values, or in decades of a logarithmic axis.
+    /// First value, or first decade of a logarithmic axis.
     from: f64,
     to: f64,
     start: f64,
     end: f64,
 }
 
-/// Values beyond are drawn at this end.
+/// Greater values are drawn at this value.
 const GREATEST: f64 = 1e290;
 
 impl Axis {
-    /// An axis around the values, from one place to the other. `with_room` adds room at both ends
-    /// of a linear axis, and 0 where the values come near it.
+    /// An axis around the values, from one position to the other. `with_room` adds room at both
+    /// ends of a linear axis, and includes 0 if the values are close to 0.
     #[must_use]
     pub fn of(
         scale: Scale,
@@ -56,7 +56,7 @@ impl Axis {
         }
     }
 
-    /// The place of a value; the nearer end for one that has none.
+    /// The position of a value; the nearer end if the value is outside.
     #[must_use]
     pub fn at(&self, value: f64) -> f64 {
         let value = match self.scale {
@@ -72,7 +72,7 @@ impl Axis {
         self.start + part * (self.end - self.start)
     }
 
-    /// Round values on the axis, about so many.
+    /// Round values on the axis, about `most` of them.
     #[must_use]
     pub fn ticks(&self, most: usize) -> Vec<f64> {
         match self.scale {
@@ -93,7 +93,7 @@ impl Axis {
         }
     }
 
-    /// A value of a tick as a plain number, with the digits that tell ticks apart.
+    /// The value of a tick as a plain number with enough digits to distinguish the ticks.
     #[must_use]
     pub fn number(&self, value: f64) -> String {
         if self.scale == Scale::Logarithmic {
@@ -121,11 +121,11 @@ impl Axis {
     }
 }
 
-/// The room that a curve has to the ends of its axis, as a part of its span.
+/// The room between a curve and the ends of its axis, as a fraction of its span.
 const ROOM: f64 = 0.05;
 
 fn linear_ends(least: f64, most: f64, with_room: bool) -> (f64, f64) {
-    // Values that differ by rounding alone get an axis of a tenth of their size.
+    // Values that differ only by rounding get an axis of a tenth of their size.
     let size = least.abs().max(most.abs());
     if most - least <= 1e-9 * size {
         let half = if size > 0.0 { size / 10.0 } else { 1.0 };

@@ -1,4 +1,4 @@
-//! Colours, strokes and marks of the pictures, light and dark; shape and dash tell series apart
+//! Colours, strokes and marks of the pictures, light and dark; shapes and dashes distinguish series
 //! without colour.
 
 use crate::case::sanitize::sanitize;
@@ -13,7 +13,7 @@ pub(super) const LOOKS: [&str; 6] = [
     "M-1.5-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5Z",
 ];
 
-/// The style sheet of every picture. Its rules are limited to the pictures, so that a page may hold
+/// The style sheet of every picture. Its rules apply only to pictures, so that a page may contain
 /// several.
 pub(super) const STYLE: &str = "\
 .tipstrike{font:15px 'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222}\
@@ -47,7 +47,7 @@ pub(super) const STYLE: &str = "\
 .tipstrike .s5{stroke:#bbb}.tipstrike .f5{fill:#bbb}\
 .tipstrike .body1{fill:#1d3642;stroke:#62c3ee}.tipstrike .body2{fill:#3f2d1a;stroke:#e8a862}}";
 
-/// A text inside an element or an attribute.
+/// Escapes a text for an element or an attribute.
 pub(crate) fn escaped(text: &str) -> String {
     sanitize(text)
         .replace('&', "&amp;")

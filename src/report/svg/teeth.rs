@@ -11,17 +11,17 @@ use crate::model::{Inputs, Solution};
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 622.0;
-/// Left, top, width, height of the window.
+/// Left, top, width and height of the window.
 const WINDOW: (f64, f64, f64, f64) = (12.0, 40.0, 736.0, 520.0);
 /// Steps of each piece of an outline.
 const STEPS: usize = 24;
-/// The window is as high as the path of contact and this part of it.
+/// Additional height of the window, relative to the length of the path of contact.
 const MARGIN: f64 = 0.35;
 
-/// From the plane of the gears, in m, to the window.
+/// Transformation from the plane of the gears, in m, to the window.
 struct View {
     centre: Point2<f64>,
-    /// Dots per metre.
+    /// Pixels per metre.
     scale: f64,
 }
 
@@ -57,7 +57,7 @@ impl View {
     }
 }
 
-/// The teeth at the first contact, or at E where no tooth strikes.
+/// Draws the teeth at the first contact, or at E without corner contact.
 #[must_use]
 pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
     let contact = first_contact(solution);
@@ -91,7 +91,7 @@ pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
     text + "</svg>\n"
 }
 
-/// The teeth of a gear that the window shows, closed towards the centre.
+/// The visible teeth of a gear, closed towards the centre.
 fn gear(text: &mut String, gear: &Placed, view: &View, class: &str) {
     let tooth = gear.outline.tooth(STEPS);
     let circles = gear.outline.profile().circles();
@@ -182,7 +182,7 @@ fn points(text: &mut String, solution: &Solution, view: &View) {
     }
 }
 
-/// What the picture shows, and a bar of a round length.
+/// The caption, and a scale bar of a round length.
 fn caption(text: &mut String, view: &View) {
     let length = round_below(150.0 / view.scale);
     let (dots, name) = (length * view.scale, printed(length));
@@ -199,7 +199,7 @@ fn caption(text: &mut String, view: &View) {
     );
 }
 
-/// 1, 2 or 5 times a power of ten, at most so many metres.
+/// The greatest length of 1, 2 or 5 times a power of ten not above `length`, in m.
 fn round_below(length: f64) -> f64 {
     let power = 10f64.powf(length.log10().floor());
     let times = [5.0, 2.0, 1.0]

@@ -1,4 +1,4 @@
-//! A tolerance study as a page for a person.
+//! A tolerance study as a page of text.
 
 use std::io::{self, Write};
 
@@ -11,7 +11,7 @@ use crate::study::sobol::Indices;
 use crate::study::statistics::{Estimate, Figures, PERCENTILES};
 use crate::study::tolerance::{Exceedance, OfQuantity, Summary};
 
-/// Characters of the longest bar of a histogram.
+/// Greatest length of a bar of a histogram, in characters.
 const LONGEST_BAR: usize = 40;
 
 pub(super) fn write(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
@@ -23,8 +23,8 @@ pub(super) fn write(report: &ToleranceReport, out: &mut dyn Write) -> io::Result
     figures(report, &summary, "#", out)
 }
 
-/// The same for a screen that shows the case already: the figures come first, and a bar is a row of
-/// blocks.
+/// Writes the results for a screen that already shows the case: the figures come first, and bars
+/// consist of block characters.
 pub(super) fn write_for_screen(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
     let summary = report.study.summary(report.samples);
     samples(report, &summary, out)?;

@@ -1,4 +1,4 @@
-//! The trade as one JSON object.
+//! A trade study as one JSON object.
 
 use std::io::{self, Write};
 
@@ -18,7 +18,7 @@ struct Line<'a> {
     within: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     reference: Option<ReferenceLine>,
-    /// Times of the fields of driver and driven gear, apart from every other time.
+    /// Times to build the fields of driver and driven gear; no other time includes them.
     #[serde(skip_serializing_if = "Option::is_none")]
     field_seconds: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,7 +28,7 @@ struct Line<'a> {
     recommended: Option<SettingLine>,
 }
 
-/// The compliance that was taken.
+/// The compliance of the solve.
 #[derive(Serialize)]
 struct ModelsLine {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,7 +71,7 @@ struct ReferenceLine {
 )]
 struct SettingLine {
     method: &'static str,
-    /// What the method `auto` took.
+    /// The method that `auto` chose.
     #[serde(skip_serializing_if = "Option::is_none")]
     took: Option<&'static str>,
     #[serde(flatten)]
@@ -99,7 +99,7 @@ struct SettingLine {
     refusal: Option<String>,
 }
 
-/// A number, or the word for as many as it takes.
+/// Serializes a number, or `auto` if the program chooses it.
 #[expect(clippy::ref_option, reason = "serde's signature")]
 fn count_or_auto<S: Serializer>(count: &Option<usize>, serializer: S) -> Result<S::Ok, S::Error> {
     match count {
@@ -108,10 +108,10 @@ fn count_or_auto<S: Serializer>(count: &Option<usize>, serializer: S) -> Result<
     }
 }
 
-/// Write it as one line of JSON: SI units, seconds, errors relative; what does not exist is absent.
+/// Writes one line of JSON: SI units, seconds, relative errors, without absent values.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let trade = report.trade;
     let line = Line {
@@ -202,7 +202,7 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
     }
 }
 
-/// The three errors of a subject, where there are any.
+/// The three errors of a subject, if it has any.
 fn errors(trade: &Trade, measured: &Measured, subject: Subject) -> Option<serde_json::Value> {
     let figures = measured.found.as_ref().ok()?;
     let model = model_off(trade, &figures.taken);

@@ -1,24 +1,24 @@
-//! Error against time as a picture (SVG), both on logarithmic scales.
+//! Accuracy against run time as a picture (SVG), both on logarithmic scales.
 
 use crate::report::svg::{self, Chart, Kind, Labelled, Scale};
 
-/// What is drawn.
+/// The content of the plot.
 #[derive(Debug, Clone)]
 pub struct Plot<'a> {
-    /// Above the picture.
+    /// Title above the picture.
     pub title: &'a str,
-    /// Below the horizontal axis.
+    /// Label of the horizontal axis.
     pub across: &'a str,
-    /// Beside the vertical axis.
+    /// Label of the vertical axis.
     pub up: &'a str,
-    /// Settings of one kind, joined by a line in the order given.
+    /// The series; a line joins the settings of each in the given order.
     pub series: &'a [Series],
 }
 
 /// Settings of one kind.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// In the legend.
+    /// Name in the legend.
     pub name: String,
     /// Time in s and relative error of each setting.
     pub points: Vec<Point>,
@@ -31,16 +31,16 @@ pub struct Point {
     pub seconds: f64,
     /// Relative error.
     pub error: f64,
-    /// Whether it is the usual setting of its kind, which has a ring.
+    /// Whether it is the default setting of its kind, which has a ring.
     pub is_usual: bool,
 }
 
-/// Below this an error is rounding.
+/// Errors below this are rounding.
 const ROUNDING: f64 = 1e-16;
-/// What no picture is needed for.
+/// Greater errors are not drawn.
 const GREATEST: f64 = 1e4;
 
-/// Decades from one end of an axis to the other, and where they lie.
+/// A logarithmic axis: its decades and its positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
     from: i32,
@@ -50,7 +50,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Whole decades around the values, from one place to the other.
+    /// Whole decades around the values, from one position to the other.
     #[must_use]
     pub fn of(values: impl Iterator<Item = f64>, start: f64, end: f64) -> Axis {
         let logs = values.map(f64::log10).filter(|log| log.is_finite());
@@ -74,21 +74,21 @@ impl Axis {
         }
     }
 
-    /// Where a value lies.
+    /// The position of a value.
     #[must_use]
     pub fn at(&self, value: f64) -> f64 {
         let part = (value.log10() - f64::from(self.from)) / f64::from(self.to - self.from);
         self.start + part * (self.end - self.start)
     }
 
-    /// Decades from one end on, evenly and no more than `most`.
+    /// Decades at equal steps from one end, at most `most` of them.
     pub fn marks(&self, most: usize) -> impl Iterator<Item = i32> + use<> {
         let decades = (self.to - self.from) as usize;
         (self.from..=self.to).step_by(1 + decades / most.max(2))
     }
 }
 
-/// The picture.
+/// Draws the plot.
 #[must_use]
 pub fn svg(plot: &Plot<'_>) -> String {
     let axis = |label: &str, tick: fn(f64) -> String| Labelled {
@@ -117,13 +117,13 @@ pub fn svg(plot: &Plot<'_>) -> String {
     })
 }
 
-/// An error that has a place on a logarithmic scale.
+/// An error limited to the range of the logarithmic axis.
 #[must_use]
 pub fn shown(error: f64) -> f64 {
     error.clamp(ROUNDING, GREATEST)
 }
 
-/// A power of ten seconds.
+/// A power of ten in seconds, as text.
 #[must_use]
 pub fn time(decade: i32) -> String {
     let (unit, zero) = match decade {

@@ -1,4 +1,4 @@
-//! The tables of a trade for a person.
+//! The tables of a trade study.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::study::trade::{
     Differences, METHODS, Measured, Model, Setting, Subject, Trade, greatest,
 };
 
-/// A method with a compliance at the fineness of a case that leaves it out.
+/// A method with a compliance, at the default fineness.
 #[derive(Debug, Clone)]
 pub struct Cell {
     /// Time of a solve, or the word for a refusal.
@@ -30,7 +30,7 @@ impl fmt::Display for Cell {
     }
 }
 
-/// Each compliance with its cell for each of [`METHODS`], that of the reference first.
+/// The compliances, first that of the reference, each with its cell for each of [`METHODS`].
 #[must_use]
 pub fn compliances(trade: &Trade) -> Vec<(StiffnessModels, [Option<Cell>; METHODS.len()])> {
     let cell = |measured: &Measured| {
@@ -51,7 +51,7 @@ pub fn compliances(trade: &Trade) -> Vec<(StiffnessModels, [Option<Cell>; METHOD
     .collect()
 }
 
-/// Time and difference of each method with each compliance, a line a compliance.
+/// Time and difference of each method with each compliance, one line per compliance.
 pub(super) fn by_compliance(trade: &Trade) -> Vec<String> {
     let title = "Time of a solve and greatest difference from the reference in %, by compliance and method, \
         with 64 stations and tolerance 1e-6. >: the compliance of the case.";
@@ -79,13 +79,13 @@ pub fn compliance_name(models: StiffnessModels) -> String {
     models.tooth.name.to_owned() + &contact.unwrap_or_default()
 }
 
-/// What a setting took.
+/// The setting that the solve used.
 pub(super) fn taken(measured: &Measured) -> Setting {
     let figures = measured.found.as_ref();
     figures.map_or(measured.setting, |figures| figures.taken)
 }
 
-/// What each method leaves out, a line a subject.
+/// The model error of each method, one line per subject.
 pub(super) fn models(trade: &Trade) -> Vec<String> {
     let title = "Model error: the best setting of each method, with the compliance of a case that names \
         none, against the reference, in %";
@@ -113,7 +113,7 @@ fn row<const N: usize>(label: &str, cells: [String; N]) -> String {
     format!("    {label:<22}") + &wide(cells, 10)
 }
 
-/// Every setting with time and errors; those that refuse the case with the reason.
+/// Every setting with time and errors; a setting that refuses the case with its reason.
 pub(super) fn settings(trade: &Trade) -> Vec<String> {
     let title = "Settings, with the greatest errors in %. numbers and curve: against the best setting of the same \
         method and compliance. model: as above. total: difference from the reference. *: no other setting is both faster and \
@@ -181,7 +181,7 @@ fn lines(trade: &Trade, measured: &Measured) -> Vec<String> {
     }
 }
 
-/// The method, what it took where it chose, and whether it took care.
+/// The method, the method that `auto` chose, and whether the arithmetic is accurate.
 fn name(measured: &Measured) -> String {
     let (method, took) = (measured.setting.method, taken(measured).method);
     let accurate = if measured.setting.accurate {
@@ -196,7 +196,7 @@ fn name(measured: &Measured) -> String {
     }
 }
 
-/// The greatest difference of the numbers, and that of the curve.
+/// The greatest numerical difference of the values, and that of the curve.
 pub(super) fn parts(differences: &Differences) -> (Option<f64>, Option<f64>) {
     let mut numbers = *differences;
     let curve = std::mem::take(&mut numbers[Subject::Curve as usize]);

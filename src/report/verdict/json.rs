@@ -1,4 +1,4 @@
-//! Verdicts as JSON, an object a verdict: SI units, full precision, what does not exist is absent.
+//! Verdicts as JSON, one object per verdict: SI units, full precision, without absent values.
 
 use super::{Beside, Standing, Verdict};
 use crate::model::Quantity;
@@ -20,7 +20,7 @@ struct Line<'a> {
     limit: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unit: Option<&'static str>,
-    /// `free-impact` where the method resolves the impact itself.
+    /// `free-impact` if the method resolves the impact itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     of: Option<&'static str>,
     /// The counterpart in the method.
@@ -49,10 +49,10 @@ impl Own {
     }
 }
 
-/// Write the verdicts on a case, a line each; one line of a case without limits.
+/// Writes the verdicts on a case, one line each; one line for a case without limits.
 ///
 /// # Errors
-/// What the writer refuses.
+/// Errors of the writer.
 pub fn write(
     verdicts: &[Verdict],
     case: &str,

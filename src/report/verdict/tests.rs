@@ -1,4 +1,4 @@
-//! Verdicts in words, by method and in both systems of units.
+//! Tests of verdicts by method and in both systems of units.
 
 use super::*;
 use crate::model::Stages;
@@ -77,7 +77,7 @@ fn a_limit_without_a_value_gives_the_reason_and_passes_only_without_contact() {
         "dynamic_peak_force has no value (limit 2 kN): method exact does not compute this \
             quantity; dynamic and auto do"
     );
-    // The closed form decides nothing about the motion.
+    // The closed form has no result for the motion.
     assert_eq!(
         stands("exact", "80 um", "dynamic_peak_force", "2 kN").0,
         Standing::Unknown

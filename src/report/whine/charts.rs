@@ -9,26 +9,26 @@ use crate::report::charts::SolvedCase;
 use crate::report::svg::{Chart, Kind, Labelled, Series, chart};
 use crate::study::speeds::{AtSpeed, SpeedCurve};
 
-/// The name of the chart of harmonics.
+/// The key of the chart of harmonics.
 pub const SPECTRUM: &str = "spectrum";
-/// The name of the chart over speed.
+/// The key of the chart over speed.
 pub const SPEED: &str = "speed";
 
-/// A curve over speed with the name of its case, empty where there is one case.
+/// A curve over speed with the name of its case; the name is empty for a single case.
 pub type NamedCurve<'a> = (&'a str, &'a SpeedCurve);
 
 /// Spectra by their names in the legend.
 pub type NamedSpectra = Vec<(String, Spectrum)>;
 
-/// Harmonics of the transmission error at rest and in steady motion as a picture; none where no
-/// case has them.
+/// Draws the harmonics of the transmission error at rest and in steady motion; `None` if no case
+/// has them.
 #[must_use]
 pub fn spectrum(cases: &[SolvedCase]) -> Option<String> {
     let all: NamedSpectra = cases.iter().flat_map(of_case).collect();
     spectrum_chart(all).map(|drawn| chart(&drawn))
 }
 
-/// The chart of harmonics; none without a spectrum.
+/// The chart of harmonics; `None` without a spectrum.
 #[must_use]
 pub fn spectrum_chart(all: NamedSpectra) -> Option<Chart> {
     let slots = all.len();
@@ -56,8 +56,8 @@ fn of_case(case: &SolvedCase) -> NamedSpectra {
     report.map_or_else(Vec::new, |report| spectra(case.name, &report.solution))
 }
 
-/// The spectra of a case: at rest and, where the motion is steady, in motion; of a case with a name
-/// the last of them alone.
+/// The spectra of a case: at rest and, if the motion is steady, in motion. A named case has only
+/// the last of them.
 #[must_use]
 pub fn spectra(case: &str, solution: &Solution) -> NamedSpectra {
     let at_rest = solution
@@ -80,13 +80,14 @@ fn in_motion(solution: &Solution) -> Option<Spectrum> {
     Some(solution.steady.as_ref()?.as_ref().ok()?.spectrum)
 }
 
-/// The dynamic factor of a tooth over speed as a picture; none without a curve.
+/// Draws the dynamic factor of a tooth over speed; `None` without a curve.
 #[must_use]
 pub fn speed(curves: &[NamedCurve]) -> Option<String> {
     speed_chart(curves).map(|drawn| chart(&drawn))
 }
 
-/// The chart over speed, with the speed and the resonances of a single case; none without a curve.
+/// The chart over speed, with the speed and the resonances of a single case; `None` without a
+/// curve.
 #[must_use]
 pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
     let series: Vec<Series> = curves.iter().flat_map(|curve| runs(*curve)).collect();
@@ -119,7 +120,7 @@ fn rpm(speed: f64) -> f64 {
     speed * 30.0 / PI
 }
 
-/// The run up, the run down where it is another motion, and the points without contact at times.
+/// The run-up, the run-down if its motion differs, and the points with loss of contact.
 fn runs((name, curve): NamedCurve) -> Vec<Series> {
     let called = |run: &str| {
         if name.is_empty() {
@@ -160,8 +161,8 @@ fn runs((name, curve): NamedCurve) -> Vec<Series> {
         .collect()
 }
 
-/// The points at which contact is lost: of neighbours the first and every fifth one, so that the
-/// curve between them shows.
+/// The points with loss of contact: of neighbouring points the first and every fifth, so that the
+/// curve between them is visible.
 fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<(f64, f64)>> {
     const STRIDE: usize = 5;
     let of_run = |run: &[Option<AtSpeed>], counts: &dyn Fn(&AtSpeed) -> bool| {
@@ -181,7 +182,7 @@ fn place(point: &AtSpeed) -> (f64, f64) {
     (rpm(point.speed), point.tooth_factor)
 }
 
-/// Runs of neighbouring points.
+/// Groups of neighbouring points.
 fn pieces<'a>(points: impl Iterator<Item = Option<&'a AtSpeed>>) -> Vec<Vec<(f64, f64)>> {
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
     for point in points {
