@@ -28,7 +28,9 @@ pub enum Kind {
 /// A line of a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line {
+    /// The kind of the line.
     pub kind: Kind,
+    /// The text of the line.
     pub text: String,
 }
 
