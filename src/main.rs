@@ -1,4 +1,4 @@
-//! The program: a workbench in the terminal, and the same from scripts.
+//! The program: the workbench in the terminal, and commands for scripts.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! Everything that differs between operating systems: files, signals, terminal and users.
 //!
-//! No other module names an interface of Unix. The commands need `files` and Ctrl-C alone, which
+//! No other module names an interface of Unix. The commands need only `files` and Ctrl-C, which
 //! every system has in some form; the workbench needs Unix.
 
 #[cfg(all(unix, feature = "tui"))]
@@ -19,8 +19,8 @@ pub(crate) mod terminal;
 #[cfg(all(unix, feature = "tui"))]
 pub(crate) mod users;
 
-/// Makes a write beyond the limit on the size of files an error of the write: by default the
-/// signal of the limit ends the process.
+/// Makes a write beyond the file size limit return an error. By default the signal of the limit
+/// ends the process.
 #[cfg(feature = "cli")]
 pub fn report_file_limit_as_error() {
     #[cfg(unix)]

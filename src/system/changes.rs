@@ -1,4 +1,4 @@
-//! Waits for a change in the folders of the watched files, without waking up in between.
+//! Waits for changes in the folders of the watched files without periodic wake-ups.
 
 #[cfg(target_os = "linux")]
 pub(crate) use linux::{Bell, Changes};
@@ -45,13 +45,13 @@ mod linux {
             })
         }
 
-        /// Follows these folders and no others. A folder that cannot be followed is left out.
+        /// Watches these folders and no others. Skips a folder that cannot be watched.
         pub(crate) fn follow(&mut self, folders: &BTreeSet<PathBuf>) {
             let inotify = &self.inotify;
             self.folders.retain(|folder, number| {
                 let stays = folders.contains(folder);
                 if !stays {
-                    // The folder may be gone, and its watch with it.
+                    // The folder may be deleted, and its watch with it.
                     let _ = inotify::remove_watch(inotify, *number);
                 }
                 stays
@@ -96,7 +96,7 @@ mod periodic {
     use std::sync::{Condvar, Mutex, PoisonError};
     use std::time::Duration;
 
-    /// Time between two looks at the files.
+    /// Polling interval.
     const PERIOD: Duration = Duration::from_secs(1);
 
     /// Ends a wait.
@@ -117,7 +117,7 @@ mod periodic {
         }
     }
 
-    /// Without events of folders, every wait ends after a second.
+    /// Without folder events, every wait ends after a second.
     #[derive(Debug)]
     pub(crate) struct Changes;
 

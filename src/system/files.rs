@@ -1,4 +1,4 @@
-//! Attributes of a file besides its bytes, and how a new file gets them.
+//! Attributes of a file other than its content, and their transfer to a new file.
 
 #[cfg(not(unix))]
 mod other;

@@ -1,23 +1,21 @@
-//! Ctrl-C and SIGTERM of the commands: heeded by work that takes long, and the end of the program
-//! otherwise.
+//! Ctrl-C and SIGTERM of the commands: long work handles them, otherwise they end the program.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-/// The signals that work heeds. SIGHUP is not one of them: a handler would undo `nohup`.
+/// The handled signals. SIGHUP is not one of them: a handler would undo `nohup`.
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
 /// No signal has this number.
 const NONE: usize = 0;
 
-/// The state of the signals in this process.
 struct Signals {
     received: Arc<AtomicUsize>,
-    /// Number of works that heed the signals.
+    /// Number of [`Interrupt`]s that handle the signals.
     heeding: AtomicUsize,
-    /// Whether a signal ends the program, because no work heeds it.
+    /// Whether a signal ends the program, because no work handles it.
     is_default: Arc<AtomicBool>,
 }
 
@@ -29,7 +27,7 @@ static STATE: LazyLock<Signals> = LazyLock::new(|| {
     };
     for signal in SIGNALS {
         let is_default = Arc::clone(&state.is_default);
-        // Where the system refuses, the signal ends the program as it always does.
+        // If the system refuses the handler, the signal still ends the program.
         if signal_hook::flag::register_conditional_default(signal, is_default).is_ok() {
             let received = Arc::clone(&state.received);
             drop(signal_hook::flag::register_usize(
@@ -42,12 +40,12 @@ static STATE: LazyLock<Signals> = LazyLock::new(|| {
     state
 });
 
-/// Work that heeds Ctrl-C and SIGTERM by itself, so that it can remove its progress bar and its
-/// temporary file.
+/// Guard of work that handles Ctrl-C and SIGTERM itself, so that it can remove its progress bar and
+/// its temporary file.
 pub(crate) struct Interrupt(&'static Signals);
 
 impl Interrupt {
-    /// The signals do not end the program until this, and every other one, is dropped.
+    /// Keeps the signals from ending the program until the last guard is dropped.
     pub(crate) fn heeded() -> Interrupt {
         let state = &*STATE;
         if state.heeding.fetch_add(1, Ordering::Relaxed) == 0 {
@@ -67,7 +65,7 @@ impl Interrupt {
         self.0.received.load(Ordering::Relaxed) == SIGINT as usize
     }
 
-    /// Ends the program as the signal does, so that its caller sees the cause.
+    /// Ends the program by the default action of the signal, so that the caller sees the cause.
     pub(crate) fn end() {
         let received = STATE.received.load(Ordering::Relaxed);
         let signal = SIGNALS

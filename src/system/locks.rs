@@ -1,4 +1,4 @@
-//! How the file of a lock is opened: no link is followed, and no pipe waited for.
+//! Opens lock files without following links and without waiting for pipes.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io;
@@ -7,14 +7,14 @@ use std::path::Path;
 
 use rustix::fs::OFlags;
 
-/// Opens a file of this name for reading and writing, created if missing; every user can read it.
+/// Opens a file for reading and writing, and creates it if missing; every user can read it.
 pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
     open_with(options.mode(0o644), path)
 }
 
-/// Opens a file of this name for reading.
+/// Opens a file for reading.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
     open_with(OpenOptions::new().read(true), path)
 }

@@ -1,4 +1,4 @@
-//! Paths as bytes: a path of Unix need not be text.
+//! Paths as bytes: a path on Unix need not be valid text.
 
 use std::ffi::OsString;
 use std::os::unix::ffi::{OsStrExt, OsStringExt};

@@ -1,5 +1,5 @@
-//! Signals of the workbench: blocked in every thread, read by threads of their own, and the end of
-//! the process by a signal.
+//! Signals of the workbench: blocked in every thread, read by dedicated threads; and the end of the
+//! process by a signal.
 
 use std::io;
 use std::process;
@@ -11,8 +11,8 @@ use nix::sys::signal::{SigSet, Signal};
 pub(crate) use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
 use signal_hook::low_level::{emulate_default_handler, raise};
 
-/// Signals that neither end the process nor inform it, or whose handler is elsewhere: those
-/// of a write beyond a limit and to a closed pipe.
+/// Signals that neither end the process nor inform it, or that have another handler: the signals of
+/// a write beyond a limit and to a closed pipe.
 const OTHERS: [Signal; 6] = [
     Signal::SIGCHLD,
     Signal::SIGPIPE,
@@ -21,19 +21,19 @@ const OTHERS: [Signal; 6] = [
     Signal::SIGURG,
     Signal::SIGXFSZ,
 ];
-/// Signals after which the workbench goes on.
+/// Signals after which the workbench continues.
 const PASSING: [Signal; 3] = [Signal::SIGTSTP, Signal::SIGCONT, Signal::SIGWINCH];
 /// A shell adds this to the number of the signal that ended a program.
 const SIGNALLED: i32 = 128;
 
-/// The signals that threads of this process do not get, so that one thread can read them.
+/// The blocked signals, which a dedicated thread reads.
 #[derive(Clone, Copy)]
 pub(crate) struct HeldSignals {
     deadly: SigSet,
     passing: SigSet,
 }
 
-/// Blocks the signals in this thread and in all that it starts later.
+/// Blocks the signals in this thread and in all threads that it starts later.
 pub(crate) fn hold() -> io::Result<HeldSignals> {
     let passing: SigSet = PASSING.into_iter().collect();
     let deadly = deadly();
@@ -59,8 +59,8 @@ impl HeldSignals {
         for_each("signals", self.deadly, act)
     }
 
-    /// Runs `act` for each signal after which the workbench goes on, in a thread, until it returns
-    /// false.
+    /// Runs `act` for each signal after which the workbench continues, in a thread, until it
+    /// returns false.
     pub(crate) fn for_each_passing(
         self,
         act: impl Fn(i32) -> bool + Send + 'static,
@@ -76,12 +76,12 @@ pub(crate) fn stop() -> io::Result<()> {
 
 /// Ends the process by the signal, so that its parent sees the signal.
 pub(crate) fn die_of(signal: i32) -> ! {
-    // Rust's own handler takes the first SIGSEGV or SIGBUS, and then leaves the next to the system.
+    // The handler of Rust consumes the first SIGSEGV or SIGBUS and restores the default action.
     for _ in 0..2 {
         drop(raise(signal));
         let _ = deadly().thread_unblock();
     }
-    // If the signal is ignored, as SIGHUP below `nohup`.
+    // The signal is ignored, such as SIGHUP under `nohup`.
     process::exit(SIGNALLED + signal)
 }
 
@@ -113,7 +113,7 @@ fn for_each(
     signals: SigSet,
     act: impl Fn(i32) -> bool + Send + 'static,
 ) -> io::Result<()> {
-    // Some systems drop a signal that nobody handles even while it is blocked.
+    // Some systems drop a signal without a handler even while it is blocked.
     for signal in PASSING {
         signal_hook::flag::register(signal as i32, Arc::default())?;
     }

@@ -1,4 +1,4 @@
-//! Waits for the terminal, and which processes the terminal belongs to.
+//! Waits for the terminal, and checks whether this process is in its foreground.
 
 use std::io::{self, Stdin, Stdout};
 use std::time::Duration;
@@ -11,18 +11,18 @@ use rustix::termios::tcgetpgrp;
 /// The state of the terminal after a wait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Input {
-    /// Neither bytes nor a hang-up.
+    /// No bytes and no hang-up.
     None,
     Ready,
     HungUp,
 }
 
-/// Whether the terminal belongs to this process rather than to the shell.
+/// Whether this process, and not the shell, is in the foreground of the terminal.
 pub(crate) fn is_in_foreground() -> bool {
     tcgetpgrp(io::stdin()).map_or(true, |group| group == getpgrp())
 }
 
-/// Waits until the terminal has bytes or hangs up, or until `patience` has passed.
+/// Waits until the terminal has bytes or hangs up, at most for `patience`.
 pub(crate) fn wait_for_input(stdin: &Stdin, patience: Option<Duration>) -> io::Result<Input> {
     let patience = patience.and_then(|patience| Timespec::try_from(patience).ok());
     let mut line = [PollFd::new(stdin, PollFlags::IN)];
@@ -33,15 +33,15 @@ pub(crate) fn wait_for_input(stdin: &Stdin, patience: Option<Duration>) -> io::R
     })
 }
 
-/// Reads the bytes that the terminal has, past the buffer of the standard input.
+/// Reads the available bytes of the terminal without the buffer of the standard input.
 pub(crate) fn read(stdin: &Stdin, buffer: &mut [u8]) -> io::Result<usize> {
     Ok(rustix::io::read(stdin, buffer)?)
 }
 
-/// Waits until nobody is at the other end of the terminal. False if that cannot be known.
+/// Waits until the terminal hangs up. Returns false if the system cannot report that.
 pub(crate) fn wait_for_hang_up(stdin: &Stdin) -> bool {
     loop {
-        // `poll` reports a hang-up even without requested events; keys are left to the reader.
+        // `poll` reports a hang-up even without requested events; the reader thread reads the keys.
         let mut line = [PollFd::new(stdin, PollFlags::empty())];
         match poll(&mut line, None::<&Timespec>) {
             Err(Errno::INTR) => {}
@@ -55,8 +55,8 @@ pub(crate) fn wait_for_hang_up(stdin: &Stdin) -> bool {
     }
 }
 
-/// Writes the bytes if the terminal accepts bytes now, past the lock of the standard output, which
-/// the workbench may hold.
+/// Writes the bytes if the terminal accepts bytes now. Bypasses the lock of the standard output,
+/// because the workbench may hold that lock.
 pub(crate) fn write_if_ready(stdout: &Stdout, bytes: &[u8]) {
     let mut line = [PollFd::new(stdout, PollFlags::OUT)];
     if poll(&mut line, Some(&Timespec::default())) == Ok(1) {

@@ -23,12 +23,12 @@ impl Access {
     }
 }
 
-/// The number of the user whose rights this process has.
+/// The effective user id of this process.
 pub(crate) fn user() -> u32 {
     rustix::process::geteuid().as_raw()
 }
 
-/// The name of the machine.
+/// The host name.
 pub(crate) fn host() -> String {
     rustix::system::uname()
         .nodename()

@@ -1,5 +1,5 @@
-//! Systems without owners, modes and access lists of Unix: a new file gets the permissions of the
-//! old one.
+//! Systems without Unix owners, modes and access lists: a new file gets the permissions of the old
+//! one.
 
 use std::fs::{File, Metadata};
 use std::io;
@@ -10,27 +10,27 @@ pub(crate) fn keep(old: &Metadata, _: &Path, new: &File) -> io::Result<()> {
     new.set_permissions(old.permissions())
 }
 
-/// No mode.
+/// Always `None`: these systems have no mode.
 pub(crate) fn mode(_: &Metadata) -> Option<u32> {
     None
 }
 
-/// Every file has one name.
+/// Always 1: these systems report no hard links.
 pub(crate) fn links(_: &Metadata) -> u64 {
     1
 }
 
-/// Whether the path ends like that of a folder.
+/// Whether the path ends in a separator.
 pub(crate) fn names_a_folder(path: &Path) -> bool {
     path.to_string_lossy().ends_with(['/', MAIN_SEPARATOR])
 }
 
-/// Leaves the file as it is.
+/// Does nothing: these systems have no mode.
 pub(crate) fn set_mode(_: &File, _: u32) -> io::Result<()> {
     Ok(())
 }
 
-/// Leaves the new file to the system.
+/// Does nothing: the system chooses the permissions.
 pub(crate) fn with_mode<'b, 'p, 's>(
     builder: &'b mut tempfile::Builder<'p, 's>,
     _: u32,

@@ -10,22 +10,21 @@ use std::path::Path;
 
 use xattr::FileExt;
 
-/// Attributes that the system itself sets, some of them from the bytes of the file: labels and
+/// Attributes that the system itself sets, some of them from the content of the file: labels and
 /// hashes.
 const OF_THE_SYSTEM: &[u8] = b"security.";
 
 /// Gives a new file every attribute of the old one.
 ///
 /// # Errors
-/// When the system refuses an attribute: [`ErrorKind::Unsupported`] unless the disk is full.
+/// [`ErrorKind::Unsupported`] if the system refuses an attribute, or the error of a full disk.
 pub(crate) fn keep(old: &Metadata, path: &Path, new: &File) -> io::Result<()> {
     keep_owner(old, new)?;
     keep_attributes(path, new)?;
-    // The last, since a new owner takes bits away, and an access list sets them.
+    // The mode is set last: a new owner clears bits, and an access list sets them.
     set_mode(new, old.mode())
 }
 
-/// The mode of a file.
 #[expect(clippy::unnecessary_wraps, reason = "other systems have no mode")]
 pub(crate) fn mode(about: &Metadata) -> Option<u32> {
     Some(about.mode())
@@ -36,13 +35,13 @@ pub(crate) fn links(about: &Metadata) -> u64 {
     about.nlink()
 }
 
-/// The number of a file in its file system.
+/// The inode number of a file.
 #[cfg(feature = "tui")]
 pub(crate) fn number(about: &Metadata) -> u64 {
     about.ino()
 }
 
-/// Whether the path ends like that of a folder.
+/// Whether the path ends in a separator.
 pub(crate) fn names_a_folder(path: &Path) -> bool {
     path.as_os_str().as_bytes().ends_with(b"/")
 }
@@ -52,7 +51,7 @@ pub(crate) fn set_mode(file: &File, mode: u32) -> io::Result<()> {
     file.set_permissions(Permissions::from_mode(mode & 0o7777))
 }
 
-/// Gives a file that is created these permission bits, less the umask.
+/// Creates files with these permission bits, less the umask.
 pub(crate) fn with_mode<'b, 'p, 's>(
     builder: &'b mut tempfile::Builder<'p, 's>,
     mode: u32,
@@ -73,7 +72,7 @@ fn keep_owner(old: &Metadata, new: &File) -> io::Result<()> {
     fchown(new, Some(old.uid()), Some(old.gid())).map_err(|error| refused(&error, owner))
 }
 
-// A new file may have an access list from its folder, which the old one need not have.
+// A new file may inherit an access list from its folder that the old file does not have.
 fn keep_attributes(path: &Path, new: &File) -> io::Result<()> {
     let kept = names(xattr::list(path))?;
     for name in names(new.list_xattr())?.difference(&kept) {
@@ -88,7 +87,7 @@ fn keep_attributes(path: &Path, new: &File) -> io::Result<()> {
     Ok(())
 }
 
-// A file system without attributes has none to lose.
+// On a file system without attributes the list is empty.
 fn names(list: io::Result<xattr::XAttrs>) -> io::Result<BTreeSet<OsString>> {
     match list {
         Ok(list) => Ok(list
