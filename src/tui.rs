@@ -1,8 +1,8 @@
-//! The workbench: a form, its results and a chart, in the terminal.
+//! The workbench: a form, its results and charts, in the terminal.
 //!
-//! The state is plain data ([`app::App`]); [`update::update`] alone changes it and says what is to
-//! be done about it; [`view::draw`] makes a screen of it and nothing else. Keys, signals and the
-//! worker's answers come through one channel; the loop takes what has come, changes the state,
+//! The state is plain data ([`app::App`]). Only [`update::update`] changes the state; it returns
+//! the effects to carry out. [`view::draw`] only draws the state. Keys, signals and the results of
+//! the worker arrive through one channel. The loop takes all waiting events, changes the state,
 //! draws once and sleeps.
 
 mod actions;
@@ -67,8 +67,8 @@ use workbench::{End, session};
 const NO_TERMINAL: u8 = 2;
 const PANICKED: u8 = 101;
 
-/// Open the workbench on a case, else on the last one, else on the built-in one, and stay until the
-/// user quits.
+/// Runs the workbench on a case, otherwise on the last case, otherwise on the built-in case, until
+/// the user quits.
 #[must_use]
 pub fn run(case: Option<PathBuf>) -> ExitCode {
     if let Some(reason) = terminal::missing(|name| std::env::var_os(name)) {
@@ -78,8 +78,8 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
         return ExitCode::from(NO_TERMINAL);
     }
     terminal::hold_panics();
-    // Memory for the picture is taken before any thread takes some: the picture then shrinks to the
-    // memory that there is.
+    // The screen buffer is allocated before any thread starts: it adapts its size to the free
+    // memory.
     let screen = match Screen::new() {
         Ok(screen) => screen,
         Err(error) => return no_answer(&error),
@@ -90,7 +90,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
         Err(error) => {
             return fail(
                 TERMINAL_LOST,
-                &format!("the system gives no thread: {error}"),
+                &format!("the system cannot start a thread: {error}"),
             );
         }
     };
@@ -115,8 +115,8 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
     }
 }
 
-// Signals before any other thread starts, and before the terminal is taken: none of them must leave
-// the terminal in our modes.
+// The signals are blocked before any other thread starts and before the terminal changes its mode:
+// no signal may leave the terminal in raw mode.
 fn begin(events: &Events) -> io::Result<Arc<JournalWriter>> {
     let signals = signals::hold()?;
     let send = events.action_sender();
@@ -130,11 +130,11 @@ fn begin(events: &Events) -> io::Result<Arc<JournalWriter>> {
     Ok(journal_writer)
 }
 
-// The terminal is given back by now.
+// Runs after the terminal is restored.
 fn keep_what_is_left(journal_writer: &JournalWriter) {
     match journal_writer.write(false) {
         Ok(()) if journal_writer.is_needed() => {
-            tell("unsaved edits are kept: open the case again to get them back");
+            tell("unsaved edits are kept: open the case again to restore them");
         }
         Ok(()) => {}
         Err(error) => tell(&format!("unsaved edits could not be kept: {error}")),
@@ -153,7 +153,7 @@ fn fail(code: u8, words: &str) -> ExitCode {
     ExitCode::from(code)
 }
 
-// A terminal or a pipe that is gone hears nothing more.
+// Errors of a closed terminal or pipe are ignored.
 fn tell(words: &str) {
     drop(writeln!(
         io::stderr(),

@@ -1,4 +1,5 @@
-//! What happens to the workbench, and what it asks of the world in turn.
+//! Actions change the state of the workbench; effects are its requests to files, workers and the
+//! terminal.
 
 use std::path::PathBuf;
 
@@ -23,31 +24,30 @@ use super::whine::{WhinePart, WhineRequest};
 use crate::case::Document;
 use crate::report::digest::Digest;
 
-/// Something that happened: from a key, the mouse, the clock, the worker, or an effect that is
-/// done.
+/// An event for the state: from a key, the mouse, the clock, the worker, or a completed effect.
 #[derive(Debug, Clone)]
 pub enum Action {
     /// A command of the table.
     Do(Command),
-    /// A character typed.
+    /// A typed character.
     Insert(char),
-    /// A letter that is no command where it was typed.
+    /// A letter without a command in the present place.
     Stray(char),
-    /// Text pasted, which never presses a button.
+    /// Pasted text, which never presses a button.
     Paste(String),
-    /// The mouse pressed a cell.
+    /// A mouse click on a cell.
     Click(Position),
-    /// The wheel turned over a cell, by so many lines downwards.
+    /// The mouse wheel over a cell, with the number of lines downwards.
     Wheel(Position, isize),
-    /// The terminal has another size.
+    /// The new size of the terminal.
     Resize(Size),
-    /// Time for the next picture of what plays.
+    /// Time for the next frame of an animation.
     Tick,
-    /// The worker has an answer.
+    /// The answer of the worker.
     Solved(Box<Answer>),
-    /// The solve of that serial takes its time; this part of it is done.
+    /// Progress of the solve with this serial, from 0 to 1.
     Solving(u64, f64),
-    /// More is known of a measurement.
+    /// New results of a benchmark.
     Measured(Box<Measured>),
     /// The solved variants of a case.
     Compared(Box<Variants>),
@@ -55,99 +55,100 @@ pub enum Action {
     Studied(Box<StudyPart>),
     /// The next values of a chart of whine.
     Whined(Box<WhinePart>),
-    /// The worker failed on the request of that serial.
+    /// The worker failed on the request with this serial.
     SolverFailed(u64),
-    /// Long work goes on, or is over.
+    /// Progress of long work; `None` at its end.
     Progress(Option<Progress>),
-    /// A file was read, or its faults were found.
+    /// The content of a file, or its faults.
     Loaded(PathBuf, Result<Box<Document>, Vec<String>>),
-    /// Another program may have changed the file of an open case; its content now, or its faults.
+    /// Another program may have changed the file of an open case: its present content, or its
+    /// faults.
     FileChanged(PathBuf, Result<Box<Document>, Vec<String>>),
-    /// A file was written, or not; and what comes next.
+    /// The result of a save, with the step after it.
     Saved(PathBuf, Next, Result<Box<Written>, SaveFault>),
-    /// An export was written, or not.
+    /// The result of an export.
     Exported(PathBuf, Result<(), ExportFault>),
-    /// What stands in a folder.
+    /// The content of a folder.
     Listed(Box<Listing>),
-    /// Which cases stand below a folder.
+    /// The cases in the folders below a folder.
     Found(Box<Below>),
-    /// What a file or a folder holds.
+    /// The preview of a file or a folder.
     Previewed(Viewport, Box<Preview>),
-    /// What was found out about a case that was opened.
+    /// The access and the kept edits of an opened case.
     Claimed(Box<Claim>),
-    /// The cases that were open last, the latest first.
+    /// The recent cases, the latest first.
     Recents(Vec<Recent>),
-    /// What the examples are, in their order.
+    /// The digests of the examples, in their order.
     Examples(Vec<Digest>),
-    /// Where a result comes from.
+    /// The explanation of a result.
     Explained(Box<Explained>),
     /// The tip relief to specify.
     Relieved(Box<ReliefAnswer>),
     /// The report of the results, for the clipboard.
     Reported(String),
-    /// Something that was asked for, or that keeps what is typed, did not succeed.
+    /// A failed request, or a failed journal.
     Failed(String),
 }
 
-/// What the state asks of the world.
+/// A request of the state to the outside.
 #[derive(Debug, Clone)]
 pub enum Effect {
-    /// Solve, in place of any request that has not begun.
+    /// Solves a case; replaces a waiting request.
     Solve(Box<Request>),
-    /// Read a case, and tell it as [`Action::Loaded`].
+    /// Reads a case and returns [`Action::Loaded`].
     Load(PathBuf),
-    /// Write a case, and tell it with what comes next as [`Action::Saved`].
+    /// Writes a case and returns [`Action::Saved`] with the next step.
     Save(Box<Saving>, Next),
-    /// Look into something, without keeping the screen waiting.
+    /// Runs a job without blocking the screen.
     Job(Job),
-    /// Open this case when the workbench starts the next time.
+    /// Stores this case as the one to open at the next start.
     Remember(PathBuf),
-    /// The edits of this journal are in the form now.
+    /// Adopts this journal, whose edits are now in the form.
     Adopt(PathBuf),
-    /// The edits of this journal are not wanted.
+    /// Deletes this journal, whose edits the user discarded.
     Forget(PathBuf),
     /// Writes the settings.
     Keep(Settings),
-    /// Hand a text to the clipboard of the user's own terminal.
+    /// Copies a text to the clipboard of the user's terminal.
     Copy(String),
-    /// Take the mouse, or leave it to the terminal.
+    /// Turns mouse reports on or off.
     Mouse(bool),
-    /// Tick, or be silent.
+    /// Starts or stops the clock of the animation.
     Play(bool),
-    /// Measure, and tell what is known as [`Action::Measured`].
+    /// Runs a benchmark and returns its results as [`Action::Measured`].
     Measure(Box<Measuring>),
-    /// Stop the long work.
+    /// Stops the long work.
     CancelWork,
-    /// Compute a study, and send its results as [`Action::Studied`].
+    /// Computes a study and returns its results as [`Action::Studied`].
     Study(Box<StudyRequest>),
-    /// Compute a chart of whine, and send its values as [`Action::Whined`].
+    /// Computes a chart of whine and returns its values as [`Action::Whined`].
     Whine(Box<WhineRequest>),
-    /// Stop the chart of whine.
+    /// Stops the chart of whine.
     CancelWhine,
     /// Stop the search for the tip relief to specify.
     CancelRelief,
     /// Stop the study.
     CancelStudy,
-    /// Stop what is being solved.
+    /// Stops the running solve.
     CancelSolve,
-    /// Redraw every cell.
+    /// Redraws every cell.
     Redraw,
-    /// Give the terminal back to the shell, until it brings us back.
+    /// Suspends the process and returns the terminal to the shell until the user resumes it.
     Suspend,
-    /// Leave.
+    /// Quits the workbench.
     Quit,
 }
 
-/// Long work that runs.
+/// Progress of running work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Progress {
-    /// The work, in a few words.
+    /// The name of the work.
     pub what: String,
-    /// The completed part, 0 to 1.
+    /// The completed part, from 0 to 1.
     pub part: f64,
 }
 
-/// What a key does in a place.
+/// The action of a key in a place.
 #[must_use]
 pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
     if event.kind == KeyEventKind::Release {

@@ -1,4 +1,4 @@
-//! The state of the workbench: plain data, changed by `update` alone.
+//! The state of the workbench: plain data that only `update` changes.
 
 mod requests;
 mod shown;
@@ -28,7 +28,7 @@ use crate::case::fields::Kind;
 use crate::case::stamp::Stamp;
 use crate::case::{Case, Document};
 
-/// Everything that the screen shows.
+/// The whole state of the screen.
 #[derive(Debug, Clone)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct App {
@@ -36,25 +36,25 @@ pub struct App {
     pub tab: Tab,
     /// The other open cases, in their order.
     pub others: Vec<Tab>,
-    /// How many of the others stand before the current one.
+    /// Number of the other tabs before the current one.
     pub(crate) place_of_tab: usize,
-    /// Counts the tabs, those that are closed among them.
+    /// Identifier of the newest tab.
     pub(crate) last_id: usize,
-    /// Counts the requests of all cases.
+    /// Serial of the newest request, over all cases.
     pub(crate) last_serial: u64,
     /// The visible panes and their areas.
     pub layout: Layout,
     /// Whether letters go into the focused field while the form has the focus.
     pub(crate) is_editing: bool,
-    /// The case before the last key, where that key was a digit which started a new value.
+    /// The case before the last key, if that key was a digit that started a new value.
     pub(crate) before_digit: Option<Case>,
-    /// Results to hold the others against.
+    /// The pinned results for comparison.
     pub baseline: Option<Baseline>,
-    /// Whether the results are to be pinned as soon as all of them are there.
+    /// Whether to pin the results as soon as they are complete.
     pub(crate) is_pinning: bool,
-    /// Whether the results tell what they took.
+    /// Whether the results show the run time of each stage.
     pub(crate) shows_cost: bool,
-    /// How the trade pane shows its measurement.
+    /// The view of the trade pane.
     pub(crate) trade_view: TradeView,
     /// The cursor of charts and teeth: the driver's roll angle before E, in rad, negative after E.
     pub cursor: Option<f64>,
@@ -66,41 +66,41 @@ pub struct App {
     pub first_variant: Option<usize>,
     /// The state of the study pane.
     pub study: StudyState,
-    /// The serial of the study that runs.
+    /// The serial of the running study.
     pub(crate) studying: Option<u64>,
-    /// The export that runs.
+    /// The running export.
     pub(crate) exporting: Option<RunningExport>,
-    /// The serial of the case whose variants are being solved.
+    /// The serial of the case whose variants the worker solves.
     pub(crate) comparing: Option<u64>,
-    /// Whether the run plays.
+    /// Whether the animation runs.
     pub is_playing: bool,
-    /// Long work that goes on.
+    /// Progress of running work.
     pub progress: Option<Progress>,
-    /// The serial of the measurement that goes on; its tab may be closed by now.
+    /// The serial of the running benchmark; its tab may be closed.
     pub measuring: Option<u64>,
-    /// What lies over the panes, the topmost last.
+    /// The dialogs over the panes, the topmost last.
     pub prompts: Vec<Prompt>,
-    /// Whether what is focused may be out of sight in form or results.
+    /// Whether the focused row of form or results may be outside the visible lines.
     pub(crate) needs_scroll: bool,
-    /// Said once, until the next key.
+    /// The message of the last key; the next key removes it.
     pub message: Option<Message>,
-    /// What the user chose for every case.
+    /// Settings for every case.
     pub settings: Settings,
-    /// What the terminal is able to show.
+    /// The capabilities of the terminal.
     pub look: Look,
 }
 
-/// Something said once.
+/// A message, shown until the next key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Message {
-    /// The words.
+    /// The text of the message.
     pub text: String,
-    /// Whether something went wrong.
+    /// Whether it reports an error.
     pub(crate) is_fault: bool,
 }
 
 impl App {
-    /// The workbench on a document with all its results, however long they take.
+    /// The workbench on a document with all its results, which may take long.
     #[must_use]
     pub(crate) fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         App::answered(document, path, (look, size), |request| {
@@ -108,7 +108,7 @@ impl App {
         })
     }
 
-    /// The workbench for the first frame, which waits for no elastic field.
+    /// The workbench for the first frame, without results that need an elastic field.
     #[must_use]
     pub fn at_start(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         App::answered(document, path, (look, size), solver::answer_without_fields)
@@ -160,7 +160,7 @@ impl App {
         app
     }
 
-    /// The open cases in their order, the current one among them.
+    /// The open cases in their order, including the current one.
     pub fn tabs(&self) -> impl Iterator<Item = &Tab> {
         let (before, after) = self
             .others
@@ -168,9 +168,7 @@ impl App {
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
-    /// The files from which the open cases were read, or to which they were saved, with the stamps
-    /// of
-    /// their texts.
+    /// The files of the open cases, with the stamps of their texts.
     pub(super) fn files(&self) -> Vec<(PathBuf, Stamp)> {
         let files = self.tabs().filter_map(|tab| {
             let path = tab.document.path()?;
@@ -179,13 +177,13 @@ impl App {
         files.collect()
     }
 
-    /// What every open case makes of its file.
+    /// The state of every open case for the autosave.
     #[must_use]
     pub fn sheets(&self) -> Vec<OpenCase<'_>> {
         self.tabs().map(Tab::sheet).collect()
     }
 
-    /// Where keys go.
+    /// The place that decides the meaning of keys.
     #[must_use]
     pub fn place(&self) -> Place {
         match self.prompts.last() {
@@ -205,13 +203,13 @@ impl App {
         }
     }
 
-    /// Whether what is typed goes into the focused field.
+    /// Whether typed letters go into the focused field.
     #[must_use]
     pub fn has_line(&self) -> bool {
         self.layout.focus() == Pane::Form && self.is_editing
     }
 
-    /// Whether the focused row has a value rather than words, and typing would replace all of it.
+    /// Whether the focused row is a value and typing would replace all of it.
     fn is_fresh(&self) -> bool {
         let Tab { case, form, .. } = &self.tab;
         let is_words =
@@ -226,7 +224,7 @@ impl App {
         is_in_line && form.input.kept() == 0 && !history.is_visited(form.focus)
     }
 
-    /// What completes the text that is typed into the focused field: its unit, or the rest of it.
+    /// The completion of the typed text of the focused field: its unit, or the rest of a name.
     #[must_use]
     pub fn ending(&self) -> Option<String> {
         let (tab, system) = (&self.tab, self.settings.units);
@@ -242,7 +240,7 @@ impl App {
         if self.has_line() { typed() } else { None }
     }
 
-    /// How many required values are missing, where nothing else is wrong.
+    /// The number of missing required values, if nothing else is wrong.
     #[must_use]
     pub(crate) fn missing(&self) -> Option<usize> {
         let count = self.tab.problems.len();
@@ -254,7 +252,7 @@ impl App {
         Some(count).filter(|_| is_draft)
     }
 
-    /// Say something until the next key.
+    /// Shows a message until the next key.
     pub(super) fn say(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
             text: text.into(),
@@ -262,7 +260,7 @@ impl App {
         });
     }
 
-    /// Say what went wrong, until the next key.
+    /// Shows an error message until the next key.
     pub(super) fn complain(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
             text: text.into(),
@@ -270,13 +268,13 @@ impl App {
         });
     }
 
-    /// Move to a field, the cursor at the end of its text.
+    /// Focuses a field, with the cursor at the end of its text.
     pub(super) fn focus_on(&mut self, field: usize) {
         self.tab.focus_on(field);
         self.follow();
     }
 
-    /// Form and results are to scroll until what is focused is in sight with what is wrong with it.
+    /// Makes form and results scroll until the focused row and its problem are visible.
     pub(super) fn follow(&mut self) {
         self.needs_scroll = true;
     }

@@ -1,5 +1,5 @@
-//! The last pass over a screen: no control characters, few combining marks in a cell, and plain
-//! ASCII on terminals that need it.
+//! The last pass over a screen: removes control characters, limits combining marks and writes plain
+//! ASCII if the terminal needs it.
 
 use std::borrow::Cow;
 
@@ -7,13 +7,13 @@ use ratatui::buffer::Buffer;
 
 use crate::case::sanitize::is_hidden;
 
-/// Stands for a character that must not reach a terminal.
+/// Replaces a character that must not reach a terminal.
 const VEILED: char = '\u{FFFD}';
 
-/// Combining marks of one cell that reach the terminal.
+/// Greatest number of combining marks per cell.
 const MOST_MARKS: usize = 8;
 
-/// Symbols in the field's writing, and in letters that every terminal has.
+/// Symbols and their spelling in ASCII.
 const WRITTEN_OUT: [(&str, &str); 34] = [
     ("ΔV_", "dV_"),
     ("Δf", "Df"),
@@ -51,7 +51,7 @@ const WRITTEN_OUT: [(&str, &str); 34] = [
     ("ö", "oe"),
 ];
 
-/// What one cell becomes on a terminal without Unicode.
+/// ASCII replacements of single cells.
 const ONE_CELL: [(&str, char); 26] = [
     ("─━╌┄", '-'),
     ("═", '='),
@@ -81,13 +81,13 @@ const ONE_CELL: [(&str, char); 26] = [
     ("°", 'd'),
 ];
 
-/// Whether a character may stand on a terminal.
+/// Whether a character is safe to print on a terminal.
 #[must_use]
 pub fn is_safe(character: char) -> bool {
     !is_hidden(character)
 }
 
-/// The text with one visible mark in place of each character that controls or hides.
+/// The text with one visible mark for each control or invisible character.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     if text.chars().all(is_safe) {
         return Cow::Borrowed(text);
@@ -105,7 +105,7 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     )
 }
 
-/// A symbol as the terminal can write it.
+/// A symbol in the characters of the terminal.
 #[must_use]
 pub(crate) fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
     if !ascii || text.is_ascii() {
@@ -118,8 +118,7 @@ pub(crate) fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
     )
 }
 
-/// A line of a page in letters that every terminal has. Its columns stay where they are as far as
-/// the gaps before them have room.
+/// A line of a page in ASCII. Its columns keep their positions if the gaps before them have room.
 #[must_use]
 pub fn written_out(line: &str) -> Cow<'_, str> {
     if line.is_ascii() {
@@ -138,7 +137,7 @@ pub fn written_out(line: &str) -> Cow<'_, str> {
     Cow::Owned(written)
 }
 
-/// The last pass over a finished screen.
+/// The last pass over a finished frame.
 pub fn finish(buffer: &mut Buffer, ascii: bool) {
     for cell in &mut buffer.content {
         if let Some((end, _)) = cell.symbol().char_indices().nth(1 + MOST_MARKS) {

@@ -1,12 +1,12 @@
-//! A benchmark of every method on a case: error against time.
+//! A benchmark of every method on a case: accuracy against run time.
 
 use crate::model::Inputs;
 use crate::study::trade::{Patience, Setting, Trade};
 
-/// A measurement that is asked for.
+/// A request for a benchmark.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measuring {
-    /// Tells it from the others.
+    /// The serial of the request.
     pub serial: u64,
     /// The pair.
     pub inputs: Inputs,
@@ -14,42 +14,42 @@ pub struct Measuring {
     pub patience: Patience,
 }
 
-/// What is known of a measurement.
+/// Results of a running or finished benchmark.
 #[derive(Debug, Clone)]
 pub struct Measured {
-    /// The measurement's.
+    /// The serial of the benchmark.
     pub serial: u64,
-    /// What is measured so far; nothing where that did not change.
+    /// The results so far; `None` if they have not changed.
     pub trade: Option<Box<Trade>>,
-    /// How it ended, where it did.
+    /// How the benchmark ended, if it has ended.
     pub end: Option<End>,
 }
 
-/// How a measurement ended.
+/// How a benchmark ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
-    /// All is measured.
+    /// All settings are measured.
     Whole,
-    /// It was stopped.
+    /// The user stopped it.
     Stopped,
     /// The model refuses the case, or the program failed.
     Failed(String),
 }
 
-/// Error and time of every setting, on the case as it was then.
+/// The benchmark of a case, with error and time of every setting.
 #[derive(Debug, Clone)]
 pub struct Traded {
-    /// The measurement's.
+    /// The serial of the benchmark.
     pub(crate) serial: u64,
-    /// The pair as it was then.
+    /// The pair at the time of the request.
     pub(crate) inputs: Inputs,
-    /// What is measured so far.
+    /// The results so far.
     pub trade: Option<Trade>,
-    /// The setting on which the mark stands.
+    /// The selected setting.
     pub marked: Option<Setting>,
 }
 
-/// How the pane shows a measurement.
+/// The view of the trade pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum TradeView {
     /// Error against time of every setting.
@@ -71,7 +71,7 @@ impl TradeView {
 }
 
 impl Traded {
-    /// Whether the case is another one by now, but for the setting.
+    /// Whether the case has changed since the benchmark, apart from its setting.
     #[must_use]
     pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
         let Inputs {

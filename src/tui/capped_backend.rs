@@ -1,5 +1,5 @@
-//! A backend that reports at most [`LARGEST`] as the size of the terminal, and less where memory is
-//! short. A frame stays small on any terminal, and the cells beyond stay blank.
+//! A backend that limits the reported terminal size to [`LARGEST`], and further if memory is short.
+//! Frames stay small on any terminal, and cells outside stay blank.
 
 use std::cell::Cell;
 use std::io;
@@ -8,21 +8,21 @@ use ratatui::backend::{Backend, ClearType, WindowSize};
 use ratatui::buffer;
 use ratatui::layout::{Position, Size};
 
-/// The largest area that the workbench draws.
+/// The largest drawn area.
 pub(super) const LARGEST: Size = Size {
     width: 1000,
     height: 500,
 };
-/// The area that is drawn however short memory is.
+/// The smallest drawn area if memory is short.
 const SMALLEST: Size = Size {
     width: 80,
     height: 24,
 };
-/// Memory that must be free for a frame, in buffers of all its cells: two, both again while they
-/// grow, and plenty for the threads that start later.
+/// Memory that must be free for a frame, in buffers of all its cells: two buffers, twice while they
+/// grow, and a reserve for the threads that start later.
 const BUFFERS: usize = 12;
 
-/// A backend, and the last size of its terminal with the part of it that is drawn.
+/// A backend with the last size of its terminal and the drawn part.
 pub(super) struct CappedBackend<B> {
     pub(super) backend: B,
     last: Cell<Option<(Size, Size)>>,
@@ -37,8 +37,7 @@ impl<B> CappedBackend<B> {
     }
 }
 
-/// The part of a terminal of that size that the workbench draws: a failed allocation of its cells
-/// would end the process.
+/// The drawn part of a terminal of a size: a failed allocation of its cells would end the process.
 fn capped(size: Size, has_room: impl Fn(Size) -> bool) -> Size {
     let mut drawn = Size {
         width: size.width.min(LARGEST.width),

@@ -1,4 +1,4 @@
-//! What the user can do: every command, and the one table of keys, names and sentences.
+//! The commands of the user, and the table of their keys, names and sentences.
 
 mod table;
 
@@ -101,20 +101,20 @@ pub enum Command {
     Edit(InputRequest),
 }
 
-/// A line of the table.
+/// A row of the table.
 #[derive(Debug, Clone, Copy)]
 pub struct Binding {
-    /// The keys that call it; none where only the palette does.
+    /// The keys of the command; empty if only the palette runs it.
     pub chords: &'static [Chord],
-    /// What they call.
+    /// The command.
     pub(crate) command: Command,
-    /// The places where they do.
+    /// The places in which the keys work.
     pub places: Place,
-    /// One or two words for status line and palette; empty where it stands in neither.
+    /// One or two words for status line and palette; empty if neither shows it.
     pub name: &'static str,
     /// One sentence for palette and help.
     pub sentence: &'static str,
-    /// Where the status line shows it.
+    /// The places in which the status line shows it.
     pub(crate) footer: Place,
 }
 
@@ -147,15 +147,15 @@ pub fn commands() -> impl Iterator<Item = &'static Binding> {
 /// How a command relates to the focused pane and field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Scope {
-    /// It belongs to the pane.
+    /// The command belongs to the focused pane or field.
     Own,
-    /// It works in every pane.
+    /// The command works in every pane.
     Everywhere,
-    /// It belongs to another pane.
+    /// The command belongs to another pane.
     Elsewhere,
 }
 
-/// The scope of a command where keys go to `place` and `pane` has the focus.
+/// The scope of a command if keys go to `place` and `pane` has the focus.
 #[must_use]
 pub(crate) fn scope(command: Command, place: Place, pane: Pane) -> Scope {
     let is_of_some = |places: Place| !places.holds(Place::OUTSIDE);
@@ -173,7 +173,7 @@ pub(crate) fn scope(command: Command, place: Place, pane: Pane) -> Scope {
     bound.map(scope).min().unwrap_or(Scope::Everywhere)
 }
 
-/// Every key that calls the command outside prompts, as a person reads it.
+/// Every key of the command outside prompts, as text.
 pub(crate) fn keys_of(command: Command) -> String {
     let bound = BINDINGS
         .iter()
@@ -185,7 +185,7 @@ pub(crate) fn keys_of(command: Command) -> String {
         .join(", ")
 }
 
-/// The first key that calls the command outside prompts; its name in the palette where it has none.
+/// The first key of the command outside prompts; without a key, its name in the palette.
 pub(crate) fn key_of(command: Command) -> String {
     let keys = keys_of(command);
     match keys.split(", ").next() {
@@ -204,7 +204,7 @@ fn is_listed(binding: &Binding) -> bool {
 }
 
 impl Binding {
-    /// The keys as a person reads them, Ctrl-H left out.
+    /// The keys as text, without Ctrl-H.
     #[must_use]
     pub fn keys(&self) -> String {
         let names = self
@@ -238,8 +238,7 @@ mod tests {
         }
     }
 
-    /// Letters that mean the like in several panes: a move, more or less, from the start, another
-    /// view.
+    /// Letters with similar meanings in several panes: move, more or less, start again, other view.
     const ALIKE: &str = "hjklgG+=-0v";
 
     #[test]

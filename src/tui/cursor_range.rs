@@ -15,9 +15,9 @@ pub(super) const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time 
 
 /// Digits of an angle and of a time.
 const DIGITS: (usize, usize) = (5, 4);
-/// Pictures of a run: four seconds at twelve pictures a second.
+/// Frames of the animation: four seconds at twelve frames a second.
 const PICTURES: f64 = 48.0;
-/// The start of a run in the teeth pane, before D, as a multiple of the angle from D to E.
+/// The start of the animation in the teeth pane, before D, as a multiple of the angle from D to E.
 const APPROACH: f64 = 1.6;
 
 /// The charts and the pane in which the cursor moves.
@@ -33,9 +33,9 @@ pub(crate) struct CursorScope<'a> {
 pub(super) struct Reach {
     /// The first contact D, or E without corner contact.
     pub(crate) start: f64,
-    /// The start of a run.
+    /// The start of the animation.
     pub(crate) run_from: f64,
-    /// The end of a run.
+    /// The end of the animation.
     pub(crate) run_to: f64,
     /// The leftmost angle.
     pub(crate) most: f64,
@@ -46,7 +46,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// The angle `columns` closer to E, or D if there is no cursor yet.
+    /// The angle after a move by `columns` towards E; D if there is no cursor yet.
     #[must_use]
     pub(super) fn moved(self, cursor: Option<f64>, columns: i16) -> f64 {
         let Some(cursor) = cursor else {
@@ -55,7 +55,7 @@ impl Reach {
         self.held(cursor - f64::from(columns) * self.column)
     }
 
-    /// The next picture of the run. `None` at its end.
+    /// The angle of the next frame; `None` at the end.
     #[must_use]
     pub(super) fn played(self, cursor: f64) -> Option<f64> {
         let next = cursor - (self.run_from - self.run_to) / PICTURES;
@@ -64,7 +64,7 @@ impl Reach {
 
     fn held(self, angle: f64) -> f64 {
         let angle = angle.clamp(self.least, self.most);
-        // Whole columns meet E exactly.
+        // Rounding must not keep the cursor from E.
         if angle.abs() < 1e-9 * self.column {
             0.0
         } else {
@@ -73,10 +73,10 @@ impl Reach {
     }
 }
 
-/// The driver's angle before E that a text means, in rad.
+/// Parses an angle before E, a time or a point; returns the driver's angle before E, in rad.
 ///
 /// # Errors
-/// If the text has no meaning, or the angle is out of range.
+/// Returns an error if the text is not valid, or if the angle is out of range.
 pub(super) fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     let solution = scope
         .charts
@@ -119,7 +119,7 @@ pub(super) fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
         .filter(|_| endings.next().is_none() && !is_whole)
 }
 
-/// An angle in words, with the time between it and E.
+/// An angle as text, with its time from E.
 #[must_use]
 pub(super) fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
     let speed = scope
@@ -144,7 +144,7 @@ fn short(number: f64, digits: usize) -> String {
     rounded.parse().map_or(rounded, shortest)
 }
 
-// A point by its name. `None` if the text is no name.
+// A point by its name; `None` if the text is not a name.
 fn place(scope: &CursorScope<'_>, solution: &Solution, name: &str) -> Option<Result<f64, String>> {
     let geometry = &solution.geometry;
     let found = |angle: Option<f64>, why: &str| angle.ok_or_else(|| why.to_owned());
@@ -161,7 +161,7 @@ fn place(scope: &CursorScope<'_>, solution: &Solution, name: &str) -> Option<Res
     })
 }
 
-// The angle at which the active method's curve in the chosen chart is farthest from 0.
+// The angle at which the curve of the active method in the selected chart is farthest from 0.
 fn peak(scope: &CursorScope<'_>) -> Option<f64> {
     let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph]);
     let own = curves
@@ -232,7 +232,7 @@ pub(super) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     } else {
         (end.min(-axis.to.to_radians()), window.length().to_radians())
     };
-    // A run covers the visible part of the contact.
+    // The animation covers the visible part of the contact.
     let visible = (
         start.min(-window.from.to_radians()),
         end.max(-window.to.to_radians()),

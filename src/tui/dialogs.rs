@@ -1,4 +1,5 @@
-//! The dialogs over the panes. Each is a file with its state, keys, update and drawing.
+//! The dialogs over the panes. Each file contains the state, keys, update and drawing of one
+//! dialog.
 
 mod boxes;
 pub(crate) mod browser;
@@ -35,12 +36,12 @@ use question::{Choice, Question};
 pub(crate) use relief::ReliefDialog;
 use save_as::SaveAs;
 
-/// What every dialog does. By default it ignores a key.
+/// The interface of a dialog. By default it ignores a key.
 pub(crate) trait Dialog {
-    /// The keys that it takes.
+    /// The place that decides the meaning of keys.
     fn place(&self) -> Place;
 
-    /// Draws it over the screen, and returns the place of the text cursor.
+    /// Draws the dialog over the screen and returns the position of the text cursor.
     fn draw(
         &self,
         around: &Surroundings<'_>,
@@ -48,41 +49,41 @@ pub(crate) trait Dialog {
         buffer: &mut Buffer,
     ) -> Option<Position>;
 
-    /// Enter.
+    /// Handles Enter.
     fn accept(&mut self, around: &Surroundings<'_>) -> Outcome;
 
-    /// Esc: the dialog is gone.
+    /// Handles Esc; the dialog then closes.
     fn close(&mut self) -> Vec<Effect> {
         Vec::new()
     }
 
-    /// The line of text that it edits.
+    /// The edited line of text.
     fn input(&mut self) -> Option<&mut Line> {
         None
     }
 
-    /// The text of its line has changed.
+    /// Handles a change of the edited line.
     fn typed(&mut self) -> Vec<Effect> {
         Vec::new()
     }
 
-    /// A letter that is an answer of its own; `None` if it is text for the line.
+    /// The outcome of a letter that is a command of the dialog; `None` if the letter is text.
     fn letter(&mut self, _letter: char) -> Option<Outcome> {
         None
     }
 
-    /// A line further.
+    /// Moves by `by` lines.
     fn step(&mut self, _by: isize, _around: &Surroundings<'_>) {}
 
-    /// A page further.
+    /// Moves by `by` pages.
     fn turn(&mut self, _by: isize, _around: &Surroundings<'_>) {}
 
-    /// A turn of the wheel.
+    /// Handles the mouse wheel.
     fn wheel(&mut self, by: isize, around: &Surroundings<'_>) {
         self.step(by, around);
     }
 
-    /// A press of the mouse. Returns whether it accepts.
+    /// Handles a mouse click. Returns whether it accepts.
     fn click(&mut self, _at: Position, _screen: Size) -> bool {
         false
     }
@@ -90,7 +91,7 @@ pub(crate) trait Dialog {
     /// Selects another field behind an explained result.
     fn select_field(&mut self, _by: isize, _around: &Surroundings<'_>) {}
 
-    /// The result of a job that it may have requested.
+    /// Handles the result of a job.
     fn receive(&mut self, _result: Action) {}
 
     /// The job that previews the selection, once for each selection.
@@ -99,42 +100,42 @@ pub(crate) trait Dialog {
     }
 }
 
-/// What a dialog needs to know of the workbench.
+/// The context of a dialog.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
     /// The size of the screen.
     pub(crate) screen: Size,
     /// The capabilities of the terminal.
     pub(crate) look: Look,
-    /// The charts and the pane in which the cursor moves.
+    /// The visible charts and the pane in which the cursor moves.
     pub(crate) cursor: CursorScope<'a>,
 }
 
-/// What the user decided in a dialog.
+/// The decision of the user in a dialog.
 #[derive(Debug, Clone)]
 pub(crate) enum Outcome {
-    /// Nothing yet; effects of the dialog itself.
+    /// No decision yet; effects of the dialog itself.
     Effects(Vec<Effect>),
     /// Open a file.
     Open(PathBuf),
     /// An answer to a question.
     Choose(Choice),
-    /// Save under that name, then go on.
+    /// Save under this name, then continue with the next step.
     SaveAs(String, Next),
-    /// Take these values of fields into the case.
+    /// Write these values of fields into the case.
     Relief(Vec<(&'static str, String)>),
-    /// Export to the file of that name.
+    /// Export to the file with this name.
     Export(String),
-    /// Move the cursor to that angle, in rad before E; or why there is none.
+    /// Move the cursor to this angle, in rad before E; or the reason of the refusal.
     CursorTo(Result<f64, String>),
-    /// A line of a list.
+    /// The selected line of a list.
     Pick(Pick),
     /// Go to a field.
     GoTo(usize),
 }
 
 impl Outcome {
-    /// Nothing.
+    /// No effect.
     #[must_use]
     pub(crate) fn none() -> Outcome {
         Outcome::Effects(Vec::new())
@@ -144,13 +145,13 @@ impl Outcome {
 /// An open dialog.
 #[derive(Debug, Clone)]
 pub enum Prompt {
-    /// Which file to open.
+    /// The file browser.
     Browse(Box<Browser>),
     /// The file to save to.
     SaveAs(SaveAs),
     /// The file to export to.
     Export(ExportTo),
-    /// Where the cursor is to go.
+    /// The angle for the cursor.
     CursorTo(CursorTo),
     /// A question with buttons.
     Ask(Question),
@@ -195,7 +196,7 @@ impl Prompt {
         }
     }
 
-    /// The browser of files, if it is one.
+    /// The file browser, if it is one.
     pub(crate) fn browser(&mut self) -> Option<&mut Browser> {
         match self {
             Prompt::Browse(browser) => Some(browser),
@@ -203,17 +204,17 @@ impl Prompt {
         }
     }
 
-    /// Whether it asks for the name of a file to save to.
+    /// Whether it is the dialog for the path to save to.
     pub(crate) fn is_save_as(&self) -> bool {
         matches!(self, Prompt::SaveAs(_))
     }
 
-    /// Whether it asks what to do about an export that runs.
+    /// Whether it is the question about a running export.
     pub(crate) fn is_about_running_export(&self) -> bool {
         matches!(self, Prompt::Ask(question) if question.is_about_running_export())
     }
 
-    /// Whether it asks for the name of a file to export to.
+    /// Whether it is the dialog for the path to export to.
     pub(crate) fn is_export(&self) -> bool {
         matches!(self, Prompt::Export(_))
     }

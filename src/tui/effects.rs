@@ -7,7 +7,7 @@ use super::session::autosave::Autosave;
 use super::session::recovery::Claim;
 use super::store::{self, recents};
 
-/// Carries out an effect on files, and returns its result as an action. Ignores other effects.
+/// Carries out an effect on files and returns its result as an action. Ignores other effects.
 #[must_use]
 pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
     match effect {
@@ -34,7 +34,7 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
                 .map(|reason| Action::Failed(format!("the settings are not saved: {reason}")))
         }
         Effect::Forget(journal) => {
-            // One that stays is offered again.
+            // A journal that cannot be deleted is offered again at the next start.
             drop(fs::remove_file(journal));
             None
         }
@@ -57,7 +57,7 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
     }
 }
 
-/// A result of the autosave as an action.
+/// The result of opening a case under autosave, as an action.
 #[must_use]
 pub fn claimed(claim: Result<Claim, String>) -> Action {
     claim.map_or_else(Action::Failed, |claim| Action::Claimed(Box::new(claim)))

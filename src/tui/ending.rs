@@ -1,9 +1,10 @@
-//! Ends from outside: the journal is written first, the terminal is given back, and the process
-//! ends by the signal that it got. A stuck workbench delays none of that for long.
+//! The end of the process by a signal or a closed terminal. It writes the journal first, restores
+//! the terminal, and ends the process by the signal that it received. A blocked main loop delays
+//! this only briefly.
 //!
-//! Every signal that would end the process is blocked in every thread, and one thread reads them.
-//! Nothing catches a fault of the process itself: a real SIGSEGV, a stack that overflows, or an
-//! abort, as after a failed allocation, ends it at once and leaves the terminal as it is. The
+//! Every signal that would end the process is blocked in every thread, and one thread reads them. A
+//! fault of the process itself is not handled: a real SIGSEGV, a stack overflow, or an abort, such
+//! as after a failed allocation, ends the process immediately and leaves the terminal as it is. The
 //! journal of the last two seconds is lost then. `reset` repairs the terminal.
 
 use std::io;
@@ -18,15 +19,15 @@ use super::terminal::{expect_end, give_back_by_force};
 use crate::system::signals::{HeldSignals, die_of};
 use crate::system::terminal::wait_for_hang_up;
 
-/// So long may the workbench take to end.
+/// Time for the main loop to end by itself.
 const GRACE: Duration = Duration::from_millis(700);
-/// The exit code where the terminal is gone.
+/// The exit code if the terminal is closed.
 pub(super) const TERMINAL_LOST: u8 = 5;
 
 type LastWords = Arc<dyn Fn() + Send + Sync>;
 
-/// Waits for signals and for the end of the terminal, each in a thread that sleeps. `last_words`
-/// run before anything else on the way to the end.
+/// Waits for signals and for the end of the terminal, each in a sleeping thread. Calls `last_words`
+/// first when the process ends.
 pub(super) fn listen(
     signals: HeldSignals,
     sender: &SyncSender<Event>,
@@ -36,10 +37,10 @@ pub(super) fn listen(
     let (words, to_end) = (Arc::clone(&last_words), sender.clone());
     signals.for_each_deadly(move |signal| end(&words, &to_end, &Event::Signal(signal)))?;
     let to_pass = sender.clone();
-    // In a thread of its own: a workbench that is stuck takes no event, and must still end.
+    // A separate thread, because a blocked main loop takes no events and must still end.
     signals.for_each_passing(move |signal| to_pass.send(Event::Signal(signal)).is_ok())?;
     let gone = sender.clone();
-    // Whoever is not of the terminal's session has no signal when it goes.
+    // A process outside the session of the terminal receives no signal when the terminal closes.
     thread::Builder::new()
         .name("line".to_owned())
         .spawn(move || {
@@ -50,8 +51,8 @@ pub(super) fn listen(
     Ok(())
 }
 
-// The workbench ends by itself, unless it is stuck, such as in a write to a terminal that accepts
-// nothing more.
+// The main loop ends by itself, unless it is blocked, such as in a write to a terminal that accepts
+// no more bytes.
 fn end(last_words: &LastWords, sender: &SyncSender<Event>, cause: &Event) -> ! {
     expect_end();
     last_words();

@@ -1,4 +1,4 @@
-//! What comes in: keys, signals and answers through one bounded channel, taken in batches.
+//! Incoming events: keys, signals and results through one bounded channel, read in batches.
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,22 +13,22 @@ use super::actions::{self, Action};
 use super::input;
 use super::keys::Place;
 
-/// Something from outside.
+/// An event from outside the state.
 #[derive(Debug, Clone)]
 pub enum Event {
-    /// From the terminal.
+    /// Input from the terminal.
     Input(Input),
-    /// A signal of that number.
+    /// The number of a signal.
     Signal(i32),
-    /// From a worker, or from the journal, which cannot be written.
+    /// A result of a worker, or an error of the journal.
     Action(Action),
-    /// Time for the next picture of what plays.
+    /// Time for the next frame of an animation.
     Tick,
-    /// The terminal is gone.
+    /// The terminal is closed.
     Lost,
 }
 
-/// The receiving end.
+/// The receiver of events.
 #[derive(Debug)]
 pub(crate) struct Events {
     sender: SyncSender<Event>,
@@ -36,9 +36,9 @@ pub(crate) struct Events {
 }
 
 const CHANNEL: usize = 4096;
-/// A batch is drawn after this long, even while more is coming.
+/// A batch is drawn after this time, even if more events are waiting.
 const BATCH: Duration = Duration::from_millis(50);
-/// Lines that a turn of the wheel moves.
+/// Lines per step of the mouse wheel.
 const WHEEL: isize = 3;
 
 impl Default for Events {
@@ -48,17 +48,17 @@ impl Default for Events {
 }
 
 impl Events {
-    /// A channel to which nobody sends yet.
+    /// A channel without senders.
     #[must_use]
     pub(crate) fn new() -> Events {
         let (sender, receiver) = sync_channel(CHANNEL);
         Events { sender, receiver }
     }
 
-    /// Listen to the terminal, in a thread that sleeps until something comes.
+    /// Starts a thread that reads the terminal.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub(crate) fn listen(&self) -> io::Result<()> {
         let keys = self.sender.clone();
         thread::Builder::new()
@@ -67,7 +67,7 @@ impl Events {
         Ok(())
     }
 
-    /// A way for what ends the workbench to say so.
+    /// A sender for the code that ends the workbench.
     #[must_use]
     pub(crate) fn sender(&self) -> SyncSender<Event> {
         self.sender.clone()
@@ -79,8 +79,8 @@ impl Events {
         move |action| sender.send(Event::Action(action)).is_ok()
     }
 
-    /// Wait for something, and take all that has come with it: a tick when nothing came before the
-    /// alarm, nothing when nothing came before the deadline.
+    /// Waits for an event and returns all waiting events. Returns a tick after `alarm` without
+    /// events, and nothing after `deadline`.
     #[must_use]
     pub(crate) fn batch(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Vec<Event> {
         let Some(first) = self.first(alarm, deadline) else {
@@ -112,7 +112,7 @@ impl Events {
     }
 }
 
-/// What an input means in a place; a run of letters typed in a line is taken as one.
+/// The action of an input in a place; a run of typed letters becomes one action.
 pub fn take_action(
     inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>,
     place: Place,
@@ -169,8 +169,8 @@ fn letter_of(event: &Event, place: Place) -> Option<char> {
 
 fn read_terminal(sender: &SyncSender<Event>) {
     let send = |input| sender.send(Event::Input(input)).is_ok();
-    // Whatever ends the reader, a workbench without keys must not stay. The receiver is gone only
-    // when the workbench is on its way out.
+    // The workbench must not run without keys, whatever ends this reader. If the receiver is
+    // closed, the workbench is ending.
     drop(catch_unwind(AssertUnwindSafe(|| input::read_all(send))));
     drop(sender.send(Event::Lost));
 }

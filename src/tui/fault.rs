@@ -1,6 +1,6 @@
-//! Faults of the program on demand, for the tests of what becomes of them; a release has none.
+//! Faults on request, for tests of the error handling; a release build has none.
 
-/// Panic where the tests ask for it at this place, or stay there for ever.
+/// Panics or blocks forever if a test requests a fault at this place.
 #[cfg(debug_assertions)]
 #[expect(clippy::panic, reason = "a fault is what is asked for")]
 pub(super) fn on_demand(place: &str) {
@@ -13,6 +13,6 @@ pub(super) fn on_demand(place: &str) {
     }
 }
 
-/// Nothing.
+/// Does nothing.
 #[cfg(not(debug_assertions))]
 pub(super) fn on_demand(_place: &str) {}

@@ -1,5 +1,4 @@
-//! What only a form needs of a case: values that are stepped, units and ranges that are shown,
-//! fields that are found, materials that are filled in.
+//! Help for the form: stepping of values, units and ranges, search of fields, materials.
 
 mod hint;
 pub(crate) mod materials;

@@ -13,13 +13,13 @@ use super::commands::{Command, key_of};
 use super::tab::{Origin, Tab};
 use super::text;
 
-/// What the header begins with.
+/// The start of the header.
 const HEAD: &str = "tipstrike";
-/// Stands before the open cases where there are others before them.
+/// Precedes the visible tabs if there are others before them.
 const BEFORE: &str = "‹ ";
-/// A longer name of a case is cut where there are several.
+/// A longer name is cut if there are several tabs.
 const LONGEST_NAME: usize = 24;
-/// The open cases, the current one with its path and title, and which of them are unsaved.
+/// The open cases, the current one with its path and title, with marks for unsaved edits.
 pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut spans = vec![Span::styled(HEAD, app.look.theme.title), Span::raw("  ")];
     if app.others.is_empty() {
@@ -70,7 +70,7 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
     ]
 }
 
-/// The place of the open case whose name stands on a cell, where there is one.
+/// The index of the open case whose name is at a cell, if any.
 #[must_use]
 pub(super) fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     if app.others.is_empty() || !area.contains(at) {
@@ -86,8 +86,8 @@ pub(super) fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     })
 }
 
-// The open cases by their numbers, as many around the current one as have room; a mark at the end
-// where others are.
+// The open cases with their numbers, as many around the current one as fit, and a mark at each end
+// with hidden ones.
 fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
     let (names, Range { start, end }) = shown_tabs(app, width);
     let mut spans = vec![Span::raw(if start > 0 { BEFORE } else { "" })];
@@ -102,7 +102,7 @@ fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
     spans
 }
 
-/// The names of the open cases, and which of them have room beside the current one.
+/// The names of the open cases, and the range of names that fit around the current one.
 fn shown_tabs(app: &App, width: u16) -> (Vec<String>, Range<usize>) {
     const OTHER_TEXT: usize = 15;
     let tabs = app.tabs().enumerate();
@@ -122,7 +122,7 @@ fn tab_name(at: usize, tab: &Tab) -> String {
     )
 }
 
-/// The names that have room, grown from the one in the middle.
+/// The range of names that fit, grown from the one in the middle.
 fn window(names: &[String], middle: usize, width: usize) -> Range<usize> {
     let size = |at: usize| names.get(at).map_or(0, |name| name.width() + 2);
     let (mut from, mut to, mut used) = (middle, middle + 1, size(middle));

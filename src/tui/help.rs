@@ -1,4 +1,4 @@
-//! The help page, made from the table of bindings.
+//! The help page, generated from the table of bindings.
 
 use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::keys::Place;
@@ -16,7 +16,7 @@ const BEFORE: [&str; 6] = [
         method paper uses the printed Eqs. 7-20; exact solves for D.",
 ];
 
-/// The signs, by the place where they appear.
+/// The signs, by pane.
 const SIGNS: [&str; 6] = [
     "Signs before a field: * changed since the last save; - no effect in this case; ! error or \
         missing required value; ▸ selected.",
@@ -73,7 +73,7 @@ pub fn lines() -> Vec<String> {
         for &at in &here {
             is_listed[at] = true;
         }
-        // Commands of every status line come first.
+        // Commands of every status line are listed first.
         here.sort_by_key(|&at| place == Place::WORK && !BINDINGS[at].footer.holds(place));
         lines.extend(here.into_iter().filter_map(|at| line(&BINDINGS[at])));
     }

@@ -1,4 +1,4 @@
-//! Undo and redo: states of a case to go back to, one for each visit of a field, without a limit.
+//! Undo and redo without a limit: one state of a case for each visit of a field.
 
 use crate::case::{Case, FIELDS, Limit, Spread, Variant};
 
@@ -7,7 +7,7 @@ use crate::case::{Case, FIELDS, Limit, Spread, Variant};
 pub(crate) struct History {
     past: States,
     future: States,
-    /// The row that is edited, until its visit ends.
+    /// The edited row, until its visit ends.
     visited: Option<usize>,
 }
 
@@ -30,7 +30,8 @@ struct Difference {
 type Others = (Vec<Limit>, Vec<Spread>, Vec<Variant>);
 
 impl History {
-    /// Remember the state before the first edit of a visit to a row; whether this is the first.
+    /// Stores the state before the first edit of a visit to a row. Returns whether it is the first
+    /// edit.
     pub(super) fn before_edit(&mut self, case: &Case, focus: usize, row: usize) -> bool {
         let is_first = self.visited != Some(row);
         if is_first {
@@ -55,7 +56,7 @@ impl History {
         self.visited == Some(row)
     }
 
-    /// Drops the state before this visit where the case is in that state again.
+    /// Drops the state before this visit if the case is in that state again.
     pub(super) fn forget_visit(&mut self, case: &Case) {
         if self.before_visit() == Some(case) {
             self.past.pop();
@@ -63,19 +64,19 @@ impl History {
         self.visited = None;
     }
 
-    /// The next edit begins a state of its own.
+    /// Ends the visit: the next edit stores a new state.
     pub(super) fn end_visit(&mut self) {
         self.visited = None;
     }
 
-    /// The state before, in exchange for the present one.
+    /// Exchanges the present state for the previous one.
     pub(super) fn undo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
         let state = self.past.pop()?;
         self.future.push(case, focus);
         Some(state)
     }
 
-    /// The state that was undone, in exchange for the present one.
+    /// Exchanges the present state for the undone one.
     pub(super) fn redo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
         let state = self.future.pop()?;
         self.past.push(case, focus);
@@ -113,7 +114,7 @@ impl Difference {
         }
     }
 
-    /// The case, out of the other one.
+    /// The case, from the other one and the difference.
     fn put_into(self, mut other: Case) -> Case {
         for (field, text) in self.texts {
             other.write(field, &text);
@@ -125,7 +126,7 @@ impl Difference {
     }
 }
 
-// All that a case says besides its fields.
+// The parts of a case other than its fields.
 fn others_of(case: &Case) -> Others {
     (
         case.limits.clone(),

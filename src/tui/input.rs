@@ -14,11 +14,11 @@ use decoder::Decoder;
 
 /// Less than the terminal's own buffer, so that a full read means that more bytes are ready.
 const BUFFER: usize = 1024;
-/// Time between two looks while the shell has the terminal and its keys.
+/// Polling interval while the shell is in the foreground.
 const BACKGROUND: Duration = Duration::from_millis(50);
 
 /// Reads the terminal and passes each input to `send`, until `send` returns false or the terminal
-/// is gone.
+/// closes.
 pub(super) fn read_all(mut send: impl FnMut(Event) -> bool) {
     let stdin = io::stdin();
     let mut decoder = Decoder::default();
@@ -28,7 +28,7 @@ pub(super) fn read_all(mut send: impl FnMut(Event) -> bool) {
         let start = Instant::now();
         match wait_for_input(&stdin, decoder.patience()) {
             Ok(Input::None) => decoder.expire(&mut inputs),
-            // The shell has the terminal: a read would stop the process.
+            // The shell is in the foreground: a read would stop the process.
             Ok(Input::Ready) if !is_in_foreground() => {
                 thread::sleep(BACKGROUND);
             }

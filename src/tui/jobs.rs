@@ -13,51 +13,51 @@ use crate::report::explain::Page;
 use crate::report::pictures::Picture;
 use crate::study::relief::{Demand, Specification};
 
-/// A job. Its result is an action.
+/// A job of the worker. Its result is an action.
 #[derive(Debug, Clone)]
 pub enum Job {
-    /// What stands in a folder: where the browser is, and the folders typed after it.
+    /// List a folder: the folder of the browser, and the folders typed after it.
     Folder(PathBuf, String),
-    /// Which cases stand below a folder.
+    /// Find the cases below a folder.
     Below(PathBuf, String),
-    /// What a file or a folder holds.
+    /// Preview a file or a folder.
     Preview(Viewport, System),
-    /// Which cases were open last.
+    /// List the recent cases.
     Recents,
-    /// What the examples are.
+    /// Solve the examples for their digests.
     Examples(System),
-    /// Where a result comes from.
+    /// Explain a result.
     Explain(Box<Explaining>),
-    /// Write results to a file.
+    /// Export results to a file.
     Export(Box<Exporting>),
-    /// The results of the variants.
+    /// Solve the variants.
     Variants(Box<VariantsRequest>),
-    /// The tip relief to specify.
+    /// Find the tip relief to specify.
     Relief(Box<ReliefRequest>),
-    /// The report of the results as Markdown.
+    /// Write the report of the results as Markdown.
     Markdown(Box<Reporting>),
 }
 
-/// A result to be explained.
+/// A request to explain a result.
 #[derive(Debug, Clone)]
 pub struct Explaining {
     /// The result.
     pub(crate) quantity: &'static Quantity,
     pub(crate) case: Case,
-    /// The pair that it describes.
+    /// The pair.
     pub(crate) inputs: Inputs,
 }
 
 /// A search for the tip relief to specify.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReliefRequest {
-    /// What it must serve.
+    /// The demand on the relief.
     pub(crate) demand: Demand,
     /// The pair.
     pub(crate) inputs: Inputs,
 }
 
-/// A search and its answer, or why there is none.
+/// A search and its specification, or the reason of its failure.
 pub(crate) type ReliefAnswer = (ReliefRequest, Result<Box<Specification>, String>);
 
 /// Results for a report.
@@ -69,12 +69,12 @@ pub struct Reporting {
     pub file: String,
 }
 
-/// Results to be written to a file.
+/// A request to export results to a file.
 #[derive(Debug, Clone)]
 pub struct Exporting {
-    /// The file; its ending chooses the format.
+    /// The file; its extension selects the format.
     pub path: PathBuf,
-    /// Whether it may replace a file of that name.
+    /// Whether it may overwrite an existing file.
     pub(crate) replaces: bool,
     /// The name of the case.
     pub(crate) name: String,
@@ -86,7 +86,7 @@ pub struct Exporting {
     pub(crate) picture: Option<Picture>,
 }
 
-/// An export that runs.
+/// A running export.
 #[derive(Debug, Clone)]
 pub(crate) struct RunningExport {
     pub(crate) path: PathBuf,
@@ -94,16 +94,16 @@ pub(crate) struct RunningExport {
     pub(crate) picture: Option<Picture>,
 }
 
-/// Why an export was not written.
+/// Why an export failed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExportFault {
-    /// There is a file of that name.
+    /// The file exists.
     Exists,
-    /// Anything else, in a sentence.
+    /// Another fault, as a sentence.
     Failed(String),
 }
 
-/// The explanation of a result, or why there is none.
+/// The explanation of a result, or the reason of its absence.
 #[derive(Debug, Clone)]
 pub struct Explained {
     /// The result.
@@ -112,13 +112,13 @@ pub struct Explained {
 }
 
 impl Job {
-    /// How many kinds there are.
+    /// Number of kinds.
     pub(super) const KINDS: usize = 10;
 
     /// The kind of the search for the tip relief.
     pub(super) const RELIEF: usize = 8;
 
-    /// The kind and its name. Of a kind the latest job replaces the others.
+    /// The kind and its name. A new job replaces a waiting job of the same kind.
     pub(super) const fn kind(&self) -> (usize, &'static str) {
         match self {
             Job::Folder(..) => (0, "folders"),

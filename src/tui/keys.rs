@@ -1,4 +1,4 @@
-//! Keys with the modifiers held, and the places where they go.
+//! Keys with their modifiers, and the places that receive them.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -6,30 +6,30 @@ pub(in crate::tui) const CTRL: KeyModifiers = KeyModifiers::CONTROL;
 pub(in crate::tui) const ALT: KeyModifiers = KeyModifiers::ALT;
 pub(in crate::tui) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
 
-/// Where keys go.
+/// A set of places that receive keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place(u32);
 
-/// A key with the modifiers held.
+/// A key with its modifiers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Chord(pub(in crate::tui) KeyCode, pub(in crate::tui) KeyModifiers);
 
 impl Place {
-    /// Nowhere.
+    /// No place.
     pub(crate) const NONE: Place = Place(0);
-    /// A field of words or of a value.
+    /// A field of text or of a value.
     pub(crate) const TEXT: Place = Place(1);
-    /// A field of a few names.
+    /// A field with a list of choices.
     pub(crate) const CHOICE: Place = Place(2);
-    /// A prompt for a path with a list.
+    /// A prompt for a path, with a list.
     pub(crate) const BROWSE: Place = Place(4);
-    /// A prompt for a line: a path, an angle.
+    /// A prompt with a line: a path or an angle.
     pub(crate) const PATH: Place = Place(8);
     /// A question with buttons.
     pub(crate) const ASK: Place = Place(16);
-    /// A page to read.
+    /// A page of text.
     pub(crate) const READ: Place = Place(32);
-    /// A list that is filtered by what is typed.
+    /// A list with a filter.
     pub(crate) const PICK: Place = Place(64);
     /// The form, outside its fields.
     pub(crate) const FIELD: Place = Place(128);
@@ -39,18 +39,18 @@ impl Place {
     pub(crate) const CHART: Place = Place(512);
     /// The teeth.
     pub(crate) const TEETH: Place = Place(1024);
-    /// Error against time.
+    /// Accuracy against run time.
     pub(crate) const TRADE: Place = Place(2048);
     /// The explanation of a result.
     pub(crate) const EXPLAIN: Place = Place(4096);
-    /// A field of a value, into which nothing is typed yet: what no value begins with is a command
-    /// there.
+    /// An empty or fully selected field of a value: characters that cannot begin a value are
+    /// commands.
     pub(crate) const FRESH: Place = Place(8192);
     /// The study.
     pub(crate) const STUDY: Place = Place(16384);
     /// A chart of whine, which has no roll angle.
     pub(crate) const WHINE: Place = Place(32768);
-    /// The tolerance, a page in the place of the study.
+    /// The tolerance, which replaces the study.
     pub(crate) const TOLERANCE: Place = Place(65536);
     /// A field that takes text or a name.
     pub(crate) const FORM: Place = Place::TEXT.or(Place::CHOICE);
@@ -62,13 +62,13 @@ impl Place {
         .or(Place::STUDY)
         .or(Place::TOLERANCE)
         .or(Place::WHINE);
-    /// Everywhere but in a prompt.
+    /// Every place except prompts.
     pub(crate) const WORK: Place = Place::FORM.or(Place::OUTSIDE);
-    /// Where `/` and `:` are commands.
+    /// The places where `/` and `:` are commands.
     pub(crate) const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
     /// Every chart.
     pub(crate) const CHARTS: Place = Place::CHART.or(Place::WHINE);
-    /// The panes that the roll angle's cursor shows in.
+    /// The panes with the cursor of the roll angle.
     pub(crate) const CURSOR: Place = Place::CHART.or(Place::TEETH);
     pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);
     pub(in crate::tui) const LIST: Place = Place::BROWSE.or(Place::PICK);
@@ -76,16 +76,16 @@ impl Place {
     pub(in crate::tui) const PROMPT: Place =
         Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::PAGE);
     pub(in crate::tui) const ALL: Place = Place::WORK.or(Place::PROMPT);
-    /// Where letters are more than commands of the table.
+    /// The places where letters are more than commands of the table.
     pub(in crate::tui) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);
 
-    /// Whether the two have a place in common.
+    /// Whether both sets have a place in common.
     #[must_use]
     pub const fn meets(self, other: Place) -> bool {
         self.0 & other.0 != 0
     }
 
-    /// Whether every place of the other is one of this.
+    /// Whether this set contains every place of the other set.
     #[must_use]
     pub(crate) const fn holds(self, other: Place) -> bool {
         self.0 & other.0 == other.0
@@ -126,8 +126,8 @@ pub(in crate::tui) const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chor
 }
 
 impl Chord {
-    // Shift is part of the letter and of BackTab, and terminals differ in whether they say so.
-    // Ctrl-4 and Ctrl-\ are one byte, which the reader takes for the former.
+    // Shift is part of a letter and of BackTab, and terminals differ in whether they report it.
+    // Ctrl-4 and Ctrl-\ are one byte, which the reader decodes as Ctrl-4.
     pub(in crate::tui) fn of(event: KeyEvent) -> Chord {
         let held = event.modifiers & (CTRL | ALT | SHIFT);
         match event.code {
@@ -140,7 +140,7 @@ impl Chord {
         }
     }
 
-    /// The key as a person reads it.
+    /// The key as text.
     #[must_use]
     pub fn name(&self) -> String {
         let name = match self.0 {
@@ -157,7 +157,7 @@ impl Chord {
         held.map(|(_, prefix)| prefix).collect::<String>() + &name
     }
 
-    /// The key in as few letters as can be read.
+    /// The shortest readable text of the key.
     #[must_use]
     pub(crate) fn short_name(&self) -> String {
         self.name()

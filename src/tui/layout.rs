@@ -18,7 +18,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The usual panes on a terminal of that size.
+    /// The default panes on a terminal of a size.
     pub(crate) fn new(size: Size) -> Layout {
         let panes = Panes::default();
         Layout {
@@ -40,7 +40,7 @@ impl Layout {
         self.plan
     }
 
-    /// The areas on a terminal whose new size no event has reported yet.
+    /// The areas on a terminal whose new size has not been reported yet.
     pub(crate) fn plan_on(&self, size: Size) -> Plan {
         if size == self.size {
             self.plan
@@ -49,7 +49,7 @@ impl Layout {
         }
     }
 
-    /// The pane that takes the keys.
+    /// The pane with the focus.
     #[must_use]
     pub fn focus(&self) -> Pane {
         self.panes.focus
@@ -60,18 +60,18 @@ impl Layout {
         self.panes.lower
     }
 
-    /// Whether the focused pane has the screen.
+    /// Whether the focused pane fills the screen.
     pub(crate) fn is_zoomed(&self) -> bool {
         self.panes.is_zoomed
     }
 
-    /// Takes over the size of the terminal.
+    /// Adapts to a new size of the terminal.
     pub fn resize(&mut self, size: Size) {
         self.size = size;
         self.update();
     }
 
-    /// Gives a pane the keys.
+    /// Moves the focus to a pane.
     pub(crate) fn focus_on(&mut self, pane: Pane) {
         self.panes.focus = pane;
         self.update();
@@ -83,7 +83,7 @@ impl Layout {
         self.update();
     }
 
-    /// Gives the focused pane the screen, or takes it back.
+    /// Makes the focused pane fill the screen, or restores the layout.
     pub(crate) fn zoom(&mut self, is_zoomed: bool) {
         self.panes.is_zoomed = is_zoomed;
         self.update();

@@ -4,14 +4,14 @@ use std::ops::{Deref, Range};
 
 use tui_input::{Input, InputRequest, StateChanged};
 
-/// The ending of a case file.
+/// The extension of a case file.
 pub(super) const CASE_ENDING: &str = ".toml";
 
 /// A line of text with a cursor and a selection.
 #[derive(Debug, Clone, Default)]
 pub struct Line {
     input: Input,
-    /// In characters, and never empty.
+    /// In characters; never an empty range.
     selected: Option<Range<usize>>,
     /// The extension that typing keeps; `None` for a line that is not a path.
     ending: Option<String>,
@@ -26,8 +26,9 @@ impl Line {
         line
     }
 
-    /// A path of which typing replaces the file stem and keeps folder and extension. A typed path
-    /// from the root or from home replaces the folder too, and a typed extension the old one.
+    /// A path in which typing replaces the file stem and keeps folder and extension. A typed path
+    /// from the root or from home also replaces the folder, and a typed extension replaces the old
+    /// one.
     #[must_use]
     pub(crate) fn named(path: impl Into<String>) -> Line {
         let path = path.into();
@@ -50,7 +51,7 @@ impl Line {
         self.selected.clone()
     }
 
-    /// How many bytes typing keeps.
+    /// Number of bytes that typing keeps.
     #[must_use]
     pub(crate) fn kept(&self) -> usize {
         let is_selected = |at: &usize| self.selected.as_ref().is_some_and(|part| part.contains(at));
@@ -68,7 +69,7 @@ impl Line {
         self.selected = (length > 0).then_some(0..length);
     }
 
-    /// Moves in the line or deletes from it. A deletion removes the selection, a move clears it.
+    /// Moves the cursor or deletes text. Both clear the selection.
     pub(crate) fn handle(&mut self, request: InputRequest) -> Option<StateChanged> {
         use InputRequest::{DeleteNextChar, DeletePrevChar, GoToNextChar, GoToPrevChar};
         let Some(part) = self.selected.take() else {
@@ -99,7 +100,7 @@ impl Line {
         self.drop_repeated_ending();
     }
 
-    // The kept ending goes where the typed name has one of its own.
+    // Drops the kept extension if the typed name has an extension.
     fn drop_repeated_ending(&mut self) {
         let Some(ending) = self.ending.as_deref().filter(|ending| !ending.is_empty()) else {
             return;
@@ -112,7 +113,8 @@ impl Line {
         }
     }
 
-    // One splice, where a character at a time would cost the square of a long paste.
+    // One insertion, because inserting each character would cost the square of the length of a
+    // paste.
     fn put(&mut self, part: Range<usize>, typed: &str) {
         let value = self.input.value();
         let place = |at: usize| {

@@ -1,9 +1,9 @@
-//! The panes of the workbench, and what each needs of the model.
+//! The panes of the workbench, and the stages of the model that each needs.
 
 use super::keys::Place;
 use crate::model::{Stage, Stages};
 
-/// A part of the screen with a title and keys of its own.
+/// A part of the screen with its own title and keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pane {
     /// Every field of the case.
@@ -14,14 +14,14 @@ pub enum Pane {
     Chart,
     /// The teeth as they touch.
     Teeth,
-    /// Error of every method against its time.
+    /// Accuracy of every method against its run time.
     Trade,
-    /// A field over its range against a result, a map of two fields, the tolerance.
+    /// A result over the range of a field, a map of two fields, or the tolerance.
     Study,
 }
 
 impl Pane {
-    /// Every pane, by its number.
+    /// Every pane, in the order of its number.
     pub const ALL: [Pane; 6] = [
         Pane::Form,
         Pane::Results,
@@ -30,10 +30,10 @@ impl Pane {
         Pane::Trade,
         Pane::Study,
     ];
-    /// Those that share the lower area.
+    /// The panes that share the lower area.
     pub(crate) const LOWER: [Pane; 4] = [Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
 
-    /// In a word.
+    /// The name of the pane.
     #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
@@ -46,13 +46,13 @@ impl Pane {
         }
     }
 
-    /// The key that goes there, from 1.
+    /// The digit that selects the pane, from 1.
     #[must_use]
     pub const fn number(self) -> usize {
         self as usize + 1
     }
 
-    /// The pane of a number.
+    /// The pane of a digit.
     pub(crate) fn of_digit(digit: char) -> Option<Pane> {
         let number = digit.to_digit(10)?;
         Pane::ALL
@@ -65,7 +65,7 @@ impl Pane {
         matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade | Pane::Study)
     }
 
-    /// The stages of a solve whose results it shows, as far as the method has them.
+    /// The stages of a solve that the pane shows, if the method has them.
     #[must_use]
     pub(crate) const fn needs(self) -> Stages {
         match self {
@@ -82,7 +82,7 @@ impl Pane {
         }
     }
 
-    /// Where keys go while it has the focus and no field is edited.
+    /// The place of keys while the pane has the focus and no field is edited.
     #[must_use]
     pub(crate) const fn place(self) -> Place {
         match self {
@@ -95,7 +95,7 @@ impl Pane {
         }
     }
 
-    /// The pane so many places further, round and round.
+    /// The pane `by` places further, wrapping around.
     #[must_use]
     pub(crate) fn beside(self, by: isize) -> Pane {
         let count = Pane::ALL.len();

@@ -1,5 +1,5 @@
-//! The panes that are components: each has its state, commands, update and drawing, and knows
-//! nothing of the other panes or of the workbench.
+//! The panes as components. Each has its state, commands, update and drawing, and does not depend
+//! on the other panes or on the workbench.
 
 pub(crate) mod chart;
 pub(crate) mod form;

@@ -1,4 +1,4 @@
-//! The rows of the form that take the focus: the fields, and after them the limits of the case.
+//! The focusable rows of the form: the fields, then the limits of the case.
 
 use crate::case::fields::{Absent, Field, Kind, index_of};
 use crate::case::units::{self, System};
@@ -6,22 +6,22 @@ use crate::case::{Case, FIELDS, Limit};
 use crate::model::{Inputs, Quantity};
 use crate::tui::form_aids::{Measure, step_limit};
 
-/// What stands in a row.
+/// The content of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Row<'c> {
-    /// A field, by its place in the table.
+    /// A field, by its index in the table.
     Field(usize),
     /// A limit of the case.
     Limit(&'c Limit),
 }
 
-/// How many rows there are.
+/// The number of rows.
 #[must_use]
 pub fn count(case: &Case) -> usize {
     FIELDS.len() + case.limits.len()
 }
 
-/// What stands in a row; beyond the last one, the last field.
+/// The content of a row; for an index beyond the last row, the last field.
 #[must_use]
 pub(crate) fn row(case: &Case, at: usize) -> Row<'_> {
     let limit = at
@@ -44,7 +44,7 @@ pub(crate) fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
         .map(|at| FIELDS.len() + at)
 }
 
-/// What is written in a row.
+/// The text of a row.
 #[must_use]
 pub fn text(case: &Case, at: usize) -> Option<&str> {
     match row(case, at) {
@@ -62,7 +62,7 @@ pub(crate) fn differs(case: &Case, other: &Case, at: usize) -> bool {
     }
 }
 
-/// Write into a row, whether or not the text is valid.
+/// Writes a text into a row, valid or not.
 pub(crate) fn write(case: &mut Case, at: usize, text: &str) {
     match row(case, at) {
         Row::Field(field) => case.write(field, text),
@@ -70,7 +70,7 @@ pub(crate) fn write(case: &mut Case, at: usize, text: &str) {
     }
 }
 
-/// What the number of a row is measured in.
+/// The dimension and unit of the number in a row.
 fn measure(case: &Case, at: usize, system: System) -> Option<Measure> {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].measure(system),
@@ -78,14 +78,14 @@ fn measure(case: &Case, at: usize, system: System) -> Option<Measure> {
     }
 }
 
-/// The unit of what is written in a row, as it is written.
+/// The unit in the text of a row, as written.
 pub(crate) fn written_unit(case: &Case, at: usize) -> Option<String> {
     let measure = measure(case, at, System::Metric)?;
     units::written_unit(text(case, at)?, measure.dimension).map(str::to_owned)
 }
 
-/// What completes a text that is typed into a row: the unit in which its value was written, else
-/// the one in which it is shown.
+/// The completion of a text typed into a row: the unit in which its value was written, otherwise
+/// the displayed unit.
 #[must_use]
 pub(crate) fn ending(
     case: &Case,
@@ -98,7 +98,7 @@ pub(crate) fn ending(
     units::ending(typed, measure.dimension, written.unwrap_or(measure.unit))
 }
 
-/// Whether what is typed into a row, and is not taken, may be taken by typing on.
+/// Whether further typing may make an invalid text of a row valid.
 pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].is_unfinished(typed),
@@ -108,7 +108,7 @@ pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
     }
 }
 
-/// What a step makes of a row's text.
+/// The text of a row after a step.
 #[must_use]
 pub(crate) fn stepped(case: &Case, at: usize, by: i32) -> Option<String> {
     match row(case, at) {
@@ -117,7 +117,7 @@ pub(crate) fn stepped(case: &Case, at: usize, by: i32) -> Option<String> {
     }
 }
 
-/// The names that a row offers, where it is a choice.
+/// The choices of a row; empty if the row is not a choice.
 #[must_use]
 pub fn names(case: &Case, at: usize) -> &'static [&'static str] {
     match field(case, at).map(|field| field.kind) {
@@ -126,7 +126,7 @@ pub fn names(case: &Case, at: usize) -> &'static [&'static str] {
     }
 }
 
-/// The field of a row, where it is one.
+/// The field of a row, if it is a field.
 #[must_use]
 pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
     match row(case, at) {
@@ -135,7 +135,7 @@ pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
     }
 }
 
-/// In a few words.
+/// The label of a row.
 #[must_use]
 pub(crate) fn label(case: &Case, at: usize) -> &'static str {
     match row(case, at) {
@@ -145,7 +145,7 @@ pub(crate) fn label(case: &Case, at: usize) -> &'static str {
     }
 }
 
-/// The label of a row, with the gear where both gears have such a field.
+/// The label of a row, with the gear if both gears have the field.
 pub(crate) fn full_label(case: &Case, at: usize) -> String {
     field(case, at).map_or_else(
         || format!("limit of {}", label(case, at)),
@@ -153,7 +153,7 @@ pub(crate) fn full_label(case: &Case, at: usize) -> String {
     )
 }
 
-/// The symbol in the field's writing; empty where there is none.
+/// The symbol; empty without one.
 #[must_use]
 pub(crate) fn symbol(case: &Case, at: usize) -> &'static str {
     match row(case, at) {
@@ -162,7 +162,7 @@ pub(crate) fn symbol(case: &Case, at: usize) -> &'static str {
     }
 }
 
-/// Where groups begin.
+/// The first rows of the groups.
 #[must_use]
 pub(crate) fn groups(case: &Case) -> Vec<usize> {
     let begins = |at: usize| match row(case, at) {
@@ -178,11 +178,10 @@ pub(crate) fn lacks(case: &Case, at: usize) -> bool {
     at < FIELDS.len() && case.lacks(at)
 }
 
-/// The words for a required value that is missing.
+/// The text of a missing required value.
 const REQUIRED: &str = "(required)";
 
-/// The words for an empty field: the value that follows from other fields, its default, or that a
-/// value is required.
+/// The text of an empty field: the derived value, the default, or that a value is required.
 pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize) -> String {
     let known = &FIELDS[field];
     let is_derived = known.partner().is_none() || case.is_replaced(field);

@@ -1,24 +1,24 @@
-//! Axis ranges of the charts: round ends that stay until a curve leaves them, and ticks at
+//! Axis ranges of the charts: round ends that do not change until a curve leaves them, and ticks at
 //! multiples of 1, 2 or 5.
 
 /// Ends of an axis that begins at 0, times a power of ten.
 const ENDS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
-/// With this many more intervals an axis always has two ticks.
+/// With this number of additional intervals an axis always has two ticks.
 const CLOSER: u16 = 4;
 /// Steps from tick to tick, times a power of ten.
 const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
-/// The axis shrinks if the curve fills a smaller part of it. An end is at most 1.5 times the end
-/// before it, so a curve that has just left its axis fills two thirds of the next axis.
+/// The axis shrinks if the curve fills a smaller fraction of it. An end is at most 1.5 times the
+/// previous end, so that a curve that has just left its axis fills two thirds of the next axis.
 const TOO_SMALL: f64 = 0.5;
 
-/// The axis leaves out 0 if the least value exceeds this part of the greatest value.
+/// The axis does not include 0 if the least value exceeds this fraction of the greatest value.
 const FAR_FROM_ZERO: f64 = 0.5;
 
-/// A smaller part of the greatest value is 0 except for rounding.
+/// A value below this fraction of the greatest value is a rounding error of 0.
 const NOTHING: f64 = 1e-9;
 
-/// The axis includes 0 if the values differ by a smaller part, too small for the labels to show.
+/// The axis includes 0 if the values differ by a smaller fraction, which the labels could not show.
 const ALIKE: f64 = 1e-3;
 
 /// A range of values.
@@ -107,7 +107,7 @@ impl Span {
         }
     }
 
-    /// An axis that covers the values. Keeps this axis while it serves.
+    /// An axis that covers the values. Keeps this axis while it fits.
     #[must_use]
     pub(crate) fn fitted(self, values: Span) -> Span {
         if !(values.from.is_finite() && values.to.is_finite()) {
@@ -244,7 +244,8 @@ fn round_up(value: f64, round: &[f64]) -> f64 {
     step.unwrap_or(&10.0) * power
 }
 
-// The power of ten of the labels: 0 for up to five digits before the point, else a multiple of 3.
+// The power of ten of the labels: 0 for up to five digits before the point, otherwise a multiple of
+// 3.
 fn power(greatest: f64) -> i32 {
     if (0.01..1e5).contains(&greatest) {
         0

@@ -1,4 +1,4 @@
-//! What keeps typed values safe: saving, locks, journals of unsaved edits, and their recovery.
+//! Protection of typed values: saving, locks, journals of unsaved edits, and their recovery.
 
 pub(crate) mod autosave;
 mod clock;

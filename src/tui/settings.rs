@@ -1,4 +1,4 @@
-//! Settings for every case: marker, mouse, theme, units and ASCII, in a file of their own.
+//! Settings for every case, in a separate file: marker, mouse, theme, units and ASCII.
 
 use std::env;
 use std::fs;
@@ -14,28 +14,28 @@ use crate::case::file::{self, SaveError};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 
-/// Markers by their names in the file.
+/// Markers and their names in the file.
 const MARKERS: [(&str, Marker); 3] = [
     ("braille", Marker::Braille),
     ("halfblock", Marker::HalfBlock),
     ("dot", Marker::Dot),
 ];
 
-/// A longer file is none of ours.
+/// Greatest size of a settings file.
 const MOST_BYTES: u64 = 64 * 1024;
 
 /// Settings for every case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
-    /// How the chart draws a point.
+    /// The marker of a chart's points.
     pub marker: Marker,
-    /// Whether the workbench takes the mouse.
+    /// Whether the workbench uses the mouse.
     pub mouse: bool,
-    /// The colours; else what the environment asks for.
+    /// The colours; by default those of the environment.
     pub(crate) theme: Option<ThemeName>,
-    /// The units in which values are shown beside what was typed.
+    /// The display units.
     pub units: System,
-    /// Whether nothing but ASCII is drawn, whatever the environment is able to show.
+    /// Whether the screen uses only ASCII, even if the terminal supports Unicode.
     pub ascii: bool,
 }
 
@@ -52,7 +52,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The settings of a file's text; missing keys and unknown values become the defaults.
+    /// Parses the settings; missing keys and unknown values become the defaults.
     #[must_use]
     pub(crate) fn parse(text: &str) -> Settings {
         let usual = Settings::default();
@@ -74,10 +74,10 @@ impl Settings {
         }
     }
 
-    /// The text of the file with these settings; the rest of the text stays.
+    /// The text of a settings file with these settings; other lines of the text do not change.
     ///
     /// # Errors
-    /// Where the old text is no TOML: the user has to fix it.
+    /// Returns an error if the old text is not valid TOML: the user has to fix it.
     pub(crate) fn render(self, old: &str) -> Result<String, String> {
         let mut file: DocumentMut = old
             .parse()
@@ -109,11 +109,11 @@ impl Settings {
             .map_or_else(Settings::default, |text| Settings::parse(&text))
     }
 
-    /// Writes the settings as a save writes a case: links are followed, the mode stays, and
-    /// whatever fails, the old file stays or the new one is complete.
+    /// Writes the settings as a save writes a case: follows links, keeps the mode, and leaves
+    /// either the old or the complete new file if an error occurs.
     ///
     /// # Errors
-    /// The reason, in words.
+    /// The reason, as text.
     pub(crate) fn keep(self) -> Result<(), String> {
         let file = file().ok_or("HOME and XDG_CONFIG_HOME name no folder")?;
         self.write_to(&file)
@@ -139,8 +139,8 @@ impl Settings {
         })
     }
 
-    /// The look for a terminal: its abilities, limited by the settings. No setting restores colours
-    /// or letters that the environment lacks.
+    /// The capabilities of a terminal, limited by the settings. No setting restores colours or
+    /// characters that the environment lacks.
     #[must_use]
     pub(crate) fn look(self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
         let theme = self

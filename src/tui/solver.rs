@@ -1,4 +1,4 @@
-//! A request to solve a case, and the answer of every method.
+//! A request to solve a case, and the answer with every method.
 
 mod methods;
 
@@ -14,68 +14,68 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
 use crate::study::stiffness::PathComparison;
 
-/// After this time the closed form's answer is shown in place of that of a slow method.
+/// After this time the workbench shows the closed form until the slower method is finished.
 pub(super) const PATIENCE: Duration = Duration::from_millis(30);
 
-/// A case to be solved.
+/// A request to solve a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
-    /// Counts the edits, so that a late answer is known as such.
+    /// Number of the request, which identifies outdated answers.
     pub serial: u64,
     /// The case.
     pub case: Case,
-    /// The pair that it describes.
+    /// The pair.
     pub inputs: Inputs,
-    /// The stages whose results are in sight.
+    /// The stages of the visible results.
     pub stages: Stages,
-    /// Whether the chart of the mesh stiffness is in sight.
+    /// Whether the chart of the mesh stiffness is visible.
     pub stiffness: bool,
 }
 
-/// What the methods say of a request.
+/// The results of every method for a request.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// The request's.
+    /// The serial of the request.
     pub serial: u64,
-    /// The stages that it holds, as far as the methods have them: those that were asked for, or all
-    /// but the late ones while those are still being computed.
+    /// The present stages, if the methods have them: the requested stages, or these without the
+    /// late stages while the worker computes them.
     pub stages: Stages,
-    /// The stages that were asked for.
+    /// The requested stages.
     pub requested: Stages,
-    /// The pair, as it was solved.
+    /// The solved pair.
     pub inputs: Inputs,
-    /// The method whose results stand first: that of the case, or `exact` while that one is not
-    /// done.
+    /// The method of the main results: the method of the case, or `exact` until that method is
+    /// finished.
     pub active: Method,
-    /// The method that is still being solved.
+    /// The method that the worker still solves.
     pub pending: Option<Method>,
-    /// What it took.
+    /// The cost of the answer.
     pub cost: Cost,
-    /// Every method, cheapest first.
+    /// Every method, fastest first.
     pub methods: Vec<(Method, Result<Solution, Refusal>)>,
-    /// What a reader must know beside the active result.
+    /// Notes on the active result.
     pub notes: Vec<Note>,
-    /// The mesh stiffness by every model, or why there is none; `None` until it is computed.
+    /// The mesh stiffness by every model, or the refusal; `None` until it is computed.
     pub stiffness: Option<MeshStiffness>,
 }
 
-/// The mesh stiffness by every model, or why there is none.
+/// The mesh stiffness by every model, or the refusal.
 pub(crate) type MeshStiffness = Result<Arc<PathComparison>, Refusal>;
 
 /// A value of each quantity, in SI, in the order of [`QUANTITIES`].
 pub(crate) type Values = Box<[Option<f64>]>;
 
-/// What an answer took.
+/// The cost of an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
-    /// Stages that ran, over all methods; the others still held.
+    /// Number of stages that ran, over all methods; the others were cached.
     pub(crate) stages: usize,
-    /// Time, in us.
+    /// Run time, in us.
     pub(crate) micros: u64,
 }
 
 impl Answer {
-    /// The solution of a method, where there is one.
+    /// The solution of a method, if any.
     #[must_use]
     pub fn of(&self, method: Method) -> Option<&Solution> {
         self.methods
@@ -84,8 +84,8 @@ impl Answer {
             .and_then(|(_, result)| result.as_ref().ok())
     }
 
-    /// The method of this one that another's active method is held against: the same one, where it
-    /// was solved.
+    /// The method of this answer to compare with another active method: the same one if it was
+    /// solved.
     #[must_use]
     pub(crate) fn beside(&self, active: Method) -> Method {
         if self.of(active).is_some() {
@@ -102,19 +102,19 @@ impl Answer {
             .is_some_and(|solution| solution.outcome == Outcome::CornerContact)
     }
 
-    /// Whether no stage that was asked for is still to come.
+    /// Whether all requested stages are present.
     #[must_use]
     pub(crate) fn is_whole(&self) -> bool {
         self.stages.covers(self.requested)
     }
 
-    /// Whether a stage that was asked for is still to come.
+    /// Whether a requested stage is missing.
     #[must_use]
     pub fn lacks(&self, stage: Stage) -> bool {
         self.requested.has(stage) && !self.stages.has(stage)
     }
 
-    /// What the active method finds of every quantity.
+    /// The value of every quantity by the active method.
     #[must_use]
     pub(crate) fn values(&self) -> Values {
         let solution = self.of(self.active);
@@ -124,7 +124,7 @@ impl Answer {
             .collect()
     }
 
-    /// The refusal of the active method, where it refuses.
+    /// The refusal of the active method, if it refuses the case.
     #[must_use]
     pub(crate) fn refusal(&self) -> Option<&Refusal> {
         self.methods

@@ -14,23 +14,23 @@ use crate::case::file::ReadError;
 use crate::case::rexs;
 use crate::case::sanitize::sanitize;
 
-/// What the workbench begins with.
+/// The case that the workbench opens at the start.
 #[derive(Debug)]
 pub(crate) struct Opening {
     pub(crate) document: Document,
-    /// Where it was read from.
+    /// The file of the case.
     pub(crate) path: Option<PathBuf>,
     /// Why the requested file was not opened.
     pub(crate) trouble: Option<Trouble>,
 }
 
-/// What could not be opened, and its faults.
+/// A file that could not be opened, and its faults.
 #[derive(Debug)]
 pub(crate) struct Trouble {
     pub(crate) path: PathBuf,
-    /// The faults, a line each.
+    /// The faults, one per line.
     pub(crate) faults: Vec<String>,
-    /// Whether the user asked for it, rather than it being the last one.
+    /// Whether the user named the file; otherwise it is the last case.
     pub(crate) was_asked: bool,
 }
 
@@ -40,7 +40,7 @@ pub fn built_in() -> Document {
     Document::table_1()
 }
 
-/// The case that was asked for, else the last one, else the built-in one.
+/// The case that the user named, otherwise the last case, otherwise the built-in case.
 #[must_use]
 pub(crate) fn opening(asked: Option<PathBuf>) -> Opening {
     let was_asked = asked.is_some();
@@ -76,7 +76,7 @@ pub(crate) fn opening(asked: Option<PathBuf>) -> Opening {
 }
 
 pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
-    // Standard input is the keyboard here: reading a case from it would wait for ever.
+    // The keyboard is the standard input: reading a case from it would block.
     if path == Path::new("-") {
         return Err(vec![
             "the workbench does not read standard input: name a file, or use tipstrike solve -"
@@ -101,7 +101,7 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
     })
 }
 
-// What shows the faults has the name in its title.
+// The title above the faults already has the name.
 fn without_name(path: &Path, fault: &str) -> String {
     let name = format!("{}:", sanitize(&path.display().to_string()));
     fault

@@ -1,4 +1,5 @@
-//! A study of the case in the form: a field over its range, two fields as a map, or the tolerance.
+//! A study of the case in the form: a result over the range of a field, a map over two fields, or
+//! the tolerance.
 
 use ratatui::layout::Rect;
 
@@ -13,16 +14,16 @@ use crate::study::refusals::Refusals;
 /// Samples of a tolerance study in the workbench.
 pub(crate) const SAMPLES: usize = 10_000;
 
-/// A study for the worker.
+/// A request of a study to the worker.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyRequest {
-    /// Tells the request from the others.
+    /// The serial of the request.
     pub serial: u64,
     /// The study.
     pub question: Question,
 }
 
-/// What a study computes.
+/// The parameters of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Question {
     /// Values over one or two fields.
@@ -34,7 +35,7 @@ pub enum Question {
 /// Values over one or two fields.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridQuestion {
-    /// The second field of a map, then the first one; the first of these varies slowest.
+    /// For a map the second field, then the first one; the first of these axes varies slowest.
     pub axes: Vec<Axis>,
     /// The curves; the active method comes first.
     pub(crate) layers: Vec<Layer>,
@@ -45,7 +46,7 @@ pub struct GridQuestion {
 pub(crate) struct Layer {
     /// The method, or the baseline.
     pub(crate) whose: Whose,
-    /// The case, on that method.
+    /// The case with that method.
     pub(crate) inputs: Inputs,
     /// The key of the quantity.
     pub(crate) quantity: &'static str,
@@ -69,20 +70,20 @@ pub struct ToleranceQuestion {
     pub(crate) name: String,
     /// The case with its distributions.
     pub(crate) case: Case,
-    /// The pair that it describes.
+    /// The pair.
     pub(crate) inputs: Inputs,
-    /// The quantity of the results pane.
+    /// The selected quantity.
     pub(crate) quantity: &'static str,
 }
 
 /// The next results of a study.
 #[derive(Debug, Clone)]
 pub struct StudyPart {
-    /// That of the request.
+    /// The serial of the request.
     pub serial: u64,
     /// The results.
     pub found: Found,
-    /// How the study ended, if it did.
+    /// How the study ended, if it has ended.
     pub end: Option<End>,
 }
 
@@ -102,9 +103,9 @@ pub enum Found {
 pub enum End {
     /// Every point is solved.
     Whole,
-    /// It was stopped.
+    /// The user stopped it.
     Stopped,
-    /// There is no such study, or the program failed.
+    /// The study is not possible, or the program failed.
     Failed(String),
 }
 
@@ -122,7 +123,7 @@ pub struct LayerFound {
 /// The state that decides which study is requested.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StudyKey {
-    /// The request of the case.
+    /// The serial of the case.
     pub serial: u64,
     /// Whether the form is valid.
     pub is_valid: bool,
@@ -130,9 +131,9 @@ pub struct StudyKey {
     pub row: usize,
     /// The key of the selected result.
     pub quantity: Option<&'static str>,
-    /// The method of the shown results.
+    /// The method of the displayed results.
     pub solved_by: Option<Method>,
-    /// The request of the baseline.
+    /// The serial of the baseline.
     pub baseline: Option<u64>,
     /// The second field of a map.
     pub second: Option<usize>,
@@ -149,7 +150,7 @@ pub struct StudyKey {
 /// The study of an open case.
 #[derive(Debug, Clone, Default)]
 pub struct Study {
-    /// The state that the present request or the obstacle comes from.
+    /// The state behind the present request or obstacle.
     pub key: Option<StudyKey>,
     /// The present request.
     pub request: Option<StudyRequest>,
@@ -157,7 +158,8 @@ pub struct Study {
     pub cursor: Option<(usize, usize)>,
     /// Why there is no study.
     pub obstacle: Option<String>,
-    /// The results in sight: of the present request, or of the one before until its first results.
+    /// The visible results: of the present request, or of the previous one until the first results
+    /// arrive.
     pub shown: Option<StudyResults>,
 }
 
@@ -172,7 +174,7 @@ pub struct StudyResults {
     pub page: Vec<String>,
     /// The solved part of a tolerance study.
     pub(crate) part: f64,
-    /// How it ended, if it did.
+    /// How the study ended, if it has ended.
     pub end: Option<End>,
 }
 
@@ -196,14 +198,14 @@ impl Question {
 }
 
 impl Study {
-    /// Whether the present request has that serial.
+    /// Whether the present request has this serial.
     #[must_use]
     pub fn runs(&self, serial: u64) -> bool {
         let request = self.request.as_ref();
         request.is_some_and(|request| request.serial == serial)
     }
 
-    /// Starts a request. The cursor stays on axes that are unchanged.
+    /// Starts a request. The cursor does not move on unchanged axes.
     pub fn start(&mut self, request: StudyRequest) {
         let shown = self.shown.as_ref().map(|shown| &shown.request);
         let before = self.request.as_ref().or(shown);
@@ -213,7 +215,7 @@ impl Study {
         self.request = Some(request);
     }
 
-    /// Adds results; those of another request are left out.
+    /// Adds results; ignores those of another request.
     pub(crate) fn take(&mut self, part: StudyPart) {
         let Some(request) = self.request.as_ref().filter(|_| self.runs(part.serial)) else {
             return;
@@ -229,7 +231,7 @@ impl Study {
 }
 
 impl StudyResults {
-    /// The quantity of the study, that of its first curve.
+    /// The quantity of the study: that of its first curve.
     #[must_use]
     pub fn quantity(&self) -> Option<&'static Quantity> {
         match &self.request.question {

@@ -1,5 +1,4 @@
-//! An open case: its document, what is in its form, what the model says of it, and what of that is
-//! in sight.
+//! An open case: its document, its form, its results and its views.
 
 use std::path::PathBuf;
 
@@ -21,57 +20,57 @@ use crate::model::{Inputs, Refusal, Stages};
 /// An open case.
 #[derive(Debug, Clone)]
 pub struct Tab {
-    /// Tells it from the other tabs, those that are closed among them.
+    /// Unique among all tabs, including closed ones.
     pub id: usize,
-    /// The file's text, in which a save keeps comments and order.
+    /// The text of the file, whose comments and order a save keeps.
     pub document: Document,
-    /// Where it was read from, or last saved to.
+    /// The file from which it was read, or to which it was last saved.
     pub path: Option<PathBuf>,
-    /// Where the case comes from.
+    /// The origin of the case.
     pub origin: Origin,
     /// The case in the form.
     pub case: Case,
-    /// The case as the file has it.
+    /// The case in the file.
     pub saved: Case,
     /// The case at the time of a save that is still running.
     pub(crate) being_saved: Option<Case>,
     /// Whether the file may be written.
     pub(crate) access: Access,
-    /// What was asked for and could not be opened, where the built-in case stands for it.
+    /// The file that the user named and that could not be opened, if the built-in case replaces it.
     pub in_place_of: Option<PathBuf>,
     /// Focus, typed text and scrolling of the form.
     pub form: FormState,
-    /// States to go back to.
+    /// The undo history.
     pub(crate) history: History,
-    /// The inputs as far as the form is valid; read again for each request.
+    /// The inputs of the valid fields, read again for each request.
     pub(crate) inputs_so_far: Inputs,
-    /// What is wrong in the form.
+    /// The problems of the form.
     pub problems: Vec<(usize, Problem)>,
-    /// The request that the form stands for. No two tabs share one.
+    /// The serial of the last request. No two tabs share a serial.
     pub serial: u64,
-    /// The stages that were asked for with it.
+    /// The stages of that request.
     pub(crate) requested: Stages,
-    /// Whether the mesh stiffness was asked for with it.
+    /// Whether that request includes the mesh stiffness.
     pub requested_stiffness: bool,
-    /// How much of it is done, where it takes its time.
+    /// Progress of a slow solve.
     pub(crate) solving: Option<f64>,
-    /// Whether the worker has answered it, in whatever way.
+    /// Whether the worker has answered the request, with results or without.
     pub is_settled: bool,
     /// The last valid results.
     pub answer: Option<Answer>,
     /// The values before the present visit of a field, in the order of the quantities.
     pub(crate) earlier: Option<Values>,
-    /// Why the model does not solve what the form says.
+    /// Why the model refuses the case of the form.
     pub refusal: Option<Refusal>,
-    /// Whether the worker failed on what the form says.
+    /// Whether the worker failed on the case of the form.
     pub(crate) has_failed: bool,
     /// The axes of the charts.
     pub scale: Scale,
     /// The first request after the last undo or redo; its answer fits the axes again.
     pub(crate) undone: u64,
-    /// What they were last fitted to.
+    /// The state to which the axes were last fitted.
     pub(crate) fitted: Occasion,
-    /// What was measured of error and time.
+    /// The benchmark.
     pub traded: Option<Traded>,
     /// The solved variants.
     pub(crate) variants: Option<Variants>,
@@ -83,16 +82,16 @@ pub struct Tab {
     pub results: ResultsState,
 }
 
-/// Where a case comes from.
+/// The origin of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// The file that the user named; the built-in case where it has no path.
+    /// The file that the user named; the built-in case if there is no path.
     Given,
     /// The file of the last session, which the user did not name.
     LastCase,
-    /// Started empty.
+    /// A new, empty case.
     New,
-    /// Started from the example of that name.
+    /// A new case from the example with this name.
     Example(&'static str),
 }
 
@@ -155,7 +154,7 @@ impl Tab {
         self.case != self.saved
     }
 
-    /// Whether nobody asked for it or edited it, so that another case may replace it.
+    /// Whether the user neither named nor edited it, so that another case may replace it.
     pub(crate) fn is_untouched(&self) -> bool {
         (self.path.is_none() || self.origin == Origin::LastCase) && !self.is_unsaved()
     }
@@ -165,19 +164,19 @@ impl Tab {
         self.path.is_none() && self.origin == Origin::Given
     }
 
-    /// Whether the results are not those of what the form says now.
+    /// Whether the results are older than the form.
     #[must_use]
     pub fn is_stale(&self) -> bool {
         !self.problems.is_empty() || self.refusal.is_some() || self.has_failed
     }
 
-    /// Whether the results in sight are those of an earlier state of the form.
+    /// Whether the visible results belong to an earlier state of the form.
     pub(crate) fn shows_last_valid(&self) -> bool {
         self.is_stale() && self.answer.is_some()
     }
 
-    /// The row where the fix of the model's refusal begins: of two fields that exclude each other,
-    /// the one with a value.
+    /// The row that the fix of the model's refusal names first; of two fields that exclude each
+    /// other, the one with a value.
     #[must_use]
     pub(crate) fn refused_row(&self) -> Option<usize> {
         let field = fields::index_of(self.refusal?.field())?;
@@ -190,7 +189,7 @@ impl Tab {
         )
     }
 
-    /// What the form makes of its file.
+    /// The state of the case for the autosave.
     pub(crate) fn sheet(&self) -> OpenCase<'_> {
         let path = self
             .document
@@ -225,20 +224,20 @@ impl Tab {
         file.map_or_else(|| self.name(), |name| name.to_string_lossy().into_owned())
     }
 
-    /// Remember the state before an edit of a row, and the results with it.
+    /// Stores the state before an edit of a row, with its results.
     pub(super) fn before_edit(&mut self, row: usize) {
         if self.history.before_edit(&self.case, self.form.focus, row) {
             self.remember();
         }
     }
 
-    /// Remember the values, to mark those that change from now on.
+    /// Stores the values, so that later changes can be marked.
     pub(super) fn remember(&mut self) {
         self.earlier = self.answer.as_ref().map(Answer::values);
     }
 
-    /// Move to a row of the form, the cursor at the end of its text. A limit that holds nothing is
-    /// left behind for good.
+    /// Focuses a row of the form, with the cursor at the end of its text. Leaving an empty limit
+    /// removes it.
     pub(super) fn focus_on(&mut self, at: usize) {
         let at = at.min(rows::count(&self.case) - 1);
         let limit = if let Row::Limit(limit) = rows::row(&self.case, at) {
@@ -258,7 +257,7 @@ impl Tab {
         self.history.end_visit();
     }
 
-    /// Take over what the case has of the focused row, as when its line is left.
+    /// Reads the text of the focused row from the case, as when the user leaves the row.
     pub(super) fn read_line_anew(&mut self) {
         let text = rows::text(&self.case, self.form.focus).unwrap_or_default();
         if text != self.form.input.value() {
@@ -266,7 +265,7 @@ impl Tab {
         }
     }
 
-    /// Show an answer to the present request.
+    /// Shows an answer to the present request.
     pub(super) fn take(&mut self, mut answer: Answer) {
         self.has_failed = false;
         self.is_settled = answer.pending.is_none();

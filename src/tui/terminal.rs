@@ -1,4 +1,4 @@
-//! The terminal: its modes, and giving it back as it was found on every way out.
+//! The terminal: its modes, and their restoration on every exit.
 
 use std::ffi::OsString;
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
@@ -28,27 +28,27 @@ use super::view;
 use crate::system::signals;
 use crate::system::terminal::{is_in_foreground, write_if_ready};
 
-/// One write a frame, where the standard buffer would make ten.
+/// Large enough for one write per frame; the standard buffer would make ten.
 const FRAME: usize = 64 * 1024;
 
 /// Whether the terminal is in the modes of the workbench.
 static IS_TAKEN: AtomicBool = AtomicBool::new(false);
 static IS_ENDING: AtomicBool = AtomicBool::new(false);
-/// A signal that ends the process is known after this time.
+/// A signal that ends the process arrives within this time.
 const NOTICE: Duration = Duration::from_millis(50);
 
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 
-/// The picture on the terminal. Dropping it gives the terminal back.
+/// The screen of the terminal. Dropping it restores the terminal.
 pub(super) struct Screen {
     terminal: Terminal<CappedBackend<CrosstermBackend<BufWriter<Stdout>>>>,
-    /// The signal that ended our own suspension is still to come.
+    /// The signal of our own suspension has not arrived yet.
     is_back: bool,
-    /// Whether the mouse is ours.
+    /// Whether mouse reports are on.
     has_mouse: bool,
 }
 
-/// Why there is no terminal for a workbench, if so.
+/// The reason if there is no terminal for a workbench.
 #[must_use]
 pub(super) fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'static str> {
     let term = variable("TERM").unwrap_or_default();
@@ -62,15 +62,15 @@ pub(super) fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'s
     (!is_terminal).then_some("standard input and output are not a terminal")
 }
 
-/// Keep the message of a panic until the terminal is restored. The screen reports a panic of the
-/// worker.
+/// Holds the message of a panic until the terminal is restored. A panic of the worker is reported
+/// on the screen.
 pub(super) fn hold_panics() {
     panic::set_hook(Box::new(|panic: &PanicHookInfo<'_>| {
         *LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic.to_string());
     }));
 }
 
-/// The words of the last panic.
+/// The message of the last panic.
 #[must_use]
 pub(super) fn last_panic() -> Option<String> {
     LAST_PANIC
@@ -79,13 +79,13 @@ pub(super) fn last_panic() -> Option<String> {
         .take()
 }
 
-/// A signal ends the process soon.
+/// Marks that a signal will end the process soon.
 pub(super) fn expect_end() {
     IS_ENDING.store(true, Ordering::Relaxed);
 }
 
 /// Whether the process ends without a terminal: the `kill` of a shell sends a signal to a stopped
-/// job and continues it in the background. Taking the terminal would stop it again.
+/// job and continues it in the background. Entering the terminal would stop it again.
 fn ends_in_background() -> bool {
     if is_in_foreground() {
         return false;
@@ -94,7 +94,7 @@ fn ends_in_background() -> bool {
     IS_ENDING.load(Ordering::Relaxed)
 }
 
-// In the background the modes are those of the shell.
+// In the background the terminal has the modes of the shell.
 fn restore_modes() -> io::Result<()> {
     if is_in_foreground() {
         disable_raw_mode()
@@ -103,8 +103,8 @@ fn restore_modes() -> io::Result<()> {
     }
 }
 
-/// Gives the terminal back while the workbench is stuck. A terminal that accepts no bytes gets its
-/// modes back alone.
+/// Restores the terminal while the main loop is blocked. If the terminal accepts no bytes, only its
+/// modes are restored.
 pub(super) fn give_back_by_force() {
     if !IS_TAKEN.load(Ordering::Relaxed) {
         return;
@@ -125,12 +125,12 @@ pub(super) fn give_back_by_force() {
 }
 
 impl Screen {
-    /// A picture of the size of the terminal, which is left alone until [`Screen::enter`].
+    /// A screen of the size of the terminal. The terminal does not change until [`Screen::enter`].
     ///
     /// # Errors
-    /// When the terminal does not report its size.
+    /// Returns an error if the terminal does not report its size.
     pub(super) fn new() -> io::Result<Screen> {
-        // Else NO_COLOR takes bold and reverse away too; our own theme has no colour then.
+        // Otherwise NO_COLOR would also remove bold and reverse; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
         Ok(Screen {
@@ -143,15 +143,15 @@ impl Screen {
     /// The size of the terminal.
     ///
     /// # Errors
-    /// When the terminal does not say.
+    /// Returns an error if the terminal does not report its size.
     pub(super) fn size(&self) -> io::Result<Size> {
         self.terminal.size()
     }
 
-    /// Draw the state.
+    /// Draws the state.
     ///
     /// # Errors
-    /// When the terminal is gone.
+    /// Returns an error if the terminal is closed.
     pub(super) fn draw(&mut self, app: &App) -> io::Result<()> {
         if !IS_TAKEN.load(Ordering::Relaxed) {
             return Ok(());
@@ -164,20 +164,20 @@ impl Screen {
         Ok(())
     }
 
-    /// Forget what is on the screen, so that the next frame draws every cell.
+    /// Makes the next frame draw every cell.
     ///
     /// # Errors
-    /// When the terminal is gone.
+    /// Returns an error if the terminal is closed.
     pub(super) fn clear(&mut self) -> io::Result<()> {
-        // `Terminal::clear` would ask the terminal where its cursor is, and wait for the answer.
+        // `Terminal::clear` would request the cursor position and wait for the reply.
         let size = self.terminal.size()?;
         self.terminal.resize(size.into())
     }
 
-    /// Give the terminal back to the shell and stop, until the shell brings us back.
+    /// Restores the terminal and stops the process until the shell continues it.
     ///
     /// # Errors
-    /// When the terminal is gone.
+    /// Returns an error if the terminal is closed.
     pub(super) fn suspend(&mut self) -> io::Result<()> {
         self.leave()?;
         signals::stop()?;
@@ -189,13 +189,13 @@ impl Screen {
         self.clear()
     }
 
-    /// Take the terminal again after a stop without a signal, whatever the shell did with it.
+    /// Enters the terminal again after a stop without a signal, whatever modes the shell has set.
     ///
     /// # Errors
-    /// When the terminal is gone.
+    /// Returns an error if the terminal is closed.
     pub(super) fn resume(&mut self) -> io::Result<()> {
-        // For a moment the terminal is in the shell's modes, in which it would eat a Ctrl-Q: only
-        // where it must be.
+        // Only if necessary: for a moment the terminal has the modes of the shell and would swallow
+        // a Ctrl-Q.
         if std::mem::take(&mut self.is_back) {
             return Ok(());
         }
@@ -207,10 +207,10 @@ impl Screen {
         self.clear()
     }
 
-    /// Take the mouse, or leave it to the terminal.
+    /// Turns mouse reports on or off.
     ///
     /// # Errors
-    /// When the terminal is gone.
+    /// Returns an error if the terminal is closed.
     pub(super) fn take_mouse(&mut self, takes: bool) -> io::Result<()> {
         if self.has_mouse == takes {
             return Ok(());
@@ -223,24 +223,24 @@ impl Screen {
         }
     }
 
-    /// Hand a text to the clipboard of the user's own terminal (OSC 52). In base64 nothing of it
-    /// controls a terminal.
+    /// Copies a text to the clipboard of the user's terminal (OSC 52). The base64 encoding contains
+    /// no control characters.
     ///
     /// # Errors
-    /// When the terminal is gone.
+    /// Returns an error if the terminal is closed.
     pub(super) fn copy(&mut self, text: &str) -> io::Result<()> {
         execute!(self.output(), CopyToClipboard::to_clipboard_from(text))
     }
 
-    /// Takes the terminal.
+    /// Enters the modes of the workbench.
     ///
     /// # Errors
-    /// When the terminal does not answer.
+    /// Returns an error if the terminal does not respond.
     pub(super) fn enter(&mut self) -> io::Result<()> {
         enable_raw_mode()?;
         IS_TAKEN.store(true, Ordering::Relaxed);
-        // A terminal that is still in the alternate screen, as after a lost connection, shows its
-        // old picture there, and erases with the colour that was last set.
+        // A terminal that is still in the alternate screen, such as after a lost connection, shows
+        // its old content there, and erases with its last colour.
         execute!(
             self.output(),
             EnterAlternateScreen,
@@ -277,7 +277,7 @@ impl Screen {
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        // On a terminal that is gone there is nothing to give back.
+        // A closed terminal needs no restoration.
         if IS_TAKEN.load(Ordering::Relaxed) {
             drop(self.leave());
         }

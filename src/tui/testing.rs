@@ -1,4 +1,4 @@
-//! What the tests of the screens, which are programs of their own, use of the workbench.
+//! Parts of the workbench for the tests of the screens, which are separate programs.
 
 pub mod actions {
     pub use crate::tui::actions::{Action, Effect, Progress, of_key};

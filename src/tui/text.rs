@@ -11,7 +11,7 @@ use crate::tui::ascii::printable;
 use crate::tui::line::Line;
 use crate::tui::theme::Theme;
 
-/// The text cut to the width, with a mark where it goes on.
+/// The text cut to the width, with a mark at a cut end.
 #[must_use]
 pub(super) fn cut(text: &str, width: usize) -> String {
     let text = printable(text);
@@ -25,8 +25,7 @@ pub(super) fn cut(text: &str, width: usize) -> String {
     kept
 }
 
-/// The text cut to the width at its beginning, with a mark where something is left out: a path is
-/// known by its end.
+/// The text cut to the width at its start, with a mark: the end of a path identifies the path.
 #[must_use]
 pub(super) fn cut_front(text: &str, width: usize) -> String {
     let text = printable(text);
@@ -41,7 +40,7 @@ pub(super) fn cut_front(text: &str, width: usize) -> String {
     }
 }
 
-/// The text cut to the width, or filled up to it.
+/// The text cut or padded to the width.
 #[must_use]
 pub(super) fn padded(text: &str, width: usize) -> String {
     let text = cut(text, width);
@@ -62,8 +61,8 @@ pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// The text in so many lines at most: where it is longer, up to the end of a sentence, or of a part
-/// of one with a mark that it goes on, unless half of the room would stay empty.
+/// The text in at most `rows` lines. A longer text ends after a sentence, or after a clause with a
+/// mark, unless this leaves half of the room empty.
 #[must_use]
 pub(super) fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
     let fits = |text: &str| wrap(text, width).len() <= rows;
@@ -95,7 +94,7 @@ pub(super) fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
         .map_or_else(Vec::new, |shortened| wrap(&shortened, width))
 }
 
-/// A rule with a title, over the top line of an area; what is below it.
+/// Draws a rule with a title on the top line of an area. Returns the area below it.
 pub(super) fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
     if area.is_empty() {
         return Rect::ZERO;
@@ -113,7 +112,8 @@ pub(super) fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer
     }
 }
 
-/// A line of text that is edited, scrolled so that the cursor is in sight; where the cursor stands.
+/// Draws an edited line of text, scrolled so that the cursor is visible. Returns the position of
+/// the cursor.
 pub(super) fn edited(
     input: &Line,
     area: Rect,
@@ -161,7 +161,7 @@ pub(super) fn edited(
     ))
 }
 
-/// What completes a line of text that is edited, after so many cells of it.
+/// Draws the completion of an edited line after its text.
 pub(super) fn ending(
     ending: Option<&str>,
     typed: usize,
@@ -195,7 +195,7 @@ fn put_piecewise(lines: &mut Vec<String>, word: &str, width: usize) {
     let mut rest = word;
     while !rest.is_empty() {
         let piece = take(rest, width);
-        // A character wider than the line has no place: it goes, so that the loop ends.
+        // A character wider than the line is dropped, so that the loop ends.
         let piece = if piece.is_empty() {
             &rest[..rest.chars().next().map_or(0, char::len_utf8)]
         } else {
@@ -230,7 +230,7 @@ fn width_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
 
-/// A bar whose thumb shows which part of the lines is in sight.
+/// Draws a scroll bar for the visible part of the lines.
 pub(super) fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
     let height = usize::from(area.height);
     let is_thumb = |row: usize| {
@@ -244,7 +244,7 @@ pub(super) fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buff
     }
 }
 
-/// A scroll bar in the column right of an area, if not all lines have room in it.
+/// Draws a scroll bar in the column right of an area, if not all lines fit.
 pub(super) fn scroll_bar_beside(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
     if lines > usize::from(area.height) {
         let bar = Rect {
@@ -256,14 +256,14 @@ pub(super) fn scroll_bar_beside(top: usize, lines: usize, area: Rect, buffer: &m
     }
 }
 
-/// Draws lines from the top of an area, as many as have room.
+/// Draws lines from the top of an area, as many as fit.
 pub(super) fn draw_lines(lines: &[ratatui::text::Line<'_>], area: Rect, buffer: &mut Buffer) {
     for (line, row) in lines.iter().zip(area.rows()) {
         line.render(row, buffer);
     }
 }
 
-/// Draws wrapped words into an area, with a margin of one column on both sides.
+/// Draws wrapped text into an area, with a margin of one column on both sides.
 pub(super) fn draw_words(words: &str, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width).saturating_sub(2);
     for (line, row) in wrap(words, width).iter().zip(area.rows()) {

@@ -1,10 +1,10 @@
-//! The one place where colours are named, and what the terminal is able to show.
+//! The colours of the workbench, and the capabilities of the terminal.
 
 use std::ffi::OsString;
 
 use ratatui::style::{Color, Modifier, Style};
 
-/// How each kind of text looks. No meaning rests on the colour alone.
+/// The style of each kind of text. No meaning depends on colour alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
     /// Titles of panes and groups.
@@ -13,15 +13,15 @@ pub struct Theme {
     pub(crate) rule: Style,
     /// The focused line.
     pub(crate) focus: Style,
-    /// What holds where the case is silent, and results that are no longer those of the form.
+    /// Defaults of empty fields, and outdated results.
     pub(crate) faint: Style,
-    /// Something is wrong.
+    /// Errors.
     pub(crate) problem: Style,
-    /// Something to know.
+    /// Notes.
     pub(crate) note: Style,
-    /// The method that the case asks for, and its curve.
+    /// The method of the case, and its curve.
     pub(crate) active: Style,
-    /// The other method, and its curve.
+    /// Another method, and its curve.
     pub(crate) other: Style,
     /// The name of a key, and the title of the focused pane.
     pub(crate) key: Style,
@@ -35,14 +35,14 @@ pub struct Theme {
     pub(crate) path: Style,
 }
 
-/// The themes by their names.
+/// The names of the themes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ThemeName {
     /// A few of the terminal's own colours.
     Quiet,
     /// Bright colours and bold letters.
     Contrast,
-    /// No colour at all.
+    /// No colours.
     Mono,
 }
 
@@ -79,12 +79,12 @@ impl ThemeName {
     }
 }
 
-/// What the terminal is able to show.
+/// The capabilities of the terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Look {
     /// Colours and attributes.
     pub theme: &'static Theme,
-    /// Nothing but ASCII reaches the screen.
+    /// Whether the screen uses only ASCII.
     pub ascii: bool,
 }
 
@@ -99,14 +99,14 @@ pub(crate) static QUIET: Theme = Theme {
     active: Style::new().fg(Color::Green).add_modifier(Modifier::BOLD),
     other: Style::new().fg(Color::Magenta),
     key: Style::new().add_modifier(Modifier::REVERSED),
-    // The plain blue is hard to see on black.
+    // Plain blue is hard to read on black.
     baseline: Style::new().fg(Color::LightBlue),
     driver: Style::new().fg(Color::Cyan),
     driven: Style::new().fg(Color::Yellow),
     path: Style::new().fg(Color::Magenta),
 };
 
-/// Bright colours and bold letters, where the quiet ones are hard to read.
+/// Bright colours and bold letters, for terminals on which the quiet ones are hard to read.
 pub static CONTRAST: Theme = Theme {
     title: Style::new()
         .fg(Color::LightCyan)
@@ -136,7 +136,7 @@ pub static CONTRAST: Theme = Theme {
     ..QUIET
 };
 
-/// Attributes alone.
+/// Attributes only.
 pub static MONO: Theme = Theme {
     title: Style::new().add_modifier(Modifier::BOLD),
     problem: Style::new().add_modifier(Modifier::BOLD),
@@ -151,14 +151,14 @@ pub static MONO: Theme = Theme {
 };
 
 impl Look {
-    /// Colours and the whole of Unicode.
+    /// Colours and full Unicode.
     pub const FULL: Look = Look {
         theme: &QUIET,
         ascii: false,
     };
 
-    /// What the environment allows: `NO_COLOR`, `TERM`, and the locale by `LC_ALL`, `LC_CTYPE`,
-    /// `LANG`.
+    /// The capabilities according to the environment: `NO_COLOR`, `TERM`, and the locale by
+    /// `LC_ALL`, `LC_CTYPE`, `LANG`.
     #[must_use]
     pub(crate) fn of(variable: impl Fn(&str) -> Option<OsString>) -> Look {
         let set = |name| variable(name).filter(|value| !value.is_empty());

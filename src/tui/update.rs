@@ -1,5 +1,5 @@
-//! The only place where the state changes: no files, no clock, no threads; those are asked for as
-//! effects.
+//! The only place where the state changes. It uses no files, no clock and no threads, but requests
+//! them as effects.
 
 mod baseline;
 mod browse;
@@ -50,7 +50,7 @@ use super::theme::Look;
 use crate::case::{Acting, Document, FIELDS, Field, changes, fields, relevance};
 use crate::model::inputs::Method;
 
-/// Change the state by what happened, and say what is to be done about it.
+/// Applies an action to the state. Returns the effects to carry out.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     if matches!(
         action,
@@ -86,8 +86,8 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     effects
 }
 
-/// What follows from the rest of the state: the lines of the form, how far form and results are
-/// scrolled, and the axes of the charts.
+/// Updates the dependent state: the lines of the form, the scrolling of form and results, and the
+/// axes of the charts.
 pub(crate) fn settle(app: &mut App) {
     app.tab.form.lines = form::Lines::of(&app.form());
     if mem::take(&mut app.needs_scroll) {
@@ -97,7 +97,7 @@ pub(crate) fn settle(app: &mut App) {
     chart::fit(app);
 }
 
-/// The workbench as it opens on a document.
+/// The workbench after it opens a document.
 #[must_use]
 pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
     let mut app = App::new(document, path, look, size);
@@ -119,8 +119,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Resize(size) => {
             app.layout.resize(size);
             app.follow();
-            // Terminals cut what they show when they shrink, even if they are back at the old size
-            // by now.
+            // Terminals cut their content when they shrink, even if they have the old size again.
             return vec![Effect::Redraw];
         }
         Action::Solved(answer) => {
@@ -219,7 +218,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
     }
 }
 
-// Commands that change only what is in sight.
+// Commands that change only the view.
 fn show(app: &mut App, command: Command) {
     match command {
         Command::Help => app
@@ -324,7 +323,7 @@ fn travel(app: &mut App, command: Command) -> Vec<Effect> {
     effects
 }
 
-// That method, else the next.
+// Sets a method, by default the next one.
 fn set_method(app: &mut App, method: Option<Method>) -> Vec<Effect> {
     let Some(field) = fields::index_of("model.method") else {
         return Vec::new();

@@ -1,11 +1,11 @@
-//! The variants of a case, solved beside it.
+//! The variants of a case, solved for the comparison with the case.
 
 use crate::model::{Inputs, Solution, Stages};
 
-/// Variants for the worker.
+/// A request to solve variants.
 #[derive(Debug, Clone)]
 pub struct VariantsRequest {
-    /// The serial of the request with the case itself.
+    /// The serial of the request for the case.
     pub(crate) serial: u64,
     /// The name of each variant, and its pair or the error in it.
     pub(crate) columns: Vec<(String, Result<Inputs, String>)>,
@@ -16,8 +16,8 @@ pub struct VariantsRequest {
 /// Solved variants.
 #[derive(Debug, Clone)]
 pub struct Variants {
-    /// That of the request.
+    /// The serial of the request.
     pub(crate) serial: u64,
-    /// The name of each variant, and its results or the reason for none.
+    /// The name of each variant, and its results or the reason of their absence.
     pub(crate) columns: Vec<(String, Result<Solution, String>)>,
 }

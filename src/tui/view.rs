@@ -1,4 +1,4 @@
-//! The screen, drawn from the state alone.
+//! Draws the screen from the state.
 
 pub(crate) mod status;
 
@@ -20,7 +20,7 @@ use super::panes::trade::{self, TradePane};
 
 use super::text;
 
-/// Draw the whole screen; the place of the cursor, where there is one.
+/// Draws the whole screen. Returns the position of the text cursor, if any.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let cursor = if layout::is_too_small(area.as_size()) {
         too_small(area, buffer);
@@ -32,7 +32,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     cursor.filter(|&cursor| area.contains(cursor))
 }
 
-// The most that fits whole.
+// Shows the longest message that fits.
 fn too_small(area: Rect, buffer: &mut Buffer) {
     let needed = format!("{}x{}", SMALLEST.width, SMALLEST.height);
     let needs = format!("tipstrike needs {needed};");

@@ -1,5 +1,5 @@
-//! The charts of whine in the workbench: harmonics of the transmission error, dynamic factor over
-//! speed. A worker computes them.
+//! The charts of whine in the workbench: harmonics of the transmission error, and dynamic factor
+//! over speed. A worker computes them.
 
 use crate::model::Inputs;
 use crate::report::svg::Chart;
@@ -16,10 +16,10 @@ pub enum WhineChart {
 }
 
 impl WhineChart {
-    /// Every chart, in the order behind the charts of the stations.
+    /// Every chart, in their order after the charts of the stations.
     pub const ALL: [WhineChart; 2] = [WhineChart::Spectrum, WhineChart::Speed];
 
-    /// The key, as `plot --chart` has it.
+    /// The key, as in `plot --chart`.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -28,7 +28,7 @@ impl WhineChart {
         }
     }
 
-    /// The sentence in lists.
+    /// The description in lists.
     #[must_use]
     pub fn about(self) -> &'static str {
         match self {
@@ -41,7 +41,7 @@ impl WhineChart {
         }
     }
 
-    /// Shorter and shorter titles with their units, where the labels of the axes have no room.
+    /// Titles with their units for axes without labels, the longest first.
     #[must_use]
     pub fn short_titles(self) -> [&'static str; 2] {
         match self {
@@ -53,7 +53,7 @@ impl WhineChart {
         }
     }
 
-    /// The sentence in the status line.
+    /// The description in the status line.
     #[must_use]
     pub fn hint(self) -> &'static str {
         match self {
@@ -80,7 +80,7 @@ impl WhineChart {
 /// A request for a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WhineRequest {
-    /// Different for every request.
+    /// Unique serial of the request.
     pub serial: u64,
     /// The chart.
     pub chart: WhineChart,
@@ -93,20 +93,20 @@ pub struct WhineRequest {
 pub enum WhineFound {
     /// The spectra, by name.
     Spectra(NamedSpectra),
-    /// The curve over speed as far as it is computed.
+    /// The computed part of the curve over speed.
     Speeds(Box<SpeedCurve>),
-    /// Why there is no chart.
+    /// The reason why there is no chart.
     Refused(String),
 }
 
-/// A part of the answer to a request.
+/// A part of the result of a request.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WhinePart {
-    /// The request.
+    /// The serial of the request.
     pub serial: u64,
-    /// The values so far; none at an end without values.
+    /// The values so far; `None` if the computation ends without values.
     pub found: Option<WhineFound>,
-    /// Whether the computation is over.
+    /// Whether the computation has ended.
     pub is_over: bool,
 }
 
@@ -115,14 +115,14 @@ pub struct WhinePart {
 pub struct Whine {
     /// The last request.
     pub request: Option<WhineRequest>,
-    /// The values, of an earlier request until the first of the last one come.
+    /// The values; those of an earlier request until the first values of the last one arrive.
     pub found: Option<(WhineChart, WhineFound)>,
-    /// Whether the last request is being computed.
+    /// Whether the worker still computes the last request.
     pub is_running: bool,
 }
 
 impl Whine {
-    /// Takes a part of the answer to the last request.
+    /// Adds a part of the result of the last request.
     pub fn take(&mut self, part: WhinePart) {
         let Some(request) = self
             .request
@@ -137,7 +137,7 @@ impl Whine {
         self.is_running = !part.is_over;
     }
 
-    /// The chart as far as it is computed.
+    /// The computed part of the chart.
     #[must_use]
     pub fn drawn(&self, chart: WhineChart) -> Option<Chart> {
         let (_, found) = self.found.as_ref().filter(|(own, _)| *own == chart)?;
@@ -148,13 +148,13 @@ impl Whine {
         }
     }
 
-    /// Why there is no chart.
+    /// The reason why there is no chart.
     #[must_use]
     pub fn missing(&self, chart: WhineChart) -> String {
         match &self.found {
             Some((own, WhineFound::Refused(reason))) if *own == chart => reason.clone(),
             _ if self.is_running => "computing".to_owned(),
-            Some(_) => "No motion becomes steady: give a greater damping ratio.".to_owned(),
+            Some(_) => "The motion does not become steady: increase the damping ratio.".to_owned(),
             None => "The form is not valid: no chart.".to_owned(),
         }
     }

@@ -1,4 +1,4 @@
-//! The running workbench: takes events, changes the state, performs the effects, draws.
+//! The main loop of the workbench: takes events, changes the state, carries out the effects, draws.
 
 use std::io;
 use std::path::PathBuf;
@@ -22,27 +22,27 @@ use super::update::{self, update};
 use super::worker::Workers;
 use crate::system::signals::{SIGCONT, SIGTSTP, SIGWINCH};
 
-/// Time between two pictures of what plays.
+/// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);
 
-/// The workbench while it runs.
+/// The running workbench.
 struct Workbench {
     app: App,
     screen: Screen,
     events: Events,
     workers: Workers,
     autosave: Autosave,
-    /// When the next picture of what plays is due.
+    /// Time of the next frame of the animation.
     alarm: Option<Instant>,
-    /// The settings that are to be kept once all that has come is done.
+    /// Settings to save after all waiting events.
     chosen: Option<Settings>,
 }
 
-/// How the workbench came to its end.
+/// How the workbench ended.
 pub(super) enum End {
-    /// The user left: nothing is unsaved that is wanted.
+    /// The user quit; no unsaved edits are to be kept.
     Left,
-    /// The terminal is gone.
+    /// The terminal is closed.
     Lost,
     Signal(i32),
 }
@@ -108,7 +108,7 @@ fn report(app: &mut App, trouble: Trouble) {
 
 impl Workbench {
     fn stay(mut self) -> io::Result<End> {
-        // What is found out about the case on which it opens comes after the first frame.
+        // Claims of the first case arrive after the first frame.
         let mut batch = Vec::new();
         let end = loop {
             if let Some(end) = self.take(batch)? {
@@ -123,7 +123,8 @@ impl Workbench {
         Ok(end)
     }
 
-    // All that has come, and one frame if it changed anything; how it ended, if it did.
+    // Applies all waiting events and draws one frame if the state changed. Returns how the
+    // workbench ended, if it has ended.
     fn take(&mut self, batch: Vec<Event>) -> io::Result<Option<End>> {
         let mut events = batch.into_iter().peekable();
         let mut has_changed = false;
@@ -170,7 +171,7 @@ impl Workbench {
         Ok(None)
     }
 
-    // Whether it is over.
+    // Returns whether the workbench ends.
     fn act(&mut self, action: Action) -> io::Result<bool> {
         let mut actions = vec![action];
         while let Some(action) = actions.pop() {
@@ -203,7 +204,7 @@ impl Workbench {
         Ok(false)
     }
 
-    // A flood of choices is written once.
+    // Several changes of settings cause one write.
     fn keep_settings(&mut self) {
         let kept = self
             .chosen
@@ -214,7 +215,7 @@ impl Workbench {
         }
     }
 
-    // Whether there was something to tell.
+    // Returns whether there were claims.
     fn keep(&mut self) -> bool {
         let claims = self.autosave.follow(&self.app.sheets(), Instant::now());
         let has_changed = !claims.is_empty();
@@ -224,7 +225,7 @@ impl Workbench {
         has_changed
     }
 
-    // Nobody knows for how long.
+    // The journal is written first, because the suspension may last long.
     fn suspend(&mut self) -> io::Result<()> {
         self.keep();
         self.autosave.keep();

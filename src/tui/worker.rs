@@ -1,4 +1,4 @@
-//! Long work, each kind in a thread of its own: solving, the benchmark, and jobs.
+//! Long work, each kind in its own thread: solving, the benchmark, studies, charts and jobs.
 
 mod export;
 pub(crate) mod jobs;
@@ -22,7 +22,8 @@ use super::study::StudyRequest;
 use super::whine::WhineRequest;
 use crate::case::stamp::Stamp;
 
-/// The threads. All but those of the solver and of the watched files start with their first request.
+/// The worker threads. The solver and the file watcher start at once, the others with their first
+/// request.
 pub struct Workers {
     send: Send,
     solver: Worker<Request>,
@@ -37,7 +38,7 @@ impl Workers {
     /// Starts the solver and the watcher of files.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub fn start(send: Send) -> io::Result<Workers> {
         Ok(Workers {
             solver: solving::start(Send::clone(&send))?,
@@ -50,12 +51,12 @@ impl Workers {
         })
     }
 
-    /// Solves, in place of a request that has not begun.
+    /// Requests a solve; replaces a waiting request.
     pub(crate) fn solve(&self, request: Request) {
         self.solver.request(request);
     }
 
-    /// Stops the solve that runs.
+    /// Stops the running solve.
     pub(crate) fn stop_solve(&self) {
         self.solver.stop_running();
     }
@@ -65,10 +66,10 @@ impl Workers {
         self.watcher.watch(files);
     }
 
-    /// Measures, in place of a benchmark that runs.
+    /// Requests a benchmark; replaces the running one.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub(crate) fn measure(&mut self, measuring: Measuring) -> io::Result<()> {
         let worker = match &self.benchmark {
             Some(worker) => worker,
@@ -80,10 +81,10 @@ impl Workers {
         Ok(())
     }
 
-    /// Computes a study, in place of one that runs.
+    /// Requests a study; replaces the running one.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub(crate) fn study(&mut self, request: StudyRequest) -> io::Result<()> {
         let worker = match &self.study {
             Some(worker) => worker,
@@ -93,10 +94,10 @@ impl Workers {
         Ok(())
     }
 
-    /// Computes a chart of whine, in place of one that is being computed.
+    /// Requests a chart of whine; replaces the running one.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub fn whine(&mut self, request: WhineRequest) -> io::Result<()> {
         let worker = match &self.whine {
             Some(worker) => worker,
@@ -122,10 +123,10 @@ impl Workers {
         self.benchmark.iter().for_each(Worker::stop);
     }
 
-    /// Does a job, in place of one of its kind that has not begun.
+    /// Requests a job; replaces a waiting job of its kind.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub fn job(&mut self, job: Job) -> io::Result<()> {
         let (kind, name) = job.kind();
         let worker = match &self.jobs[kind] {

@@ -11,7 +11,7 @@ use crate::tui::solver::{Answer, Request};
 use crate::tui::tab::Tab;
 
 impl App {
-    /// The stages of a solve whose results are in sight.
+    /// The stages of the visible results.
     #[must_use]
     pub(crate) fn wanted(&self) -> Stages {
         if self.is_pinning {
@@ -21,8 +21,8 @@ impl App {
         let seen = Pane::ALL
             .into_iter()
             .filter(|&pane| !plan.area(pane).is_empty());
-        // The verdict, with the outcome and its notes, stands there even where only the chart is in
-        // sight: all but the band and the late stages.
+        // The verdict with its notes is visible even if only the chart is: it needs all stages
+        // except the stiffness spread and the late stages.
         let verdict = Pane::Results
             .needs()
             .without(Stage::Band)
@@ -30,13 +30,13 @@ impl App {
         seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
     }
 
-    /// Whether the chart of the mesh stiffness is in sight.
+    /// Whether the chart of the mesh stiffness is visible.
     fn wants_stiffness(&self) -> bool {
         let is_visible = !self.layout.plan().area(Pane::Chart).is_empty();
         is_visible && GRAPHS[self.chart.graph].by_model.is_some()
     }
 
-    /// Put another case into the form, and ask for its results.
+    /// Replaces the case of the form and returns the request for its results.
     pub(in crate::tui) fn replace_case(&mut self, case: Case, focus: usize) -> Option<Request> {
         self.tab.case = case;
         let request = self.request();
@@ -44,7 +44,7 @@ impl App {
         request
     }
 
-    /// Check the form; when it is valid, what the worker shall solve.
+    /// Checks the form and returns the request for its results if the form is valid.
     pub(in crate::tui) fn request(&mut self) -> Option<Request> {
         let (stages, wants_stiffness) = (self.wanted(), self.wants_stiffness());
         let (inputs, problems) = self.tab.case.read();
@@ -74,7 +74,7 @@ impl App {
         None
     }
 
-    /// The request for the results that the first frame could not wait for.
+    /// The request for the results that the first frame leaves out.
     pub(in crate::tui) fn unanswered(&mut self) -> Option<Request> {
         let requested = self.tab.requested;
         let lacks_stiffness = self.wants_stiffness();
@@ -99,7 +99,7 @@ impl App {
         }
     }
 
-    /// Show an answer in its tab, unless a later one is on its way.
+    /// Shows an answer in its tab, unless a later request is running.
     pub(in crate::tui) fn take(&mut self, answer: Answer) {
         if let Some(tab) = self.tab_of(answer.serial) {
             tab.take(answer);
@@ -107,14 +107,14 @@ impl App {
         self.follow();
     }
 
-    /// The measurement of that serial.
+    /// The benchmark with this serial.
     pub(in crate::tui) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
         let all = std::iter::once(&mut self.tab).chain(&mut self.others);
         all.filter_map(|tab| tab.traded.as_mut())
             .find(|traded| traded.serial == serial)
     }
 
-    /// The tab that waits for the answer of that serial.
+    /// The tab that waits for the answer with this serial.
     pub(in crate::tui) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
         std::iter::once(&mut self.tab)
             .chain(&mut self.others)

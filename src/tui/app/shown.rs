@@ -1,4 +1,4 @@
-//! The panes and dialogs with what they show of the state.
+//! The panes and dialogs with the state that they show.
 
 use super::App;
 use crate::report;
@@ -34,7 +34,7 @@ impl App {
         }
     }
 
-    /// The charts and the pane in which the cursor moves.
+    /// The visible charts and the pane in which the cursor moves.
     pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
         let plan = self.layout.plan();
         let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
@@ -44,7 +44,7 @@ impl App {
         }
     }
 
-    /// The surroundings of a dialog.
+    /// The context of a dialog.
     pub(crate) fn surroundings(&self) -> Surroundings<'_> {
         Surroundings {
             screen: self.layout.size(),
@@ -53,7 +53,7 @@ impl App {
         }
     }
 
-    /// The form with the case in it.
+    /// The form with its case.
     #[must_use]
     pub(crate) fn form(&self) -> Form<'_> {
         let tab = &self.tab;
@@ -76,7 +76,7 @@ impl App {
         }
     }
 
-    /// The results pane with the results that it shows.
+    /// The results pane with its results.
     #[must_use]
     pub fn results(&self) -> Results<'_> {
         let tab = &self.tab;
@@ -107,7 +107,7 @@ impl App {
         }
     }
 
-    /// The trade pane with the benchmark that it shows.
+    /// The trade pane with its benchmark.
     #[must_use]
     pub(crate) fn trade(&self) -> TradePane<'_> {
         TradePane {
@@ -120,7 +120,7 @@ impl App {
         }
     }
 
-    /// The study pane with the study that it shows.
+    /// The study pane with its study.
     #[must_use]
     pub(crate) fn study(&self) -> StudyPane<'_> {
         let tab = &self.tab;
@@ -143,7 +143,7 @@ impl App {
         }
     }
 
-    /// The chart pane with the results that it shows.
+    /// The chart pane with its results.
     #[must_use]
     pub fn charts(&self) -> Charts<'_> {
         Charts {

@@ -1,4 +1,5 @@
-//! The table of keys, names and sentences, from which key map, status line, palette and help come.
+//! The table of keys, names and sentences for the key map, the status line, the palette and the
+//! help.
 
 use crossterm::event::KeyCode;
 use tui_input::InputRequest as Line;
@@ -12,7 +13,7 @@ use crate::tui::panes::chart::ChartCommand as Chart;
 use crate::tui::panes::study::StudyCommand as Study;
 use crate::tui::panes::teeth::TeethCommand as Teeth;
 
-// In the status line, the palette and the help.
+// For the status line, the palette and the help.
 const fn shown(
     places: Place,
     chords: &'static [Chord],
@@ -23,7 +24,7 @@ const fn shown(
     shown_in(places, places, chords, command, name, sentence)
 }
 
-// In the palette and the help, and in the status line of some places.
+// For the palette and the help, and for the status line of some places.
 const fn shown_in(
     footer: Place,
     places: Place,
@@ -42,7 +43,7 @@ const fn shown_in(
     }
 }
 
-// In the palette and the help.
+// For the palette and the help.
 const fn listed(
     places: Place,
     chords: &'static [Chord],
@@ -53,7 +54,7 @@ const fn listed(
     shown_in(Place::NONE, places, chords, command, name, sentence)
 }
 
-// In the help alone.
+// For the help only.
 const fn helped(
     places: Place,
     chords: &'static [Chord],
@@ -66,7 +67,7 @@ const fn helped(
 /// Every key of the workbench, in the order of the help; the status line shows as many as fit.
 #[rustfmt::skip]
 pub static BINDINGS: &[Binding] = &[
-    // Outside a field, where letters are commands.
+    // Outside fields, where letters are commands.
     shown(Place::FIELD, &[key(KeyCode::Enter), letter('i')], Do::StartEdit, "edit",
         "Type into the focused field; Esc leaves it."),
     shown(Place::RESULTS, &[key(KeyCode::Enter)], Do::Explain, "explain",
@@ -341,7 +342,7 @@ pub static BINDINGS: &[Binding] = &[
     helped(Place::ALL, &[ctrl('c'), ctrl('\\')], Do::Cancel,
         "Close a dialog or stop the running work. Otherwise press twice to quit; asks before \
             unsaved edits are discarded."),
-    // In a line of text.
+    // In an input line.
     helped(Place::LINE, &[key(KeyCode::Left)], Do::Edit(Line::GoToPrevChar),
         "Move one character left."),
     helped(Place::LINE, &[key(KeyCode::Right)], Do::Edit(Line::GoToNextChar),

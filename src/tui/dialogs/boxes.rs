@@ -1,4 +1,4 @@
-//! A box in the middle of the screen, and the lists in it.
+//! A box in the middle of the screen, with its lists.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Position, Rect, Size};
@@ -11,12 +11,12 @@ use crate::tui::text;
 use crate::tui::theme::Theme;
 use unicode_width::UnicodeWidthStr;
 
-/// The widest one.
+/// Greatest width of a box.
 pub(super) const WIDEST: u16 = 100;
-/// Room for four buttons.
+/// Least width, with room for four buttons.
 const NARROWEST: u16 = 52;
 
-/// The room inside the largest box.
+/// The size inside the largest box.
 #[must_use]
 pub(super) fn room(screen: Size) -> Size {
     Size {
@@ -25,18 +25,18 @@ pub(super) fn room(screen: Size) -> Size {
     }
 }
 
-/// The lines of a page in the largest box.
+/// Number of lines of a page in the largest box.
 #[must_use]
 pub(super) fn page_height(screen: Size) -> isize {
     isize::try_from(room(screen).height).unwrap_or(1).max(1)
 }
 
-/// Selects a line. Returns whether it was selected before.
+/// Selects a line. Returns whether the line was already selected.
 pub(super) fn select(selected: &mut usize, line: usize) -> bool {
     std::mem::replace(selected, line) == line
 }
 
-/// An emptied box with a border, as large as is wanted if there is room.
+/// Clears a box with a border, as large as wanted if there is room, and returns its inside.
 pub(super) fn frame(
     title: &str,
     wanted: Size,
@@ -57,7 +57,7 @@ pub(super) fn frame(
     inside(wanted, screen)
 }
 
-/// A box in which a path is typed, with a sentence on how. Returns the place of the text cursor.
+/// A box with a line for a path and a sentence of help. Returns the position of the text cursor.
 pub(super) fn path_box(
     title: &str,
     how: &str,
@@ -87,7 +87,7 @@ fn outside(wanted: Size, screen: Rect) -> Rect {
         .intersection(screen)
 }
 
-/// What is inside of such a box.
+/// The area inside a box.
 #[must_use]
 pub(super) fn inside(wanted: Size, screen: Rect) -> Rect {
     let inner = Block::bordered().inner(outside(wanted, screen));
@@ -98,7 +98,7 @@ pub(super) fn inside(wanted: Size, screen: Rect) -> Rect {
     }
 }
 
-/// A list on the left and what belongs to it on the right, with a rule between them.
+/// Splits an area into a list on the left and its details on the right, with a rule between them.
 pub(super) fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
     for y in area.top()..area.bottom() {
@@ -113,7 +113,7 @@ pub(super) fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
     parted(area)
 }
 
-/// The two without the rule.
+/// Both halves without the rule.
 #[must_use]
 pub(super) fn parted(area: Rect) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
@@ -131,7 +131,7 @@ pub(super) fn parted(area: Rect) -> (Rect, Rect) {
     )
 }
 
-/// The lines of a list around the marked one; of the others nothing is made.
+/// Draws the lines of a list around the selected one; only visible lines are built.
 pub(super) fn draw_window(
     count: usize,
     line: impl Fn(usize) -> String,
@@ -154,7 +154,7 @@ pub(super) fn draw_window(
     }
 }
 
-/// The line of such a list on a cell, where there is one.
+/// The index of the line at a cell, if any.
 #[must_use]
 pub(super) fn line_at(
     count: usize,
@@ -172,7 +172,7 @@ fn top_of(marked: Option<usize>, area: Rect) -> usize {
     marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()))
 }
 
-/// What the lines and some more below them take.
+/// The size of the lines with `more` additional lines.
 pub(super) fn extent(lines: &[String], more: usize) -> Size {
     let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
     let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);

@@ -1,5 +1,5 @@
-//! The browser of files: a folder on the left, the recent cases below it, what the marked one holds
-//! on the right.
+//! The file browser: a folder on the left, the recent cases below it, the preview of the selected
+//! line on the right.
 
 use std::path::Path;
 
@@ -23,12 +23,12 @@ mod state;
 pub(crate) use state::Browser;
 use state::Line;
 
-/// As wide as may be, and so many lines at most.
+/// The full width, and a limited number of lines.
 const SIZE: Size = Size {
     width: u16::MAX,
     height: 34,
 };
-/// So many of the recent cases are in sight.
+/// Number of visible recent cases.
 const RECENTS: usize = 6;
 
 impl Browser {
@@ -147,7 +147,7 @@ fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> 
     text::edited(&browser.input, line, theme.focus, buffer)
 }
 
-// The line of the lists on a cell, where there is one.
+// The index of the line of the lists at a cell, if any.
 fn line_at(browser: &Browser, screen: Size, at: Position) -> Option<usize> {
     let inner = boxes::inside(SIZE, Rect::from((Position::ORIGIN, screen)));
     let (above, below) = stacked(browser, boxes::parted(below_line(inner)).0);
@@ -182,7 +182,7 @@ fn below_line(inner: Rect) -> Rect {
     }
 }
 
-// The folder, and below it the recent cases with their title, where there are any.
+// Splits an area into the folder and, below it, the recent cases with their title, if any.
 fn stacked(browser: &Browser, area: Rect) -> (Rect, Rect) {
     let recents = browser
         .count_of_recents()

@@ -1,4 +1,4 @@
-//! The roll angle, time or point to move the cursor to.
+//! The dialog for the roll angle, time or point of the cursor.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -14,7 +14,7 @@ use crate::tui::text;
 /// The width at which the instruction has two lines.
 const WIDTH: u16 = 62;
 
-/// The place to move the cursor to.
+/// The dialog with its typed text.
 #[derive(Debug, Clone, Default)]
 pub struct CursorTo {
     /// The typed text.
@@ -33,7 +33,7 @@ impl Dialog for CursorTo {
     fn accept(&mut self, around: &Surroundings<'_>) -> Outcome {
         let angle = parse_cursor(&around.cursor, self.input.value());
         if angle.is_err() {
-            // Typing replaces the wrong text.
+            // Typing replaces the invalid text.
             self.input.select_all();
         }
         Outcome::CursorTo(angle)

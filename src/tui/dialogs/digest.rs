@@ -1,4 +1,4 @@
-//! A case in a few lines: what it is, and its verdict.
+//! The digest of a case as lines: its description and its verdict.
 
 use ratatui::style::Style;
 
@@ -6,7 +6,7 @@ use crate::report::digest::Digest;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
-/// The lines in that width, each with its style.
+/// The lines in `width` columns, each with its style.
 #[must_use]
 pub(super) fn lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style)> {
     let plain = Style::new();

@@ -17,25 +17,25 @@ use crate::tui::keys::Place;
 use crate::tui::text as words;
 use crate::tui::theme::Theme;
 
-/// An explanation that is being read.
+/// An open explanation.
 #[derive(Debug, Clone)]
 pub struct Explanation {
     /// The result.
     pub quantity: &'static Quantity,
-    /// What the case is called.
+    /// The name of the case.
     pub(crate) case: String,
-    /// The value in the units of the results, where those are not the page's.
+    /// The value in the units of the results, if these differ from the units of the page.
     pub(crate) value: Option<Shown>,
-    /// The page, or why there is none; nothing while it is being written.
+    /// The page, or the reason of its absence; `None` while the job runs.
     pub page: Option<Result<Box<Page>, String>>,
-    /// The first line in sight.
+    /// The first visible line.
     pub top: usize,
-    /// The marked one of the fields.
+    /// The index of the selected field.
     pub(crate) marked: Option<usize>,
 }
 
 impl Explanation {
-    /// An explanation that is being written.
+    /// An explanation without its page, which a job computes.
     #[must_use]
     pub(crate) fn new(
         quantity: &'static Quantity,
@@ -52,15 +52,14 @@ impl Explanation {
         }
     }
 
-    /// Take the page, if it is the one that is waited for.
+    /// Shows the page if it belongs to this explanation.
     pub(crate) fn take(&mut self, explained: Explained) {
         if self.page.is_none() && explained.quantity.key == self.quantity.key {
             self.page = Some(explained.page);
         }
     }
 
-    /// The fields that the result depends on, by their keys, in the order in which they stand on
-    /// the page.
+    /// The keys of the fields that the result depends on, in the order of the page.
     #[must_use]
     pub fn fields(&self) -> Vec<&'static str> {
         let Some(Ok(page)) = &self.page else {
@@ -77,13 +76,13 @@ impl Explanation {
             .collect()
     }
 
-    /// The marked field.
+    /// The selected field.
     #[must_use]
     pub fn field(&self) -> Option<&'static str> {
         self.fields().get(self.marked?).copied()
     }
 
-    /// Mark the next field or the one before, round and round.
+    /// Selects the next or previous field, wrapping around.
     pub(crate) fn mark(&mut self, by: isize) {
         let count = self.fields().len();
         let from = self
@@ -94,7 +93,7 @@ impl Explanation {
         self.marked = (count > 0).then(|| (from + count).saturating_add_signed(by) % count);
     }
 
-    /// Scrolls, as far as there are lines.
+    /// Scrolls by `by` lines, within the page.
     pub fn scroll(&mut self, by: isize, screen: Size, ascii: bool) {
         let last = text(self, screen, ascii)
             .len()
@@ -217,7 +216,7 @@ fn text(explanation: &Explanation, screen: Size, ascii: bool) -> Vec<Line> {
     }
 }
 
-// Letters that are written out may need another line.
+// Symbols spelled in ASCII may need another line.
 fn in_ascii(line: &Line, width: usize) -> Vec<Line> {
     let written = written_out(&line.text);
     let indent = written.len() - written.trim_start().len();
@@ -239,7 +238,7 @@ fn in_ascii(line: &Line, width: usize) -> Vec<Line> {
         .collect()
 }
 
-// Row and column of the marked field, and its key. No line breaks inside a key.
+// Row and column of the selected field, and its key. No line breaks inside a key.
 fn place_of_field(explanation: &Explanation, lines: &[Line]) -> Option<(usize, u16, &'static str)> {
     let key = explanation.field()?;
     let list = lines.iter().rposition(|line| line.kind == Kind::Heading)?;

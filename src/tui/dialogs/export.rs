@@ -1,4 +1,4 @@
-//! The path to export to.
+//! The dialog for the path to export to.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -8,12 +8,12 @@ use super::{Dialog, Outcome, Surroundings};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
 
-/// How a name is given.
+/// The instruction.
 const NAMING: &str = "A name or a path; ~ is the home folder. The file extension selects the \
     content: .html, .md, .csv and .json write the report, .svg writes the visible chart or the \
     teeth.";
 
-/// The path to export to.
+/// The dialog with its typed path.
 #[derive(Debug, Clone)]
 pub struct ExportTo {
     /// The typed path.

@@ -1,4 +1,4 @@
-//! A page to read.
+//! A page of text.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -10,20 +10,20 @@ use crate::tui::keys::Place;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
-/// A page to read.
+/// A page of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
-    /// In a few words.
+    /// The title.
     pub(crate) title: String,
     pub(crate) lines: Vec<String>,
-    /// The first line in sight.
+    /// The first visible line.
     pub(crate) top: usize,
     /// Whether it shows the outcome of the open case.
     pub(crate) is_of_results: bool,
 }
 
 impl Page {
-    /// A page from its first line.
+    /// A page that shows its first line.
     #[must_use]
     pub(crate) fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
         Page {
@@ -65,7 +65,7 @@ impl Dialog for Page {
     }
 }
 
-// The lines of a page as they stand in a box; lines that go on are indented.
+// The lines of a page wrapped for its box; continuation lines are indented.
 fn wrapped(page: &Page, screen: Size) -> Vec<String> {
     let width = usize::from(room(screen).width);
     let wrap = |line: &String| {
@@ -84,7 +84,7 @@ fn wrapped(page: &Page, screen: Size) -> Vec<String> {
     page.lines.iter().flat_map(wrap).collect()
 }
 
-// Where a line goes on when it is wrapped: below its second column, if it has one.
+// The indent of continuation lines: the second column of the line, if it has one.
 fn hanging(line: &str) -> usize {
     let lead = line.len() - line.trim_start().len();
     let gap = line[lead..].find("  ").map(|at| lead + at);

@@ -1,5 +1,4 @@
-//! Lists to pick from: a line of text, the lines that fit it, and below them all that there is to
-//! say of the marked one.
+//! Lists to pick from: an input line, the matching lines, and the details of the selected line.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -23,12 +22,12 @@ pub use item::Item;
 pub(crate) use item::{Pick, VARIANT};
 pub(crate) use state::{Context, List, Picker};
 
-/// A list has so many columns and lines where there is room.
+/// Preferred size of a list.
 const SIZE: Size = Size {
     width: 100,
     height: 20,
 };
-/// Room for the keys of a command.
+/// Width of the keys of a command.
 const KEYS: usize = 14;
 
 impl Dialog for Picker {
@@ -100,7 +99,7 @@ fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Op
     )
 }
 
-// The line of the list on a cell, where there is one.
+// The index of the line at a cell, if any.
 fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
     let items = picker.fitting();
     let list = below_line(inside(SIZE, Rect::from((Position::ORIGIN, screen))));
@@ -127,7 +126,7 @@ fn above_detail(items: &[Item], list: Rect) -> Rect {
     }
 }
 
-// Name, keys, and as much as fits of what more there is to say.
+// Name, keys, and as much of the description as fits.
 fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
     let widest = |text: fn(&Item) -> &str, most: usize| {
         items
@@ -159,8 +158,8 @@ fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: 
     say_if_none(items, area, theme, buffer);
 }
 
-// What is said of any of the lines takes so many lines, a rule above them counted, so that the list
-// stays where it is.
+// The number of lines that the longest description needs, including a rule above it, so that the
+// list does not move.
 fn detail_lines(items: &[Item], list: Rect) -> u16 {
     let lines = |item: &Item| text::wrap(&detail(item), list.width.into()).len();
     let most = items.iter().map(lines).max().unwrap_or(0) as u16 + 1;
@@ -195,7 +194,7 @@ fn draw_detail(item: Option<&Item>, area: Rect, theme: &Theme, buffer: &mut Buff
     }
 }
 
-// The names on the left, what the marked one is on the right.
+// The names on the left, the digest of the selected one on the right.
 fn draw_examples(
     items: &[Item],
     digests: &[Digest],

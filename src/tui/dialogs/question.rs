@@ -17,7 +17,7 @@ use crate::tui::session::save::Next;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
-/// Brackets, marks and the gap beside the name of a button.
+/// Width of brackets, marks and gap around the name of a button.
 const BESIDE_NAME: u16 = 7;
 
 const EXPORT_RUNS: &str = "An export runs";
@@ -25,13 +25,13 @@ const EXPORT_RUNS: &str = "An export runs";
 /// A question with buttons.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Question {
-    /// In a few words.
+    /// The title.
     pub(crate) title: &'static str,
-    /// In a sentence.
+    /// The question.
     pub(crate) text: String,
-    /// What it is about, a line each.
+    /// Details, one line each.
     pub(crate) details: Vec<String>,
-    /// The answers. The first letter of each calls it.
+    /// The answers. The first letter of each selects it.
     pub(crate) buttons: Vec<(&'static str, Choice)>,
     pub(crate) marked: usize,
 }
@@ -39,28 +39,29 @@ pub struct Question {
 /// An answer to a question.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Choice {
-    /// Save, then go on.
+    /// Save, then continue with the next step.
     Save(Next),
-    /// Lose the edits and go on.
+    /// Discard the edits and continue with the next step.
     Proceed(Next),
-    /// Write over what is in the file.
+    /// Overwrite the file with the form.
     Overwrite(PathBuf, Next),
-    /// Export over what is in the file.
+    /// Overwrite the file with the export.
     ExportOver(PathBuf),
-    /// Quit at once.
+    /// Quit immediately.
     Leave,
     /// Ask for another name.
     SaveAs(Next),
-    /// Put kept edits into the form.
+    /// Restore kept edits into the form.
     Recover(Box<Offer>),
-    /// Throw the edits of this journal away.
+    /// Delete this journal with its edits.
     Forget(PathBuf),
-    /// Back to the form.
+    /// Return to the form.
     Cancel,
 }
 
 impl Question {
-    /// Edits of one case would be lost. A stray Enter neither saves nor loses them.
+    /// Asks before the edits of one case are discarded. An accidental Enter neither saves nor
+    /// discards them.
     #[must_use]
     pub(crate) fn unsaved(name: &str, next: &Next) -> Question {
         let text = if matches!(next, Next::Load(_)) {
@@ -81,7 +82,7 @@ impl Question {
         }
     }
 
-    /// Edits of several cases would be lost.
+    /// Asks before the edits of several cases are discarded.
     pub(crate) fn all_unsaved(names: &[String]) -> Question {
         Question {
             title: "Unsaved edits",
@@ -136,7 +137,7 @@ impl Question {
         }
     }
 
-    /// Whether the question is about an export that runs.
+    /// Whether the question is about a running export.
     pub(crate) fn is_about_running_export(&self) -> bool {
         self.title == EXPORT_RUNS
     }
@@ -181,7 +182,7 @@ impl Question {
         }
     }
 
-    /// Another session has the file open.
+    /// Reports that another session has the file open.
     #[must_use]
     pub(crate) fn held(path: &Path, holder: &str, next: &Next) -> Question {
         Question {
@@ -199,7 +200,7 @@ impl Question {
         }
     }
 
-    /// Edits were kept that an earlier session could not save.
+    /// Offers edits that an earlier session could not save.
     #[must_use]
     pub fn recover(name: &str, offer: Offer) -> Question {
         let changed = if offer.is_file_changed {
@@ -223,7 +224,7 @@ impl Question {
         }
     }
 
-    /// Move the mark to the next or the one before, round and round.
+    /// Selects the next or previous button, wrapping around.
     pub(crate) fn mark(&mut self, by: isize) {
         let count = self.buttons.len().max(1);
         self.marked = (self.marked + count).saturating_add_signed(by) % count;
@@ -301,7 +302,7 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
     buttons.collect::<Line<'_>>().render(row, buffer);
 }
 
-// The button on a cell, where there is one.
+// The index of the button at a cell, if any.
 fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
     let lines = question_lines(question, room(screen));
     let row = button_row(
@@ -314,13 +315,13 @@ fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
         right
     });
     let ends: Vec<_> = ends.collect();
-    // The gap before the next one is no button.
+    // The gap before the next button is not part of a button.
     ends.iter()
         .position(|&end| at.x + 1 < end)
         .filter(|_| row.contains(at))
 }
 
-// Below the lines and one that is empty; nothing where it has no room.
+// The row below the lines and an empty line; empty if there is no room.
 fn button_row(lines: &[String], inner: Rect) -> Rect {
     let below = u16::try_from(lines.len())
         .unwrap_or(u16::MAX)
@@ -336,8 +337,8 @@ fn button_row(lines: &[String], inner: Rect) -> Rect {
     }
 }
 
-// The buttons below them must be in sight: of the details, as many as there is room for, a line
-// each.
+// The lines above the buttons. The buttons must be visible: details that do not fit are omitted,
+// one line each.
 fn question_lines(question: &Question, room: Size) -> Vec<String> {
     let width = usize::from(room.width);
     let mut lines = text::wrap(&question.text, width);

@@ -1,4 +1,4 @@
-//! The search for the tip relief to specify, and its answer.
+//! The dialog that searches for the tip relief to specify.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -17,12 +17,12 @@ use crate::tui::keys::Place;
 use crate::tui::line::Line;
 use crate::tui::text;
 
-/// The label of the line.
+/// The label of the input line.
 const LABEL: &str = "Load range and tolerance: ";
-/// Rows above the answer.
+/// Rows above the result.
 const HEAD: u16 = 3;
 
-/// The search and its answer.
+/// The search and its result.
 #[derive(Debug, Clone)]
 pub struct ReliefDialog {
     /// The typed load range and tolerance.
@@ -34,7 +34,7 @@ pub struct ReliefDialog {
     searched: Option<Demand>,
     answer: Option<Result<Box<Specification>, String>>,
     lines: Vec<String>,
-    /// Why the typed text is no demand.
+    /// Why the typed text is not a valid demand.
     problem: Option<String>,
     top: usize,
 }
@@ -75,7 +75,7 @@ impl ReliefDialog {
         }
     }
 
-    /// The reliefs of the answer to the typed demand.
+    /// The specification for the typed demand.
     fn found(&self) -> Option<&Specification> {
         let typed = Demand::parse(self.input.value()).ok();
         let is_current = typed.is_some() && typed == self.searched;
@@ -98,7 +98,7 @@ impl ReliefDialog {
 
     fn wrapped(&self, width: usize) -> impl Iterator<Item = String> {
         let lines = self.lines.iter();
-        // The columns of a table keep their spaces.
+        // Rows of tables keep their spaces.
         lines.flat_map(move |line| {
             if line.width() <= width {
                 vec![printable(line).to_string()]

@@ -1,4 +1,4 @@
-//! The path to save to.
+//! The dialog for the path to save to.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -9,11 +9,11 @@ use crate::tui::keys::Place;
 use crate::tui::line::Line;
 use crate::tui::session::save::Next;
 
-/// How a name is given.
+/// The instruction.
 const NAMING: &str =
     "A name or a path; ~ is the home folder, .toml is added if missing. Asks before overwriting.";
 
-/// The path to save to.
+/// The dialog with its typed path.
 #[derive(Debug, Clone)]
 pub struct SaveAs {
     /// The typed path.

@@ -1,5 +1,4 @@
-//! What a form says about a field beside its text: its usual unit, its range, its value in other
-//! units.
+//! The hint of a field: its usual unit, its range, its value in other units.
 
 use crate::case::fields::{Absent, Field, Kind};
 use crate::case::units::{self, System};
@@ -9,11 +8,11 @@ use crate::numeric::decimal::significant;
 /// Significant digits of the ends of a range that is not printed as in the table of fields.
 const RANGE_DIGITS: usize = 3;
 
-/// Significant digits of a value that follows from other fields.
+/// Significant digits of a derived value.
 const DIGITS: usize = 5;
 
 impl Field {
-    /// What a typed text is in the field's usual unit, see [`units::converted`].
+    /// The typed value in the usual unit of the field, see [`units::converted`].
     #[must_use]
     pub(crate) fn converted(&self, typed: &str, system: System) -> Option<String> {
         match self.kind {
@@ -24,8 +23,7 @@ impl Field {
         }
     }
 
-    /// What stands for a field that is left out, empty where nothing does; a measure in the units
-    /// of the system.
+    /// The default of a field, empty without one; a measure is in the units of the system.
     #[must_use]
     pub(crate) fn default_in(&self, system: System) -> String {
         let Absent::Default(text) = self.absent else {
@@ -47,7 +45,7 @@ impl Field {
         )
     }
 
-    /// A value in SI in the field's usual unit, to the digits of a hint.
+    /// A value in SI in the usual unit of the field, with the digits of a hint.
     #[must_use]
     pub(crate) fn in_usual_unit(&self, value: f64) -> String {
         let unit = self.usual_unit();
@@ -55,7 +53,8 @@ impl Field {
         format!("{number} {unit}").trim_end().to_owned()
     }
 
-    /// The least and the greatest value as [`Field::range_text`] tells them, in inch units rounded.
+    /// The least and the greatest value as in [`Field::range_text`]; in inch units they are
+    /// rounded.
     #[must_use]
     pub(crate) fn range_in(&self, system: System) -> String {
         let Kind::Number(_, range, _) = self.kind else {

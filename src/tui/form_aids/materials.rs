@@ -1,5 +1,5 @@
-//! Materials of gears: what they are made of fills three fields at once, and the three fields tell
-//! what it is.
+//! Materials of gears. A material fills three fields, and the values of these fields identify the
+//! material.
 
 use std::sync::LazyLock;
 
@@ -10,12 +10,12 @@ use crate::case::{Case, Problem, put_field};
 use crate::model::Inputs;
 use crate::model::inputs::Gear;
 
-/// A material with the values that the fields of a gear take, as texts, and their source.
+/// A material with the values of its fields as text, and their source.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 pub(crate) struct Material {
     /// Its name, such as `42CrMo4`.
     pub(crate) name: String,
-    /// What kind of material it is, such as `case-hardening steel`.
+    /// The group of the material, such as `case-hardening steel`.
     pub(crate) group: String,
     /// Young's modulus with its unit.
     pub(crate) young: String,
@@ -23,9 +23,9 @@ pub(crate) struct Material {
     pub(crate) poisson: String,
     /// Density with its unit.
     pub(crate) density: String,
-    /// Where the values are from.
+    /// The source of the values.
     pub(crate) source: String,
-    /// What a reader must know of them.
+    /// A note on the values.
     pub(crate) note: String,
 }
 
@@ -42,7 +42,7 @@ static ALL: LazyLock<Vec<Material>> = LazyLock::new(|| {
         .unwrap_or_default()
 });
 
-/// The three values of each in SI.
+/// The three values of each material in SI.
 static CONSTANTS: LazyLock<Vec<Option<[f64; 3]>>> = LazyLock::new(|| {
     let of = |material| {
         let mut made = Case::empty();
@@ -53,17 +53,17 @@ static CONSTANTS: LazyLock<Vec<Option<[f64; 3]>>> = LazyLock::new(|| {
     all().iter().map(of).collect()
 });
 
-/// Values closer than this are the same, relatively: one may be written in another unit.
+/// Relative difference below which values are equal: a value may be written in another unit.
 const SAME: f64 = 1e-9;
 
-/// Every material, those of a group together.
+/// Every material, ordered by group.
 #[must_use]
 pub(crate) fn all() -> &'static [Material] {
     &ALL
 }
 
 impl Material {
-    /// The gear's fields that it fills, and with what.
+    /// The fields of a gear that the material fills, with their values.
     #[must_use]
     pub(crate) fn texts(&self) -> [(&'static str, &str); 3] {
         [
@@ -74,10 +74,10 @@ impl Material {
     }
 }
 
-/// Make a gear, `driver` or `driven`, of a material: write its three fields.
+/// Writes the three fields of a material into a gear, `driver` or `driven`.
 ///
 /// # Errors
-/// As [`Case::set`], where there is no such gear; the case then stays as it was.
+/// As [`Case::set`], if there is no such gear; the case then does not change.
 pub(crate) fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<(), Problem> {
     let mut changed = case.clone();
     for (name, text) in material.texts() {
@@ -87,8 +87,8 @@ pub(crate) fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<
     Ok(())
 }
 
-/// The materials whose three values the gear has; several where they have the same ones, none where
-/// it is no known one.
+/// The materials with the three values of the gear: several if they have equal values, none if no
+/// material matches.
 #[must_use]
 pub(crate) fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
     let Some(own) = constants(case, gear) else {
@@ -106,8 +106,8 @@ pub(crate) fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
         .collect()
 }
 
-/// What the gear is made of, as it stands beside its fields: `42CrMo4`, or `Steel, 18CrNiMo7-6 or
-/// 20CrMnTi` where the values are those of several.
+/// The material name beside the fields of a gear: `42CrMo4`, or `Steel, 18CrNiMo7-6 or 20CrMnTi` if
+/// several materials have these values.
 #[must_use]
 pub(crate) fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
     let found = of_gear(case, gear);
@@ -123,7 +123,7 @@ pub(crate) fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
     })
 }
 
-/// Young's modulus, Poisson's ratio and density of a gear in SI, where all three can be read.
+/// Young's modulus, Poisson's ratio and density of a gear in SI, if all three are valid.
 fn constants(case: &Case, gear: &str) -> Option<[f64; 3]> {
     let mut inputs = Inputs::default();
     for name in ["young", "poisson", "density"] {

@@ -1,12 +1,12 @@
-//! Finding a field or a result by whatever of it comes to mind: symbol, label, key, a word of the
-//! help, a Greek letter by name.
+//! Search for a field or a result by symbol, label, key, a word of the help, or the name of a Greek
+//! letter.
 
 use std::sync::LazyLock;
 
 use crate::case::fields::{FIELDS, Field, GROUPS};
 use crate::model::{QUANTITIES, Quantity};
 
-/// Greek letters as they are spelled on a keyboard.
+/// Greek letters and their names.
 const GREEK: [(char, &str); 14] = [
     ('α', "alpha"),
     ('β', "beta"),
@@ -24,14 +24,14 @@ const GREEK: [(char, &str); 14] = [
     ('ω', "omega"),
 ];
 
-/// The least likeness of a mistyped word to the one that is meant.
+/// Least similarity of a mistyped word.
 const LIKE: f64 = 0.75;
 
-/// What of a field or a result is searched, and how much a word found there counts.
+/// The searched texts of a field or a result, with the weight of each.
 struct Entry {
-    /// Its symbol, whole and without the number of the gear.
+    /// The symbol, complete and without the number of the gear.
     symbols: [String; 2],
-    /// Words by how much they count, the best first.
+    /// Words with their weights, the greatest first.
     words: [(u32, Vec<String>); 4],
 }
 
@@ -40,15 +40,15 @@ static ENTRIES: LazyLock<Vec<Entry>> =
 static RESULTS: LazyLock<Vec<Entry>> =
     LazyLock::new(|| QUANTITIES.iter().map(Entry::of_result).collect());
 
-/// Fields that fit every word of the query, the best first, each with its score; of equal ones in
-/// the order of the form. Case is ignored, Greek letters may be spelled out, underscores left out,
-/// words shortened or slightly mistyped. An empty query fits all fields alike.
+/// Fields that match every word of the query, the best first, each with its score; equal ones in
+/// the order of the form. Case and underscores are ignored. Greek letters may be spelled out, and
+/// words may be shortened or slightly mistyped. An empty query matches all fields equally.
 #[must_use]
 pub(crate) fn search(query: &str) -> Vec<(usize, u32)> {
     search_in(&ENTRIES, query)
 }
 
-/// Results that fit every word of the query, by their places in the table of quantities, as
+/// Results that match every word of the query, by their index in the table of quantities, as
 /// [`search`] finds fields.
 #[must_use]
 pub(crate) fn search_results(query: &str) -> Vec<(usize, u32)> {
@@ -110,7 +110,7 @@ impl Entry {
         }
     }
 
-    /// How well the entry fits one word of the query; `None` where it does not.
+    /// The score of the entry for one word of the query; `None` without a match.
     fn score(&self, sought: &str) -> Option<u32> {
         let [whole, stem] = &self.symbols;
         let symbol = if whole == sought {
@@ -127,7 +127,7 @@ impl Entry {
     }
 }
 
-/// How well a word fits what is sought: whole, begun, within, nearly, or with letters left out.
+/// The quality of a match: whole, prefix, substring, similar, or shortened.
 fn fit(sought: &str, word: &str) -> Option<u32> {
     let long = sought.len() > 2;
     if word == sought {
@@ -145,7 +145,7 @@ fn fit(sought: &str, word: &str) -> Option<u32> {
     }
 }
 
-/// Whether the word becomes what is sought when letters after the first are left out.
+/// Whether the word becomes the query by removing letters after the first.
 fn is_shortened(sought: &str, word: &str) -> bool {
     let mut rest = word.chars();
     word.chars().next() == sought.chars().next()
@@ -154,14 +154,13 @@ fn is_shortened(sought: &str, word: &str) -> bool {
             .all(|letter| rest.any(|other| other == letter))
 }
 
-/// The words of a text, plain.
+/// The words of a text in plain letters.
 fn words(text: &str) -> Vec<String> {
     let split = text.split(|c: char| !c.is_alphanumeric() && c != '\'');
     split.map(plain).filter(|word| !word.is_empty()).collect()
 }
 
-/// Letters and digits in small letters of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is
-/// ha1.
+/// Lower-case letters and digits of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is ha1.
 fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for letter in text

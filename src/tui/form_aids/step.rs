@@ -1,12 +1,12 @@
-//! A value one step up or down: its last digit moves, and all else stays as it was typed.
+//! Steps of a value: the last digit changes, and the rest of the text stays.
 
 use crate::case::fields::{Absent, FIELDS, Kind};
 use crate::case::{Case, Limit};
 
-/// The text of a field moved by that many units of its last digit, and kept within the field's
-/// range: "16 um" becomes "17 um", "0.50" becomes "0.51", "1e3 um" becomes "2e3 um". A count moves
-/// by whole numbers, a choice to the names beside it. `None` where there is nothing to move, the
-/// text is no value of the field, or the range ends here.
+/// The text of a field after `by` steps of its last digit, within the range of the field: "16 um"
+/// becomes "17 um", "0.50" becomes "0.51", "1e3 um" becomes "2e3 um". A count steps by whole
+/// numbers, a choice to the next name. `None` if the text is empty or invalid, or if the range ends
+/// here.
 #[must_use]
 pub(crate) fn step(text: &str, field: usize, by: i32) -> Option<String> {
     match FIELDS[field].kind {
@@ -16,7 +16,7 @@ pub(crate) fn step(text: &str, field: usize, by: i32) -> Option<String> {
     }
 }
 
-/// The text of a limit moved likewise, not below zero.
+/// The text of a limit after steps of its last digit, not below zero.
 #[must_use]
 pub(crate) fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> {
     moved(text, by, |text| {
@@ -25,8 +25,8 @@ pub(crate) fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> 
 }
 
 impl Case {
-    /// The text of a field after a step from its text, else from its default. A field that
-    /// its alternative replaces has no step.
+    /// The text of a field after a step from its text, otherwise from its default. A field that its
+    /// alternative replaces has no step.
     #[must_use]
     pub fn stepped(&self, field: usize, by: i32) -> Option<String> {
         let default = if let Absent::Default(text) = FIELDS[field].absent {
@@ -39,14 +39,14 @@ impl Case {
     }
 }
 
-/// Whether the field takes the text, on its own.
+/// Whether the field accepts the text by itself.
 fn is_taken(field: usize, text: &str) -> bool {
     let mut case = Case::empty();
     case.write(field, text);
     !text.is_empty() && case.check_field(field).is_ok()
 }
 
-/// The name so many places further in the list, or the last one there.
+/// The name `by` places further in the list, or the last name in that direction.
 fn named(text: &str, names: &[&str], by: i32) -> Option<String> {
     let at = names.iter().position(|name| *name == text.trim())?;
     let to = at
@@ -55,13 +55,13 @@ fn named(text: &str, names: &[&str], by: i32) -> Option<String> {
     (to != at).then(|| names[to].to_owned())
 }
 
-/// The text moved by as much of `by` as leaves it taken.
+/// The text after as many of the `by` steps as remain valid.
 fn moved(text: &str, by: i32, is_taken: impl Fn(&str) -> bool) -> Option<String> {
     let number = Decimal::of(text)?;
     if !is_taken(text) {
         return None;
     }
-    // What is taken is one interval: the furthest step within it is found by halving.
+    // The valid values are one interval: bisection finds the greatest valid number of steps.
     let (mut within, mut beyond) = (0, by.unsigned_abs() + 1);
     while beyond - within > 1 {
         let middle = within + (beyond - within) / 2;
@@ -73,18 +73,18 @@ fn moved(text: &str, by: i32, is_taken: impl Fn(&str) -> bool) -> Option<String>
     (within > 0).then(|| number.moved(within, by < 0)).flatten()
 }
 
-/// A text whose number is taken apart: sign, digits before and after the point, and what follows.
+/// A text split into the digits of its number, the point and the rest.
 #[derive(Debug, PartialEq, Eq)]
 struct Decimal<'t> {
-    /// Blanks before it.
+    /// Leading blanks.
     lead: &'t str,
-    /// Whether a plus sign was typed.
+    /// Whether the text has a plus sign.
     is_marked: bool,
     /// The digits without the point, with the sign.
     digits: i128,
-    /// Digits typed before the point.
+    /// Number of digits before the point.
     whole: usize,
-    /// Digits typed after the point.
+    /// Number of digits after the point.
     fraction: usize,
     has_point: bool,
     /// Exponent, blanks and unit.
@@ -92,7 +92,7 @@ struct Decimal<'t> {
 }
 
 impl<'t> Decimal<'t> {
-    /// `None` where the text does not begin with a number, or its digits are beyond counting.
+    /// `None` if the text does not begin with a number, or if its digits overflow.
     fn of(text: &'t str) -> Option<Decimal<'t>> {
         let number = text.trim_start();
         let unsigned = number.strip_prefix(['+', '-']).unwrap_or(number);
@@ -114,7 +114,7 @@ impl<'t> Decimal<'t> {
         })
     }
 
-    /// The text with the digits moved, with as many decimals and leading zeros as were typed.
+    /// The text with the digits moved, with the same number of decimals and leading zeros.
     fn moved(&self, by: u32, down: bool) -> Option<String> {
         let by = i128::from(by);
         let digits = self.digits.checked_add(if down { -by } else { by })?;
@@ -133,7 +133,7 @@ impl<'t> Decimal<'t> {
         ))
     }
 
-    /// Digits that stand before the point whatever the value: those of "007", none of ".5".
+    /// Least number of digits before the point: those of "007", none of ".5".
     fn least_whole(&self) -> usize {
         let digits = self
             .digits
@@ -149,7 +149,7 @@ impl<'t> Decimal<'t> {
     }
 }
 
-/// The digits at the start, and what follows them.
+/// The digits at the start, and the rest.
 fn leading_digits(text: &str) -> (&str, &str) {
     text.split_at(text.bytes().take_while(u8::is_ascii_digit).count())
 }
@@ -269,7 +269,7 @@ mod tests {
         assert_eq!(step_limit("2500", "impact_force", 1), None);
     }
 
-    /// A number as people type it, and a unit of the field's.
+    /// A number as users type it, with a unit of the field.
     fn typed() -> impl Strategy<Value = (usize, String)> {
         let measures: Vec<usize> = (0..FIELDS.len())
             .filter(|&field| matches!(FIELDS[field].kind, Kind::Number(..) | Kind::Count(..)))
@@ -311,8 +311,8 @@ mod tests {
             prop_assert!(is_taken(field, &next), "{}: {text} became {next}", FIELDS[field].key);
             let decimals = |text: &str| text.split_once('.').map(|(_, rest)| leading_digits(rest).0.len());
             prop_assert_eq!(decimals(&text), decimals(&next));
-            // Away from the ends of the range the whole step was made, and the step back leads
-            // where it began.
+            // Away from the ends of the range the step was complete, and the step back restores the
+            // text.
             let further = moved(&next, by, |text| is_taken(field, text));
             if further.is_some() && !text.starts_with("-0") {
                 let back = step(&next, field, -by);

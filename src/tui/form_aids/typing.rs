@@ -1,24 +1,22 @@
-//! What a form makes of a text while it is typed: the unit that completes it, and whether it is
-//! wrong or merely unfinished.
+//! Typed text of a form: the unit that completes it, and whether it is invalid or unfinished.
 
 use crate::case::Limit;
 use crate::case::fields::{AUTO, Field, Kind};
 use crate::case::units::{self, Dimension, Open, System};
 use crate::model::Quantity;
 
-/// What a number is measured in, where it is shown.
+/// The dimension and unit of a displayed number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Measure {
-    /// Its dimension.
     pub(crate) dimension: Dimension,
-    /// The unit that a bare number takes where nothing else was written; empty for a bare number.
+    /// The unit of a bare number if no other unit was written; empty for a bare number.
     pub(crate) unit: &'static str,
     /// The least value, in SI.
     pub(crate) least: f64,
 }
 
 impl Field {
-    /// What its numbers are measured in; `None` for words and names.
+    /// The dimension and unit of its numbers; `None` for texts and names.
     #[must_use]
     pub(crate) fn measure(&self, system: System) -> Option<Measure> {
         let least = |from: f64, unit: &str| from * units::factor(unit).unwrap_or(1.0);
@@ -37,8 +35,7 @@ impl Field {
         }
     }
 
-    /// Whether a text that the field does not take is merely unfinished: it may become a value by
-    /// typing on.
+    /// Whether an invalid text is merely unfinished: further typing may complete it.
     #[must_use]
     pub(crate) fn is_unfinished(&self, typed: &str) -> bool {
         let is_auto_begun = self.takes_auto() && AUTO.starts_with(typed.trim());
@@ -50,7 +47,7 @@ impl Field {
 }
 
 impl Limit {
-    /// What it is measured in.
+    /// The dimension and unit of the limit.
     #[must_use]
     pub(crate) fn measure(&self, system: System) -> Option<Measure> {
         let quantity = Quantity::find(self.quantity)?;
@@ -68,13 +65,13 @@ impl Limit {
 }
 
 impl Measure {
-    /// Whether a text that is not taken may become a value by typing on: by a unit, or by digits
-    /// where it is too small.
+    /// Whether further typing may complete an invalid text: with a unit, or with digits if the
+    /// number is too small.
     #[must_use]
     pub(crate) fn is_unfinished(&self, typed: &str) -> bool {
         let is_too_small =
             || units::parse(typed, self.dimension, "").map_or(true, |value| value < self.least);
-        // No digit and no unit makes more of a negative number than 0.
+        // No further typing makes a negative number positive.
         let is_negative = || {
             typed
                 .trim()

@@ -1,5 +1,5 @@
-//! Problems in the words of a form: labels in place of keys, values without quotes, no file to add
-//! a line to.
+//! Problems as the form shows them: labels instead of keys, values without quotes, no advice to add
+//! a line to a file.
 
 use std::sync::LazyLock;
 
@@ -7,17 +7,16 @@ use crate::case::Problem;
 use crate::case::fields::{FIELDS, Field, index_of};
 use crate::model::QUANTITIES;
 
-/// The quantity of a key such as `limits.impact_force`.
+/// Prefix of the key of a limit, such as `limits.impact_force`.
 const LIMITS: &str = "limits.";
 
-/// Marks that a file needs around a value, and a message around what was typed.
+/// Quotes: a file needs them around a value, and a message has them around typed text.
 const MARKS: [char; 2] = ['"', TYPED];
 
-/// The mark around what was typed.
+/// The quote around typed text.
 const TYPED: char = '`';
 
-/// Every key that stands in a table, the longest first, so that none is taken for the start of
-/// another.
+/// Every key inside a table, the longest first, so that no key matches the start of another.
 static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
     let mut keys: Vec<&'static str> = FIELDS
         .iter()
@@ -29,8 +28,8 @@ static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
 });
 
 impl Problem {
-    /// The same problem as a form says it, where the field and its text are in sight: `write 5 mm`
-    /// for `write "5 mm"`, a label for a key. For a file it stays as it is.
+    /// The problem as the form shows it, where field and text are visible: `write 5 mm` for `write
+    /// "5 mm"`, a label for a key. Files keep the original.
     #[must_use]
     pub(crate) fn for_form(&self) -> Problem {
         Problem {
@@ -41,14 +40,14 @@ impl Problem {
     }
 }
 
-/// A sentence for a file or a command line as a form says it.
+/// A sentence for a file or a command line, reworded for the form.
 #[must_use]
 fn for_form(sentence: &str) -> String {
     let sentence = written(sentence).unwrap_or_else(|| sentence.to_owned());
     if !sentence.contains('.') {
         return sentence.replace(MARKS, "");
     }
-    // A key within the typed text, between two marks, stays as it is typed.
+    // A key inside typed text, between two quotes, does not change.
     let parts = sentence.split(TYPED).enumerate().map(|(at, part)| {
         let part = part.to_owned();
         if at % 2 == 1 { part } else { with_labels(part) }
@@ -56,8 +55,8 @@ fn for_form(sentence: &str) -> String {
     parts.collect::<String>().replace(MARKS, "")
 }
 
-/// What a person calls the field of a key: `module`, `the driver's tip relief`, `limit of impact
-/// force`; the key itself where no field has it.
+/// The name of the field of a key: `module`, `the driver's tip relief`, `limit of impact force`;
+/// the key itself if it belongs to no field.
 #[must_use]
 fn called(key: &str) -> String {
     if let Some(field) = index_of(key) {
@@ -90,7 +89,7 @@ fn with_labels(sentence: String) -> String {
     })
 }
 
-/// The advice to write a line under a table of a file as the advice to write the value.
+/// Turns the advice to write a line under a table of a file into the advice to write the value.
 fn written(sentence: &str) -> Option<String> {
     let (_, assignment) = sentence.strip_prefix("write ")?.split_once(" = ")?;
     let (value, _) = assignment.split_once(" under [")?;

@@ -1,5 +1,5 @@
-//! Splits the bytes of the terminal into keys, sequences and pastes. An unfinished one never keeps
-//! later keys waiting: time, the next Esc or a control character ends it.
+//! Splits the bytes of the terminal into keys, sequences and pastes. An unfinished sequence never
+//! delays later keys: a timeout, the next Esc or a control character ends it.
 
 use std::mem;
 use std::time::Duration;
@@ -8,14 +8,15 @@ use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
 use super::sequence;
 
-/// After `Esc` alone, the rest of a sequence may take this long.
+/// Timeout for the rest of a sequence after `Esc` alone.
 const ESCAPE: Duration = Duration::from_millis(50);
-/// A sequence or a character may take this long.
+/// Timeout for a sequence or a character.
 const SEQUENCE: Duration = Duration::from_millis(100);
-/// A paste may pause this long. A line that loses packets pauses for some hundred milliseconds.
+/// Timeout for a pause in a paste. A connection that loses packets pauses for some hundred
+/// milliseconds.
 const PASTE: Duration = Duration::from_secs(1);
 const LONGEST_SEQUENCE: usize = 4096;
-/// Bytes of a paste that are kept.
+/// Greatest number of bytes of a paste; the rest is dropped.
 const LONGEST_PASTE: usize = 1 << 20;
 const PASTE_START: (&[u8], u8) = (b"200", b'~');
 const PASTE_END: &[u8] = b"\x1b[201~";
@@ -28,7 +29,7 @@ pub(super) struct Decoder {
     state: State,
     /// The bytes since the state began.
     bytes: Vec<u8>,
-    /// How much longer the rest of the state may take.
+    /// Timeout for the next byte of the state.
     patience: Duration,
 }
 
@@ -38,9 +39,9 @@ enum State {
     Ground,
     /// After Esc.
     Escape {
-        /// A read ended with the Esc: a letter that follows is a key of its own.
+        /// A read ended with the Esc: a following letter is a key of its own.
         is_apart: bool,
-        /// The Esc may begin the end of a text.
+        /// The Esc may begin the terminator of a text.
         ends_text: bool,
     },
     /// Inside a character of several bytes.
@@ -51,14 +52,14 @@ enum State {
     Ss3,
     /// After `Esc [ M`: button, column and row, one byte each.
     Mouse,
-    /// Inside a reply in words: from `Esc ]`, `Esc P`, `Esc X`, `Esc ^` or `Esc _` on.
+    /// Inside a text reply: from `Esc ]`, `Esc P`, `Esc X`, `Esc ^` or `Esc _` on.
     Text { introducer: u8 },
     /// Inside a paste, with the number of bytes that match its end.
     Paste { matched: usize },
 }
 
 impl Decoder {
-    /// How long to wait for the next byte; `None` when nothing is unfinished.
+    /// Timeout for the next byte; `None` if nothing is unfinished.
     pub(super) fn patience(&self) -> Option<Duration> {
         (self.state != State::Ground).then_some(self.patience)
     }
@@ -67,7 +68,7 @@ impl Decoder {
         self.patience = self.patience.saturating_sub(time);
     }
 
-    /// Takes the bytes of one read. `is_full` if more bytes may be ready.
+    /// Decodes the bytes of one read. `is_full` if more bytes may be ready.
     pub(super) fn feed(&mut self, bytes: &[u8], is_full: bool, inputs: &mut Vec<Event>) {
         if self.is_key_after_a_paste(bytes) {
             self.expire(inputs);
@@ -88,16 +89,16 @@ impl Decoder {
         self.state == State::Paste { matched: 0 } && has_paused && is_key
     }
 
-    /// The rest of what is unfinished did not arrive in time.
+    /// Ends the unfinished sequence after its timeout.
     pub(super) fn expire(&mut self, inputs: &mut Vec<Event>) {
         let bytes = mem::take(&mut self.bytes);
         match mem::take(&mut self.state) {
             State::Escape { .. } => inputs.push(plain(KeyCode::Esc)),
-            // No sequence stops after its first letter: Alt was held.
+            // No sequence ends after its first letter: the user pressed Alt.
             State::Csi if bytes.is_empty() => inputs.push(with_alt(b'[')),
             State::Ss3 if bytes.is_empty() => inputs.push(with_alt(b'O')),
             State::Text { introducer } if bytes.is_empty() => inputs.push(with_alt(introducer)),
-            // An Esc that nothing follows is a person who wants to leave.
+            // A single Esc is a key.
             State::Paste { .. } => inputs.push(paste(&bytes)),
             _ => {}
         }
@@ -125,7 +126,7 @@ impl Decoder {
         self.patience = patience;
     }
 
-    /// Drops what is unfinished; the byte begins something new.
+    /// Drops the unfinished sequence; the byte begins a new state.
     fn restart(&mut self, byte: u8, inputs: &mut Vec<Event>) {
         self.enter(State::Ground, Duration::ZERO);
         self.take(byte, inputs);
@@ -190,7 +191,7 @@ impl Decoder {
     fn in_csi(&mut self, byte: u8, inputs: &mut Vec<Event>) {
         match byte {
             b'M' if self.bytes.is_empty() => self.enter(State::Mouse, SEQUENCE),
-            // The function keys of the Linux console.
+            // A function key of the Linux console.
             b'[' if self.bytes.is_empty() => self.keep(byte),
             b' '..=b'?' => self.keep(byte),
             b'@'..=b'~' if (&*self.bytes, byte) == PASTE_START => {

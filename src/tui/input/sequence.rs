@@ -1,4 +1,4 @@
-//! The meaning of a whole sequence from the terminal. Replies that nobody asked for mean nothing.
+//! The input of a complete sequence from the terminal. Unrequested replies are ignored.
 
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
@@ -30,7 +30,7 @@ pub(super) fn csi(parameters: &[u8], last: u8) -> Option<Event> {
             KeyCode::BackTab,
             KeyModifiers::SHIFT,
         ))),
-        // The place of the cursor.
+        // The position of the cursor.
         b'R' => None,
         _ => lettered(&parts, last),
     }
@@ -59,7 +59,7 @@ fn lettered(parts: &[&str], last: u8) -> Option<Event> {
         b'P'..=b'S' => KeyCode::F(1 + last - b'P'),
         _ => return None,
     };
-    // Old terminals leave the first parameter out, which is 1.
+    // Old terminals omit the first parameter, which is 1.
     let held = parts
         .get(1)
         .or(parts.first().filter(|part| !part.is_empty()));
@@ -83,8 +83,8 @@ fn numbered(number: &str) -> Option<KeyCode> {
     })
 }
 
-/// A key by its number in Unicode or in the kitty protocol, and the modifiers that its letter
-/// already shows.
+/// A key from its number in Unicode or in the kitty protocol, and the modifiers that its character
+/// already includes.
 fn code_of(number: &str, held: KeyModifiers) -> Option<(KeyCode, KeyModifiers)> {
     let mut numbers = number.split(':').map(|number| number.parse::<u32>().ok());
     let code = match numbers.next()?? {
@@ -120,14 +120,14 @@ fn keypad(number: u32) -> Option<KeyCode> {
     }
 }
 
-/// A key with the modifiers of a parameter, less those that its letter already shows.
+/// A key with the modifiers of a parameter, without those that its character already includes.
 fn key((code, shown): (KeyCode, KeyModifiers), parameter: Option<&&str>) -> Option<Event> {
     let (modifiers, kind) = held(parameter)?;
     let key = KeyEvent::new_with_kind(code, modifiers - shown, kind);
     Some(Event::Key(key))
 }
 
-/// `modifiers:kind`, where modifiers are bits plus one. Locks do not count.
+/// Parses `modifiers:kind`, where modifiers are bits plus one. Locks are ignored.
 fn held(parameter: Option<&&str>) -> Option<(KeyModifiers, KeyEventKind)> {
     const BITS: [KeyModifiers; 6] = [
         KeyModifiers::SHIFT,

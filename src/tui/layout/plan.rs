@@ -1,4 +1,4 @@
-//! The areas of the screen for every size of the terminal and every choice of panes.
+//! The areas of the screen for every size of the terminal and every selection of panes.
 
 use ratatui::layout::{Rect, Size};
 
@@ -9,25 +9,25 @@ pub(crate) const SMALLEST: Size = Size {
     width: 60,
     height: 16,
 };
-/// A lower terminal has no room for the lower area beside form and results.
+/// Least height of a terminal with a lower area in addition to form and results.
 const LOWER_FROM: u16 = 20;
-/// From this size the teeth stand beside the chart.
+/// Least size with the teeth beside the chart.
 const BESIDE_FROM: Size = Size {
     width: 120,
     height: 36,
 };
-/// From this size form, results and the lower panes stand side by side.
+/// Least size with form, results and the lower panes side by side.
 const THREE_FROM: Size = Size {
     width: 200,
     height: 50,
 };
-/// The form grows no wider than it can use, nor do the results beside others.
+/// Greatest useful width of the form, and of the results beside other panes.
 const WIDEST: u16 = 66;
 const WIDEST_RESULTS: u16 = 90;
-/// The form between the results and the edge of a wide screen.
+/// Width of the form between the results and the edge of a wide screen.
 const FORM_OF_THREE: u16 = 56;
 
-/// Where everything stands. An area without room is empty.
+/// The areas of the screen. A hidden part has an empty area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Plan {
     /// The name of the case.
@@ -40,23 +40,23 @@ pub struct Plan {
     pub(crate) chart: Rect,
     /// The teeth and their title.
     pub(crate) teeth: Rect,
-    /// Error against time and its title.
+    /// Accuracy against run time with its title.
     pub trade: Rect,
     /// The study and its title.
     pub(crate) study: Rect,
-    /// What the focused field is, and messages.
+    /// The hint of the focused field, and messages.
     pub(crate) hint: Rect,
     pub(crate) keys: Rect,
 }
 
-/// What of the panes is on the screen.
+/// The state that decides the visible panes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Panes {
-    /// The one that takes the keys.
+    /// The focused pane.
     pub(super) focus: Pane,
-    /// The one of the lower area that is shown where not all of them have room.
+    /// The pane of the lower area that is shown if they do not all fit.
     pub(super) lower: Pane,
-    /// Whether the focused one has the screen.
+    /// Whether the focused pane fills the screen.
     pub(super) is_zoomed: bool,
 }
 
@@ -70,7 +70,7 @@ impl Default for Panes {
     }
 }
 
-/// The areas on a terminal of that size.
+/// The areas on a terminal of a size.
 pub(super) fn plan(size: Size, panes: Panes) -> Plan {
     if is_too_small(size) {
         return Plan::default();
@@ -96,7 +96,7 @@ pub(super) fn plan(size: Size, panes: Panes) -> Plan {
     plan
 }
 
-/// Whether a terminal is of no use.
+/// Whether a terminal is too small to use.
 pub(crate) fn is_too_small(size: Size) -> bool {
     !holds(size, SMALLEST)
 }
@@ -105,7 +105,7 @@ fn holds(size: Size, least: Size) -> bool {
     size.width >= least.width && size.height >= least.height
 }
 
-// Where the teeth have a place of their own, the rest of the lower area is for the others.
+// The pane of the lower area beside the teeth, if these have an area of their own.
 fn beside_teeth(panes: Panes) -> Pane {
     match panes.lower {
         Pane::Trade | Pane::Study => panes.lower,
@@ -114,7 +114,7 @@ fn beside_teeth(panes: Panes) -> Pane {
 }
 
 impl Plan {
-    /// The area of a pane; empty while it is not in sight.
+    /// The area of a pane; empty if the pane is hidden.
     #[must_use]
     pub fn area(&self, pane: Pane) -> Rect {
         match pane {
@@ -127,7 +127,7 @@ impl Plan {
         }
     }
 
-    /// The panes that are not in sight.
+    /// The hidden panes.
     pub(crate) fn hidden(&self) -> impl Iterator<Item = Pane> {
         let plan = *self;
         Pane::ALL
@@ -135,8 +135,8 @@ impl Plan {
             .filter(move |&pane| plan.area(pane).is_empty())
     }
 
-    /// The pane in whose title the hidden ones are named: the lowest in sight that they could take
-    /// the place of.
+    /// The pane whose title lists the hidden panes: the lowest visible pane whose area they can
+    /// use.
     pub(crate) fn names_hidden(&self) -> Option<Pane> {
         let lowest = [
             Pane::Study,
@@ -216,7 +216,7 @@ impl Plan {
     }
 }
 
-/// The left part of an area, of this width, and the rest.
+/// The left part of an area with a width, and the rest.
 fn side_by_side(area: Rect, width: u16) -> [Rect; 2] {
     let left = Rect { width, ..area };
     let right = Rect {

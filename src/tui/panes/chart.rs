@@ -1,5 +1,5 @@
-//! The chart pane: the chosen chart of the station values, and others below it where they have
-//! room.
+//! The chart pane: the selected chart of the station values, and further charts below it if there
+//! is room.
 
 pub(crate) mod axes;
 pub(crate) mod curves;
@@ -32,18 +32,18 @@ pub use readout::readout;
 pub(crate) use way::last_contact;
 use way::{path, way, way_by};
 
-/// The least rows of each chart, and the greatest number of charts.
+/// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
 const MOST: u16 = 3;
 /// The part of the approach that the strike shows after E.
 const AFTER_E: f64 = 0.5;
 
-/// The state of the pane. It is the same for every open case.
+/// The state of the pane, common to all open cases.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ChartPane {
-    /// The chosen chart, as an index of the table.
+    /// The selected chart, as an index of the table.
     pub graph: usize,
-    /// The chart of whine in place of it.
+    /// The chart of whine that replaces it.
     pub whine: Option<WhineChart>,
     /// Whether the x axis is the time after E.
     pub(crate) by_time: bool,
@@ -55,14 +55,14 @@ pub struct ChartPane {
 const CHARTS: usize = GRAPHS.len() + WhineChart::ALL.len();
 
 impl ChartPane {
-    /// The place of the chosen chart among all.
+    /// The index of the selected chart among all charts.
     fn place(&self) -> usize {
         let of_whine = |chart| WhineChart::ALL.iter().position(|own| *own == chart);
         let place = self.whine.and_then(of_whine);
         place.map_or(self.graph, |place| GRAPHS.len() + place)
     }
 
-    /// Chooses the chart at a place among all.
+    /// Selects the chart with an index among all charts.
     fn select(&mut self, at: usize) {
         self.whine = at.checked_sub(GRAPHS.len()).map(|at| WhineChart::ALL[at]);
         if self.whine.is_none() {
@@ -70,7 +70,7 @@ impl ChartPane {
         }
     }
 
-    /// The key of the chosen chart, as `plot --chart` has it.
+    /// The key of the selected chart, as in `plot --chart`.
     #[must_use]
     pub fn key(&self) -> &'static str {
         self.whine.map_or(GRAPHS[self.graph].key, WhineChart::key)
@@ -80,11 +80,11 @@ impl ChartPane {
 /// A command of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ChartCommand {
-    /// Selects the chart so many places further, wrapping around.
+    /// Selects the chart `by` places further, wrapping around.
     Step(isize),
-    /// Selects the chart at an index of the table, or behind it a chart of whine.
+    /// Selects the chart with an index of the table, or after the table a chart of whine.
     Select(usize),
-    /// Zooms in by steps around the cursor, or around D without a cursor; out if negative.
+    /// Zooms in by steps around the cursor, or around D without a cursor; zooms out if negative.
     Zoom(i32),
     /// Shows the whole contact.
     Whole,
@@ -99,7 +99,7 @@ pub enum ChartCommand {
 pub struct Charts<'a> {
     /// The state of the pane.
     pub(crate) pane: &'a ChartPane,
-    /// The axes, which belong to the case.
+    /// The axes of the case.
     pub(crate) scale: &'a Scale,
     /// The last valid results.
     pub(crate) answer: Option<&'a Answer>,
@@ -136,7 +136,7 @@ impl Charts<'_> {
         self.view().window(self.scale)
     }
 
-    /// The view of the pane: a chart of the path of contact opens on the whole contact.
+    /// The view of the pane. A chart of the path of contact starts with the whole contact.
     fn view(&self) -> ChartView {
         match self.pane.view.frame {
             Frame::Opening if self.is_by_model() => ChartView {
@@ -147,12 +147,12 @@ impl Charts<'_> {
         }
     }
 
-    /// Whether the chosen chart has a curve for each compliance model.
+    /// Whether the selected chart has a curve for each compliance model.
     fn is_by_model(&self) -> bool {
         GRAPHS[self.pane.graph].by_model.is_some()
     }
 
-    /// The state after a command, and a message.
+    /// The state after a command, with a message.
     #[must_use]
     pub(crate) fn run(&self, command: ChartCommand) -> (ChartPane, Option<&'static str>) {
         let mut pane = *self.pane;
@@ -232,13 +232,13 @@ impl Charts<'_> {
         (before != occasion).then(|| (occasion, self.fitted(refit)))
     }
 
-    /// Axes that contain every visible curve. Keeps the present axes while they serve.
+    /// Axes that contain every visible curve. Keeps the present axes while they fit.
     fn fitted(&self, refit: Refit) -> Scale {
         let mut scale = *self.scale;
         let Some(answer) = self.answer.filter(|_| !self.area.is_empty()) else {
             return scale;
         };
-        // The axis never shrinks while a method is still being solved.
+        // The axis does not shrink while the worker still solves a method.
         let pinned = self
             .baseline
             .map(|baseline| (baseline, baseline.beside(answer.active)));
@@ -284,7 +284,7 @@ impl Charts<'_> {
         scale
     }
 
-    /// The visible charts: the chosen chart, and below it the next charts of the active method.
+    /// The visible charts: the selected chart, and below it the next charts of the active method.
     #[must_use]
     pub fn shown(&self) -> Vec<usize> {
         let chosen = self.pane.graph;

@@ -1,4 +1,4 @@
-//! The form: every field of the case in its group, and under a wrong one the reason.
+//! The form: every field of the case in its group; below an invalid field the reason.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -28,12 +28,12 @@ const IDLE: &str = "-";
 /// The least width of a label beside a symbol.
 const LEAST_LABEL: u16 = 6;
 
-/// The state of the pane. Each open case has its own.
+/// The state of the pane, separate for each open case.
 #[derive(Debug, Clone)]
 pub struct FormState {
     /// The focused row.
     pub focus: usize,
-    /// Its typed text, and the cursor in it. The case has the text with its unit.
+    /// Its typed text with the cursor. The case has the text with its unit.
     pub input: Text,
     /// The unit of the row when it got the focus.
     pub(crate) written_unit: Option<String>,
@@ -44,7 +44,7 @@ pub struct FormState {
 }
 
 impl FormState {
-    /// The focus on a row, the cursor at the end of its text.
+    /// Focus on a row, with the cursor at the end of its text.
     #[must_use]
     pub(crate) fn at(case: &Case, focus: usize) -> FormState {
         FormState {
@@ -57,18 +57,18 @@ impl FormState {
     }
 }
 
-/// The form with the case in it.
+/// The form with its case.
 #[derive(Debug, Clone)]
 pub(crate) struct Form<'a> {
     /// The case in the form.
     pub(crate) case: &'a Case,
     /// The case in the file.
     pub(crate) saved: &'a Case,
-    /// The case as far as it can be read.
+    /// The inputs of the valid fields.
     pub(crate) inputs: &'a Inputs,
-    /// The wrong rows.
+    /// The invalid rows.
     pub(crate) problems: &'a [(usize, Problem)],
-    /// The row where the fix of the model's refusal begins.
+    /// The row that the fix of the model's refusal names first.
     pub(crate) refused: Option<usize>,
     /// The last valid results.
     pub(crate) answer: Option<&'a Answer>,
@@ -82,7 +82,7 @@ pub(crate) struct Form<'a> {
     pub(crate) ending: Option<String>,
     /// The first visible line.
     pub(crate) top: usize,
-    /// The lines since the last event.
+    /// The lines, computed after the last event.
     pub(crate) lines: &'a Lines,
     /// The capabilities of the terminal.
     pub(crate) look: Look,
@@ -93,13 +93,13 @@ pub(crate) struct Form<'a> {
 }
 
 impl Form<'_> {
-    /// Whether the value of a row is wrong only because it is being typed.
+    /// Whether the value of a row is only invalid because it is unfinished.
     pub(crate) fn is_unfinished(&self, row: usize) -> bool {
         let line = self.line.filter(|_| self.focus == row);
         line.is_some_and(|line| rows::is_unfinished(self.case, row, line.value()))
     }
 
-    /// Whether a row is wrong, or the model refuses the case because of it.
+    /// Whether a row is invalid, or the model refuses the case because of it.
     fn is_faulty(&self, row: usize) -> bool {
         self.refused == Some(row) || self.problems.iter().any(|(at, _)| *at == row)
     }
@@ -112,9 +112,9 @@ impl Form<'_> {
 /// A line of the form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Row {
-    /// The group that begins with that line.
+    /// The title of the group whose first line has this index.
     Group(usize),
-    /// A field or a limit, by its place among those that take the focus.
+    /// A field or a limit, by its index among the focusable rows.
     Line(usize),
     Reason(String),
 }
@@ -137,10 +137,10 @@ impl Lines {
     }
 }
 
-/// Draw the form; where the cursor stands.
+/// Draws the form. Returns the position of the text cursor.
 pub(crate) fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
     let area = pane.area;
-    // The terminal may have a new size that no event has reported yet.
+    // The terminal may have a new size that has not been reported yet.
     let resized = (area.width != pane.lines.width).then(|| Lines::of(pane));
     let rows = &resized.as_ref().unwrap_or(pane.lines).rows;
     let inner = pane.title.draw("Form", area, buffer);
@@ -170,8 +170,8 @@ pub(crate) fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
     cursor
 }
 
-/// The first line to be shown, so that the focused field is in sight with its reason and, at the
-/// top, its group.
+/// The first visible line such that the focused field is visible with its reason and, if possible,
+/// with its group.
 pub(crate) fn top_for(pane: &Form<'_>) -> usize {
     let area = pane.area;
     if area.is_empty() {
@@ -197,7 +197,7 @@ pub(crate) fn top_for(pane: &Form<'_>) -> usize {
     pane.top.max(least).min(first.max(least)).min(most)
 }
 
-/// The field on a cell, where there is one.
+/// The field at a cell, if any.
 pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
     let area = pane.area;
     let line = usize::from(at.y.checked_sub(area.y + 1)?);
@@ -207,7 +207,7 @@ pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
     }
 }
 
-/// The first line to be shown after so many lines downwards.
+/// The first visible line after scrolling by lines downwards.
 #[must_use]
 pub(crate) fn scrolled(pane: &Form<'_>, by: isize) -> usize {
     let area = pane.area;
@@ -230,7 +230,7 @@ fn rows(pane: &Form<'_>, width: u16) -> Vec<Row> {
     lines
 }
 
-// The title of a group; of a gear also its material, where that is known.
+// The title of a group; for a gear with its material, if known.
 fn group_title(pane: &Form<'_>, index: usize) -> String {
     let Some(field) = rows::field(pane.case, index) else {
         return "Limits".to_owned();
@@ -246,8 +246,8 @@ fn group_title(pane: &Form<'_>, index: usize) -> String {
     )
 }
 
-// An unfinished value is explained in the hint until the field is left. A missing value needs no
-// reason: the field itself shows that it is required.
+// The reasons of an invalid field. An unfinished value is explained in the hint until the user
+// leaves the field. A missing value has no reason: the field shows that it is required.
 fn reasons(pane: &Form<'_>, field: usize, width: u16) -> impl Iterator<Item = String> {
     let has_reason = !pane.is_unfinished(field) && !pane.lacks(field);
     let own = pane
@@ -337,7 +337,7 @@ fn draw_field(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) ->
     draw_value(pane, index, value, style, buffer)
 }
 
-// By how much a value that is not edited is wider than its room.
+// By how many columns a value that is not edited exceeds its room.
 fn longer(pane: &Form<'_>, index: usize, room: u16) -> u16 {
     let shown = pane.case.text(index).map_or_else(
         || rows::unwritten(pane.case, pane.inputs, index),
@@ -351,7 +351,7 @@ fn longer(pane: &Form<'_>, index: usize, room: u16) -> u16 {
     }
 }
 
-// Words have no symbol, and need the room for themselves.
+// A text has no symbol; its value needs the room.
 fn draw_words(label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16 {
     buffer.set_stringn(area.x, area.y, label, SYMBOL.into(), style);
     MARK + SYMBOL

@@ -1,4 +1,4 @@
-//! Parts of every plot: places of values, curves, axes and marks.
+//! Parts of every plot: positions of values, curves, axes and marks.
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
@@ -9,7 +9,7 @@ use ratatui::widgets::canvas::{Canvas, Line, Points};
 
 use crate::tui::scale::{Span, bounds};
 
-/// Marks the cells of a curve until they get its style.
+/// Colour that marks the cells of a curve until they get its style.
 const OWN: Color = Color::Indexed(1);
 
 /// The cells of a plot and the ranges of its axes.
@@ -30,14 +30,14 @@ impl PlotArea {
             .then(|| self.cells.x + (width * part.clamp(0.0, 1.0)).round() as u16)
     }
 
-    /// The row of a value, or the nearest one.
+    /// The row of a value, or the nearest row.
     pub(crate) fn row(&self, y: f64) -> u16 {
         let height = f64::from(self.cells.height) - 1e-6;
         let part = (1.0 - self.upright.part(y)).clamp(0.0, 1.0);
         self.cells.y + (part * height).floor() as u16
     }
 
-    /// Draws the pieces of a curve; a piece of one point is a dot.
+    /// Draws the pieces of a curve; a piece with one point is a dot.
     pub(crate) fn draw_pieces(
         &self,
         pieces: &[Vec<(f64, f64)>],
@@ -68,7 +68,7 @@ impl PlotArea {
     }
 }
 
-// The bounds include points that lie on an end except for rounding.
+// The bounds include points that are on an end within rounding.
 fn widened(span: Span) -> [f64; 2] {
     let rounding = 1e-8 * span.length();
     bounds(span.from - rounding, span.to + rounding)
@@ -98,7 +98,7 @@ pub(crate) fn draw_axes(cells: Rect, rule: Style, buffer: &mut Buffer) -> (u16, 
     (left, bottom)
 }
 
-/// Writes into a blank cell.
+/// Writes into a cell if it is blank.
 pub(crate) fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffer) {
     if buffer.cell(at).is_some_and(|cell| cell.symbol() == " ") {
         buffer.set_string(at.0, at.1, symbol, style);

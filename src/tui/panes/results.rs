@@ -1,5 +1,5 @@
-//! The results: the outcome in a sentence, the gauges, every quantity with the methods side by
-//! side, what to know.
+//! The results pane: the outcome as a sentence, the gauges, every quantity with the methods side by
+//! side, and the notes.
 
 mod gauges;
 mod limits;
@@ -59,13 +59,13 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     }
 }
 
-/// The value of the marked quantity beside that of the baseline, where one is pinned.
+/// The value of the selected quantity with the value of the baseline, if one is pinned.
 #[must_use]
 pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
     table::compared(pane, pane.answer?, quantity)
 }
 
-/// How many variants have room beside each other.
+/// The number of variants that fit side by side.
 #[must_use]
 pub(crate) fn variants_page(pane: &Results<'_>) -> usize {
     table::variants_page(pane, usize::from(pane.area.width.saturating_sub(1)))

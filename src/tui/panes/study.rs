@@ -1,5 +1,5 @@
-//! The study pane: the focused field over its range against the selected result, two fields as a
-//! map, or the tolerance of the case.
+//! The study pane: the selected result over the range of the focused field, a map over two fields,
+//! or the tolerance of the case.
 
 mod curve;
 mod map;
@@ -21,16 +21,16 @@ use ratatui::symbols::Marker;
 
 /// Points of a curve over a range.
 pub(crate) const CURVE_POINTS: usize = 101;
-/// The most points of a map, across and up.
+/// Greatest number of points of a map, horizontally and vertically.
 const MOST_CELLS: (u16, u16) = (60, 30);
-/// Columns and rows of a map that are not its cells.
+/// Columns and rows of a map outside its cells.
 const MAP_MARGIN: (u16, u16) = (12, 6);
-/// Rows from which on the legend has one of its own, and from which on two are for words.
+/// Least heights of a pane with a row for the legend, and with two rows for the texts.
 const LEGEND_FROM: u16 = 6;
 const TALL: u16 = 8;
-/// The words below a plot get at most one of so many rows.
+/// The texts below a plot get at most this fraction of the rows.
 const WORDS: u16 = 4;
-/// The signs of a point without contact and of a refused point.
+/// Signs of a point without contact and of a refused point.
 const NO_CONTACT: &str = "_";
 const REFUSED: &str = "!";
 
@@ -41,16 +41,16 @@ pub struct StudyState {
     pub(crate) is_tolerance: bool,
     /// The second field of a map.
     pub(crate) second: Option<usize>,
-    /// How often the ranges are halved; negative where they are doubled.
+    /// Number of halvings of the ranges; negative for doublings.
     pub(crate) zoom: i32,
     /// The first visible line of the tolerance.
     pub(crate) top: usize,
 }
 
-/// A change of the pane.
+/// A command of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StudyCommand {
-    /// Moves the cursor, across and up.
+    /// Moves the cursor horizontally and vertically.
     Move(isize, isize),
     /// Scrolls the tolerance by lines.
     Scroll(isize),
@@ -58,13 +58,13 @@ pub enum StudyCommand {
     Page(isize),
     /// Halves or doubles the range.
     Zoom(i32),
-    /// Shows the usual range.
+    /// Restores the default range.
     Reset,
     /// Chooses a second field, or leaves the map.
     Second,
     /// Shows the tolerance, or the curve again.
     Tolerance,
-    /// Takes the value under the cursor into the form.
+    /// Writes the values at the cursor into the form.
     Take,
 }
 
@@ -77,7 +77,7 @@ pub(crate) struct StudyPane<'a> {
     pub(crate) study: &'a Study,
     /// The case in the form.
     pub(crate) case: &'a Case,
-    /// The value of the focused quantity in the present case, in SI.
+    /// The value of the selected quantity in the present case, in SI.
     pub(crate) present: Option<f64>,
     /// The display units.
     pub(crate) units: System,
@@ -91,14 +91,14 @@ pub(crate) struct StudyPane<'a> {
     pub(crate) area: Rect,
 }
 
-/// The rooms of legend, plot and words.
+/// The areas of legend, plot and texts.
 struct Rooms {
     legend: Rect,
     plot: Rect,
     words: Rect,
 }
 
-/// The points of a map in a pane of that area, across and up.
+/// The number of points of a map in a pane with an area, horizontally and vertically.
 #[must_use]
 pub(crate) fn map_points(area: Rect) -> (usize, usize) {
     let across = area
@@ -147,13 +147,13 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     }
 }
 
-/// The words on the cursor, for the hint line.
+/// The text about the cursor for the hint line.
 #[must_use]
 pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
     words::hint(pane)
 }
 
-/// The text of each varied field at the cursor, as a case file has it.
+/// The text of each varied field at the cursor, in the syntax of a case file.
 #[must_use]
 pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
     let Some(shown) = &pane.study.shown else {
@@ -167,7 +167,7 @@ pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
     first.into_iter().chain(second).collect()
 }
 
-/// The cursor moved by so many points, on the axes in sight.
+/// The cursor after a move by points on the visible axes.
 #[must_use]
 pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = pane.study.shown.as_ref()?;
@@ -191,7 +191,7 @@ fn axes(shown: &StudyResults) -> (Option<&Axis>, Option<&Axis>) {
     }
 }
 
-/// The point of the cursor; without one that of the present case.
+/// The point of the cursor; without a cursor, the point of the present case.
 fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
     let (across, up) = axes(shown);
     let at = |axis: Option<&Axis>, chosen: Option<usize>| {
@@ -206,7 +206,7 @@ fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
     )
 }
 
-/// The rooms with so many lines of words below the plot, if the plot keeps most of the pane.
+/// The areas for `lines` lines of text below the plot, if the plot keeps most of the pane.
 fn rooms(inner: Rect, lines: usize) -> Rooms {
     let legend = u16::from(inner.height >= LEGEND_FROM);
     let least = inner.height.min(if inner.height >= TALL { 2 } else { 1 });
@@ -231,7 +231,7 @@ fn rooms(inner: Rect, lines: usize) -> Rooms {
     }
 }
 
-/// The page of a tolerance study from its first visible line on.
+/// Draws the page of a tolerance study from its first visible line on.
 fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &mut Buffer) {
     if shown.page.is_empty() {
         let words = match &shown.end {
@@ -255,7 +255,7 @@ fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &m
     text::scroll_bar_beside(top, shown.page.len(), page, buffer);
 }
 
-/// The lines of the tolerance that have room.
+/// The number of lines of the tolerance that fit.
 fn page_height(pane: &StudyPane<'_>) -> usize {
     usize::from(pane.area.height.saturating_sub(1))
 }
@@ -266,7 +266,7 @@ fn top(pane: &StudyPane<'_>, shown: &StudyResults) -> usize {
     pane.state.top.min(last)
 }
 
-/// The first visible line of the tolerance after so many lines downwards.
+/// The first visible line of the tolerance after scrolling by lines downwards.
 #[must_use]
 pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
     let Some(shown) = &pane.study.shown else {
@@ -276,7 +276,7 @@ pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
     top(pane, shown).saturating_add_signed(by).min(last)
 }
 
-/// The same after so many pages, which share a line.
+/// The first visible line after scrolling by pages, which overlap by one line.
 #[must_use]
 pub(crate) fn paged(pane: &StudyPane<'_>, by: isize) -> usize {
     let page = page_height(pane).saturating_sub(1).max(1);

@@ -28,19 +28,19 @@ pub(crate) use zoom::TeethView;
 
 /// Least width and height of the picture, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
-/// The least heights with two and three lines of values. The number of lines does not depend on the
-/// values, so that the picture keeps its size.
+/// Least heights of a pane with two and with three lines of values. The number of lines does not
+/// depend on the values, so that the picture keeps its size.
 const TWO_LINES_FROM: u16 = 13;
 const THREE_LINES_FROM: u16 = 20;
 
 /// A command of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TeethCommand {
-    /// Zooms in by steps, or out if negative.
+    /// Zooms in by steps; zooms out if negative.
     Zoom(i32),
-    /// Returns to the view at start.
+    /// Restores the initial view.
     Reset,
-    /// Selects the view so many places further, wrapping around.
+    /// Selects the view `by` places further, wrapping around.
     Centre(isize),
     /// Switches the exaggeration of the gap.
     Gap,
@@ -50,7 +50,7 @@ impl TeethView {
     /// Runs a command on the view of a solved pair, if there is one.
     ///
     /// # Errors
-    /// If the command needs a solved pair.
+    /// Returns an error if the command needs a solved pair.
     pub(crate) fn run(
         &mut self,
         command: TeethCommand,

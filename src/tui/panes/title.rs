@@ -1,5 +1,5 @@
-//! The title line of a pane: the key that goes there, the title, and in one of the panes the names
-//! of the hidden ones.
+//! The title line of a pane: its key, its title, and in one of the panes the names of the hidden
+//! panes.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -10,19 +10,19 @@ use crate::tui::pane::Pane;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
-/// Room for a title beside the keys of hidden panes, and beside their names.
+/// Least width of a title beside the keys of hidden panes, and beside their names.
 const BESIDE_KEYS: usize = 32;
 const BESIDE_NAMES: usize = 44;
-/// The same beside names in a pane that has the screen: at least the room of the pane among others.
+/// The same beside names in a pane that fills the screen: at least its width among other panes.
 const ALONE: usize = 80;
-/// Stands before the number of a pane while a field takes the digits.
+/// Prefix of the number of a pane while a field takes the digits.
 const LEAVE: &str = "Esc ";
 
 /// The title line of a pane.
 #[derive(Debug, Clone)]
 pub(crate) struct Title {
     pub(crate) pane: Pane,
-    /// Whether it takes the keys.
+    /// Whether the pane has the focus.
     pub(crate) has_focus: bool,
     /// Whether a field takes the digits.
     pub(crate) is_editing: bool,
@@ -33,13 +33,13 @@ pub(crate) struct Title {
 }
 
 impl Title {
-    /// The columns for the words of the title, in a pane of that width.
+    /// The width for the text of the title in a pane with a width.
     #[must_use]
     pub(crate) fn room(&self, width: u16) -> usize {
         room_beside(&self.names(width), width).saturating_sub(4 + self.key().len())
     }
 
-    /// Draws the line, and returns the area below it.
+    /// Draws the line and returns the area below it.
     pub(crate) fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
         let names = self.names(area.width);
         let room = room_beside(&names, area.width);
@@ -61,7 +61,7 @@ impl Title {
         inner
     }
 
-    /// The hidden pane whose name or key is on a cell.
+    /// The hidden pane whose name or key is at a cell.
     pub(crate) fn hidden_at(&self, area: Rect, at: Position) -> Option<Pane> {
         let names = self.names(area.width);
         let from = area.right().checked_sub(names.width() as u16 + 1)?;
@@ -77,8 +77,8 @@ impl Title {
             .copied()
     }
 
-    // In a field Esc comes first, since a digit is part of the value there. No key for the form
-    // while one of its fields is edited.
+    // While a field is edited, the key begins with Esc, since digits are part of the value. The
+    // form has no key while one of its fields is edited.
     fn key(&self) -> String {
         match (self.is_editing, self.pane) {
             (false, pane) => format!("{} ", pane.number()),
@@ -87,8 +87,8 @@ impl Title {
         }
     }
 
-    // Keys and names of the hidden panes; their keys alone where names have no room; nothing in a
-    // narrow pane.
+    // Keys and names of the hidden panes; only the keys if the names do not fit; empty in a narrow
+    // pane.
     fn names(&self, width: u16) -> String {
         if self.hidden.is_empty() {
             return String::new();

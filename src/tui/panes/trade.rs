@@ -1,4 +1,5 @@
-//! Error of every setting against its time, as a chart or as a table of methods and compliances.
+//! Accuracy of every setting against its run time, as a chart or as a table of methods and
+//! compliances.
 
 mod compliances;
 mod pane;
@@ -15,7 +16,7 @@ use pane::own;
 pub(crate) use pane::{TradePane, nearest, stepped};
 use plot::{LEVEL, draw_legend, draw_plot};
 
-/// Rows from which on the legend has one of its own.
+/// Least height with a row for the legend.
 const TALL: u16 = 8;
 const INVITATION: &str = "No benchmark yet: m runs every method with its settings on this case for a few seconds. Esc stops the \
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
@@ -52,7 +53,7 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     );
 }
 
-/// The table of methods and compliances, with the selected setting in words below it.
+/// Draws the table of methods and compliances, with a text about the selected setting below it.
 fn draw_table(
     pane: &TradePane<'_>,
     traded: &Traded,
@@ -95,7 +96,7 @@ fn draw_table(
     );
 }
 
-/// The longest title that fits, else the shortest one.
+/// The longest title that fits, otherwise the shortest one.
 fn title(pane: &TradePane<'_>, room: usize) -> &'static str {
     let is_stale = |traded: &Traded| pane.inputs.is_none_or(|inputs| traded.is_stale(inputs));
     let titles = match (pane.traded.is_some_and(is_stale), pane.view) {
@@ -124,7 +125,7 @@ fn title(pane: &TradePane<'_>, room: usize) -> &'static str {
     titles.into_iter().find(fits).unwrap_or(titles[2])
 }
 
-/// The rooms of the legend, of the plot with its axes, and of the words below it.
+/// The areas of the legend, of the plot with its axes, and of the text below it.
 fn split(inner: Rect) -> (Rect, Rect, Rect) {
     let legend = u16::from(inner.height >= TALL);
     let words = inner.height.min(if inner.height > TALL { 2 } else { 1 });
@@ -147,7 +148,8 @@ fn split(inner: Rect) -> (Rect, Rect, Rect) {
     )
 }
 
-/// The marked setting in words, what matters most first; else how far the measurement is.
+/// The text about the selected setting, the most important part first; without a selection the
+/// progress of the benchmark.
 fn phrases(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> {
     let marked = traded.marked.and_then(|marked| {
         trade
@@ -206,13 +208,13 @@ fn phrases(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> 
     .collect()
 }
 
-/// As much of it as has room in that many lines, so that nothing is cut.
+/// As many phrases as fit into the lines without a cut.
 fn fitting(phrases: &[String], area: Rect) -> String {
     let width = usize::from(area.width).saturating_sub(2);
     let fits = |words: &String| text::wrap(words, width).len() <= area.height.into();
     let joined = |count: usize| phrases[..count].concat();
     let all = (1..=phrases.len()).rev().map(joined);
-    // Of a long setting the method and what the measurement found of it remain.
+    // A long text is shortened to the method and its results.
     let brief = phrases.first().and_then(|first| {
         let (method, _) = first.split_once(" with ")?;
         let (_, found) = first.rsplit_once(", ")?;
@@ -222,7 +224,7 @@ fn fitting(phrases: &[String], area: Rect) -> String {
     fitting.unwrap_or_else(|| text::cut(&joined(phrases.len().min(1)), width))
 }
 
-/// What the signs in the pane mean.
+/// The meaning of the signs in the pane.
 #[must_use]
 pub(crate) fn signs(pane: &TradePane<'_>) -> String {
     let within = pane

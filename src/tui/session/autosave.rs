@@ -1,7 +1,7 @@
-//! Follows the open cases: locks and saves them, writes their unsaved edits to journals, and finds
-//! the journals of earlier sessions.
+//! Autosave of the open cases: takes their locks, saves them, writes their unsaved edits to
+//! journals, and finds the journals of earlier sessions.
 //!
-//! An idle workbench sleeps: there is a deadline only while a journal lacks edits.
+//! An idle workbench sleeps: a deadline exists only while a journal is behind the edits.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -23,27 +23,27 @@ use crate::case::file::followed;
 use crate::case::stamp::Stamp;
 use crate::tui::store::{self, state::State};
 
-/// The journal is written so long after the last edit,
+/// Delay of the journal after the last edit.
 const AFTER_LAST: Duration = Duration::from_millis(900);
-/// and, while typing goes on, so long after the first edit that it lacks.
+/// Greatest delay of the journal after the first edit that it lacks, while the user types.
 const AFTER_FIRST: Duration = Duration::from_millis(1900);
 
-/// Saves the open cases, and keeps their unsaved edits.
+/// Saves the open cases and journals their unsaved edits.
 #[derive(Debug)]
 pub struct Autosave {
     journal_writer: Arc<JournalWriter>,
-    /// Where this session writes; `None` where no folder is private.
+    /// The journals of this session; `None` if no folder is private.
     journals: Option<Journals>,
-    /// Where earlier sessions may have written besides.
+    /// Folders in which earlier sessions may have written.
     others: Vec<Journals>,
-    /// What the user must know about the folder of journals, until it was shown.
+    /// A message about the folder of journals, until it is shown.
     notice: Option<String>,
-    /// The name of this session, and the lock that shows others that it lives; from the first edit
-    /// on.
+    /// The name of this session, and the lock that shows other sessions that it runs; from the
+    /// first edit on.
     session: Option<(String, Lock)>,
     locks: Locks,
     tracked: BTreeMap<usize, Tracked>,
-    /// Journals of earlier sessions whose edits are in the form now.
+    /// Journals of earlier sessions whose edits are in the form.
     adopted: Vec<PathBuf>,
     due: Option<Due>,
 }
@@ -53,7 +53,7 @@ pub struct Autosave {
 struct Tracked {
     path: Option<PathBuf>,
     is_held: bool,
-    /// The last edits that went to the journal.
+    /// The last edits that were passed to the journal.
     noted: Option<Case>,
     /// The stamp of the edited text.
     stamp: Option<Stamp>,
@@ -67,7 +67,8 @@ struct Due {
 }
 
 impl Autosave {
-    /// Journals in a folder of state; without one, edits are not kept, and a claim says so.
+    /// An autosave with journals in a state folder. Without a folder, edits are not journaled, and
+    /// a claim reports this.
     #[must_use]
     pub fn new(state: State, journal_writer: Arc<JournalWriter>) -> Autosave {
         let journals = |folder: &PathBuf| Journals::within(folder);
@@ -84,8 +85,8 @@ impl Autosave {
         }
     }
 
-    /// Takes the locks of newly opened cases and hands new edits to the journal. Returns claims of
-    /// the opened cases, and why edits cannot be kept.
+    /// Takes the locks of newly opened cases and passes new edits to the journal. Returns claims of
+    /// the opened cases, and the reasons why edits cannot be journaled.
     pub fn follow(&mut self, cases: &[OpenCase<'_>], now: Instant) -> Vec<Result<Claim, String>> {
         self.let_go(cases);
         let claims: Vec<_> = cases.iter().filter_map(|case| self.claim(case)).collect();
@@ -97,14 +98,14 @@ impl Autosave {
         results
     }
 
-    /// When the journal must be written; `None` while it lacks nothing.
+    /// The time at which the journal must be written; `None` if it is complete.
     #[must_use]
     pub fn deadline(&self) -> Option<Instant> {
         self.due
             .map(|due| (due.last + AFTER_LAST).min(due.first + AFTER_FIRST))
     }
 
-    /// Has the journal written if it is time.
+    /// Requests the write of the journal if its time has come.
     pub fn keep_if_due(&mut self, now: Instant) {
         if self.deadline().is_some_and(|deadline| deadline <= now) {
             self.due = None;
@@ -118,10 +119,10 @@ impl Autosave {
         drop(self.journal_writer.write(false));
     }
 
-    /// Saves a case, unless another session has its file open. The journal is written first:
-    /// however the process ends, the edits are in the file or in the journal.
+    /// Saves a case, unless another session has its file open. The journal is written first, so
+    /// that the edits are in the file or in the journal however the process ends.
     ///
-    /// Without a lock, the comparison of the file with the text that was read still refuses to
+    /// Without a lock, the save still compares the file with the text that was read, and does not
     /// overwrite changes of others.
     pub(crate) fn save(
         &mut self,
@@ -137,19 +138,19 @@ impl Autosave {
         (saving.path, result)
     }
 
-    /// Removes a journal of an earlier session once the journal of this one has its edits.
+    /// Deletes a journal of an earlier session once the journal of this session contains its edits.
     pub fn adopt(&mut self, journal: PathBuf) {
         self.adopted.push(journal);
     }
 
-    /// Leave, with nothing unsaved that is wanted.
+    /// Ends the session and deletes its journals: unsaved edits that remain are discarded.
     pub fn end(mut self) {
         self.let_go(&[]);
         drop(self.journal_writer.write(false));
         self.journal_writer.close();
     }
 
-    // Forgets closed cases, and cases that were saved under another name.
+    // Drops closed cases, and cases that were saved under another name.
     fn let_go(&mut self, cases: &[OpenCase<'_>]) {
         let is_open = |id: usize, case: &Tracked| {
             cases
@@ -185,7 +186,7 @@ impl Autosave {
         };
         self.tracked.insert(open.id, case);
         let claim = match lock {
-            // Edits of earlier sessions are for the session that may save them.
+            // Edits of earlier sessions are offered to the session that may save them.
             Ok(Some(holder)) => Claim::of(open.id, Access::Held(holder.words(clock::now()))),
             Ok(None) => self.found(open, None),
             Err(reason) => self.found(open, Some(reason)),
@@ -193,7 +194,8 @@ impl Autosave {
         (open.is_held || !claim.is_silent()).then_some(claim)
     }
 
-    // A save may have found that the other session has ended; or the same file was opened again.
+    // A save may have found that the other session has ended, or the user opened the same file
+    // again.
     fn claim_again(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
         let is_locked = open.path.is_some_and(|path| self.locks.has(path));
         let case = self
@@ -230,7 +232,7 @@ impl Autosave {
             claim.offers.extend(offers);
             claim.notices.extend(notices);
         }
-        // Only when the workbench opens.
+        // Only when the workbench starts.
         if self.tracked.len() == 1 && claim.offers.is_empty() {
             let all = folders().flat_map(Journals::all_left_behind);
             let others = all.filter(|journal| !journal.is_of(open.path, stamp));
@@ -239,7 +241,7 @@ impl Autosave {
         claim
     }
 
-    // Hands new edits to the journal. The error says why they cannot be kept.
+    // Passes new edits to the journal. The error is the reason why they cannot be journaled.
     fn note(&mut self, open: &OpenCase<'_>, now: Instant) -> Result<(), String> {
         let unsaved = (open.case != open.document.loaded()).then_some(open.case);
         let Some(case) = self
@@ -300,7 +302,7 @@ impl Autosave {
         Ok(())
     }
 
-    // Not before the journal of this session has their edits.
+    // Only once the journal of this session contains their edits.
     fn drop_adopted(&mut self) {
         if !self.adopted.is_empty()
             && self.journal_writer.is_needed()
@@ -330,11 +332,11 @@ fn elsewhere(journals: impl Iterator<Item = Journal>) -> Option<String> {
     };
     let first = cases.into_iter().next()?;
     Some(format!(
-        "unsaved edits of {first}{more} are kept: open it to get them back"
+        "unsaved edits of {first}{more} are kept: open it to restore them"
     ))
 }
 
-// A journal without differences from the file has nothing to offer, and is removed.
+// A journal without differences from the file is deleted.
 fn offer(open: &OpenCase<'_>, place: PathBuf, journal: &Journal) -> Option<Offer> {
     let from_now = |change: &Change| Change {
         from: changes::text_of(open.document.loaded(), &change.key),

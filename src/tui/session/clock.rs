@@ -1,4 +1,4 @@
-//! The time of day, and lengths of time in words.
+//! The time of day, and durations as text.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -10,7 +10,7 @@ pub(super) fn now() -> u64 {
         .map_or(0, |time| time.as_secs())
 }
 
-/// A length of time in seconds, as a person says it.
+/// A duration in seconds as text.
 #[must_use]
 pub(super) fn age(seconds: u64) -> String {
     let (minutes, hours, days) = (seconds / 60, seconds / 3600, seconds / 86400);

@@ -1,4 +1,4 @@
-//! The process that has a case open, as its lock names it.
+//! The process that has a case open, as its lock file names it.
 
 use std::fs::{self, File};
 use std::io::{Read, Seek};
@@ -8,21 +8,21 @@ use toml_edit::{DocumentMut, Item, value};
 use super::clock;
 use crate::system::users;
 
-/// More than any holder writes.
+/// Greatest size of a lock file.
 const MOST_BYTES: u64 = 4096;
 
-/// The holder of a lock; the process is 0 where the file does not name it.
+/// The holder of a lock; the process is 0 if the file does not name it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Holder {
-    /// The name of the machine.
+    /// The host name.
     pub(crate) host: String,
-    /// The number of the process.
+    /// The process id.
     pub(crate) process: u32,
-    /// When the process began, in ticks since the machine did: numbers of processes are used again.
+    /// Start time of the process, in clock ticks since boot: process ids are reused.
     pub(crate) started: u64,
-    /// Which start of the machine that was.
+    /// The boot id of the machine.
     pub(crate) boot: String,
-    /// When the lock was taken, in seconds since 1970.
+    /// Time of the lock, in seconds since 1970.
     pub(crate) since: u64,
 }
 
@@ -40,7 +40,7 @@ impl Holder {
         }
     }
 
-    /// In words, for someone who comes upon the lock.
+    /// The holder as text for a message.
     #[must_use]
     pub(crate) fn words(&self, now: u64) -> String {
         if self.process == 0 {
@@ -54,12 +54,12 @@ impl Holder {
         )
     }
 
-    /// Whether the same process still runs, as far as this machine can see.
+    /// Whether the same process is still running, as far as this machine can tell.
     pub(crate) fn is_alive(&self) -> bool {
         self.host == host() && self.boot == boot() && started(self.process) == Some(self.started)
     }
 
-    /// The text of the lock's file.
+    /// The text of the lock file.
     pub(crate) fn to_text(&self) -> String {
         let mut toml = DocumentMut::new();
         toml["host"] = value(&self.host);
@@ -101,7 +101,7 @@ fn boot() -> String {
         .unwrap_or_default()
 }
 
-// The 22nd word of a process's state; the second, its name, may hold spaces and brackets.
+// Field 22 of `/proc/PID/stat`. Field 2, the name, may contain blanks and brackets.
 fn started(process: u32) -> Option<u64> {
     let state = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     state

@@ -12,7 +12,7 @@ use crate::system::paths;
 /// The format of journals that this version reads and writes.
 pub(crate) const FORMAT: i64 = 1;
 
-/// The longest journal that is read, in bytes: longer than the changes of any case.
+/// Greatest size of a journal to read, in bytes: more than the changes of any case.
 pub(crate) const MOST_BYTES: usize = 4 << 20;
 
 const OPENING: &str =
@@ -23,43 +23,42 @@ const CHECKSUM_KEY: &str = "checksum = ";
 /// Edits of a case that are not in its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Journal {
-    /// The file of the case; `None` where it has none yet.
+    /// The file of the case; `None` if it has none yet.
     pub case: Option<PathBuf>,
     /// Length and hash of the text that was edited.
     pub(crate) stands_on: Stamp,
     /// When the journal was written, in seconds since 1970.
     pub(crate) written: u64,
-    /// The session that wrote it.
+    /// The session of the journal.
     pub(crate) session: String,
-    /// The edits: from what the file says to what was typed, valid or not.
+    /// The edits, each from the value in the file to the typed text, valid or not.
     pub changes: Vec<Change>,
 }
 
-/// Why a text is no journal to be trusted.
+/// Why a text is not a valid journal.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum JournalFault {
-    /// It is no journal at all.
+    /// The text is not a journal.
     #[error("the file is not a journal")]
     NotOne,
-    /// It is of a newer format.
+    /// The journal has a newer format.
     #[error("the format {0} of the journal is newer than this version")]
     NewerFormat(i64),
-    /// It was cut or changed after it was written.
+    /// The journal was cut or changed after it was written.
     #[error("the journal is damaged")]
     Damaged,
-    /// It is whole, but says something that no journal says.
+    /// The journal is complete, but its content is invalid.
     #[error("the journal has no valid `{0}`")]
     Misformed(&'static str),
 }
 
 impl Journal {
-    /// Whether these are edits of the case in that file; without a file, of the text with that
-    /// stamp.
+    /// Whether the journal belongs to the case in a file; without a file, to the text with a stamp.
     pub(crate) fn is_of(&self, case: Option<&Path>, stamp: Stamp) -> bool {
         self.case.as_deref() == case && (case.is_some() || self.stands_on == stamp)
     }
 
-    /// The text of a journal's file.
+    /// The text of a journal file.
     pub(crate) fn to_text(&self) -> String {
         let body = self.body();
         format!(
@@ -68,10 +67,10 @@ impl Journal {
         )
     }
 
-    /// Read the text of a journal's file.
+    /// Parses the text of a journal file.
     ///
     /// # Errors
-    /// Where the text is not, byte for byte, what [`Journal::to_text`] once made.
+    /// Returns an error if the text is not, byte for byte, an output of [`Journal::to_text`].
     pub fn from_text(text: &str) -> Result<Journal, JournalFault> {
         let rest = text.strip_prefix(OPENING).ok_or(JournalFault::NotOne)?;
         let (format, rest) = line_of(rest, FORMAT_KEY).ok_or(JournalFault::NotOne)?;
@@ -172,7 +171,7 @@ fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
     TableLike::get(table, key).and_then(Item::as_str)
 }
 
-// A path need not be text.
+// In hexadecimal, because a path need not be valid text.
 fn hex(path: &Path) -> String {
     paths::bytes(path)
         .iter()

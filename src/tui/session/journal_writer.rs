@@ -1,4 +1,4 @@
-//! The wanted journals, and the thread that writes them: the workbench never waits for a disk.
+//! The requested journals, and the thread that writes them: the workbench never waits for a disk.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,12 +14,12 @@ use super::journals::Journals;
 /// The name of the thread that writes journals.
 pub(crate) const THREAD: &str = "journal";
 
-/// The wanted journals, shared by the threads that may have to write them.
+/// The requested journals, shared by the threads that may write them.
 #[derive(Debug, Default)]
 pub struct JournalWriter {
     shelf: Mutex<Shelf>,
     bell: Condvar,
-    /// One writer at a time.
+    /// Locked during a write.
     pen: Mutex<()>,
 }
 
@@ -37,11 +37,11 @@ struct Page {
 }
 
 impl JournalWriter {
-    /// A writer and its thread, which sleeps until [`JournalWriter::ring`]. `tell` receives the
-    /// reason when a journal cannot be written.
+    /// Starts the writer thread, which sleeps until [`JournalWriter::ring`]. `tell` receives the
+    /// reason if a journal cannot be written.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub fn open(tell: impl Fn(String) + Send + 'static) -> io::Result<Arc<JournalWriter>> {
         let journal_writer = Arc::new(JournalWriter::default());
         let theirs = Arc::clone(&journal_writer);
@@ -74,11 +74,11 @@ impl JournalWriter {
         self.bell.notify_all();
     }
 
-    /// Writes every changed journal now. A journal outlives the process; a `lasting` one is flushed
-    /// to the disk and outlives a power cut too.
+    /// Writes every changed journal now. A journal survives the end of the process; a `lasting`
+    /// write is flushed to the disk and also survives a power failure.
     ///
     /// # Errors
-    /// The first error; the other journals are written all the same.
+    /// The first error; the other journals are written nevertheless.
     pub fn write(&self, lasting: bool) -> io::Result<()> {
         let pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
         let changed: Vec<_> = self.shelf().changed();
@@ -110,7 +110,7 @@ impl JournalWriter {
         result
     }
 
-    /// Whether any journal has edits that no file has.
+    /// Whether any journal contains edits that no file has.
     #[must_use]
     pub fn is_needed(&self) -> bool {
         self.shelf()
@@ -119,7 +119,7 @@ impl JournalWriter {
             .any(|page| page.wanted.is_some())
     }
 
-    /// End the thread.
+    /// Ends the thread.
     pub(crate) fn close(&self) {
         self.shelf().is_closed = true;
         self.bell.notify_all();
@@ -153,8 +153,8 @@ impl Shelf {
             .collect()
     }
 
-    // The journal of a case that was closed during the write may have no page any more; the page
-    // comes back, so that the next write removes the file.
+    // If the case was closed during the write, its page is gone. The page is added again, so that
+    // the next write deletes the file.
     fn settle(&mut self, path: &Path, written: Option<Journal>) {
         self.pages.entry(path.to_owned()).or_default().written = written;
         self.pages

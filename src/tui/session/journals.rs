@@ -1,4 +1,4 @@
-//! The folder of journals: writes them, finds those of ended sessions, and sets damaged ones aside.
+//! The folder of journals: writes journals, finds those of ended sessions, and moves damaged ones.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -11,12 +11,12 @@ use crate::case::stamp::{Stamp, hash};
 use crate::system::paths;
 use crate::tui::store::state;
 
-/// What a journal's name ends with.
+/// The extension of a journal.
 const ENDING: &str = "toml";
-/// Letters of a case's name in that of its journal.
+/// Number of letters of the case's name in the name of its journal.
 const MOST_LETTERS: usize = 40;
 
-/// The folders of journals, and of the sessions that write them.
+/// The folders of journals and of session locks.
 #[derive(Debug, Clone)]
 pub(super) struct Journals {
     journals: PathBuf,
@@ -26,14 +26,14 @@ pub(super) struct Journals {
 /// The journals of a case.
 #[derive(Debug, Default)]
 pub(super) struct Found {
-    /// Those of ended sessions, the latest first.
+    /// Journals of ended sessions, the latest first.
     pub(super) journals: Vec<(PathBuf, Journal)>,
-    /// What happened to damaged ones, one sentence each.
+    /// A sentence for each damaged journal.
     pub(super) notices: Vec<String>,
 }
 
 impl Journals {
-    /// In a folder of state.
+    /// The folders inside a state folder.
     #[must_use]
     pub(super) fn within(state: &Path) -> Journals {
         Journals {
@@ -42,10 +42,10 @@ impl Journals {
         }
     }
 
-    /// A new session: a lock that tells others that its journals are still being written.
+    /// Starts a session: its lock shows others that its journals are still in use.
     ///
     /// # Errors
-    /// When there is no room for it, or another user could change the folders.
+    /// Returns an error if the disk is full, or if another user could change the folders.
     pub(super) fn begin(&self) -> io::Result<(String, Lock)> {
         for folder in [&self.journals, &self.sessions] {
             state::make(folder)?;
@@ -54,17 +54,17 @@ impl Journals {
         Lock::create(&self.sessions)
     }
 
-    /// Where a session keeps the edits of a case; `number` tells its cases without a file apart.
+    /// The path of the journal of a case in a session; `number` distinguishes cases without a file.
     #[must_use]
     pub(super) fn place(&self, case: Option<&Path>, session: &str, number: usize) -> PathBuf {
         self.journals
             .join(format!("{}{session}-{number}.{ENDING}", stem(case)))
     }
 
-    /// Write a journal over the one before; `lasting` where it must outlive a power cut as well.
+    /// Replaces a journal; a `lasting` write survives a power failure.
     ///
     /// # Errors
-    /// When it cannot be written; the one before is then still there.
+    /// Returns an error if the journal cannot be written; the previous one then remains.
     pub(super) fn write(path: &Path, journal: &Journal, lasting: bool) -> io::Result<()> {
         let folder = path.parent().unwrap_or(Path::new("."));
         let mut file = tempfile::Builder::new().prefix(".").tempfile_in(folder)?;
@@ -75,8 +75,8 @@ impl Journals {
         file.persist(path).map(drop).map_err(|error| error.error)
     }
 
-    /// The journals of a case whose sessions have ended. A case without a file is recognised by the
-    /// stamp of its text. Damaged journals are set aside, never deleted.
+    /// The journals of a case from ended sessions. A case without a file is identified by the stamp
+    /// of its text. Damaged journals are moved, never deleted.
     #[must_use]
     pub(super) fn left_behind(&self, case: Option<&Path>, stamp: Stamp) -> Found {
         let mut found = Found::default();
@@ -99,7 +99,7 @@ impl Journals {
         found
     }
 
-    /// The journals of every case that ended sessions left behind.
+    /// The journals of every case from ended sessions.
     pub(super) fn all_left_behind(&self) -> impl Iterator<Item = Journal> {
         let journals = self
             .named("")
@@ -158,7 +158,7 @@ fn read(path: &Path) -> Result<Journal, Untrusted> {
     Journal::from_text(&text).map_err(Untrusted::Fault)
 }
 
-// Returns the report. A journal that cannot be moved stays, and is reported again.
+// Returns the message. A journal that cannot be moved remains and is reported again.
 fn set_aside(path: &Path, fault: &JournalFault) -> String {
     let free = (1..100)
         .map(|number| path.with_extension(format!("damaged-{number}")))
@@ -175,8 +175,8 @@ fn shown(path: &Path) -> String {
     sanitize(&path.display().to_string())
 }
 
-// How the journals of a case begin: a few letters for a person, and a hash that tells cases of one
-// name apart.
+// The start of the names of a case's journals: a few letters for the reader, and a hash that
+// distinguishes cases with the same name.
 fn stem(case: Option<&Path>) -> String {
     let Some(case) = case else {
         return "new-".to_owned();

@@ -1,4 +1,4 @@
-//! Locks that end with their process, however it ends, and that name their process to others.
+//! Locks that end with their process, whatever ends it, and that name their process to others.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Seek, Write};
@@ -8,14 +8,14 @@ use std::time::Duration;
 use super::holder::Holder;
 use crate::system::locks;
 
-/// The file of a lock may vanish between opening and locking it, but not so often in a row.
+/// Attempts to lock: another process may delete the lock file between opening and locking it.
 const ATTEMPTS: usize = 5;
-/// How the name of a session's file begins until it is locked.
+/// Prefix of the name of a session's file until the file is locked.
 const UNLOCKED: &str = ".";
-/// No process needs so long between making a file and locking it.
+/// Age above which an unlocked new file is certainly abandoned.
 const STALE: Duration = Duration::from_secs(600);
 
-/// A lock, until this is dropped.
+/// A lock; dropping it releases the lock.
 #[derive(Debug)]
 pub(crate) struct Lock {
     file: File,
@@ -26,20 +26,20 @@ pub(crate) struct Lock {
 #[derive(Debug)]
 pub(crate) enum Taken {
     Ours(Lock),
-    /// It is ours as far as other processes on this machine respect its text: the file system has
-    /// no locks.
+    /// This process has the lock only if others on this machine respect its text: the file system
+    /// has no locks.
     Unguarded(Lock, io::Error),
-    /// A living process has it.
+    /// A running process has the lock.
     Held(Holder),
 }
 
 impl Lock {
-    /// Takes a lock, if no living process has it. The file of an ended process is taken over: the
-    /// system ends a lock with its process, so that neither a process number nor a boot needs to be
-    /// believed.
+    /// Takes a lock if no running process has it. The file of an ended process is reused: the
+    /// system releases a lock with its process, so that process numbers and boot ids need not be
+    /// trusted.
     ///
     /// # Errors
-    /// When the file of the lock cannot be made or is no regular file.
+    /// Returns an error if the lock file cannot be created or is not a regular file.
     pub(crate) fn take(path: &Path) -> io::Result<Taken> {
         for _ in 0..ATTEMPTS {
             let mut file = open(path)?;
@@ -62,11 +62,11 @@ impl Lock {
         Err(io::Error::other("changes too often"))
     }
 
-    /// A new lock under a name of its own. Its file has that name only once it is locked, so that
-    /// no other process takes it for that of an ended one.
+    /// A new lock with a unique name. Its file gets that name only after it is locked, so that no
+    /// other process mistakes it for an abandoned file.
     ///
     /// # Errors
-    /// When there is no room for it.
+    /// Returns an error if the disk is full.
     pub(super) fn create(folder: &Path) -> io::Result<(String, Lock)> {
         clear(folder);
         let hidden = tempfile::Builder::new()
@@ -87,12 +87,12 @@ impl Lock {
         Ok((name, lock))
     }
 
-    /// Whether a living process has the lock.
+    /// Whether a running process has the lock.
     pub(crate) fn is_held(path: &Path) -> bool {
         look_at(path).is_ok_and(|mut file| matches!(hold(&mut file), Hold::Other(_)))
     }
 
-    // The text only names the process to others: a lock without it works all the same.
+    // The text only names the process: a lock without it still works.
     fn sign(&mut self) {
         let text = Holder::ourselves().to_text();
         let file = &mut self.file;
@@ -103,7 +103,7 @@ impl Lock {
         );
     }
 
-    // Its last holder takes the file away, perhaps while we were opening it.
+    // The last holder deletes the file, possibly while this process opens it.
     fn is_in_place(&self) -> bool {
         let both = self
             .file
@@ -123,12 +123,12 @@ impl Drop for Lock {
 
 enum Hold {
     Ours,
-    /// The file system has no locks, and the text names no living process.
+    /// The file system has no locks, and the text names no running process.
     Unguarded(io::Error),
     Other(Holder),
 }
 
-/// Locks the file, unless another process has.
+/// Locks the file, unless another process has locked it.
 fn hold(file: &mut File) -> Hold {
     match file.try_lock() {
         Ok(()) => Hold::Ours,
@@ -139,7 +139,7 @@ fn hold(file: &mut File) -> Hold {
     }
 }
 
-/// Removes the files of processes that were killed before they could.
+/// Deletes the files of killed processes.
 fn clear(folder: &Path) {
     let files = fs::read_dir(folder).into_iter().flatten().flatten();
     for file in files {
@@ -154,7 +154,7 @@ fn clear(folder: &Path) {
 
 fn open(path: &Path) -> io::Result<File> {
     let ours = regular(locks::open_or_create(path), path);
-    // Someone else's lock may be ours to read and to lock only.
+    // A lock file of another user may be readable only, which is enough to lock it.
     ours.or_else(|error| {
         if error.kind() == io::ErrorKind::PermissionDenied {
             look_at(path)
@@ -168,8 +168,8 @@ fn look_at(path: &Path) -> io::Result<File> {
     regular(locks::open(path), path)
 }
 
-// Someone else made a link or a pipe of that name: the link is not followed, and the pipe not
-// waited for.
+// Another user may have created a link or a pipe with that name: the link is not followed, and the
+// pipe does not block.
 fn regular(file: io::Result<File>, path: &Path) -> io::Result<File> {
     let is_link = || fs::symlink_metadata(path).is_ok_and(|about| about.is_symlink());
     match file {
@@ -187,7 +187,7 @@ mod tests {
     use std::thread;
     use std::time::SystemTime;
 
-    /// Ends a thread whether or not the test goes well.
+    /// Ends a thread even if the test fails.
     struct End<'a>(&'a AtomicBool);
 
     impl Drop for End<'_> {
@@ -248,7 +248,7 @@ mod tests {
         for stale in [&dead, &reused, &earlier] {
             assert!(!stale.is_alive());
         }
-        // Nobody has the lock of the file, so even the words of a living process mean nothing.
+        // Nobody has locked the file, so that even the text of a running process has no effect.
         let texts = [dead, reused, earlier, ourselves].map(|holder| holder.to_text());
         for text in texts
             .iter()

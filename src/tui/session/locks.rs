@@ -10,21 +10,21 @@ use super::lock::{Lock, Taken};
 use crate::case::file::followed;
 use crate::case::sanitize::sanitize;
 
-/// The locks by the places that the paths of the cases name.
+/// The locks by the canonical places of the cases.
 #[derive(Debug, Default)]
 pub(super) struct Locks(BTreeMap<PathBuf, Held>);
 
 /// A lock of this session.
 #[derive(Debug)]
 struct Held {
-    /// Its file, with the folder in full: two paths may name one file.
+    /// The lock file, with the full path of its folder: two paths may name one file.
     place: PathBuf,
     _lock: Lock,
 }
 
 impl Locks {
-    /// Takes the lock of a case. Returns the process that has the case open, or `None` if the lock
-    /// is ours now. The error says why the case has no lock.
+    /// Takes the lock of a case. Returns the process that has the case open, or `None` if this
+    /// session now has the lock. The error is the reason why the case has no lock.
     pub(super) fn take(&mut self, path: &Path) -> Result<Option<Holder>, String> {
         let Some(named) = lock_of(path).filter(|named| !self.0.contains_key(named)) else {
             return Ok(None);
@@ -57,7 +57,7 @@ impl Locks {
         }
     }
 
-    /// Whether the case is locked by this session.
+    /// Whether this session has the lock of the case.
     pub(super) fn has(&self, path: &Path) -> bool {
         lock_of(path).is_some_and(|place| self.0.contains_key(&place))
     }
@@ -69,8 +69,8 @@ impl Locks {
     }
 }
 
-// Beside the case, so that other users and other machines see it as well: whoever may save there
-// may lock there.
+// The lock file is beside the case, so that other users and other machines also see it: whoever may
+// save there may lock there.
 fn lock_of(path: &Path) -> Option<PathBuf> {
     let mut name = OsString::from(".");
     name.push(path.file_name()?);
@@ -93,7 +93,7 @@ fn unlocked(path: &Path, place: &Path, error: &io::Error) -> String {
     format!("{name} is not locked, so other sessions may save it too: {cause}: {fix}")
 }
 
-/// The words of the system without its number of the error.
+/// The error text of the system without the error number.
 fn brief(error: &io::Error) -> String {
     let words = error.to_string();
     let end = words.find(" (os error").unwrap_or(words.len());

@@ -10,30 +10,30 @@ use crate::case::{Case, Document};
 pub(crate) const NEWER: &str =
     "read-only: newer format; fields that this version does not know are hidden";
 
-/// Whether this workbench may write the file of a case.
+/// Whether this session may write the file of a case.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Access {
-    /// It may write the file.
+    /// The session may write the file.
     #[default]
     Own,
-    /// Another session has it open: its process, machine and age.
+    /// Another session has the file open: its process, machine and age.
     Held(String),
-    /// It is of a newer format, of which not everything is understood.
+    /// The case has a newer format that this version does not fully know.
     Newer,
 }
 
 /// An open case and its form.
 #[derive(Debug, Clone, Copy)]
 pub struct OpenCase<'a> {
-    /// Different for every open case.
+    /// Unique among open cases.
     pub(crate) id: usize,
     /// Its file.
     pub(crate) path: Option<&'a Path>,
     /// The text of the file.
     pub(crate) document: &'a Document,
-    /// The case as the form has it.
+    /// The case in the form.
     pub(crate) case: &'a Case,
-    /// Whether it is shown as open elsewhere.
+    /// Whether the header marks it as open elsewhere.
     pub(crate) is_held: bool,
 }
 
@@ -53,13 +53,13 @@ pub struct Claim {
 /// Unsaved edits of an earlier session.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Offer {
-    /// Their journal.
+    /// The journal of the edits.
     pub journal: PathBuf,
-    /// How long ago the journal was written, in words.
+    /// Age of the journal as text.
     pub age: String,
-    /// From the file as it is now to the typed values.
+    /// The edits, each from the present value in the file to the typed text.
     pub changes: Vec<Change>,
-    /// Whether the file was changed since they were typed.
+    /// Whether the file has changed since the edits.
     pub is_file_changed: bool,
 }
 
@@ -75,7 +75,7 @@ impl Claim {
         }
     }
 
-    /// Whether the user need not see it.
+    /// Whether the claim has no message for the user.
     #[must_use]
     pub(crate) fn is_silent(&self) -> bool {
         self.access == Access::Own && self.offers.is_empty() && self.notices.is_empty()
@@ -83,7 +83,7 @@ impl Claim {
 }
 
 impl Access {
-    /// How a document is open at first.
+    /// The initial access to a document.
     #[must_use]
     pub(crate) fn of(document: &Document) -> Access {
         if document.is_newer() {
@@ -132,7 +132,7 @@ pub(crate) fn summary(changes: &[Change]) -> String {
     }
 }
 
-/// A text cut to one short line; `(empty)` for none.
+/// A text cut to one short line; `(empty)` without a text.
 #[must_use]
 pub(crate) fn shown(text: Option<&str>) -> String {
     const MOST: usize = 40;

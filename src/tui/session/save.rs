@@ -8,18 +8,18 @@ use crate::case::changes::{self, Change};
 use crate::case::file::{ReadError, SaveError, Saved};
 use crate::tui::store::at_home;
 
-/// What comes after a save or a decision to lose the edits.
+/// The step after a save or after discarding edits.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Next {
-    /// Go on with this case.
+    /// Continue with this case.
     Stay,
-    /// Leave the workbench.
+    /// Quit the workbench.
     Quit,
-    /// Save what else is unsaved, then leave the workbench.
+    /// Save the remaining cases, then quit the workbench.
     SaveRest,
     /// Close this case.
     Close,
-    /// Open this file in place of the case.
+    /// Open this file instead of the case.
     Load(PathBuf),
 }
 
@@ -29,45 +29,45 @@ const ALL_THE_SAME: &str = "The file and the form have the same values.";
 /// A case that was written.
 #[derive(Debug, Clone)]
 pub struct Written {
-    /// The document as its file has it now.
+    /// The document with its present text in the file.
     pub document: Document,
-    /// What happened to the file.
+    /// The result of the write.
     pub(crate) saved: Saved,
 }
 
 /// Why a case was not written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SaveFault {
-    /// A file of that name exists: how it differs from the form, one line per field.
+    /// A file with this name exists; its differences from the form, one line per field.
     Exists(Vec<String>),
-    /// Someone else changed the file since it was read: how it differs from the form, one line per
-    /// field.
+    /// Another program has changed the file since it was read; its differences from the form, one
+    /// line per field.
     Changed(Vec<String>),
     /// Another session has the file open: its process, machine and age.
     Held(String),
-    /// The reason, in words.
+    /// Another reason, as text.
     Failed(String),
 }
 
 /// A requested save.
 #[derive(Debug, Clone)]
 pub struct Saving {
-    /// The document, with the case as the form has it.
+    /// The document with the case of the form.
     pub(crate) document: Document,
     /// The file to write.
     pub path: PathBuf,
-    /// Which content of the file the save may overwrite.
+    /// The content of the file that the save may overwrite.
     pub(crate) over: Over,
 }
 
-/// Which content of its file a save may overwrite.
+/// The content of a file that a save may overwrite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Over {
-    /// None: an existing file stays as it is.
+    /// Nothing: an existing file is not overwritten.
     Nothing,
-    /// The one that was opened, as long as nobody else changed it.
+    /// The content that was read, if no other program has changed it.
     Own,
-    /// Any.
+    /// Any content.
     Anything,
 }
 
@@ -79,10 +79,10 @@ impl Saving {
         }
     }
 
-    /// Writes the case. The caller has the lock.
+    /// Writes the case. The caller must have the lock.
     pub(super) fn write(&self) -> Result<Box<Written>, SaveFault> {
         let path = &self.path;
-        // A pipe or a device is refused below, without a question.
+        // The write refuses a pipe or a device without a question.
         if self.over == Over::Nothing && path.symlink_metadata().is_ok() && !path.is_dir() {
             return Err(SaveFault::Exists(self.occupied()));
         }
@@ -103,7 +103,7 @@ impl Saving {
         }
     }
 
-    /// How the file differs from the form: one line per field with a remark, or `same`.
+    /// The differences of the file from the form: one line per field with a remark, or `same`.
     fn differences(&self, same: &str, remark: impl Fn(&Change) -> String) -> Vec<String> {
         let theirs = match Document::read_draft(&self.path) {
             Ok(theirs) => theirs.case,
@@ -144,7 +144,7 @@ impl Saving {
         self.differences(ALL_THE_SAME, |_| String::new())
     }
 
-    /// Who changed the field since the document was read.
+    /// Where the field was changed since the document was read.
     fn by_whom(&self, change: &Change) -> String {
         let before = changes::text_of(self.document.loaded(), &change.key);
         let by = match (before == change.from, before == change.to) {

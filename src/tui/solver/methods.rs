@@ -12,14 +12,14 @@ use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Refusal, Solution, Stage, Stages};
 use crate::study::stiffness::{PATH_POINTS, compare_path};
 
-/// Solves with the closed forms and with the method of the case, however long that takes.
+/// Solves with the closed forms and with the method of the case, which may take long.
 #[must_use]
 pub fn answer(request: &Request) -> Answer {
     answer_while(request, &|| true)
 }
 
-/// The same for the first frame of the program, which waits for no elastic field: without the
-/// stiffness spread, and `None` if the pair's own compliance needs a field.
+/// The answer for the first frame of the program, which does not wait for elastic fields: without
+/// the stiffness spread, and `None` if the compliance of the pair needs a field.
 #[must_use]
 pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
     let methods = Method::CLOSED_FORM
@@ -69,9 +69,9 @@ pub(in crate::tui) fn with_stiffness(request: &Request, answer: Answer) -> Answe
     }
 }
 
-/// The answers of the closed forms, of the method of the case and of the load at rest below its
-/// inertia; of a method that takes its time without the late stages. None where `go_on`,
-/// which may show what stands at once, says no.
+/// The results of the closed forms, of the method of the case and, for `dynamic`, of the load at
+/// rest; a slow method is solved without its late stages. `go_on` may show the present answer;
+/// returns `None` if it returns false.
 pub(in crate::tui) fn solved(
     evaluator: &mut Evaluator,
     request: &Request,
@@ -89,7 +89,7 @@ pub(in crate::tui) fn solved(
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
-    // Where the program chose, its choice stands for it.
+    // If the program chose the method, the chosen method is active.
     let active = found.as_ref().map_or(method, |solution| solution.method);
     let mut answer = Answer {
         active,
@@ -99,7 +99,8 @@ pub(in crate::tui) fn solved(
     };
     answer.methods.retain(|(known, _)| *known != active);
     if active == Method::Dynamic {
-        // Its required relief costs little and is compared with that of the motion.
+        // The required relief of the load at rest is fast to compute and is compared with that of
+        // the motion.
         let stages = request.stages.without(Stage::StaticSpectrum);
         let shared = evaluator.solve(&request.inputs, Method::Static, stages, &|_| {
             go_on(1.0, &|| first.clone())
@@ -121,8 +122,8 @@ pub(in crate::tui) fn solved(
     Some(answer)
 }
 
-/// The answer with the late stages, where those were asked for and are still to come; none where
-/// `go_on` says no.
+/// The answer with the late stages, if they are requested and missing; `None` if `go_on` returns
+/// false.
 pub(in crate::tui) fn cleared(
     evaluator: &mut Evaluator,
     request: &Request,
@@ -162,7 +163,7 @@ pub(in crate::tui) fn cleared(
     Some(answer)
 }
 
-/// The closed forms' answer.
+/// The answer of the closed forms.
 fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
     let asked = request.inputs.method;
     let methods: Vec<_> = Method::CLOSED_FORM

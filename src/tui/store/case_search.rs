@@ -1,4 +1,4 @@
-//! The cases in the folders below one, as far as a short walk comes.
+//! Search for cases in the folders below a folder, with limits.
 
 use std::collections::VecDeque;
 use std::fs;
@@ -8,40 +8,40 @@ use std::time::{Duration, Instant};
 use super::folder::{Entry, beneath, place_of};
 use crate::case::sanitize::sanitize;
 
-/// A walk goes so many folders down, ...
+/// Greatest depth of the search.
 const DEEPEST: usize = 6;
-/// ... looks at so many entries, ...
+/// Greatest number of entries to visit.
 const MOST_ENTRIES: usize = 50_000;
-/// ... finds so many cases, ...
+/// Greatest number of cases to find.
 const MOST_CASES: usize = 2_000;
-/// ... and takes no longer than this.
+/// Greatest duration of the search.
 const LONGEST: Duration = Duration::from_secs(2);
 
 /// A case in a folder below.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Case {
-    /// How many folders down it is.
+    /// Depth of its folder below the start.
     pub(crate) depth: usize,
-    /// The way to it, as a person reads it.
+    /// The relative path as text.
     pub name: String,
-    /// The same in small letters.
+    /// The path in lower case.
     pub(crate) folded: String,
     pub(crate) way: PathBuf,
 }
 
-/// What a walk found.
+/// The result of a search.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Below {
-    /// Where the browser was, and the folders that were typed after it.
+    /// The folder of the browser, and the folders typed after it.
     pub asked: (PathBuf, String),
-    /// The cases, those that are near first.
+    /// The cases, the nearest first.
     pub cases: Vec<Case>,
-    /// Whether the walk ended before it was through.
+    /// Whether the search ended at a limit.
     pub is_cut: bool,
 }
 
-/// Walk; `None` where `go_on` says that it is wanted no more. Hidden folders are passed by, and
-/// links are not followed.
+/// Searches for cases; returns `None` if `go_on` returns false. Skips hidden folders and does not
+/// follow links.
 #[must_use]
 pub fn find(base: PathBuf, typed: String, go_on: &dyn Fn(f64) -> bool) -> Option<Below> {
     let top = place_of(&base, &typed);
@@ -112,7 +112,7 @@ impl Case {
 }
 
 impl Below {
-    /// The path of a case, as the browser calls it.
+    /// The path of a case, relative to the browser.
     #[must_use]
     pub(crate) fn path(&self, case: &Case) -> PathBuf {
         beneath(&self.asked.0, &self.asked.1).join(&case.way)

@@ -1,4 +1,4 @@
-//! What stands in a folder: the folders and the cases, however they are called and however many.
+//! The content of a folder: its folders and cases, with any names.
 
 use std::ffi::OsString;
 use std::fs;
@@ -8,36 +8,36 @@ use super::at_home;
 use crate::case::rexs;
 use crate::case::sanitize::sanitize;
 
-/// So many are listed; a folder with more is not for looking through.
+/// Greatest number of listed entries.
 const MOST: usize = 50_000;
 
 /// An entry of a folder.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry {
-    /// Folders stand after the cases.
+    /// Folders sort after cases.
     pub(crate) is_folder: bool,
-    /// Its name as a person reads it.
+    /// Its name as text.
     pub(crate) name: String,
-    /// The same in small letters.
+    /// The name in lower case.
     pub(crate) folded: String,
-    /// Its name, which need not be text.
+    /// Its name, which need not be valid text.
     pub(crate) file: OsString,
 }
 
-/// What stands in a folder.
+/// The content of a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listing {
-    /// Where the browser was, and the folders that were typed after it.
+    /// The folder of the browser, and the folders typed after it.
     pub asked: (PathBuf, String),
-    /// The folder, in full.
+    /// The full path of the folder.
     pub(crate) folder: PathBuf,
-    /// What stands in it, hidden entries too; or why it cannot be read.
+    /// The entries, including hidden ones; or the error of reading.
     pub entries: Result<Vec<Entry>, String>,
-    /// Whether there are more than are listed.
+    /// Whether the list is incomplete.
     pub(crate) is_cut: bool,
 }
 
-/// Look into a folder.
+/// Lists a folder.
 #[must_use]
 pub fn list(base: PathBuf, typed: String) -> Listing {
     let place = place_of(&base, &typed);
@@ -54,7 +54,7 @@ pub fn list(base: PathBuf, typed: String) -> Listing {
     }
 }
 
-/// The folder that is meant, the present one where nothing is said.
+/// The typed folder; by default the present folder.
 pub(crate) fn place_of(base: &Path, typed: &str) -> PathBuf {
     let place = at_home(&beneath(base, typed));
     if place.as_os_str().is_empty() {
@@ -74,10 +74,10 @@ pub fn beneath(base: &Path, typed: &str) -> PathBuf {
     }
 }
 
-/// The folders and cases of a folder in the order of their names.
+/// The folders and cases of a folder, sorted by name.
 ///
 /// # Errors
-/// In words, where it cannot be read.
+/// The error of reading, as text.
 pub(crate) fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
     let found =
         fs::read_dir(folder).map_err(|error| format!("This folder cannot be read: {error}."))?;
@@ -91,7 +91,7 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
 }
 
 impl Entry {
-    /// Whether a file of that name is taken for a case, or for a model that becomes one.
+    /// Whether a file with this name is a case, or a model that can be imported as a case.
     #[must_use]
     pub(crate) fn is_case(file: &Path) -> bool {
         let is_toml = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("toml");
@@ -101,7 +101,7 @@ impl Entry {
     fn of(entry: &fs::DirEntry) -> Option<Entry> {
         let file = entry.file_name();
         let kind = entry.file_type().ok()?;
-        // Only a link has to be followed to know.
+        // Only a link needs another system call.
         let is_folder = kind.is_dir() || kind.is_symlink() && entry.path().is_dir();
         let is_case = !is_folder && Entry::is_case(Path::new(&file));
         let name = sanitize(&file.to_string_lossy());

@@ -1,5 +1,4 @@
-//! What a file or a folder holds, in a few lines: a case with its verdict, or what is wrong with
-//! it.
+//! Previews of files and folders: a case with its verdict, or its faults.
 
 use std::path::{Path, PathBuf};
 
@@ -8,10 +7,10 @@ use crate::case::units::System;
 use crate::case::{Document, Example};
 use crate::report::digest::Digest;
 
-/// More faults of a file are counted and not shown.
+/// Greatest number of shown faults; further faults are counted.
 const MOST_FAULTS: usize = 20;
 
-/// What a preview is of.
+/// The target of a preview.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Viewport {
     /// A case file.
@@ -22,20 +21,20 @@ pub enum Viewport {
     Example(&'static Example),
 }
 
-/// What something on the disk holds.
+/// The preview of a file or a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Preview {
-    /// A case, and whether it is of a newer format.
+    /// A case, and whether it has a newer format.
     Case(Digest, bool),
     /// The required values that are missing from a case.
     Draft(Vec<String>),
-    /// What is wrong with it, the first of them, and how many more there are.
+    /// The first faults of a file, and the number of further ones.
     Faults(Vec<String>, usize),
-    /// A folder with so many cases and folders.
+    /// A folder, with its numbers of cases and folders.
     Folder(usize, usize),
 }
 
-/// Look; `None` where `go_on` says that it is wanted no more.
+/// Computes a preview; returns `None` if `go_on` returns false.
 #[must_use]
 pub(crate) fn of(sight: &Viewport, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
     match sight {

@@ -1,5 +1,5 @@
-//! The list of recent cases, the latest first, in the folder of state. It is a convenience, so its
-//! errors are ignored.
+//! The list of recent cases, the latest first, in the state folder. Its errors are ignored, because
+//! the list is only a convenience.
 
 use std::fs;
 use std::io::{self, Write};
@@ -11,24 +11,24 @@ use super::state::{self, State};
 use crate::case::sanitize::sanitize;
 use crate::system::paths;
 
-/// So many are remembered.
+/// Greatest number of recent cases.
 const MOST: usize = 20;
-/// A longer file is none of ours.
+/// Greatest size of the file.
 const MOST_BYTES: u64 = 256 * 1024;
-/// The one character that no path holds.
+/// Separator of paths: the only byte that no path contains.
 const END: u8 = 0;
 
-/// A case that was open once.
+/// A case that was opened before.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recent {
     pub(crate) path: PathBuf,
-    /// The path as a person reads it, in small letters.
+    /// The path as text in lower case.
     pub(crate) folded: String,
-    /// Whether nothing is there any more.
+    /// Whether the file is missing.
     pub(crate) is_missing: bool,
 }
 
-/// Look whether the cases are still there.
+/// Checks which files still exist.
 #[must_use]
 pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
     let look = |path: PathBuf| {
@@ -43,7 +43,7 @@ pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
     paths.into_iter().map(look).collect()
 }
 
-/// The cases that were open last.
+/// The recent cases.
 #[must_use]
 pub(crate) fn list() -> Vec<PathBuf> {
     let Some(file) = file() else {
@@ -58,13 +58,13 @@ pub(crate) fn list() -> Vec<PathBuf> {
     }
 }
 
-/// The case that was open last.
+/// The latest case.
 #[must_use]
 pub(crate) fn last() -> Option<PathBuf> {
     list().into_iter().next()
 }
 
-/// Remember a case as the latest.
+/// Adds a case as the latest.
 pub(crate) fn add(path: &Path) {
     let write = || -> io::Result<()> {
         let file = file().ok_or(io::ErrorKind::NotFound)?;
@@ -102,7 +102,7 @@ fn render(paths: &[PathBuf]) -> Vec<u8> {
 }
 
 fn file() -> Option<PathBuf> {
-    // A single path without an end is how the last case was kept before.
+    // Earlier versions stored the last case as a single path without a separator.
     State::find().folder.map(|folder| folder.join("last-case"))
 }
 

@@ -1,6 +1,6 @@
-//! The folder of state, which outlives a session: recent cases and journals of unsaved edits.
+//! The state folder, which survives a session: recent cases and journals of unsaved edits.
 //!
-//! Only a folder that no other user can change is used; else a private one takes its place.
+//! Only a folder that no other user can change is used; otherwise a private folder replaces it.
 
 use std::collections::VecDeque;
 use std::env;
@@ -15,22 +15,22 @@ use directories::ProjectDirs;
 use crate::case::sanitize::sanitize;
 use crate::system::users::{self, Access};
 
-/// Folders inside the folder of state.
+/// Folders inside the state folder.
 const INSIDE: [&str; 2] = ["journals", "sessions"];
-/// Symbolic links that are followed, one after the other.
+/// Greatest number of symbolic links to follow.
 const MOST_LINKS: usize = 40;
 const STICKY: u32 = 0o1000;
 const OWN_FOLDER: &str = "set XDG_STATE_HOME to a folder of your own";
 const NO_FOLDER: &str = "HOME and XDG_STATE_HOME name no folder: set one of them";
 
-/// The folders of state that only this user can change.
+/// The state folders that only this user can change.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Where this session writes.
+    /// The folder of this session.
     pub folder: Option<PathBuf>,
-    /// Where earlier sessions may have written.
+    /// Folders in which earlier sessions may have written.
     pub others: Vec<PathBuf>,
-    /// Why the usual folder is not used, and which one takes its place.
+    /// Why the usual folder is not used, and which folder replaces it.
     pub notice: Option<String>,
 }
 
@@ -43,13 +43,13 @@ enum Exposed {
 }
 
 impl State {
-    /// The folders as the environment names them.
+    /// The folders that the environment names.
     #[must_use]
     pub(crate) fn find() -> State {
         State::choose(usual(), private())
     }
 
-    /// The first private folder of the usual one and those that can take its place.
+    /// Selects the first private folder of the usual one and its replacements.
     #[must_use]
     pub fn choose(usual: Option<PathBuf>, private: Vec<PathBuf>) -> State {
         let user = users::user();
@@ -78,12 +78,12 @@ impl State {
     }
 }
 
-/// Make a folder that only its owner looks into, and those above it.
+/// Creates a folder that only its owner can read, and its parents.
 pub(in crate::tui) fn make(folder: &Path) -> io::Result<()> {
     users::create_private(folder)
 }
 
-/// Refuse a folder of state that another user can change.
+/// Refuses a state folder that another user can change.
 pub(in crate::tui) fn require_private(folder: &Path) -> io::Result<()> {
     let user = users::user();
     check(folder, user).map_err(|why| io::Error::other(why.to_string()))
@@ -115,7 +115,7 @@ fn absolute(variable: &str) -> Option<PathBuf> {
         .filter(|path| path.is_absolute())
 }
 
-/// A missing folder is no fault: it is made private.
+/// A missing folder is accepted, because it is created as private.
 fn check(folder: &Path, user: u32) -> Result<(), Exposed> {
     is_private(folder, user)?;
     INSIDE
@@ -123,11 +123,11 @@ fn check(folder: &Path, user: u32) -> Result<(), Exposed> {
         .try_for_each(|name| is_private(&folder.join(name), user))
 }
 
-/// Every link and folder on the way belongs to the user or the system, and nobody else may replace
-/// anything on it, nor write into the last folder.
+/// Checks that every link and folder of the path belongs to the user or the system, that nobody
+/// else may replace any of them, and that nobody else may write into the last folder.
 fn is_private(folder: &Path, user: u32) -> Result<(), Exposed> {
     let mut at = PathBuf::from("/");
-    // In a container the files of the system may belong to another number than 0.
+    // In a container the files of the system may belong to another user than 0.
     let system = fs::metadata(&at).map_or(0, |root| Access::of(&root).owner);
     let mut links = 0;
     let mut parts = parts_of(folder);
@@ -171,8 +171,8 @@ fn is_private(folder: &Path, user: u32) -> Result<(), Exposed> {
     Ok(())
 }
 
-/// In a sticky folder everybody writes, and nobody replaces the files of others. A group with the
-/// number of the owner is the owner's own, as most systems make one for each user.
+/// In a sticky folder everybody may write, but nobody may replace the files of others. A group with
+/// the number of the owner is private, because most systems create one group for each user.
 fn others_may_write(Access { owner, group, mode }: Access, is_last: bool) -> bool {
     let is_own_group = !is_last && [owner, 0].contains(&group);
     let by_group = mode & 0o020 != 0 && !is_own_group;
@@ -278,7 +278,7 @@ mod tests {
     fn a_link_or_folder_of_another_user_is_replaced_by_a_private_one() {
         let (_folder, path) = folder_with(&["state", "theirs", "mine"]);
         symlink(path.join("mine"), path.join("state/journals")).expect("a link");
-        // Only the superuser gives files away.
+        // Only the superuser may change the owner of a file.
         if lchown(path.join("state/journals"), Some(65534), None).is_err()
             || lchown(path.join("theirs"), Some(65534), None).is_err()
         {

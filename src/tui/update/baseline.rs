@@ -1,9 +1,9 @@
-//! The baseline: results that are pinned, and held against all others.
+//! The baseline: pinned results for comparison.
 
 use crate::tui::app::App;
 use crate::tui::baseline::Baseline;
 
-/// Pin the results of the current case, or let go of those that are pinned.
+/// Pins the results of the current case, or unpins the pinned ones.
 pub(super) fn toggle(app: &mut App) {
     if let Some(baseline) = app.baseline.take() {
         app.say(format!("baseline {} unpinned", baseline.name));
@@ -15,7 +15,7 @@ pub(super) fn toggle(app: &mut App) {
     }
 }
 
-/// Pin the results that were asked for as soon as all of them are there.
+/// Pins the requested results as soon as they are complete.
 pub(super) fn pin(app: &mut App) {
     let Some(answer) = app
         .tab
@@ -39,8 +39,8 @@ pub(super) fn pin(app: &mut App) {
     app.say(words);
 }
 
-/// A case that had no file when it was pinned is called as the file that these values were saved
-/// to.
+/// A case that had no file when it was pinned gets the name of the file to which these values were
+/// saved.
 pub(super) fn rename(app: &mut App) {
     let (tab, name) = (app.tab.id, app.tab.short_name());
     let saved = &app.tab.saved;

@@ -1,4 +1,4 @@
-//! The browser of files: opening it, and its own keys.
+//! The file browser: its opening and its keys.
 
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
@@ -6,7 +6,7 @@ use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::browser::Browser;
 use crate::tui::jobs::Job;
 
-/// Ask for a file to open, from the folder of the present case or from the recent ones.
+/// Opens the browser in the folder of the present case or on the recent cases.
 pub(super) fn open(app: &mut App, prefers_recents: bool) -> Vec<Effect> {
     let browser = Browser::beside(app.tab.path.as_deref(), prefers_recents);
     let effects = vec![browser.list(), Effect::Job(Job::Recents)];
@@ -14,7 +14,7 @@ pub(super) fn open(app: &mut App, prefers_recents: bool) -> Vec<Effect> {
     effects
 }
 
-/// Go to the recent cases, in a browser that is open or in a new one.
+/// Goes to the recent cases, in an open browser or in a new one.
 pub(super) fn recent(app: &mut App) -> Vec<Effect> {
     match browser(app) {
         Some(browser) => {
@@ -25,7 +25,7 @@ pub(super) fn recent(app: &mut App) -> Vec<Effect> {
     }
 }
 
-/// Go to the folder above.
+/// Goes to the parent folder.
 pub(super) fn up(app: &mut App) -> Vec<Effect> {
     let Some(browser) = browser(app) else {
         return Vec::new();
@@ -35,7 +35,7 @@ pub(super) fn up(app: &mut App) -> Vec<Effect> {
     vec![browser.list()]
 }
 
-/// Whether nothing is typed in a browser, so that there is nothing to delete.
+/// Whether the line of a browser is empty, so that there is nothing to delete.
 pub(super) fn is_in_empty_line(app: &mut App) -> bool {
     browser(app).is_some_and(|browser| browser.input.value().is_empty())
 }

@@ -1,4 +1,4 @@
-//! What Esc and Ctrl-C end: what is topmost first.
+//! Esc and Ctrl-C: they end the topmost dialog or work first.
 
 use super::{cursor, edit, files, panes, study};
 use crate::model::Stage;
@@ -7,11 +7,11 @@ use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::tab::Tab;
 
-/// Said by Ctrl-C where there is nothing to cancel and nothing unsaved.
+/// Message of Ctrl-C if there is nothing to cancel and nothing unsaved.
 pub(super) const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again to \
     quit";
 
-/// Esc: what is topmost goes, and nothing is lost.
+/// Esc: closes or stops the topmost item; no edit is lost.
 pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     if let Some(mut prompt) = app.prompts.pop() {
         return prompt.dialog_mut().close();
@@ -19,7 +19,7 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     if let Some(case) = app.before_digit.take() {
         return edit::take_back(app, case);
     }
-    // A study beside the form is started by every edit, and Esc leaves the field.
+    // Every edit restarts a visible study, and Esc leaves the field.
     let stopped = stop(app, app.layout.focus() == Pane::Study);
     if !stopped.is_empty() {
         return stopped;
@@ -39,8 +39,8 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Ctrl-C: what is topmost goes. When nothing is left it quits the second time, for it is also the
-/// key by which others copy.
+/// Ctrl-C: closes or stops the topmost item. If there is none, the second press quits, because
+/// other programs copy with this key.
 pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
     if let Some(mut prompt) = app.prompts.pop() {
         return prompt.dialog_mut().close();
@@ -85,7 +85,7 @@ fn stop(app: &mut App, has_study: bool) -> Vec<Effect> {
         .collect()
 }
 
-// The least relief, which is sought once the rest is shown.
+// Stops the search for the required relief, which starts after the other results are shown.
 fn stop_seeking(app: &mut App) -> Option<Effect> {
     let answer = app
         .tab

@@ -1,4 +1,4 @@
-//! What comes from lists: a material for a gear, a limit for a result.
+//! Selections from lists: a material for a gear, a limit for a result.
 
 use super::edit;
 use crate::case::fields::index_of;
@@ -17,7 +17,7 @@ use crate::tui::pane::Pane;
 use crate::tui::panes::results;
 use crate::tui::rows::{self, Row};
 
-/// Ask for the material of the gear whose field is focused, else of both.
+/// Opens the list of materials for the gear of the focused field, otherwise for both gears.
 pub(super) fn materials(app: &mut App) {
     let gears: &[&str] = match rows::row(&app.tab.case, app.tab.form.focus) {
         Row::Field(field) if FIELDS[field].table() == "driver" => &["driver"],
@@ -28,14 +28,14 @@ pub(super) fn materials(app: &mut App) {
         .push(Prompt::Pick(Picker::new(List::Materials(gears))));
 }
 
-/// Ask for an example to begin with.
+/// Opens the list of examples.
 pub(super) fn examples(app: &mut App) -> Vec<Effect> {
     app.prompts
         .push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
     vec![Effect::Job(Job::Examples(app.settings.units))]
 }
 
-/// Make the gears of a material: one edit, which undo takes back.
+/// Sets the material of the gears as one edit, which undo reverts.
 pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Effect> {
     let mut case = app.tab.case.clone();
     let made = gears
@@ -61,7 +61,7 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
     effects
 }
 
-// What a material sets, by its symbols.
+// The values that a material sets, with their symbols.
 fn assignments(app: &App, material: &Material) -> String {
     let values = material.texts().map(|(name, text)| {
         let field = FIELDS.iter().find(|field| field.name() == name);
@@ -73,7 +73,8 @@ fn assignments(app: &App, material: &Material) -> String {
     values.join(", ")
 }
 
-/// Hold the marked result to a limit where the results have the focus, else ask which.
+/// Sets a limit on the selected result if the results have the focus, otherwise opens the list of
+/// results.
 pub(super) fn limit(app: &mut App) -> Vec<Effect> {
     if let Some(quantity) =
         results::marked(&app.results()).filter(|_| app.layout.focus() == Pane::Results)
@@ -84,7 +85,7 @@ pub(super) fn limit(app: &mut App) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Go to the limit of a quantity; a new one begins with what the quantity is now.
+/// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.
 pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
     let mut effects = Vec::new();
     if rows::of_limit(&app.tab.case, quantity.key).is_none() {
@@ -99,7 +100,7 @@ pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
     effects
 }
 
-// The quantity's value as it is shown, rounded up so that it holds.
+// The printed value of the quantity, rounded up so that the limit is met.
 fn beginning(app: &App, quantity: &'static Quantity) -> String {
     let value = app
         .tab

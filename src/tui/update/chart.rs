@@ -19,7 +19,7 @@ pub(super) fn fit(app: &mut App) {
     }
 }
 
-/// Scrolls to a cursor that moved.
+/// Scrolls to a moved cursor.
 pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
         app.chart.view = app

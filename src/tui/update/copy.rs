@@ -1,4 +1,4 @@
-//! Copying to the clipboard of the user's own terminal.
+//! Copying to the clipboard of the user's terminal.
 
 use crate::report::{self, Report, Selection};
 use crate::tui::actions::Effect;
@@ -11,11 +11,11 @@ use crate::tui::panes::chart;
 use crate::tui::panes::results;
 use crate::tui::rows::{self, Row};
 
-/// Terminals refuse more than this, or cut it.
+/// Terminals refuse or cut a longer text.
 const MOST_BYTES: usize = 48 * 1024;
 
-/// The focused value: of the form its text, of chart and teeth the reading at the cursor, else the
-/// marked result.
+/// Copies the focused value: in the form its text, in chart and teeth the reading at the cursor,
+/// otherwise the selected result.
 pub(super) fn value(app: &mut App) -> Vec<Effect> {
     if app.layout.focus() == Pane::Form {
         let text = match rows::row(&app.tab.case, app.tab.form.focus) {
@@ -48,8 +48,8 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
     copy(app, text, quantity.label.trim())
 }
 
-/// Requests the report of the active method as Markdown: title, verdict, inputs, results with their
-/// units.
+/// Requests the report of the active method as Markdown: title, verdict, inputs, and results with
+/// their units.
 pub(super) fn results(app: &mut App) -> Vec<Effect> {
     let answer = app.tab.answer.as_ref().filter(|_| !app.tab.is_stale());
     let solved = answer.and_then(|answer| Some((answer, answer.of(answer.active)?)));

@@ -1,4 +1,4 @@
-//! The cursor on the driver's roll angle, shared by charts and teeth: keys, prompt and run.
+//! The cursor on the driver's roll angle, common to charts and teeth: keys, prompt and animation.
 
 use super::panes;
 use crate::tui::actions::Effect;
@@ -61,7 +61,7 @@ pub(super) fn to_end(app: &mut App) -> Vec<Effect> {
     stop(app)
 }
 
-/// Starts or stops the run. At its end the run starts again.
+/// Starts or stops the animation. At its end it starts again.
 pub(super) fn play(app: &mut App) -> Vec<Effect> {
     if app.is_playing {
         return stop(app);
@@ -80,7 +80,7 @@ pub(super) fn play(app: &mut App) -> Vec<Effect> {
     vec![Effect::Play(true)]
 }
 
-/// Moves to the next picture of the run.
+/// Moves to the next frame of the animation.
 pub(super) fn tick(app: &mut App) -> Vec<Effect> {
     if !app.is_playing {
         return vec![Effect::Play(false)];
@@ -97,7 +97,7 @@ pub(super) fn tick(app: &mut App) -> Vec<Effect> {
     }
 }
 
-/// Stops the run.
+/// Stops the animation.
 pub(super) fn stop(app: &mut App) -> Vec<Effect> {
     if std::mem::take(&mut app.is_playing) {
         vec![Effect::Play(false)]

@@ -1,4 +1,4 @@
-//! Keys, mouse and results for the topmost dialog, and what follows from its outcome.
+//! Keys, mouse and results for the topmost dialog, and the effects of its outcome.
 
 use super::{catalogue, cursor, export, files, panes, relief, run, solve, study, tabs, variants};
 use crate::model::Quantity;
@@ -7,7 +7,7 @@ use crate::tui::app::App;
 use crate::tui::dialogs::picker::Pick;
 use crate::tui::dialogs::{Dialog, Outcome, Prompt, Surroundings};
 
-/// Lets the topmost dialog act. `None` if there is no dialog.
+/// Passes control to the topmost dialog; `None` if there is no dialog.
 pub(super) fn with<T>(
     app: &mut App,
     act: impl FnOnce(&mut dyn Dialog, &Surroundings<'_>) -> T,
@@ -18,19 +18,19 @@ pub(super) fn with<T>(
     Some(result)
 }
 
-/// Enter.
+/// Handles Enter.
 pub(super) fn accept(app: &mut App) -> Vec<Effect> {
     let outcome = with(app, |dialog, around| dialog.accept(around));
     outcome.map_or_else(Vec::new, |outcome| decided(app, outcome))
 }
 
-/// A letter: an answer of its own, or `None` if it is text for a line.
+/// Handles a letter that is a command of the dialog; `None` if it is text for a line.
 pub(super) fn letter(app: &mut App, letter: char) -> Option<Vec<Effect>> {
     let outcome = app.prompts.last_mut()?.dialog_mut().letter(letter)?;
     Some(decided(app, outcome))
 }
 
-/// The result of a job.
+/// Passes on the result of a job.
 pub(super) fn receive(app: &mut App, result: Action) {
     if let Some(prompt) = app.prompts.last_mut() {
         prompt.dialog_mut().receive(result);

@@ -1,4 +1,4 @@
-//! Typing: every edit of a field goes into the case at once.
+//! Typing: every edit of a field changes the case immediately.
 
 use std::borrow::Cow;
 
@@ -15,10 +15,10 @@ use crate::tui::session::recovery;
 use crate::tui::update::browse;
 use crate::tui::{ascii, rows};
 
-/// A longer text is no value, title or path.
+/// Greatest length of a text; a longer one is not a value, title or path.
 const LONGEST: usize = 4096;
 
-/// A character typed.
+/// Inserts a typed character.
 pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
@@ -32,7 +32,7 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     effects
 }
 
-// Outside a field the same digit shows a pane.
+// Reports the effect of a digit, because outside a field the same digit shows a pane.
 fn announce(app: &mut App, digit: char, before: &Case) {
     let earlier = app.message.take();
     let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
@@ -50,7 +50,7 @@ fn announce(app: &mut App, digit: char, before: &Case) {
     app.say(format!("{earlier}{edit}{pane}"));
 }
 
-/// Esc after the digit that started a new value: the field has its value again and is left.
+/// Esc after the digit that started a new value: restores the value and leaves the field.
 pub(super) fn take_back(app: &mut App, case: Case) -> Vec<Effect> {
     let focus = app.tab.form.focus;
     app.tab.history.forget_visit(&case);
@@ -65,8 +65,7 @@ pub(super) fn take_back(app: &mut App, case: Case) -> Vec<Effect> {
     effects
 }
 
-/// Text pasted: into a line of text and nowhere else, what controls a terminal left out. Of several
-/// lines one is made.
+/// Inserts a pasted text into a line of text, without control characters. Several lines become one.
 pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let editing_case = app.prompts.is_empty();
     let takes_text = app.has_line() && names(app).is_empty();
@@ -107,7 +106,7 @@ fn in_a_line(text: &str) -> Cow<'_, str> {
         .into()
 }
 
-/// A key that moves in the line or deletes from it.
+/// Handles a key that moves the cursor or deletes text.
 pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
     if request == InputRequest::DeletePrevChar && browse::is_in_empty_line(app) {
         return browse::up(app);
@@ -129,19 +128,19 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
     }
 }
 
-/// Type into the focused field: what is typed replaces its value, until the cursor is moved.
+/// Starts an edit of the focused field: typing replaces its value until the cursor moves.
 pub(super) fn begin(app: &mut App) {
     app.layout.focus_on(Pane::Form);
     app.is_editing = true;
     app.tab.form.input.select_all();
 }
 
-/// Take the next or the previous of the names of the focused field.
+/// Selects the next or the previous choice of the focused field.
 pub(super) fn cycle(app: &mut App, by: isize) -> Vec<Effect> {
     choose(app, app.tab.form.focus, names(app), by)
 }
 
-/// Take a name beside the present one, in any field of names.
+/// Selects the choice beside the present one, in any field with choices.
 pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> Vec<Effect> {
     let now = names.iter().position(|name| *name == chosen(app, field));
     let count = names.len().max(1);
@@ -152,12 +151,12 @@ pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> 
     set(app, field, name)
 }
 
-/// The names that the focused row offers.
+/// The choices of the focused row.
 fn names(app: &App) -> &'static [&'static str] {
     rows::names(&app.tab.case, app.tab.form.focus)
 }
 
-/// Move the value of the focused row by so many units of its last digit.
+/// Steps the value of the focused row by units of its last digit.
 pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
     let Some(text) = rows::stepped(&app.tab.case, app.tab.form.focus, by) else {
         app.say(format!(
@@ -170,7 +169,7 @@ pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
     write(app)
 }
 
-/// The name that holds in a field of names.
+/// The choice of a field that applies.
 pub(super) fn chosen(app: &App, field: usize) -> &str {
     match (app.tab.case.text(field), FIELDS[field].absent) {
         (Some(text), _) | (None, Absent::Default(text)) => text,
@@ -193,7 +192,7 @@ fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Take a name, in any field of names.
+/// Selects a choice, in any field with choices.
 pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     if chosen(app, field) == name {
         return Vec::new();
@@ -206,7 +205,7 @@ pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     checked(app)
 }
 
-/// The end of the message about an edit that puts this case into the form.
+/// The end of the message about an edit that replaces the case of the form.
 pub(super) fn undone_by(app: &App, case: &Case) -> &'static str {
     if *case == app.tab.case {
         ", unchanged"
@@ -215,7 +214,7 @@ pub(super) fn undone_by(app: &App, case: &Case) -> &'static str {
     }
 }
 
-/// Put another case into the form as one edit of its own.
+/// Replaces the case of the form as one edit.
 pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
     if case == app.tab.case {
         return Vec::new();
@@ -240,7 +239,7 @@ fn write(app: &mut App) -> Vec<Effect> {
     if is_other { checked(app) } else { Vec::new() }
 }
 
-// What is typed, a number with its unit; blanks around a number are none of it.
+// The typed text, a number with its unit; blanks around a number are removed.
 fn completed(app: &App) -> String {
     let text = [
         app.tab.form.input.value(),
@@ -256,8 +255,8 @@ fn completed(app: &App) -> String {
     }
 }
 
-// Of two fields that exclude each other, the one being typed stays. Once it is empty again, the
-// other returns. The status line reports it while typing.
+// Of two fields that exclude each other, the edited one applies. Once it is empty again, the value
+// of the other is restored. The status line reports this during typing.
 fn take_turns(app: &mut App, field: usize, other: usize) {
     let Some(before) = app
         .tab
@@ -284,7 +283,7 @@ fn checked(app: &mut App) -> Vec<Effect> {
     solve(request)
 }
 
-// The line of a dialog has changed.
+// Handles a change of the line of a dialog.
 fn line_changed(app: &mut App) -> Vec<Effect> {
     let prompt = app.prompts.last_mut();
     prompt.map_or_else(Vec::new, |prompt| prompt.dialog_mut().typed())

@@ -1,4 +1,4 @@
-//! Writing the report or a picture to a file.
+//! Export of the report or a picture to a file.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use crate::tui::jobs::{ExportFault, Exporting, Job, RunningExport};
 use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 
-/// Ask for the file: a picture where a chart or the teeth have the focus, else the report.
+/// Asks for the file: a picture if a chart or the teeth have the focus, otherwise the report.
 pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     if refuse_faulty(app) {
         return Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Write the file on the worker.
+/// Starts the export on the worker.
 pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect> {
     let inputs = match app.tab.inputs() {
         _ if path.as_os_str().is_empty() => {
@@ -75,7 +75,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
     vec![Effect::Job(Job::Export(Box::new(exporting)))]
 }
 
-/// The picture of the focused pane, else of the visible chart, else of the visible teeth.
+/// The picture of the focused pane, otherwise of the visible chart, otherwise of the visible teeth.
 fn picture(app: &App) -> Option<Picture> {
     let plan = app.layout.plan();
     let is_visible = |pane: &Pane| !plan.area(*pane).is_empty();
@@ -87,7 +87,7 @@ fn picture(app: &App) -> Option<Picture> {
     })
 }
 
-/// The export was written, or not.
+/// Reports the result of an export.
 pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) {
     let picture = app.exporting.take().and_then(|running| running.picture);
     if app

@@ -1,4 +1,4 @@
-//! Opening, saving and leaving, with a question before anything is lost.
+//! Opening, saving and quitting, with a question before edits are discarded.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ use crate::tui::session::recovery::{Access, NEWER};
 use crate::tui::session::save::{Next, Over, SaveFault, Saving, Written};
 use crate::tui::tab::{Origin, Tab};
 
-/// Leave, or ask when anything is unsaved.
+/// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {
     let unsaved: Vec<_> = app
         .tabs()
@@ -47,7 +47,7 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
     }
 }
 
-/// Ends the workbench, or asks while an export runs.
+/// Ends the workbench, or asks if an export is running.
 fn leave(app: &mut App) -> Vec<Effect> {
     let Some(running) = &app.exporting else {
         return vec![Effect::Quit];
@@ -57,7 +57,7 @@ fn leave(app: &mut App) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Close the current case, or ask when it is unsaved.
+/// Closes the current case, or asks if it has unsaved edits.
 pub(super) fn close(app: &mut App) -> Vec<Effect> {
     if app.tab.is_unsaved() {
         app.prompts.push(Prompt::Ask(Question::unsaved(
@@ -69,7 +69,7 @@ pub(super) fn close(app: &mut App) -> Vec<Effect> {
     go(app, Next::Close)
 }
 
-/// Save to the file of the case, or ask where to.
+/// Saves to the file of the case, or asks for a path.
 pub(super) fn save(app: &mut App, next: Next) -> Vec<Effect> {
     if refuse_faulty(app) {
         return Vec::new();
@@ -80,7 +80,7 @@ pub(super) fn save(app: &mut App, next: Next) -> Vec<Effect> {
     }
 }
 
-/// Ask for a path to save to.
+/// Asks for a path to save to.
 pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
     if refuse_faulty(app) {
         return Vec::new();
@@ -95,7 +95,7 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
     Vec::new()
 }
 
-/// An answer to a question.
+/// Carries out the answer to a question.
 pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
     app.prompts.pop();
     match choice {
@@ -116,7 +116,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
     }
 }
 
-/// Opens a file that was read; reports its faults if there are any.
+/// Opens a file that was read; reports its faults, if any.
 pub(super) fn loaded(
     app: &mut App,
     path: PathBuf,
@@ -144,7 +144,7 @@ pub(super) fn loaded(
     }
 }
 
-/// A file was written, or not.
+/// Handles the result of a save.
 pub(super) fn saved(
     app: &mut App,
     path: PathBuf,
@@ -159,7 +159,7 @@ pub(super) fn saved(
                 app.prompts.pop();
             }
             app.tab.saved = document.case.clone();
-            // Later edits are not saved, and stay.
+            // Later edits are not saved and remain.
             let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
             if is_as_asked && app.tab.case != document.case {
                 app.tab.case = document.case.clone();
@@ -198,7 +198,7 @@ pub(super) fn saved(
     Vec::new()
 }
 
-/// What was picked from a list.
+/// Carries out the step after a save.
 fn go(app: &mut App, next: Next) -> Vec<Effect> {
     match next {
         Next::Stay => Vec::new(),
@@ -218,7 +218,7 @@ fn save_rest(app: &mut App) -> Vec<Effect> {
     save(app, Next::SaveRest)
 }
 
-/// Open a file; a case that is open already is gone to, with what is unsaved in it.
+/// Opens a file. If the case is already open, goes to its tab with its unsaved edits.
 pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
     let Some(at) = place_of(app, &path) else {
         return vec![Effect::Load(path)];
@@ -232,7 +232,7 @@ pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
     Vec::new()
 }
 
-// The same file by another path, over a link, is the same case.
+// A path through a link names the same file, and hence the same case.
 fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
     let is_it = |tab: &Tab| {
         tab.path.as_deref().is_some_and(|own| own != path)
@@ -258,7 +258,7 @@ fn place_of(app: &App, path: &Path) -> Option<usize> {
         .position(|tab| tab.path.as_deref() == Some(&path))
 }
 
-// A file with wrong values could not be opened again; one in which values are missing can.
+// A file with invalid values could not be opened again; a file with missing values can.
 fn refuse_faulty(app: &mut App) -> bool {
     let wrong = app
         .tab
@@ -286,7 +286,7 @@ fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     )
 }
 
-// The list of cases in a folder shows only names with the ending.
+// The list of cases in a folder shows only names with the extension.
 fn named(name: &str) -> PathBuf {
     let last = name.rsplit('/').next().unwrap_or_default();
     let is_place = matches!(last, "" | "." | ".." | "~");
@@ -298,7 +298,7 @@ fn named(name: &str) -> PathBuf {
     })
 }
 
-/// Save under the name that is typed.
+/// Saves under the typed name.
 pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
     if name.trim().is_empty() {
         app.complain("type a name for the file");

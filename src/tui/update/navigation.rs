@@ -1,4 +1,4 @@
-//! Walking: lines, groups and pages, in the focused pane or in what lies over it.
+//! Navigation by lines, groups and pages, in the focused pane or in the topmost dialog.
 
 use super::{dialogs, trade};
 use crate::case::Case;
@@ -8,7 +8,7 @@ use crate::tui::pane::Pane;
 use crate::tui::panes::results;
 use crate::tui::rows;
 
-/// A command that moves a focus or a mark; others change nothing.
+/// Carries out a command that moves the focus or the selection; ignores other commands.
 pub(super) fn walk(app: &mut App, command: Command) {
     match command {
         Command::Next => step(app, 1),
@@ -31,7 +31,7 @@ fn field(app: &mut App, field: usize) {
     app.focus_on(field);
 }
 
-// Round and round those that are wrong.
+// Goes to the next invalid field, wrapping around.
 fn fault(app: &mut App) {
     let rows = || {
         let problems = app.tab.problems.iter().map(|(row, _)| *row);
@@ -82,7 +82,7 @@ fn page(app: &App) -> isize {
     results::page(&app.results()).max(2).cast_signed() - 1
 }
 
-// The first field of the next group, of this one, or of the one before.
+// The first field of the next group, of this one, or of the previous one.
 fn group_beside(case: &Case, focus: usize, by: isize) -> usize {
     let starts = rows::groups(case);
     let found = if by > 0 {

@@ -1,4 +1,4 @@
-//! What the user chooses for every case: marker, theme, ASCII, units, mouse.
+//! Settings for every case: marker, theme, ASCII, units, mouse.
 
 use ratatui::symbols::Marker;
 
@@ -7,7 +7,7 @@ use crate::tui::app::App;
 use crate::tui::settings::marker_name;
 use crate::tui::theme::ThemeName;
 
-/// Another way to draw a point.
+/// Switches to the next marker.
 pub(super) fn cycle_marker(app: &mut App) -> Vec<Effect> {
     if app.look.ascii {
         app.say("the marker has no effect: the chart is drawn in ASCII");
@@ -22,7 +22,7 @@ pub(super) fn cycle_marker(app: &mut App) -> Vec<Effect> {
     keep(app)
 }
 
-/// Other colours.
+/// Switches to the next theme.
 pub(super) fn cycle_theme(app: &mut App) -> Vec<Effect> {
     let name = match ThemeName::of(app.look.theme) {
         ThemeName::Quiet => ThemeName::Contrast,
@@ -37,8 +37,7 @@ pub(super) fn cycle_theme(app: &mut App) -> Vec<Effect> {
 
 const UNICODE: &str = "drawn in Unicode; a locale without UTF-8 keeps it for this session only";
 
-/// ASCII alone, from now on; or, in this session whatever the environment says, the whole of
-/// Unicode.
+/// Switches between ASCII and Unicode; Unicode only for this session if the environment lacks it.
 pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
     app.look.ascii = !app.look.ascii;
     app.settings.ascii = app.look.ascii;
@@ -50,7 +49,7 @@ pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
     keep(app)
 }
 
-/// Metric units for what is shown, or inch.
+/// Switches the display units between metric and inch.
 pub(super) fn cycle_units(app: &mut App) -> Vec<Effect> {
     app.settings.units = app.settings.units.other();
     app.say(format!(
@@ -60,7 +59,7 @@ pub(super) fn cycle_units(app: &mut App) -> Vec<Effect> {
     keep(app)
 }
 
-/// The mouse for the workbench, or for the terminal.
+/// Turns mouse reports on or off.
 pub(super) fn toggle_mouse(app: &mut App) -> Vec<Effect> {
     app.settings.mouse = !app.settings.mouse;
     app.say(if app.settings.mouse {
@@ -73,7 +72,7 @@ pub(super) fn toggle_mouse(app: &mut App) -> Vec<Effect> {
     effects
 }
 
-/// Keep what was chosen.
+/// Saves the settings.
 pub(super) fn keep(app: &App) -> Vec<Effect> {
     vec![Effect::Keep(app.settings)]
 }

@@ -1,4 +1,4 @@
-//! The page on one result, and the way from it to the fields behind it.
+//! The explanation of a result, and the page of outcome, limits and notes.
 
 use super::dialogs;
 use crate::case::units::System;
@@ -11,7 +11,7 @@ use crate::tui::dialogs::page::Page;
 use crate::tui::jobs::{Explaining, Job};
 use crate::tui::panes::results;
 
-/// Open the page on the marked result.
+/// Opens the explanation of the selected result.
 pub(super) fn explain(app: &mut App) -> Vec<Effect> {
     let Some(quantity) = results::marked(&app.results()) else {
         app.complain("there are no results to explain");
@@ -46,7 +46,7 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
     })))]
 }
 
-/// Open a page with all that stands above and below the results, however little room they have.
+/// Opens a page with the outcome, the limits and every note in full.
 pub(super) fn notes(app: &mut App) {
     let lines = results::in_full(&app.results());
     if lines.is_empty() {
@@ -77,7 +77,7 @@ pub(super) fn refresh(app: &mut App) {
     }
 }
 
-/// Selects another one of the fields, and makes it visible.
+/// Selects another field of the explanation and makes it visible.
 pub(super) fn step(app: &mut App, by: isize) {
     dialogs::with(app, |dialog, around| dialog.select_field(by, around));
 }

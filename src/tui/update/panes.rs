@@ -1,4 +1,4 @@
-//! Focus and layout: which pane takes the keys, which ones have the screen.
+//! Focus and layout: the focused pane, and the visible panes.
 
 use super::edit;
 use crate::tui::app::App;
@@ -6,8 +6,8 @@ use crate::tui::ascii;
 use crate::tui::pane::Pane;
 use crate::tui::panes::results;
 
-/// Go to a pane, and bring it into sight. In the form, letters stay commands until a field is
-/// entered.
+/// Moves the focus to a pane and makes it visible. In the form, letters are commands until the user
+/// enters a field.
 pub(super) fn show(app: &mut App, pane: Pane) {
     app.tab.history.end_visit();
     app.layout.focus_on(pane);
@@ -18,12 +18,12 @@ pub(super) fn show(app: &mut App, pane: Pane) {
     app.follow();
 }
 
-/// The next pane or the one before, round and round.
+/// Moves the focus by `by` panes, wrapping around.
 pub(super) fn step(app: &mut App, by: isize) {
     show(app, app.layout.focus().beside(by));
 }
 
-/// Another pane into the lower area; the focus stays where it is unless it is there.
+/// Shows another pane in the lower area; the focus does not move unless it is there.
 pub(super) fn cycle_lower(app: &mut App) {
     let plan = app.layout.plan();
     let now = Pane::LOWER
@@ -45,19 +45,19 @@ pub(super) fn cycle_lower(app: &mut App) {
     }
 }
 
-/// Give the focused pane the screen, or take it back.
+/// Makes the focused pane fill the screen, or restores the layout.
 pub(super) fn zoom(app: &mut App) {
     app.layout.zoom(!app.layout.is_zoomed());
     app.follow();
 }
 
-/// Go to a field of the form, to type into it.
+/// Goes to a field of the form and starts its edit.
 pub(super) fn go_to(app: &mut App, field: usize) {
     app.focus_on(field);
     edit::begin(app);
 }
 
-/// Go to a result, by its key.
+/// Goes to the result with a key.
 pub(super) fn show_result(app: &mut App, key: &str) {
     let row = results::listed(&app.results()).position(|quantity| quantity.key == key);
     app.tab.results.row = row.unwrap_or(app.tab.results.row);

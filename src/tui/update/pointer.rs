@@ -1,4 +1,4 @@
-//! The mouse, where the user wants it: a click brings the focus or the cursor, the wheel scrolls.
+//! The mouse, if the setting is on: a click moves the focus or the cursor, the wheel scrolls.
 
 use ratatui::layout::Position;
 
@@ -12,8 +12,8 @@ use crate::tui::panes::study::{self as study_pane, StudyCommand};
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::panes::{form, results};
 
-/// A press: onto a field, a result, the chart, the name of a case or of a pane out of sight, a line
-/// of a list, a button. A second press on what is marked does what Enter does.
+/// Handles a click on a field, a result, the chart, the name of a case or of a hidden pane, a line
+/// of a list, or a button. A second click on the selection is Enter.
 pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
     match dialogs::with(app, |dialog, around| dialog.click(at, around.screen)) {
         None => in_panes(app, at),
@@ -22,7 +22,7 @@ pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
     }
 }
 
-// Whether it was marked before.
+// Returns whether the line was already selected.
 fn mark(marked: &mut usize, line: usize) -> bool {
     std::mem::replace(marked, line) == line
 }
@@ -62,7 +62,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
     Vec::new()
 }
 
-// The first press goes to a field, the second one types into it.
+// The first click focuses a field, the second one edits it.
 fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
     let is_marked = app.layout.focus() == Pane::Form && field == Some(app.tab.form.focus);
     match field {
@@ -76,7 +76,7 @@ fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
     Vec::new()
 }
 
-/// A turn of the wheel by so many lines downwards.
+/// Handles a step of the wheel by lines downwards.
 pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
     if dialogs::with(app, |dialog, around| dialog.wheel(by, around)).is_some() {
         return;

@@ -1,4 +1,4 @@
-//! Claims of opened cases: shows who else has the case open, and offers unsaved edits.
+//! Claims of opened cases: shows the process that has the case open, and offers unsaved edits.
 
 use super::{solve, tabs};
 use crate::tui::actions::Effect;
@@ -36,7 +36,7 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
         app.complain(notices.join("; "));
     }
     let name = app.tab.name();
-    // The latest on top.
+    // The latest is on top.
     app.prompts.extend(
         offers
             .into_iter()
@@ -45,7 +45,7 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     );
 }
 
-/// The kept edits go into the form; undo takes them out again.
+/// Restores the kept edits into the form as one edit, which undo reverts.
 pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
     let mut case = app.tab.case.clone();
     let refused: Vec<_> = offer

@@ -6,7 +6,7 @@ use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::dialogs::{Prompt, ReliefDialog};
 
-/// Opens the dialog and searches with the usual demand.
+/// Opens the dialog and starts the search with the default demand.
 pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     let Some(inputs) = app.tab.inputs().cloned() else {
         app.complain("no search: fix the fields marked with ! first");
@@ -20,7 +20,7 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     effects
 }
 
-/// Takes the relief into the form, as one edit.
+/// Writes the relief into the form as one edit.
 pub(super) fn take(app: &mut App, values: &[(&'static str, String)]) -> Vec<Effect> {
     app.prompts.pop();
     let mut case = app.tab.case.clone();

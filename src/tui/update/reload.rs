@@ -1,4 +1,4 @@
-//! Reading the file of an open case again, as when another program changed it.
+//! Reading the file of an open case again, for example after another program changed it.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::tui::session::recovery::Access;
 use crate::tui::session::save::Next;
 use crate::tui::tab::Tab;
 
-/// Read the file again, or ask when edits would be lost.
+/// Reads the file again, or asks if edits would be discarded.
 pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     let Some(path) = app.tab.path.clone() else {
         app.say("this case has no file to read again");
@@ -29,7 +29,7 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     vec![Effect::Load(path)]
 }
 
-/// The file of an open case may have another content: a case without edits takes it over.
+/// Handles a possible change of the file of an open case: a case without edits is replaced.
 pub(super) fn changed(
     app: &mut App,
     path: &Path,
@@ -73,7 +73,7 @@ pub(super) fn changed(
     Vec::new()
 }
 
-/// The text of the file, and the case in it as the saved one.
+/// Replaces document and saved case by the content of the file.
 fn take_over(tab: &mut Tab, document: Document) {
     if !matches!(tab.access, Access::Held(_)) {
         tab.access = Access::of(&document);
@@ -82,7 +82,7 @@ fn take_over(tab: &mut Tab, document: Document) {
     tab.document = document;
 }
 
-/// Takes over the case of a tab that is not shown; it is solved once it is shown.
+/// Replaces the case of a hidden tab; the worker solves it once the tab is shown.
 fn replace_unseen(tab: &mut Tab, document: Document, serial: u64) {
     tab.history.end_visit();
     let focus = tab.form.focus;

@@ -1,4 +1,4 @@
-//! The selection of the results stays with its quantity when others come or go.
+//! Keeps the selection of the results on its quantity when rows appear or disappear.
 
 use crate::tui::app::App;
 use crate::tui::panes::results::{followed, place_of};

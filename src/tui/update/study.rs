@@ -28,7 +28,7 @@ const METHODS: [Method; 4] = [
     Method::Dynamic,
 ];
 
-/// Requests the visible study where it differs from the last one; stops a hidden one.
+/// Requests the visible study if it differs from the last one; stops a hidden one.
 pub(super) fn request(app: &mut App) -> Vec<Effect> {
     if app.layout.plan().area(Pane::Study).is_empty() {
         return stop_running(app);
@@ -60,7 +60,7 @@ pub(super) fn request(app: &mut App) -> Vec<Effect> {
     vec![Effect::Study(Box::new(request))]
 }
 
-/// The state that the question is made of.
+/// The state that decides the study.
 fn key(app: &App, quantity: Option<&Quantity>) -> StudyKey {
     let tab = &app.tab;
     StudyKey {
@@ -86,8 +86,8 @@ fn stop_running(app: &mut App) -> Vec<Effect> {
     }
 }
 
-/// Forgets the study that runs, so that its tab requests it again once it is visible. Returns
-/// whether one runs.
+/// Forgets the running study, so that its tab requests it again once it is visible. Returns whether
+/// a study was running.
 fn forget_running(app: &mut App) -> bool {
     let Some(serial) = app.studying.take() else {
         return false;
@@ -111,7 +111,7 @@ fn quantity(app: &App) -> Option<&'static Quantity> {
 /// The study of the focused field and the selected result.
 ///
 /// # Errors
-/// Why there is none.
+/// Returns the reason if there is no study.
 fn question(app: &App, quantity: Option<&'static Quantity>) -> Result<Question, String> {
     let tab = &app.tab;
     let inputs = tab
@@ -173,7 +173,7 @@ fn field(app: &App) -> Option<usize> {
     }
 }
 
-/// The active method, the others, the baseline.
+/// The curves: the active method, the other methods, the baseline.
 fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer> {
     let active = inputs.method;
     let answer = app.tab.answer.as_ref();
@@ -210,7 +210,7 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     std::iter::once(first).chain(others).chain(pinned).collect()
 }
 
-/// A quantity of one method as another method finds it.
+/// The counterpart of a quantity in another method.
 fn counterpart(
     quantity: &'static Quantity,
     of: Method,
@@ -225,7 +225,7 @@ fn counterpart(
     }
 }
 
-/// The next results.
+/// Adds the next results.
 pub(super) fn take(app: &mut App, part: StudyPart) {
     let is_over = part.end.is_some();
     let failed = match &part.end {
@@ -243,7 +243,7 @@ pub(super) fn take(app: &mut App, part: StudyPart) {
     }
 }
 
-/// Esc: stops the study that runs.
+/// Esc: stops the running study.
 pub(super) fn stop(app: &mut App) -> Option<Effect> {
     app.studying.take()?;
     app.say("the study is stopped; its results stay");
@@ -278,7 +278,7 @@ pub(super) fn run(app: &mut App, command: StudyCommand) -> Vec<Effect> {
     Vec::new()
 }
 
-/// The second field of the map.
+/// Selects the second field of the map.
 pub(super) fn choose(app: &mut App, field: usize) {
     if self::field(app) == Some(field) {
         app.complain("the second field is the focused one: choose another");
@@ -287,7 +287,7 @@ pub(super) fn choose(app: &mut App, field: usize) {
     (app.study.second, app.study.is_tolerance) = (Some(field), false);
 }
 
-/// Takes the values under the cursor into the form, as one edit.
+/// Writes the values at the cursor into the form, as one edit.
 fn accept(app: &mut App) -> Vec<Effect> {
     let values = study::at_cursor(&app.study());
     if values.is_empty() || app.study.is_tolerance {

@@ -1,4 +1,4 @@
-//! The open cases: going from one to another, opening and closing.
+//! The tabs of the open cases: switching, opening and closing.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use crate::tui::solver::Request;
 use crate::tui::store;
 use crate::tui::tab::{Origin, Tab};
 
-/// Go to the case of that place; a place that does not exist changes nothing.
+/// Switches to the tab with an index, if it exists.
 pub(super) fn go_to(app: &mut App, at: usize) {
     let now = app.place_of_tab;
     if at == now || at > app.others.len() {
@@ -24,14 +24,14 @@ pub(super) fn go_to(app: &mut App, at: usize) {
     app.others
         .insert(if at > now { now } else { now - 1 }, before);
     app.place_of_tab = at;
-    // A request of another case may have been put aside for a later one.
+    // The worker may have dropped a request of this tab for a later one.
     if !app.tab.is_settled {
         app.tab.requested = Stages::NONE;
     }
     app.follow();
 }
 
-/// Go to the next case or the one before, round and round.
+/// Switches to the next or previous tab, wrapping around.
 pub(super) fn step(app: &mut App, by: isize) {
     let count = app.others.len() + 1;
     if count == 1 {
@@ -43,8 +43,8 @@ pub(super) fn step(app: &mut App, by: isize) {
     );
 }
 
-/// Show a document that was read: in the tab of its path, in place of the untouched built-in case,
-/// else in a new tab.
+/// Shows a document: in the tab of its path, instead of the unchanged built-in case, or in a new
+/// tab.
 pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<Request> {
     let own = app.tabs().position(|tab| tab.path.as_ref() == Some(&path));
     if let Some(own) = own {
@@ -58,7 +58,7 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
     request
 }
 
-/// Show the built-in case, in a tab of its own where another case is in use.
+/// Shows the built-in case, in a new tab if another case is in use.
 pub(super) fn built_in(app: &mut App) -> Option<Request> {
     let at = app.tabs().position(Tab::is_built_in);
     if let Some(at) = at {
@@ -69,7 +69,7 @@ pub(super) fn built_in(app: &mut App) -> Option<Request> {
     put(app, Tab::new(store::built_in(), None), replaces)
 }
 
-/// Start an empty case in a tab of its own.
+/// Starts an empty case in a new tab.
 pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let replaces = app.tab.is_untouched();
     let request = put(
@@ -89,7 +89,7 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
     request
 }
 
-/// Start a case from an example, in a tab of its own.
+/// Starts a case from an example in a new tab.
 pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request> {
     let replaces = app.tab.is_untouched();
     let request = put(
@@ -107,7 +107,7 @@ pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request>
     request
 }
 
-/// Close the current case; the last one leaves the built-in case behind.
+/// Closes the current case; after the last one the built-in case is shown.
 pub(super) fn close(app: &mut App) -> Option<Request> {
     let name = app.tab.name();
     if app.others.is_empty() {

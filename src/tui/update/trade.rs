@@ -1,4 +1,4 @@
-//! Error against time: measuring, walking along the settings, taking one.
+//! Accuracy against run time: the benchmark, the selection of a setting, and its use in the case.
 
 use super::edit;
 use crate::report::trade::conclusion;
@@ -11,10 +11,10 @@ use crate::tui::layout::is_too_small;
 use crate::tui::pane::Pane;
 use crate::tui::panes::trade::{nearest, stepped};
 
-/// The work that the progress tells of.
+/// The name of the work in the progress.
 const MEASURING: &str = "measuring";
 
-/// Measure every method on the case in the form.
+/// Starts the benchmark of every method on the case of the form.
 pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     let Some(inputs) = app.tab.inputs().cloned() else {
         app.complain("the form is not valid: nothing can be measured");
@@ -40,8 +40,7 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     }))]
 }
 
-/// Stops a measurement out of sight, whose results nobody looks at. A terminal that is too small
-/// for a moment stops none.
+/// Stops a hidden benchmark. A terminal that is briefly too small does not stop it.
 pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
     let is_too_small = is_too_small(app.layout.size());
     let Some(serial) = app.measuring.filter(|_| !is_too_small) else {
@@ -60,7 +59,7 @@ pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
     }
 }
 
-/// More is known, or all of it.
+/// Adds results of the benchmark and reports its end.
 pub(super) fn measured(app: &mut App, measured: Measured) {
     let Measured { serial, trade, end } = measured;
     let is_shown = app
@@ -106,7 +105,7 @@ pub(super) fn switch_view(app: &mut App) {
     }
 }
 
-/// So many settings further, in the order of the view.
+/// Moves the selection by `by` settings, in the order of the view.
 pub(super) fn step(app: &mut App, by: isize) {
     let view = app.trade_view;
     if let Some(traded) = app.tab.traded.as_mut() {
@@ -114,7 +113,7 @@ pub(super) fn step(app: &mut App, by: isize) {
     }
 }
 
-/// The marked setting becomes the case's.
+/// Writes the selected setting into the case.
 pub(super) fn take(app: &mut App) -> Vec<Effect> {
     let Some(setting) = app.tab.traded.as_ref().and_then(|traded| traded.marked) else {
         app.say(if app.tab.traded.is_some() {

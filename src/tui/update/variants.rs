@@ -1,4 +1,4 @@
-//! Variants of the case: keeping the edits as one, and putting one back into the form.
+//! Variants of the case: saving the edits as a variant, and loading a variant into the form.
 
 use super::edit;
 use crate::case::{Case, Variant};
@@ -21,8 +21,8 @@ pub(super) fn ask(app: &mut App) {
     app.prompts.push(Prompt::Pick(picker));
 }
 
-/// Keeps the edits since the last save as a variant, and shows the case without them. Without edits
-/// it puts the variant of that name into the form.
+/// Saves the edits since the last save as a variant and shows the case without them. Without edits,
+/// loads the variant with this name into the form.
 pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
     if let Err(problem) = Variant::check_name(name) {
         app.complain(format!("{}: {}", problem.cause, problem.fix));
@@ -60,7 +60,7 @@ fn recall(app: &mut App, name: &str) -> Vec<Effect> {
     effects
 }
 
-/// Shows the variants beside the case, the next ones, or the methods again.
+/// Shows the variants beside the case, the next variants, or the methods again.
 pub(super) fn next(app: &mut App) {
     let count = app.tab.case.variants.len();
     if count == 0 {
@@ -87,7 +87,7 @@ pub(super) fn request(app: &mut App) -> Option<Effect> {
         .variants
         .as_ref()
         .is_some_and(|found| found.serial == tab.serial);
-    // A request of another tab replaces this one.
+    // A request of another tab replaces this request.
     if is_known || app.comparing == Some(tab.serial) || !tab.problems.is_empty() {
         return None;
     }
@@ -108,7 +108,7 @@ fn inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
     })
 }
 
-/// The solved variants.
+/// Shows the solved variants.
 pub(super) fn take(app: &mut App, found: Variants) {
     app.comparing = app.comparing.filter(|serial| *serial != found.serial);
     if let Some(tab) = app.tab_of(found.serial) {

@@ -1,11 +1,11 @@
-//! The chart of whine in sight: what the worker computes for it.
+//! The visible chart of whine: its requests to the worker.
 
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::whine::{WhinePart, WhineRequest};
 
-/// Requests the visible chart, if another one was requested last; stops the one out of sight.
+/// Requests the visible chart, unless it is the last request; stops a hidden one.
 pub(super) fn request(app: &mut App) -> Vec<Effect> {
     let is_visible = !app.layout.plan().area(Pane::Chart).is_empty();
     let Some(chart) = app.chart.whine.filter(|_| is_visible) else {
@@ -30,7 +30,7 @@ pub(super) fn request(app: &mut App) -> Vec<Effect> {
     vec![Effect::Whine(Box::new(request))]
 }
 
-/// Stops a computation; its request is made again once the chart is visible.
+/// Stops the computation; the request is repeated once the chart is visible.
 fn stop(app: &mut App) -> Vec<Effect> {
     if forget_running(app) {
         vec![Effect::CancelWhine]
@@ -39,7 +39,7 @@ fn stop(app: &mut App) -> Vec<Effect> {
     }
 }
 
-/// Forgets the request that runs, of whichever tab: it ends, and the tab requests it again.
+/// Forgets the running request of any tab: the computation ends, and the tab requests it again.
 fn forget_running(app: &mut App) -> bool {
     let mut has_run = false;
     for tab in std::iter::once(&mut app.tab).chain(&mut app.others) {
@@ -51,7 +51,7 @@ fn forget_running(app: &mut App) -> bool {
     has_run
 }
 
-/// The next values.
+/// Adds the next values.
 pub(super) fn take(app: &mut App, part: &WhinePart) {
     let tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
     tabs.for_each(|tab| tab.whine.take(part.clone()));

@@ -1,4 +1,4 @@
-//! The lines around the panes: the open cases, what is focused, the keys.
+//! The lines around the panes: the hint of the focused item, messages, and the keys.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -23,10 +23,10 @@ use crate::tui::panes::{chart, results, study, trade};
 use crate::tui::rows::{self, Row};
 use crate::tui::text;
 
-/// Cells of a bar of progress.
+/// Width of a progress bar.
 const BAR: usize = 20;
 
-/// A message, or the progress of long work; else what is focused.
+/// Draws a message or the progress of long work, otherwise the hint of the focused item.
 pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let width = usize::from(area.width);
@@ -41,7 +41,7 @@ pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
             ("", theme.note)
         };
         let wrapped = text::wrap(&format!("{mark}{}", message.text), width);
-        // A fault's fix stands at its end: a long message takes the place of what is focused.
+        // The fix is at the end of a message: a long message replaces the hint.
         is_long = wrapped.len() > 1;
         if is_long {
             lines.clear();
@@ -98,7 +98,7 @@ pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     Line::from(spans).render(area, buffer);
 }
 
-/// What a field is, in its own words.
+/// The description of a field.
 #[must_use]
 pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
     let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
@@ -163,8 +163,8 @@ fn focused(app: &App) -> String {
     }
 }
 
-// The unit that a number typed without one takes, or why it is no value yet. That it stays as it is
-// while digits are typed spares bytes.
+// The unit that a bare number gets, or why the typed text is not yet valid. The text does not
+// change while digits are typed, which saves output.
 fn typed(app: &App) -> Option<String> {
     if rows::lacks(&app.tab.case, app.tab.form.focus) {
         let example = rows::field(&app.tab.case, app.tab.form.focus).map_or("", Field::example);
@@ -183,7 +183,7 @@ fn typed(app: &App) -> Option<String> {
     rows::written_unit(&app.tab.case, app.tab.form.focus).map(|unit| format!("Unit added: {unit}."))
 }
 
-// What is typed in another unit, why it does not act, what it is.
+// The typed value in another unit, why the field has no effect, and its description.
 fn about_field(app: &App, index: usize) -> String {
     let field = &FIELDS[index];
     let converted = app
@@ -211,7 +211,7 @@ fn about_field(app: &App, index: usize) -> String {
     .join(" ")
 }
 
-// Where the value is from, where it is that of a material.
+// The source of a value, if it is that of a material.
 fn material(app: &App, field: &Field) -> Option<String> {
     let is_of_material = matches!(field.name(), "young" | "poisson" | "density");
     match materials::of_gear(&app.tab.case, field.table())[..] {
@@ -262,7 +262,7 @@ fn at_cursor(app: &App) -> String {
     }
 }
 
-// A solve that takes its time.
+// Progress of a slow solve.
 fn solving(app: &App) -> Option<Progress> {
     let method = app
         .tab

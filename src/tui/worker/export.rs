@@ -1,4 +1,4 @@
-//! Results written to a file: a report, or a picture of a chart or the teeth.
+//! Exports results to a file: a report, or a picture of a chart or the teeth.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ enum Subject {
     Report(Format),
 }
 
-/// Solves the case and writes the file. Returns the whole path.
+/// Solves the case and writes the file. Returns the full path.
 pub(super) fn write(
     exporting: &Exporting,
     go_on: &dyn Fn(f64) -> bool,

@@ -1,4 +1,4 @@
-//! Does the jobs, each kind in a thread of its own.
+//! Workers of the jobs, one thread for each kind.
 
 use std::io;
 
@@ -21,7 +21,7 @@ use crate::tui::variants::{Variants, VariantsRequest};
 /// Starts the worker of a kind of jobs.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// Returns an error if the system cannot start a thread.
 pub(crate) fn start(name: &'static str, send: Send) -> io::Result<Worker<Job>> {
     Worker::start(
         name,
@@ -45,7 +45,7 @@ fn failed(job: &Job) -> Action {
     Action::Failed(format!("{FAULT}: {name} cannot be shown"))
 }
 
-/// Does a job. Returns `None` if `go_on` says that it is not wanted any more.
+/// Runs a job. Returns `None` if `go_on` returns false.
 #[must_use]
 pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
     Some(match job {
@@ -89,7 +89,7 @@ fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> 
         .collect()
 }
 
-// As `tipstrike compare` does it.
+// As in `tipstrike compare`.
 fn compared(request: VariantsRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Variants> {
     let stages = request.stages;
     let solved =
@@ -110,7 +110,7 @@ fn compared(request: VariantsRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Var
     })
 }
 
-// As `tipstrike relief` does it.
+// As in `tipstrike relief`.
 fn relieved(request: ReliefRequest, go_on: &dyn Fn(f64) -> bool) -> Option<ReliefAnswer> {
     let found = match specify(&request.inputs, &request.demand, go_on) {
         Ok(found) => Ok(Box::new(found)),
@@ -120,7 +120,7 @@ fn relieved(request: ReliefRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Relie
     Some((request, found))
 }
 
-// As `tipstrike explain` does it.
+// As in `tipstrike explain`.
 fn explained(explaining: Explaining) -> Explained {
     let Explaining {
         quantity,

@@ -1,5 +1,5 @@
-//! A thread that serves the latest request: a later one replaces one that has not begun, and what
-//! runs can see that it is no longer wanted. A fault in the work never ends the workbench.
+//! A thread that serves the latest request. A new request replaces a waiting one, and running work
+//! can check whether it is still wanted. A panic of the work does not end the workbench.
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,30 +9,31 @@ use std::thread;
 use crate::tui::actions::Action;
 use crate::tui::fault;
 
-/// Sends an action to the workbench. Returns false once nobody receives it.
+/// Sends an action to the workbench. Returns false once the receiver is closed.
 pub(crate) type Send = Arc<dyn Fn(Action) -> bool + std::marker::Send + Sync>;
 
-/// The thread. It ends when this is dropped.
+/// The thread; dropping this ends the thread.
 #[derive(Debug)]
 pub(crate) struct Worker<R> {
     requests: Arc<LatestRequest<R>>,
 }
 
-/// The request that runs, as the work sees it.
+/// The running request, for the work.
 #[derive(Clone, Copy)]
 pub struct Running<'a> {
-    /// Whether nobody has stopped the request, and no later one has come.
+    /// Returns whether the request is still wanted: nobody has stopped it, and there is no later
+    /// request.
     pub is_wanted: &'a dyn Fn() -> bool,
-    /// Sends an action, an intermediate result among them.
+    /// Sends an action, such as an intermediate result.
     pub send: &'a dyn Fn(Action),
 }
 
 impl<R: std::marker::Send + 'static> Worker<R> {
-    /// Starts the thread. `work` serves a request and sends its results; `failed` is sent in their
-    /// place if it panics.
+    /// Starts the thread. `work` serves a request and sends its results. If `work` panics, the
+    /// thread sends the action of `failed`.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// Returns an error if the system cannot start a thread.
     pub(crate) fn start(
         name: &'static str,
         send: Send,
@@ -65,18 +66,17 @@ impl<R: std::marker::Send + 'static> Worker<R> {
         Ok(Worker { requests })
     }
 
-    /// Requests work, in place of a request that has not begun.
+    /// Requests work; replaces a waiting request.
     pub(crate) fn request(&self, request: R) {
         self.requests.put(request);
     }
 
-    /// Stops the request that runs. One that has not begun runs after it.
+    /// Stops the running request. A waiting request still runs.
     pub(crate) fn stop_running(&self) {
         self.requests.tray().is_stopped = true;
     }
 
-    /// Stops every request made so far. One that has not begun still runs, and sees that it is not
-    /// wanted.
+    /// Stops every request so far. A waiting request still starts, but is not wanted.
     pub(crate) fn stop(&self) {
         let mut tray = self.requests.tray();
         (tray.is_stopped, tray.is_next_stopped) = (true, true);
@@ -99,7 +99,7 @@ struct LatestRequest<R> {
 struct Tray<R> {
     next: Option<R>,
     is_next_stopped: bool,
-    /// Whether the request that was taken is not wanted any more.
+    /// Whether the running request is no longer wanted.
     is_stopped: bool,
     is_closed: bool,
 }
@@ -130,7 +130,7 @@ impl<R> LatestRequest<R> {
         self.bell.notify_one();
     }
 
-    // Sleeps until there is a request; `None` once there will be none.
+    // Sleeps until there is a request; `None` at the end.
     fn take(&self) -> Option<R> {
         let mut tray = self.tray();
         loop {
@@ -161,8 +161,8 @@ mod tests {
 
     use super::*;
 
-    /// A worker that begins each request when the test says so, and sends its number back where it
-    /// is wanted. Request 0 panics.
+    /// A worker that starts each request when the test permits, and sends its number back if it is
+    /// wanted. Request 0 panics.
     fn worker() -> (Worker<u64>, Receiver<u64>, Sender<()>, Receiver<Action>) {
         let (begun, has_begun) = channel();
         let (go, gate) = channel::<()>();

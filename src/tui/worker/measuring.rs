@@ -1,4 +1,4 @@
-//! The worker that measures error and time of every method.
+//! The worker of the benchmark.
 
 use std::io;
 
@@ -11,7 +11,7 @@ use crate::tui::benchmark::{End, Measured, Measuring};
 /// Starts the worker.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// Returns an error if the system cannot start a thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<Measuring>> {
     Worker::start("benchmark", send, measure, |measuring| {
         of(
@@ -22,7 +22,7 @@ pub(crate) fn start(send: Send) -> io::Result<Worker<Measuring>> {
     })
 }
 
-/// Measures to the end, and sends each step.
+/// Runs the benchmark to its end and sends each step.
 pub fn measure(measuring: &Measuring, running: Running<'_>) {
     let question = Question {
         within: measuring.inputs.within,
@@ -66,7 +66,7 @@ mod tests {
         }
     }
 
-    /// What a measurement sends while `go_on` agrees.
+    /// The messages of a benchmark while `go_on` returns true.
     fn sent(measuring: &Measuring, go_on: &dyn Fn(&Measured) -> bool) -> Vec<Measured> {
         let (all, is_wanted) = (RefCell::new(Vec::new()), Cell::new(true));
         let send = |action| {

@@ -1,4 +1,4 @@
-//! The worker that solves: a slow method gives way to a later request, and shows the closed form
+//! The worker of the solves. A later request interrupts a slow method, and the closed form is shown
 //! meanwhile.
 
 use std::cell::Cell;
@@ -10,15 +10,15 @@ use crate::case::Evaluator;
 use crate::tui::actions::Action;
 use crate::tui::solver::{Answer, PATIENCE, Request, cleared, solved, with_stiffness};
 
-/// A solve that takes longer shows its progress,
+/// A solve that takes longer shows its progress.
 const LONG: Duration = Duration::from_millis(400);
-/// and again after so long.
+/// Time between two reports of the progress.
 const STEP: Duration = Duration::from_millis(200);
 
 /// Starts the worker.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// Returns an error if the system cannot start a thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<Request>> {
     let mut evaluator = Evaluator::default();
     Worker::start(
@@ -33,7 +33,7 @@ pub(crate) fn start(send: Send) -> io::Result<Worker<Request>> {
     )
 }
 
-// Sends earlier answers of a solve that takes its time, and returns the last one.
+// Sends intermediate answers of a slow solve and returns the last one.
 fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> Option<Answer> {
     let begun = Instant::now();
     let (waiting, next_progress) = (Cell::new(Some(begun + PATIENCE)), Cell::new(begun + LONG));
@@ -50,7 +50,7 @@ fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> 
     };
     let answer = solved(evaluator, request, begun, &go_on)?;
     if request.stiffness {
-        // The elastic fields of new gears take long, and results must not wait for them.
+        // The elastic fields of new gears are slow, and the results must not wait for them.
         (running.send)(Action::Solved(Box::new(answer.clone())));
         if !(running.is_wanted)() {
             return None;
@@ -101,7 +101,7 @@ mod tests {
             slow.inputs.tolerance,
             slow.inputs.warmup_cycles,
         ) = (Method::Dynamic, 1e-12, 10_000);
-        // Nothing comes to rest.
+        // Without damping the motion never becomes steady.
         slow.inputs.damping_ratio = 0.0;
         solver.request(slow);
         let first = replies.recv().expect("an answer");
@@ -132,7 +132,7 @@ mod tests {
                 let Ok(Action::Solved(answer)) = replies.recv() else {
                     continue;
                 };
-                // An answer too many to the request before would stand here.
+                // A surplus answer to the previous request would fail here.
                 assert_eq!(answer.serial, serial);
                 let clearing = answer
                     .of(answer.active)

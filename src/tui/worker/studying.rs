@@ -1,4 +1,4 @@
-//! The worker of the studies: sends their results as they come.
+//! The worker of the studies: sends their results as they arrive.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,15 +19,15 @@ use crate::tui::study::{
     ToleranceQuestion,
 };
 
-/// Results of a grid are sent after so long,
+/// Time between two messages of a grid.
 const STEP: Duration = Duration::from_millis(40);
-/// and those of a tolerance study, which take longer to summarise.
+/// Time between two messages of a tolerance study, whose summary takes longer.
 const PAGE_STEP: Duration = Duration::from_millis(250);
 
 /// Starts the worker.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// Returns an error if the system cannot start a thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<StudyRequest>> {
     Worker::start("study", send, study, |request| {
         let reason = "internal error: the study failed".to_owned();
@@ -35,7 +35,7 @@ pub(crate) fn start(send: Send) -> io::Result<Worker<StudyRequest>> {
     })
 }
 
-/// Computes a study to its end, and sends its results.
+/// Computes a study to its end and sends its results.
 pub fn study(request: &StudyRequest, running: Running<'_>) {
     let done = match &request.question {
         Question::Grid(grid) => solve_grid(request, grid, running),
@@ -67,7 +67,7 @@ fn action(request: &StudyRequest, found: Found, end: Option<End>) -> Action {
     Action::Studied(Box::new(StudyPart { serial, found, end }))
 }
 
-/// Solves the points of a study until nobody wants them any more.
+/// Solves the points of a study while it is wanted.
 fn solve(
     batch: &Batch,
     count: usize,
@@ -75,7 +75,7 @@ fn solve(
     take: &mut dyn FnMut(Rows) -> bool,
 ) -> Result<(), Stopped> {
     let is_stopped = AtomicBool::new(!(running.is_wanted)());
-    // One core stays free for the keys and the solver.
+    // One core stays free for the main loop and the solver.
     let cores = batch::jobs(None);
     let control = Control {
         jobs: Some(cores.saturating_sub(1).max(1)),
@@ -165,7 +165,7 @@ fn sample(
     Ok(solved?)
 }
 
-/// The page of the samples so far; the ranking needs all of them.
+/// The page of the samples so far; the ranking needs all samples.
 fn page(question: &ToleranceQuestion, study: &Tolerance, samples: &Samples) -> Found {
     let (solved, count) = (samples.outcomes.len(), study.design.count());
     let so_far = Tolerance {

@@ -1,4 +1,4 @@
-//! Watches the files of the open cases: another program may write them.
+//! Watches the files of the open cases for changes by other programs.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
@@ -16,11 +16,11 @@ use crate::case::stamp::Stamp;
 use crate::tui::actions::Action;
 use crate::tui::store;
 
-/// A file is read once its mark has stayed the same for this long, or after [`LOOKS`] looks.
+/// A file is read once its mark has not changed for this time, or after [`LOOKS`] checks.
 const QUIET: Duration = Duration::from_millis(60);
 const LOOKS: usize = 20;
 
-/// The thread that looks at the files. It ends when this is dropped.
+/// The thread that watches the files; dropping this ends the thread.
 #[derive(Debug)]
 pub(super) struct Watcher {
     watched: Arc<Watched>,
@@ -30,7 +30,7 @@ impl Watcher {
     /// Starts the thread, which sleeps until a file changes.
     ///
     /// # Errors
-    /// When the system gives no thread, or no means to wait.
+    /// Returns an error if the system cannot start a thread or has no means to wait.
     pub(super) fn start(send: Send) -> io::Result<Watcher> {
         let mut changes = Changes::new()?;
         let watched = Arc::new(Watched {
@@ -82,7 +82,7 @@ impl Watched {
             for (file, known) in files {
                 let mark = Mark::of(&file);
                 let before = seen.insert(file.clone(), mark);
-                // A deleted file leaves nothing to read, and a new one may come in its place.
+                // A deleted file has no content; a new file may replace it.
                 let Some(mark) = mark.filter(|_| before != Some(mark)) else {
                     continue;
                 };
@@ -110,7 +110,7 @@ impl Watched {
     }
 }
 
-/// The folders of the files, and those of the files to which links lead.
+/// The folders of the files and of the targets of links.
 fn folders(files: &[(PathBuf, Stamp)]) -> BTreeSet<PathBuf> {
     let parent = |path: &Path| {
         let parent = path.parent()?;
@@ -124,7 +124,7 @@ fn folders(files: &[(PathBuf, Stamp)]) -> BTreeSet<PathBuf> {
     both.flatten().collect()
 }
 
-/// What changes when a file is written: its time, its length, the file itself.
+/// Properties that change when a file is written: its time, its length, the file itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Mark {
     modified: SystemTime,
@@ -143,7 +143,7 @@ impl Mark {
     }
 }
 
-/// The mark of a file once nobody writes it any more.
+/// The mark of a file once no program writes it any more.
 fn settled(path: &Path, mark: Mark) -> Option<Mark> {
     let mut last = Some(mark);
     for _ in 0..LOOKS {

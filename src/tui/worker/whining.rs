@@ -11,13 +11,13 @@ use crate::study::speeds::speeds;
 use crate::tui::actions::Action;
 use crate::tui::whine::{WhineChart, WhineFound, WhinePart, WhineRequest};
 
-/// A growing curve is sent after so long.
+/// Time between two messages of a growing curve.
 const STEP: Duration = Duration::from_millis(150);
 
 /// Starts the worker.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// Returns an error if the system cannot start a thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<WhineRequest>> {
     Worker::start("whine", send, whine, |request| {
         let reason = "internal error: the chart failed".to_owned();
@@ -25,7 +25,7 @@ pub(crate) fn start(send: Send) -> io::Result<Worker<WhineRequest>> {
     })
 }
 
-/// Computes a chart to its end, and sends its values.
+/// Computes a chart to its end and sends its values.
 pub fn whine(request: &WhineRequest, running: Running<'_>) {
     let found = match request.chart {
         WhineChart::Spectrum => spectrum(&request.inputs, running),
@@ -48,8 +48,8 @@ fn action(request: &WhineRequest, found: Option<WhineFound>, is_over: bool) -> A
     }))
 }
 
-/// The spectra at rest and, of the method `dynamic`, in steady motion. A closed form has no mesh:
-/// the method `static` serves.
+/// The spectra at rest and, for method `dynamic`, in steady motion. A closed form has no mesh;
+/// method `static` replaces it.
 fn spectrum(inputs: &Inputs, running: Running<'_>) -> Result<WhineFound, Refusal> {
     let method = match inputs.method {
         Method::Dynamic => Method::Dynamic,

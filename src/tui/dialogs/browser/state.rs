@@ -1,5 +1,5 @@
-//! The browser of files: a folder and the cases that were open last, both filtered by what is
-//! typed, and what the marked one holds.
+//! The state of the file browser: a folder and the recent cases, both filtered by the typed text,
+//! and the preview of the selected line.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -11,60 +11,61 @@ use crate::tui::store::folder::{Entry, Listing, beneath};
 use crate::tui::store::preview::{Preview, Viewport};
 use crate::tui::store::recents::Recent;
 
-/// A folder, and the cases that were open last.
+/// A folder and the recent cases.
 #[derive(Debug, Clone, Default)]
 pub struct Browser {
-    /// What is typed: a part of a name, or a path.
+    /// The typed text: a part of a name, or a path.
     pub(crate) input: Text,
-    /// What stands in the folder; `None` while it is being read.
+    /// The content of the folder; `None` while it is being read.
     pub(crate) listing: Option<Listing>,
-    /// The cases that were open last.
+    /// The recent cases.
     pub(crate) recents: Vec<Recent>,
-    /// The marked one of those that fit: first the folder's, then the recent ones.
+    /// The index of the selected line among the matches: first those of the folder, then the recent
+    /// cases.
     pub(crate) marked: usize,
-    /// What the marked one holds, as far as it is known.
+    /// The preview of the selected line, once it is read.
     pub(crate) preview: Option<(Viewport, Preview)>,
-    /// The folder that it began in or went to, as it is called from here.
+    /// The start folder or the entered folder, relative to the working directory if possible.
     base: PathBuf,
-    /// The folders of the path that is typed, of which the listing is.
+    /// The folder part of the typed path, which the listing belongs to.
     typed_folder: String,
-    /// Places in the listing of the entries that fit.
+    /// Indices of the matching entries of the listing.
     fitting: Vec<usize>,
-    /// What stands in the folders below, as soon as something is looked for.
+    /// The cases in the folders below, once a search is requested.
     below: Option<Below>,
-    /// Where that was looked for.
+    /// The folder of that search.
     sought: Option<(PathBuf, String)>,
-    /// Places among the cases below of those that fit.
+    /// Indices of the matching cases in the folders below.
     fitting_below: Vec<usize>,
-    /// The same of the examples.
+    /// Indices of the matching examples.
     fitting_examples: Vec<usize>,
-    /// The same of the recent cases.
+    /// Indices of the matching recent cases.
     fitting_recents: Vec<usize>,
-    /// Whether a recent case is to be marked rather than one of the folder.
+    /// Whether to select a recent case rather than one of the folder.
     prefers_recents: bool,
-    /// The entry to be marked: the present case, or the folder that it came up from.
+    /// The entry to select: the present case, or the folder from which the user went up.
     came_from: Option<OsString>,
-    /// What a preview was asked of.
+    /// The last requested preview.
     looked_at: Option<Viewport>,
 }
 
-/// A line that may be marked.
+/// A line that can be selected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Line<'b> {
-    /// The folder above.
+    /// The parent folder.
     Up,
     /// An entry of the folder.
     Entry(&'b Entry),
     /// A case in a folder below.
     Below(&'b case_search::Case),
-    /// An example to begin with.
+    /// An example.
     Example(&'static Example),
-    /// A case that was open last.
+    /// A recent case.
     Recent(&'b Recent),
 }
 
 impl Browser {
-    /// Begin in the folder of the present case, in its recent cases where they are preferred.
+    /// A browser in the folder of the present case; selects the recent cases if they are preferred.
     #[must_use]
     pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
         let base = path
@@ -80,13 +81,13 @@ impl Browser {
         }
     }
 
-    /// What the listing is asked of.
+    /// The folder and the typed part of the requested listing.
     #[must_use]
     pub(crate) fn asks(&self) -> (PathBuf, String) {
         (self.base.clone(), self.typed_folder.clone())
     }
 
-    /// The typed path up to its last slash, and what follows. A lone `~` is the home folder.
+    /// The typed path up to its last slash, and the rest. A lone `~` is the home folder.
     #[must_use]
     pub(crate) fn split(&self) -> (&str, &str) {
         let typed = self.input.value();
@@ -97,7 +98,7 @@ impl Browser {
         }
     }
 
-    /// Follow what was typed; whether it leads to another folder.
+    /// Updates the matches after typing. Returns whether the text names another folder.
     pub(crate) fn follow(&mut self) -> bool {
         let (folder, _) = self.split();
         let is_other = folder != self.typed_folder;
@@ -109,7 +110,7 @@ impl Browser {
         is_other
     }
 
-    /// Take what was found in a folder, if it is the present one.
+    /// Shows a listing if it belongs to the present folder.
     pub(crate) fn take(&mut self, listing: Listing) {
         if listing.asked == self.asks() {
             self.listing = Some(listing);
@@ -124,7 +125,7 @@ impl Browser {
         }
     }
 
-    /// Where cases below are to be looked for: once for each folder in which a name is looked for.
+    /// The folder in which to search for cases below; at most one search for each folder.
     pub(crate) fn seek(&mut self) -> Option<(PathBuf, String)> {
         let is_sought = self.sought.as_ref() == Some(&self.asks());
         if is_sought || self.wanted().is_none() {
@@ -134,12 +135,12 @@ impl Browser {
         self.sought.clone()
     }
 
-    /// Whether it is not known yet what stands below.
+    /// Whether the search in the folders below is still running.
     pub(crate) fn is_seeking(&self) -> bool {
         self.wanted().is_some() && self.own_below().is_none()
     }
 
-    /// Take what stands in the folders below; a mark among the lines before stays where it is.
+    /// Shows the cases in the folders below; a selection before them does not change.
     pub(crate) fn take_below(&mut self, below: Below) {
         self.below = Some(below);
         let marked = self.marked;
@@ -148,24 +149,24 @@ impl Browser {
         self.marked = if is_above { marked } else { self.marked };
     }
 
-    /// Take the cases that were open last.
+    /// Shows the recent cases.
     pub(crate) fn remember(&mut self, recents: Vec<Recent>) {
         self.recents = recents;
         self.refit();
     }
 
-    /// Mark the first of the recent cases, or go back to the folder.
+    /// Selects the first recent case, or goes back to the folder.
     pub(crate) fn select_recents(&mut self) {
         self.prefers_recents = !self.marks_recent();
         self.mark_first();
     }
 
-    /// Whether the folder above is offered.
+    /// Whether the list includes the parent folder.
     pub(crate) fn has_up(&self) -> bool {
         self.listing.is_some() && self.split().1.is_empty()
     }
 
-    /// The entries of the folder that fit.
+    /// The matching entries of the folder.
     pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
         let entries = self
             .listing
@@ -174,7 +175,7 @@ impl Browser {
         self.fitting.iter().filter_map(move |&at| entries?.get(at))
     }
 
-    /// How many lines of the folder there are.
+    /// The number of lines of the folder.
     pub(crate) fn count_of_folder(&self) -> usize {
         self.fitting.len()
             + self.fitting_below.len()
@@ -182,17 +183,17 @@ impl Browser {
             + usize::from(self.has_up())
     }
 
-    /// How many recent cases fit.
+    /// The number of matching recent cases.
     pub(crate) fn count_of_recents(&self) -> usize {
         self.fitting_recents.len()
     }
 
-    /// Whether the mark is among the recent cases.
+    /// Whether a recent case is selected.
     pub(crate) fn marks_recent(&self) -> bool {
         self.count_of_recents() > 0 && self.marked >= self.count_of_folder()
     }
 
-    /// A line of those that fit, the folder's first.
+    /// A line by its index, those of the folder first.
     #[must_use]
     pub(crate) fn line(&self, at: usize) -> Option<Line<'_>> {
         if self.has_up() && at == 0 {
@@ -223,7 +224,7 @@ impl Browser {
         self.recents.get(recent).map(Line::Recent)
     }
 
-    /// The file or the folder of a line.
+    /// The preview target of a line.
     #[must_use]
     pub(crate) fn sight(&self, line: Line<'_>) -> Viewport {
         match line {
@@ -246,23 +247,23 @@ impl Browser {
         }
     }
 
-    /// What the marked line is of.
+    /// The preview target of the selected line.
     pub(crate) fn marked_sight(&self) -> Option<Viewport> {
         self.line(self.marked).map(|line| self.sight(line))
     }
 
-    /// The path of what is typed.
+    /// The typed path.
     pub(crate) fn typed_path(&self) -> PathBuf {
         beneath(&self.base, self.input.value())
     }
 
-    /// Move the mark, as far as there are lines.
+    /// Moves the selection by `by` lines, within the list.
     pub(crate) fn mark(&mut self, by: isize) {
         let last = (self.count_of_folder() + self.count_of_recents()).saturating_sub(1);
         self.marked = self.marked.saturating_add_signed(by).min(last);
     }
 
-    /// Go into a folder.
+    /// Enters a folder.
     pub(crate) fn enter(&mut self, folder: PathBuf) {
         self.came_from = (folder == self.above())
             .then(|| {
@@ -279,7 +280,7 @@ impl Browser {
         self.refit();
     }
 
-    /// The folder above, in full where that is known.
+    /// The parent folder, as a full path if known.
     #[must_use]
     pub(crate) fn above(&self) -> PathBuf {
         let known = self.listing.as_ref().map(|listing| {
@@ -292,7 +293,7 @@ impl Browser {
         known.unwrap_or_else(|| beneath(&self.base, &self.typed_folder).join(".."))
     }
 
-    /// What a preview is to be asked of, once.
+    /// The preview to request, once for each selection.
     pub(crate) fn look(&mut self) -> Option<Viewport> {
         let sight = self.marked_sight();
         if sight == self.looked_at {
@@ -302,14 +303,14 @@ impl Browser {
         sight
     }
 
-    /// Take what something holds, if it is what was asked of last.
+    /// Shows a preview if it belongs to the last request.
     pub(crate) fn show(&mut self, sight: Viewport, preview: Preview) {
         if self.looked_at.as_ref() == Some(&sight) {
             self.preview = Some((sight, preview));
         }
     }
 
-    // Hidden entries are offered where their dot is typed.
+    // Hidden entries match only if the user types their dot.
     fn refit(&mut self) {
         let wanted = self.split().1.to_lowercase();
         let fits = |entry: &Entry| {
@@ -353,8 +354,8 @@ impl Browser {
         self.mark_first();
     }
 
-    // The part of a name that is looked for below and among the examples; hidden names are looked
-    // for here alone.
+    // The part of a name to search for below and among the examples; hidden names are only searched
+    // in this folder.
     fn wanted(&self) -> Option<String> {
         let wanted = self.split().1;
         (!wanted.is_empty() && !wanted.starts_with(['.', '~'])).then(|| wanted.to_lowercase())
@@ -366,7 +367,7 @@ impl Browser {
             .filter(|below| below.asked == self.asks())
     }
 
-    // The first that a person looks for: no way up, where there is anything else.
+    // Selects the first line that is not the parent folder, if any.
     fn mark_first(&mut self) {
         let folder = self.count_of_folder();
         let is_recent = self.count_of_recents() > 0 && (self.prefers_recents || folder == 0);
@@ -377,7 +378,7 @@ impl Browser {
         };
     }
 
-    // The entry that is called what is typed, else one that begins with it.
+    // The index of the entry with the typed name, otherwise of one that begins with it.
     fn best(&self) -> usize {
         let wanted = self.split().1.to_lowercase();
         let at = |is_it: &dyn Fn(&Entry) -> bool| self.entries().position(is_it);

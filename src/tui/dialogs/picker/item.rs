@@ -1,4 +1,4 @@
-//! The lines of lists: their names, descriptions and effects, and how well they match.
+//! The lines of lists: their names, descriptions and effects, and their rank as matches.
 
 use crate::case::{Example, FIELDS};
 use crate::model::Quantity;
@@ -10,9 +10,9 @@ use crate::tui::form_aids::materials::Material;
 use crate::tui::panes::chart::ChartCommand;
 use crate::tui::whine::WhineChart;
 
-/// Stands before the name of a variant in the list of commands.
+/// Prefix of the name of a variant in the list of commands.
 pub(crate) const VARIANT: &str = "variant";
-/// The rank of a word that occurs in the description only.
+/// The rank of a word that occurs only in the description.
 pub(super) const DESCRIBED: usize = 100;
 
 /// The effect of a line.
@@ -27,7 +27,7 @@ pub(crate) enum Pick {
     Make(&'static [&'static str], &'static Material),
     /// Set a limit on a quantity.
     Limit(&'static str),
-    /// Keep the edits as the variant whose name is typed.
+    /// Keep the edits as the variant with the typed name.
     Variant,
     /// Choose the second field of a map.
     Second(usize),
@@ -152,7 +152,8 @@ pub(super) fn example(example: &'static Example, digest: Option<&Digest>) -> Ite
     }
 }
 
-// Less is better; none where a word does not occur. Symbols may be typed in ASCII.
+// The rank of a line, smaller is better; `None` if a word does not match. Symbols may be typed in
+// ASCII.
 pub(super) fn rank(item: &Item, words: &[&str]) -> Option<usize> {
     let name = item.name.to_lowercase();
     let about = item.about.to_lowercase();

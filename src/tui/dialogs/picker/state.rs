@@ -1,4 +1,4 @@
-//! Lists that typing filters: the palette of commands, the fields, materials, limits, examples.
+//! Lists with a filter: the palette of commands, the fields, materials, limits and examples.
 
 #[cfg(test)]
 mod tests;
@@ -20,43 +20,44 @@ use super::item::{
     result, variant, whine,
 };
 
-/// The least similarity of a name that is offered when no name contains the typed words.
+/// Least similarity of a name that is listed when no name contains the typed words.
 const LIKENESS: f64 = 0.75;
 /// The least score per word of a field or a result whose name matches.
 const NAMED: u32 = 65;
-/// Fields without effect lose so much: they follow similar fields, but a typed symbol still finds
+/// Penalty of fields without effect: they follow similar fields, but a typed symbol still finds
 /// them first.
 const IDLE: u32 = 9;
-/// The most frequent choice among fields that match equally.
+/// The most frequent choice among fields with equal scores.
 const FOREMOST: &str = "driven.tip_relief";
 /// Longer texts are not compared with names.
 const LONGEST_NAME: usize = 64;
 
-/// A list under a line of text.
+/// A list with an input line.
 #[derive(Debug, Clone)]
 pub struct Picker {
     /// The contents.
     pub(crate) list: List,
     /// The typed text.
     pub(crate) input: Line,
-    /// The selected one of the matching lines.
+    /// The index of the selected line among the matches.
     pub(crate) marked: usize,
-    /// The focused pane and field, and what the case offers there.
+    /// The focused pane and field, and the results and fields of the case.
     pub(crate) context: Context,
 }
 
-/// The focused pane and field, and what the case offers there: it decides the order of a list.
+/// The focused pane and field, and the results and fields of the case, which decide the order of a
+/// list.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Context {
-    /// The results that exist, by their keys.
+    /// The keys of the present results.
     pub(crate) results: Vec<&'static str>,
-    /// Whether results come before fields that match equally.
+    /// Whether results precede fields with equal scores.
     pub(crate) are_results_first: bool,
     /// The fields without effect in the case.
     pub(crate) idle: Vec<usize>,
-    /// Commands of the focused pane and field, which come first.
+    /// Commands of the focused pane and field, which are listed first.
     pub(crate) own: Vec<Command>,
-    /// Commands of other panes, which come last.
+    /// Commands of other panes, which are listed last.
     pub(crate) elsewhere: Vec<Command>,
 }
 
@@ -73,7 +74,7 @@ pub(crate) enum List {
     Limits,
     /// Every field that a map can vary.
     SecondField,
-    /// The examples, each with its digest as soon as it is there.
+    /// The examples, each with its digest once it is solved.
     Examples(Vec<Digest>),
 }
 
@@ -112,8 +113,8 @@ impl Picker {
         }
     }
 
-    /// The lines in which every typed word occurs, matches in the name first; else the lines with
-    /// the most similar names.
+    /// The lines that contain every typed word, matches in the name first; if there are none, the
+    /// lines with the most similar names.
     #[must_use]
     pub fn fitting(&self) -> Vec<Item> {
         if self.list == List::Places {
@@ -162,7 +163,7 @@ impl Picker {
             .collect()
     }
 
-    /// The name of a variant, typed behind the command.
+    /// The name of a variant, typed after the command.
     #[must_use]
     pub(crate) fn variant_name(&self) -> Option<&str> {
         let (command, name) = self.input.value().trim_start().split_once(' ')?;
@@ -170,8 +171,8 @@ impl Picker {
         Some(name.trim()).filter(|name| is_meant && !name.is_empty())
     }
 
-    // The matching fields and results, the best first. Without a typed word the order of form and
-    // results stays.
+    // The matching fields and results, the best first. Without a typed word they are in the order
+    // of form and results.
     fn places(&self) -> Vec<Place> {
         let typed = self.input.value();
         let Context {
@@ -219,7 +220,7 @@ impl Picker {
         }
     }
 
-    /// Moves the selection, as far as there are lines.
+    /// Moves the selection, within the list.
     pub(crate) fn mark(&mut self, by: isize) {
         let last = self.fitting().len().saturating_sub(1);
         self.marked = self.marked.saturating_add_signed(by).min(last);
@@ -263,8 +264,8 @@ struct Place {
     item: Item,
 }
 
-/// The score, then how many words of the label are not typed, then the kind that the focused pane
-/// prefers, then the more frequent choice.
+/// The score, then the number of label words that are not typed, then the kind that the focused
+/// pane prefers, then the more frequent choice.
 type Rank = (Reverse<u32>, (usize, bool), bool);
 
 impl Place {

@@ -1,4 +1,4 @@
-//! Bytes in, keys out: every sequence that is known, in one piece, in parts, and unfinished.
+//! Tests of the decoder: every known sequence, in one piece, in parts, and unfinished.
 
 use super::*;
 use crossterm::event::{KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
@@ -8,7 +8,7 @@ const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
 const ALT: KeyModifiers = KeyModifiers::ALT;
 const CTRL: KeyModifiers = KeyModifiers::CONTROL;
 
-/// The inputs of reads that follow each other at once, and those of the silence after them.
+/// The inputs of consecutive reads, and the inputs after a timeout.
 fn decode(reads: &[&[u8]]) -> (Vec<Event>, Vec<Event>) {
     let (mut decoder, mut inputs, mut rest) = (Decoder::default(), Vec::new(), Vec::new());
     for read in reads {

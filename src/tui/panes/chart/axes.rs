@@ -11,23 +11,23 @@ use crate::model::contact_state::first_contact_of_driver as first_contact;
 use crate::tui::panes::plot::put_where_free;
 use crate::tui::scale::{Span, Ticks};
 
-/// The least columns of the labels beside the plot.
+/// Least width of the labels beside the plot, in columns.
 const LABEL: usize = 6;
-/// The least columns between labels below the plot, and the least rows between labels beside it.
+/// Least distance of labels: columns below the plot, and rows beside it.
 const ROOM: (u16, u16) = (9, 2);
 /// The smallest plot.
 const LEAST_COLUMNS: u16 = 20;
 const LEAST_ROWS: u16 = 2;
-/// Longer times are in ms, in us.
+/// Longest time in us; longer times are in ms.
 const MOST_MICROS: f64 = 5000.0;
 
-/// The direction of time on the axis, the first text that has room.
+/// The direction of time on the axis, the longest text first.
 const TIME: [&str; 3] = [" time -> ", "time ->", "->"];
 
 /// Names of the time axis.
 const TIME_LABELS: [&str; 2] = ["time after E", "time"];
 
-/// The quantity on the x axis.
+/// The quantity of the x axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Ruler {
     /// The axis value of one degree of roll after E.
@@ -37,7 +37,7 @@ pub(crate) struct Ruler {
     pub(crate) labels: &'static [&'static str],
 }
 
-/// The axes of a chart, and its place on the screen.
+/// The axes of a chart, with their areas on the screen.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Axes {
     /// The plot with the axes and their labels.
@@ -52,7 +52,7 @@ pub(crate) struct Axes {
     pub(crate) below: Ticks,
     /// Ticks beside the plot.
     pub(crate) beside: Ticks,
-    /// The quantity on the x axis.
+    /// The quantity of the x axis.
     pub(crate) ruler: Ruler,
 }
 
@@ -143,8 +143,8 @@ impl Axes {
         }
     }
 
-    /// Cuts rows off at the top: the rows, at most all but two of the plot, and the axes below
-    /// them.
+    /// Removes rows at the top, at most all but two of the plot. Returns these rows and the axes
+    /// below them.
     #[must_use]
     pub(crate) fn split(&self, rows: u16) -> (Rect, Axes) {
         let rows = rows.min(self.plot.height.saturating_sub(LEAST_ROWS));
@@ -189,7 +189,7 @@ impl Axes {
         self.plot.y + dot / 4
     }
 
-    /// Draw lines, ticks and labels.
+    /// Draws lines, ticks and labels.
     pub(crate) fn draw(&self, buffer: &mut Buffer) {
         let plot = self.plot;
         let (left, axis) = (plot.x - 1, plot.bottom());
@@ -221,7 +221,7 @@ impl Axes {
         }
     }
 
-    // From left to right.
+    // The labels below the plot, from left to right.
     fn labels_below(&self) -> Vec<(u16, &str)> {
         let ticks = self.below.labelled.iter();
         let mut labels: Vec<_> = ticks
@@ -233,7 +233,7 @@ impl Axes {
         labels
     }
 
-    /// A faint line at 0 on blank cells, if the values have both signs.
+    /// Draws a faint line at 0 on blank cells, if the values have both signs.
     pub(crate) fn draw_zero(&self, charts: &Charts, buffer: &mut Buffer) {
         if self.upright.from < 0.0 && self.upright.to > 0.0 {
             let y = self.row(0.0);
@@ -243,8 +243,8 @@ impl Axes {
         }
     }
 
-    /// The marks of the contact on the axis: D of the other methods, B, the last contact L, E and
-    /// D.
+    /// Draws the marks of the contact on the axis: D of the other methods, B, the last contact L, E
+    /// and D.
     pub(crate) fn draw_marks(&self, charts: &Charts, buffer: &mut Buffer) {
         let Some(answer) = charts.answer else { return };
         let theme = charts.look.theme;
@@ -266,7 +266,7 @@ impl Axes {
         }
     }
 
-    /// A dotted line on blank cells outside the legend, and a mark on the axis.
+    /// Draws a dotted line on blank cells outside the legend, and a mark on the axis.
     pub(crate) fn draw_cursor(
         &self,
         charts: &Charts,
@@ -285,7 +285,7 @@ impl Axes {
         buffer.set_string(x, self.plot.bottom(), "▴", charts.look.theme.focus);
     }
 
-    /// The direction of time, on the axis between its ticks and marks.
+    /// Draws the direction of time on the axis between its ticks and marks.
     pub(crate) fn draw_time_direction(&self, buffer: &mut Buffer) {
         let y = self.plot.bottom();
         let is_line = |x: u16| buffer.cell((x, y)).is_some_and(|cell| cell.symbol() == "─");

@@ -1,5 +1,4 @@
-//! The curves of a chart: every method, the baseline, and the value that the curve is compared
-//! with.
+//! The curves of a chart: every method, the baseline, and the comparison value.
 
 use super::Charts;
 use crate::case::units::{self, System};
@@ -12,7 +11,7 @@ use crate::report::stations::{Column, Row};
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 
-/// Curves coincide if they differ by at most this part of the values.
+/// Curves coincide if they differ by at most this fraction of the values.
 const ALIKE: f64 = 2e-3;
 
 /// The source of a curve.
@@ -24,7 +23,7 @@ pub enum Whose {
     Other(Method),
     /// The baseline, by the active method if the baseline has that method.
     Pinned(Method),
-    /// The value that the active method's curve is compared with.
+    /// The comparison value of the active method's curve.
     Bound(&'static str),
     /// A compliance model.
     Model {
@@ -80,7 +79,6 @@ pub fn curves(charts: &Charts, graph: &Graph) -> Vec<Curve> {
         .collect()
 }
 
-// A chart and its display units.
 #[derive(Clone, Copy)]
 struct Drawn<'a> {
     graph: &'a Graph,
@@ -92,7 +90,7 @@ impl Drawn<'_> {
         self.curve(&answer.inputs, answer.of(answer.active)?, whose)
     }
 
-    // The model of the case last, on top of the others, and the elastic field below it.
+    // The model of the case is last, on top of the others, and the elastic field is below it.
     fn models(self, answer: &Answer, column: &'static Column) -> Vec<Curve> {
         let Some(Ok(found)) = &answer.stiffness else {
             return Vec::new();
@@ -157,8 +155,8 @@ impl Drawn<'_> {
     }
 }
 
-/// Whether it is the elastic field, which couples neighbouring teeth: the other models are compared
-/// with it.
+/// Whether it is the curve of the elastic field, which couples neighbouring teeth: the other models
+/// are compared with this curve.
 #[must_use]
 pub fn is_field(whose: Whose) -> bool {
     matches!(whose, Whose::Model { model, .. } if model.model().has_coupling)
@@ -196,7 +194,7 @@ pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
 }
 
 impl Curve {
-    // Keeps the points that are not hidden, and their neighbours, so that the line meets the active
+    // Keeps the points that are not hidden and their neighbours, so that the line meets the active
     // curve.
     fn without(self, is_hidden: impl Fn(Point) -> bool) -> Curve {
         let pieces = self.pieces.iter().flat_map(|piece| {
@@ -222,7 +220,7 @@ impl Curve {
         self.points().fold(Span::NONE, |span, (_, y)| span.with(y))
     }
 
-    /// The least and the greatest value within a stretch of the angle.
+    /// The least and the greatest value within a range of the angle.
     pub(crate) fn upright_within(&self, window: Span) -> Span {
         let ends = [window.from, window.to]
             .into_iter()

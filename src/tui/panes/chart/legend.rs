@@ -1,4 +1,4 @@
-//! The legend of a chart: a message and the names of the curves, clear of every curve.
+//! The legend of a chart: a message and the names of the curves, on cells without curves.
 
 use std::ops::Range;
 
@@ -21,17 +21,17 @@ pub(crate) struct Legend {
     blocks: Vec<Block>,
 }
 
-/// A block of text: pieces that stay whole, with a number of blank cells between them.
+/// A block of text: unbroken pieces with a number of blank cells between them.
 #[derive(Debug, Clone)]
 struct Block {
     pieces: Vec<Line<'static>>,
     gap: usize,
 }
 
-/// A block with its place.
+/// A block with its position.
 #[derive(Debug, Clone)]
 pub(crate) struct Placed {
-    /// The cells that it covers.
+    /// The cells of the block.
     pub(crate) area: Rect,
     rows: Vec<Line<'static>>,
 }

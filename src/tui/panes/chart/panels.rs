@@ -1,4 +1,4 @@
-//! The visible charts on the screen: their places, titles and drawing.
+//! The visible charts on the screen: positions, titles and drawing.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -21,7 +21,7 @@ use crate::tui::text;
 /// Columns of the plot on a terminal of 80 columns.
 const USUAL_COLUMNS: u16 = 71;
 
-/// The title of the first chart, in a given room.
+/// The title of the first chart, at most `room` columns wide.
 pub(crate) fn first_title(charts: &Charts, room: usize) -> String {
     if let Some(chart) = charts.pane.whine {
         return whine::title(charts, chart, room);
@@ -58,7 +58,7 @@ pub(crate) fn draw(charts: &Charts, buffer: &mut Buffer) {
     }
 }
 
-/// The columns of the visible chart, or of a usual chart if none is visible.
+/// The width of the visible chart in columns, or of a default chart if none is visible.
 #[must_use]
 pub(crate) fn columns(charts: &Charts) -> u16 {
     let columns = panels(charts)
@@ -159,7 +159,7 @@ fn draw_panel(charts: &Charts, graph: &Graph, axes: &Axes, buffer: &mut Buffer) 
     axes.draw_time_direction(buffer);
 }
 
-// Everything below the legend.
+// Draws everything below the legend.
 fn draw_curves(charts: &Charts, axes: &Axes, curves: &[Curve], buffer: &mut Buffer) {
     axes.draw(buffer);
     for curve in curves {
@@ -175,9 +175,8 @@ fn draw_curves(charts: &Charts, axes: &Axes, curves: &[Curve], buffer: &mut Buff
     axes.draw_marks(charts, buffer);
 }
 
-/// The longest title that has room: the name, the symbol with its unit, and the x axis with its
-/// unit. A title without room for all shortens the x axis, then leaves out the x axis, then the
-/// name.
+/// The longest title that fits: the name, the symbol with its unit, and the x axis with its unit.
+/// If there is less room, the title shortens the x axis, then omits the x axis, then the name.
 fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
     let answer = charts.answer;
     let own = answer.and_then(|answer| graph.column(answer.active));

@@ -7,8 +7,8 @@ use crate::tui::scale::Span;
 
 /// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.
 const LAST_STEP_IN: i32 = 20;
-/// Distance from the edge, as a part of the visible range, of a cursor that had left the range.
-/// Without it the charts would scroll with every step of the cursor.
+/// Distance from the edge, as a fraction of the visible range, of a cursor after it has left the
+/// range. Without this distance the charts would scroll with every step of the cursor.
 const MARGIN: f64 = 0.25;
 
 /// The axes of the charts.
@@ -36,7 +36,7 @@ pub struct ChartView {
 /// The range of roll angles without zoom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Frame {
-    /// The strike if the contact continues after it, else the whole contact.
+    /// The strike if the contact continues after it, otherwise the whole contact.
     #[default]
     Opening,
     /// From D to the end of the contact.
@@ -119,7 +119,7 @@ impl ChartView {
         }
     }
 
-    /// `Strike` or `Whole`, whichever frame the view has on these axes.
+    /// The frame of the view on these axes: `Strike` or `Whole`.
     pub(crate) fn resolved(&self, scale: &Scale) -> Frame {
         let opens_on_strike = !scale.strike.is_empty() && scale.strike.to < scale.across.to;
         match self.frame {
@@ -142,11 +142,11 @@ impl ChartView {
 pub(crate) struct Occasion {
     /// The serial of the answered request, and whether the answer is still incomplete.
     pub(crate) answered: Option<(u64, bool)>,
-    /// The address of the mesh stiffness, which comes after the answer.
+    /// The address of the mesh stiffness, which arrives after the answer.
     pub(crate) stiffness: Option<usize>,
     /// The serial of the baseline's request.
     pub(crate) pinned: Option<u64>,
-    /// The chosen chart, the number of visible charts, and the units.
+    /// The selected chart, the number of visible charts, and the units.
     pub(crate) shown: (usize, usize, System),
     /// The frame, the zoom, and the bits of the angle in the middle.
     pub(crate) sight: (Frame, i32, Option<u64>),
@@ -154,7 +154,7 @@ pub(crate) struct Occasion {
     pub(crate) ground: (Option<Method>, u64),
 }
 
-/// The axes to fit again even if they still cover the values.
+/// Which axes to fit again even if they still contain the values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Refit {
     /// The value axes: for other charts or other units.
@@ -165,7 +165,7 @@ pub(crate) struct Refit {
 
 impl Occasion {
     /// Compares with an earlier occasion. While an answer is incomplete, the method and the undo of
-    /// the earlier occasion still count.
+    /// the earlier occasion remain.
     #[must_use]
     pub(crate) fn since(&mut self, before: Occasion) -> Refit {
         if self

@@ -1,4 +1,4 @@
-//! Draws curves into cells, and keeps every peak that is narrower than a column.
+//! Draws curves into cells and keeps every peak that is narrower than a column.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -12,7 +12,7 @@ use crate::report::charts::Point;
 use crate::tui::panes::plot::PlotArea;
 use crate::tui::scale::Span;
 
-/// From more points than this in a column, only the first, last, least and greatest are drawn.
+/// If a column has more points than this, only the first, last, least and greatest are drawn.
 const MANY: usize = 8;
 
 /// The marker of a curve.
@@ -35,7 +35,7 @@ pub(crate) fn marker(charts: &Charts, whose: Whose) -> Marker {
     }
 }
 
-/// Whether it is the curve with which the others are compared.
+/// Whether the others are compared with this curve.
 fn is_main(whose: Whose) -> bool {
     matches!(whose, Whose::Active(_)) || is_field(whose)
 }
@@ -79,7 +79,7 @@ pub fn draw(
     area.draw_pieces(&pieces, look, buffer);
 }
 
-// The visible points and their neighbours, thinned out if a column has many.
+// The visible points and their neighbours, reduced if a column has many.
 fn visible(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
     let from = piece
         .partition_point(|point| point.0 < across.from)
@@ -96,7 +96,7 @@ fn visible(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
         .collect()
 }
 
-// The first, the least, the greatest and the last point, in their order.
+// The first, the least, the greatest and the last point, in order.
 fn outline(points: &[Point]) -> Vec<Point> {
     let by_height = |one: &usize, other: &usize| points[*one].1.total_cmp(&points[*other].1);
     let extremes = [

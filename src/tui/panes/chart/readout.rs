@@ -14,7 +14,7 @@ use crate::tui::ascii::symbol;
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;
 
-/// A smaller part of the curve's greatest value is zero except for rounding.
+/// A value below this fraction of the greatest value of the curve is a rounding error of 0.
 const ROUNDING: f64 = 1e-9;
 
 /// The angle, the visible curves at it, and every other value of the active method.
@@ -70,7 +70,7 @@ fn time(charts: &Charts, cursor: f64) -> String {
     }
 }
 
-// Every curve of a chart, the active method first, in the unit of the greatest value.
+// The values of every curve of a chart, the active method first, in the unit of the greatest value.
 fn all(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(charts, graph);
     let readings: Vec<Reading> = curves
@@ -81,7 +81,7 @@ fn all(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     in_words(charts, &readings)
 }
 
-// The active method's value alone.
+// The value of the active method only.
 fn own(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(charts, graph);
     let own = curves
@@ -90,7 +90,7 @@ fn own(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     in_words(charts, &[Reading::of(charts, graph, own, cursor)?])
 }
 
-// The value of a curve in SI, and its number of significant digits.
+// The value of a curve in SI, with its number of significant digits.
 struct Reading {
     name: String,
     column: &'static Column,
@@ -113,7 +113,7 @@ fn in_words(charts: &Charts, readings: &[Reading]) -> Option<String> {
     Some(words.collect::<Vec<_>>().join(", "))
 }
 
-// The value from the same evaluation as in the teeth pane, not from the drawn line, and its number
+// The value from the same evaluation as in the teeth pane, not from the drawn line, with its number
 // of significant digits.
 fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
     if let Whose::Model { .. } = curve.whose {
@@ -153,7 +153,7 @@ fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(
     }
 }
 
-/// The name of the baseline's curve, with its method if that differs from the active method.
+/// The name of the curve of the baseline, with its method if it differs from the active method.
 pub(crate) fn base_name(charts: &Charts, method: Method) -> String {
     let is_other = charts.answer.is_some_and(|answer| answer.active != method);
     if is_other {

@@ -1,4 +1,4 @@
-//! The roll angles between which the incoming tooth is shown.
+//! The range of roll angles of the incoming tooth.
 
 use crate::model::Solution;
 use crate::model::inputs::Method;
@@ -15,7 +15,7 @@ pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
     }
 }
 
-/// The range from the first station of any method to the last, in deg after E.
+/// The range from the first to the last station of all methods, in deg after E.
 pub(super) fn way(answer: &Answer) -> Span {
     answer
         .methods

@@ -15,9 +15,9 @@ use crate::tui::whine::WhineChart;
 
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
-/// Columns between labels below the plot.
+/// Least distance of labels below the plot, in columns.
 const LABEL_ROOM: u16 = 12;
-/// The part of a whole number that its bars fill.
+/// Width of the bars of a whole number; 1 is the distance of two numbers.
 const BARS: f64 = 0.7;
 
 /// The title: the chart and its axes.
@@ -73,7 +73,7 @@ struct Plot<'a> {
 }
 
 impl<'a> Plot<'a> {
-    /// None where there is no room.
+    /// `None` if there is no room.
     fn of(charts: &'a Charts<'a>, chart: &'a Chart, inner: Rect) -> Option<Plot<'a>> {
         let upright = Span::default().refit(ordinates(chart));
         let ticks = upright.ticks(inner.height.saturating_sub(2) / 2);
@@ -161,7 +161,7 @@ impl<'a> Plot<'a> {
                 continue;
             };
             let bottom = self.area.row(0.0).min(self.area.cells.bottom() - 1);
-            // The lowest row is that of 0: a bar that rounds to it has no height.
+            // The lowest row is the row of 0: a bar that rounds to 0 has no height.
             let top = Some(self.area.row(*y)).filter(|&top| top < bottom);
             for column in from..to.max(from + 1) {
                 for row in top.into_iter().flat_map(|top| top..=bottom) {
@@ -189,7 +189,7 @@ impl<'a> Plot<'a> {
         }
     }
 
-    /// The named places on the axis: a line through the plot with the name at its top.
+    /// Draws the marks of the axis: a vertical line with the name at its top.
     fn marks(&self, buffer: &mut Buffer) {
         let theme = self.charts.look.theme;
         let mut free = self.area.cells.x;
@@ -252,7 +252,7 @@ fn is_bars(series: &Series) -> bool {
     matches!(series.kind, Kind::Bars(..))
 }
 
-/// The horizontal axis: the points and, of bars, half a number at each end.
+/// The range of the horizontal axis: the points and, for bars, half a number at each end.
 fn across(chart: &Chart) -> Span {
     let half = if chart.series.iter().any(is_bars) {
         0.5
@@ -269,7 +269,7 @@ fn across(chart: &Chart) -> Span {
     Span::new(span.from - half, span.to + half)
 }
 
-/// The values, and 0 below bars.
+/// The range of the values, with 0 for bars.
 fn ordinates(chart: &Chart) -> Span {
     let points = chart
         .series

@@ -1,4 +1,4 @@
-//! A limit as a line of the form, with its verdict.
+//! A limit as a row of the form, with its verdict.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -13,13 +13,13 @@ use crate::report::verdict::verdict;
 use crate::tui::ascii;
 use crate::tui::rows;
 
-/// Between the symbol of a quantity and its limit, where the label has no room.
+/// Text between the symbol of a quantity and its limit, if the label does not fit.
 const AT_MOST: &str = " <= ";
 
 /// The sign of a free impact within the limit while the impact of the method exceeds it.
 const ABOVE_BESIDE: &str = " (!)";
 
-// The limit as it is written, and how the result stands to it.
+// Draws the limit as it is written, with its verdict.
 pub(super) fn draw_limit(
     pane: &Form<'_>,
     index: usize,
@@ -62,8 +62,7 @@ pub(super) fn draw_limit(
         (MARK + brief.width() as u16).min(line.width)
     };
     let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
-    // The label gives up what it does not need, so that the verdict stands in a word rather than a
-    // sign.
+    // The label gives its unused columns to the verdict, so that a word fits rather than a sign.
     let spare = if is_whole {
         usize::from(usual).saturating_sub(label.width())
     } else {
@@ -99,8 +98,7 @@ pub(super) fn draw_limit(
     )
 }
 
-// How the last valid result stands to the limit, in words, in fewer and by a sign alone, and their
-// style.
+// The verdict of the last valid result, from the full text to a sign, with its style.
 fn standing(pane: &Form<'_>, limit: &Limit) -> (Vec<String>, Style) {
     let theme = pane.look.theme;
     let is_known = !pane.is_stale && !limit.text.is_empty();

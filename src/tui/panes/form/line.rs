@@ -1,4 +1,4 @@
-//! The parts of a line of the form: its mark, its name and its text.
+//! The parts of a row of the form: its mark, its name and its text.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -31,7 +31,7 @@ pub(super) fn draw_mark(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut 
             theme.note,
         );
     }
-    // The reason stands below the line and has a mark of its own.
+    // The reason below the row has a mark of its own.
     if pane.focus == index {
         buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
     } else if pane.is_faulty(index) {
@@ -39,7 +39,7 @@ pub(super) fn draw_mark(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut 
     }
 }
 
-// So much room labels have beside values of the usual width.
+// Width of the labels beside values of the default width.
 pub(super) fn label_width(area: Rect) -> u16 {
     let value = if area.width + MARK < WHOLE {
         NARROW_VALUE
@@ -49,7 +49,7 @@ pub(super) fn label_width(area: Rect) -> u16 {
     LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value))
 }
 
-// Symbol and label; how far into the line they go.
+// Draws symbol and label. Returns their width.
 pub(super) fn draw_name(
     symbol: &str,
     label: &str,
@@ -70,7 +70,7 @@ pub(super) fn draw_name(
     MARK + SYMBOL + width + 1
 }
 
-// What is written in a row, as a line to edit where it is edited, else the words for what is not.
+// Draws the text of a row: an input line if the row is edited, otherwise its value or its default.
 pub(super) fn draw_text(
     pane: &Form<'_>,
     index: usize,

@@ -1,5 +1,5 @@
-//! The lines between outcome and table: methods that differ, the required relief, mesh frequency
-//! and resonance, the spread of the stiffness models, the error of the printed equations.
+//! The lines between outcome and table: methods with another outcome, the required relief, mesh
+//! frequency and resonance, the spread of the stiffness models, the error of the printed equations.
 
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution, Stage};
@@ -10,7 +10,7 @@ use crate::tui::ascii::symbol;
 use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 
-/// A statement in full, and then in fewer and fewer words.
+/// A statement in several lengths, from the full text to the shortest.
 pub(super) struct Gauge(pub(super) Vec<String>);
 
 impl Gauge {
@@ -31,7 +31,7 @@ pub(super) fn gauges(pane: &Results<'_>, answer: &Answer) -> Vec<Gauge> {
     let ratios = (!solution.method.shares_load())
         .then(|| ratios(answer, pane.look.ascii))
         .flatten();
-    // The printed equations are no other opinion on the pair.
+    // `paper` is not compared: it repeats `exact` with misprints.
     let others: Vec<&Solution> = (answer.methods.iter().rev())
         .filter(|(method, _)| *method != answer.active && *method != Method::Paper)
         .filter_map(|(_, found)| found.as_ref().ok())
@@ -45,13 +45,13 @@ pub(super) fn gauges(pane: &Results<'_>, answer: &Answer) -> Vec<Gauge> {
         .collect()
 }
 
-// A method that takes its time is not compared before its own result is there.
+// A slow method is not compared before its own result is present.
 fn other_outcomes(answer: &Answer, solution: &Solution, others: &[&Solution]) -> Option<Gauge> {
     let found = differing(solution, others).filter(|_| answer.pending.is_none());
     found.map(|words| Gauge(words.into()))
 }
 
-// The required relief; a place is kept for it while the worker still looks for it.
+// The required relief, or a placeholder while the worker computes it.
 fn relief(
     pane: &Results<'_>,
     answer: &Answer,
@@ -66,14 +66,14 @@ fn relief(
         .map(|words| Gauge(words.into()))
 }
 
-// How far the force depends on the stiffness model.
+// The spread of the force over the stiffness models.
 fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
     if solution.outcome == Outcome::NoCornerContact {
         return None;
     }
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
-    // In the unit of the force, with a digit more where the unit needs one.
+    // In the unit of the force, with an additional digit if the unit needs it.
     let ends = || [band.low, band.high].into_iter();
     let (few, usual) = (
         Quantity::find("impact_force_low")?,
@@ -101,7 +101,7 @@ fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
     ]))
 }
 
-// How far the printed equations are off, where both methods find a contact.
+// The error of the printed equations, if both methods find a contact.
 fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
     let (paper, exact) = (answer.of(Method::Paper)?, answer.of(Method::Exact)?);
     let ratio = |key| {

@@ -1,4 +1,4 @@
-//! The limits of the case beside the results: a warning above the table, every verdict in full.
+//! The limits of the case in the results: a warning above the table, and every verdict in full.
 
 use super::pane::Results;
 use crate::model::{Quantity, Solution};
@@ -6,7 +6,7 @@ use crate::report::shown_in;
 use crate::report::verdict::{Verdict, verdicts};
 use crate::tui::ascii::symbol;
 
-/// The first limit that is not met, in full and in fewer words, and how many more there are.
+/// The first limit that is not met, in two lengths, with the number of further ones.
 pub(super) fn warning(pane: &Results<'_>, solution: &Solution) -> Option<Vec<String>> {
     let unmet: Vec<Verdict<'_>> = written(pane, solution)
         .into_iter()
@@ -25,7 +25,7 @@ pub(super) fn warning(pane: &Results<'_>, solution: &Solution) -> Option<Vec<Str
     )
 }
 
-/// The verdict on each limit in a sentence.
+/// The verdict on each limit as a sentence.
 pub(super) fn sentences(pane: &Results<'_>, solution: &Solution) -> Vec<String> {
     if pane.is_stale {
         return Vec::new();
@@ -48,7 +48,7 @@ fn written<'a>(pane: &Results<'a>, solution: &Solution) -> Vec<Verdict<'a>> {
     verdicts
 }
 
-/// Whether the limit is met, by the method's own quantity too unless that has a limit.
+/// Whether the limit is met; also by the method's own quantity, unless that quantity has a limit.
 fn is_met(verdict: &Verdict<'_>) -> bool {
     let is_own_limited = verdict.beside.is_some_and(|beside| beside.is_limited);
     verdict.standing.holds() && (is_own_limited || !verdict.is_exceeded_beside())

@@ -11,15 +11,15 @@ use crate::tui::solver::{Answer, Values};
 use crate::tui::theme::Look;
 use crate::tui::variants::Variants;
 
-/// The state of the pane. Each open case has its own.
+/// The state of the pane, separate for each open case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ResultsState {
     /// The selected line among the quantities.
     pub row: usize,
     /// The first visible line of the quantities.
     pub top: usize,
-    /// The quantity that was selected and is none of the present results: the selection returns to
-    /// it.
+    /// The quantity that was selected and is missing from the present results; the selection
+    /// returns to it.
     pub(crate) lost: Option<&'static str>,
 }
 
@@ -35,29 +35,29 @@ pub struct Results<'a> {
     pub(crate) baseline: Option<&'a Baseline>,
     /// The variants, if they are shown instead of the methods.
     pub(crate) variants: Option<&'a Variants>,
-    /// The first visible one.
+    /// The first visible variant.
     pub(crate) first_variant: usize,
     /// The values before the last edit.
     pub(crate) earlier: Option<&'a Values>,
     /// Why the model refuses the case.
     pub(crate) refusal: Option<&'a Refusal>,
-    /// The rows of the form that are wrong.
+    /// The invalid rows of the form.
     pub(crate) problems: &'a [(usize, Problem)],
-    /// How many required values are missing, if nothing else is wrong.
+    /// The number of missing required values, if nothing else is wrong.
     pub(crate) missing: Option<usize>,
     /// The case in the form.
     pub(crate) case: &'a Case,
     /// Whether the results are older than the form.
     pub(crate) is_stale: bool,
-    /// Whether the title says so.
+    /// Whether the title shows that the results are older.
     pub(crate) shows_last_valid: bool,
     /// Whether the title shows the cost of the solve.
     pub(crate) shows_cost: bool,
     /// Whether the pane has the focus.
     pub(crate) is_focused: bool,
-    /// Names the key that goes to the next wrong row.
+    /// Returns the name of the key that goes to the next invalid row.
     pub(crate) next_fault: fn() -> String,
-    /// Names the key that shows the outcome and every note in full.
+    /// Returns the name of the key that shows the outcome and every note in full.
     pub(crate) notes_key: fn() -> String,
     /// The display units.
     pub(crate) units: System,

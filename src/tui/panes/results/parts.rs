@@ -1,4 +1,4 @@
-//! The parts of the pane from its top to its bottom, and the room that each has.
+//! The parts of the pane from top to bottom, with their heights.
 
 use ratatui::style::Style;
 use ratatui::text::Line;
@@ -12,30 +12,30 @@ use crate::report::digest;
 use crate::tui::solver::Answer;
 use crate::tui::text;
 
-/// So many quantities are to be in sight before gauges and notes get more than a line each.
+/// Number of visible quantities above which gauges and notes get more than one line each.
 const ENOUGH_ROWS: usize = 8;
 
-/// So many at least below outcome and gauges, and below the reason why a case is not solved.
+/// Least number of visible quantities, below outcome and gauges or below a refusal.
 const LEAST_ROWS: usize = 4;
 const LEAST_BELOW_FAULT: usize = 2;
 
-/// A pane with fewer lines and columns has room for the outcome in a few words only.
+/// A pane with fewer lines and columns shows the outcome as a short phrase.
 const LOW: usize = 20;
 
 const NARROW: usize = 30;
 
-/// What stands in the pane, from its top to its bottom.
+/// The content of the pane, from top to bottom.
 pub(super) struct Parts {
     /// The refusal, the outcome, the gauges.
     pub(super) head: Vec<Line<'static>>,
-    /// How many quantities have room below their heading.
+    /// Number of quantities that fit below their heading.
     pub(super) rows: usize,
-    /// What to know.
+    /// The notes.
     pub(super) notes: Vec<Line<'static>>,
 }
 
-// With room every gauge and note is printed in full, else each gauge in a line and the notes in
-// one.
+// If there is room, every gauge and note is printed in full; otherwise each gauge has one line and
+// all notes share one.
 pub(super) fn parts(pane: &Results<'_>) -> Parts {
     let area = pane.area;
     let width = usize::from(area.width.saturating_sub(1));
@@ -104,8 +104,8 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
     }
 }
 
-// The only note in full, else as many as have room by their names, else how many there are. With
-// hidden lines above, how many lines there are beside those on the screen.
+// A single note in full, otherwise the names of as many notes as fit, otherwise their number. If
+// lines above are hidden, the number of all hidden lines.
 fn shortened(pane: &Results<'_>, hidden: usize, width: usize) -> Option<String> {
     let notes = pane.answer.map_or(&[][..], |answer| &answer.notes[..]);
     let count = notes.len() + hidden;

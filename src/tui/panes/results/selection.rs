@@ -13,13 +13,13 @@ pub(crate) fn listed<'a>(pane: &Results<'a>) -> impl Iterator<Item = &'static Qu
     pane.answer.into_iter().flat_map(table::order)
 }
 
-/// How many quantities there are.
+/// The number of quantities.
 #[must_use]
 pub fn count(pane: &Results<'_>) -> usize {
     listed(pane).count()
 }
 
-/// How many of them are in sight.
+/// The number of visible quantities.
 #[must_use]
 pub fn page(pane: &Results<'_>) -> usize {
     parts(pane).rows
@@ -31,18 +31,18 @@ pub fn marked(pane: &Results<'_>) -> Option<&'static Quantity> {
     table::order(pane.answer?).nth(pane.state.row)
 }
 
-/// Where a quantity stands in the results of a tab.
+/// A quantity in the results of a tab.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Listed {
     pub(crate) key: &'static str,
-    /// Its place among the quantities.
+    /// Its index among the quantities.
     pub(crate) row: usize,
     pub(crate) line: usize,
-    /// Whether the active method finds a value.
+    /// Whether the active method has a value.
     pub(crate) has_value: bool,
 }
 
-/// Where a quantity stands in an answer, by its key; else the selected one.
+/// The quantity with a key in an answer; without a key, the selected quantity.
 pub(crate) fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) -> Option<Listed> {
     let is_meant = |(row, quantity): &(usize, &Quantity)| {
         key.map_or(*row == state.row, |key| quantity.key == key)
@@ -57,9 +57,9 @@ pub(crate) fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) 
     })
 }
 
-/// The state with a new answer: the selection stays on the quantity that was selected in the answer
-/// before, and on its line of the screen. Where nothing was selected, and while the quantity is
-/// gone or has no value any more, the top is shown.
+/// The state for a new answer: the selection stays on the quantity that was selected in the
+/// previous answer, and on its line of the screen. Shows the top if nothing was selected, or if the
+/// quantity is missing or has no value.
 #[must_use]
 pub(crate) fn followed(
     state: ResultsState,
@@ -87,7 +87,7 @@ pub(crate) fn followed(
 }
 
 impl Results<'_> {
-    /// The state with the selection so many quantities further.
+    /// The state with the selection `by` quantities further.
     #[must_use]
     pub(crate) fn stepped(&self, by: isize) -> ResultsState {
         ResultsState {
@@ -96,7 +96,7 @@ impl Results<'_> {
         }
     }
 
-    /// The state so many lines further, the selection moved along where it would be left behind.
+    /// The state scrolled by `by` lines; the selection moves if it would leave the visible lines.
     pub(crate) fn turned(&self, by: isize) -> ResultsState {
         let top = scrolled(self, by);
         let last = top + page(self).saturating_sub(1);
@@ -117,7 +117,7 @@ impl Results<'_> {
     }
 }
 
-/// The first line to be shown, so that the marked quantity is in sight.
+/// The first visible line such that the selected quantity is visible.
 pub(crate) fn top_for(pane: &Results<'_>) -> usize {
     let rows = page(pane).max(1);
     let line = line_of(pane, pane.state.row);
@@ -128,7 +128,7 @@ pub(crate) fn top_for(pane: &Results<'_>) -> usize {
         .min(line_count(pane).saturating_sub(rows))
 }
 
-/// The first line to be shown after so many lines downwards.
+/// The first visible line after scrolling by lines downwards.
 #[must_use]
 pub(crate) fn scrolled(pane: &Results<'_>, by: isize) -> usize {
     pane.state
@@ -137,14 +137,14 @@ pub(crate) fn scrolled(pane: &Results<'_>, by: isize) -> usize {
         .min(line_count(pane).saturating_sub(page(pane)))
 }
 
-/// The place of the quantity on a cell, where there is one.
+/// The index of the quantity at a cell, if any.
 pub(crate) fn row_at(pane: &Results<'_>, at: Position) -> Option<usize> {
     let line = usize::from(at.y - pane.area.y).checked_sub(lines_before(pane))?;
     let in_sight = line < parts(pane).rows;
     table::row_of(pane.answer?, pane.state.top + line).filter(|&row| in_sight && row < count(pane))
 }
 
-// The line of a quantity, by their places.
+// The line of a quantity.
 pub(super) fn line_of(pane: &Results<'_>, row: usize) -> usize {
     pane.answer
         .map_or(row, |answer| table::line_of(answer, row))
@@ -156,7 +156,7 @@ pub(super) fn line_count(pane: &Results<'_>) -> usize {
         .map_or(0, |last| line_of(pane, last) + 1)
 }
 
-// Title, head and heading.
+// The number of lines of title, head and heading.
 fn lines_before(pane: &Results<'_>) -> usize {
     parts(pane).head.len() + 2
 }

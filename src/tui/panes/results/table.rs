@@ -1,5 +1,5 @@
-//! The table of quantities: a line each, the methods side by side, marks of changes and limits, the
-//! difference from the baseline.
+//! The table of quantities: one line each, with the methods side by side, marks of changes and
+//! limits, and the difference from the baseline.
 
 mod columns;
 mod difference;
@@ -24,7 +24,7 @@ use crate::tui::solver::Answer;
 use crate::tui::text;
 use columns::Columns;
 
-/// What an engineer looks at first.
+/// The first rows, which show the most important quantities of a closed form.
 const FIRST: &[&str] = &[
     "impact_force",
     "impact_duration",
@@ -33,7 +33,7 @@ const FIRST: &[&str] = &[
     "normal_velocity",
     "total_deviation",
 ];
-/// The same, where every pair takes its share of the load.
+/// The first rows of `static`, which shares the load among all pairs.
 const FIRST_OF_STATIC: &[&str] = &[
     "static_force_at_start",
     "static_peak_force",
@@ -42,7 +42,7 @@ const FIRST_OF_STATIC: &[&str] = &[
     "mesh_force",
     "total_deviation",
 ];
-/// The same with inertia.
+/// The first rows of `dynamic`.
 const FIRST_OF_DYNAMIC: &[&str] = &[
     "dynamic_peak_approach_force",
     "dynamic_peak_force",
@@ -51,7 +51,7 @@ const FIRST_OF_DYNAMIC: &[&str] = &[
     "dynamic_contact_lost",
     "total_deviation",
 ];
-/// The same, when no tooth strikes.
+/// The first rows without corner contact.
 const FIRST_WITHOUT_CONTACT: &[&str] = &[
     "total_deviation",
     "dynamic_peak_force",
@@ -63,18 +63,17 @@ const FIRST_WITHOUT_CONTACT: &[&str] = &[
     "contact_ratio",
 ];
 
-/// Stands behind a value that the last edit changed.
+/// Mark after a value that the last edit changed.
 const CHANGED: &str = "←";
 
 pub(super) struct Table {
-    /// The names of the columns.
     pub(super) heading: Line<'static>,
-    /// A line for every quantity, and one above those of the free impact.
+    /// A line for every quantity, and a heading above the quantities of the free impact.
     pub(super) rows: Vec<Line<'static>>,
 }
 
-/// The quantities that some method has, in the order in which a person reads them: what matters
-/// first, then the method's own.
+/// The quantities that at least one method has: the most important first, then those of the active
+/// method.
 pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> {
     let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
     let strikes = answer.of(answer.active).is_none_or(strikes);
@@ -102,19 +101,19 @@ pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> 
         .filter(move |quantity| stages.has(quantity.stage))
 }
 
-/// How many quantities stand above the heading of those of the free impact, which the method
-/// resolves itself.
+/// The number of quantities above the heading of the free impact, if the method resolves the impact
+/// itself.
 pub(super) fn above_heading(answer: &Answer) -> Option<usize> {
     let own = || order(answer).position(Quantity::is_of_free_impact);
     answer.active.shares_load().then(own).flatten()
 }
 
-/// The line of a quantity, by their places.
+/// The line of a quantity.
 pub(super) fn line_of(answer: &Answer, row: usize) -> usize {
     row + usize::from(above_heading(answer).is_some_and(|above| above <= row))
 }
 
-/// The quantity on a line, by their places; none on a heading.
+/// The quantity on a line; `None` on a heading.
 pub(super) fn row_of(answer: &Answer, line: usize) -> Option<usize> {
     match above_heading(answer) {
         Some(above) if line == above => None,
@@ -123,7 +122,7 @@ pub(super) fn row_of(answer: &Answer, line: usize) -> Option<usize> {
     }
 }
 
-/// The whole table in that width.
+/// The whole table in a width.
 pub(super) fn lines(pane: &Results<'_>, answer: &Answer, width: usize) -> Table {
     if let Some(variants) = pane.variants {
         return variants::lines(pane, answer, variants, width);
@@ -159,10 +158,10 @@ pub(super) struct Cells {
     quantity: &'static Quantity,
     symbol: String,
     label: &'static str,
-    /// A number for each method, in the answer's order.
+    /// The number of each method, in the order of the answer.
     numbers: Vec<(Method, String)>,
     unit: &'static str,
-    /// The unit of the numbers, "1" where none is shown.
+    /// The unit of the numbers, "1" if none is shown.
     common: &'static str,
     mark: &'static str,
 }
@@ -199,14 +198,14 @@ impl Cells {
     }
 }
 
-// The methods that have columns: what `static` finds is among the rows of `dynamic`.
+// The methods with columns: results of `static` are among the rows of `dynamic`.
 fn methods(answer: &Answer) -> Vec<Method> {
     let is_row = |method: Method| method == Method::Static && answer.active == Method::Dynamic;
     let methods = answer.methods.iter().map(|(method, _)| *method);
     methods.filter(|&method| !is_row(method)).collect()
 }
 
-// Above its limit, or changed.
+// The mark of a quantity: above its limit, or changed.
 fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static str {
     let solution = answer.of(answer.active).filter(|_| !pane.is_stale);
     let limit = pane
@@ -224,7 +223,7 @@ fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static st
     }
 }
 
-// Whether this visit of a field changed what is shown of the quantity.
+// Whether the present visit of a field changed the printed value of the quantity.
 fn is_changed(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> bool {
     let Some(earlier) = pane.earlier.filter(|_| !pane.is_stale) else {
         return false;

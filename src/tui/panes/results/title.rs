@@ -1,4 +1,4 @@
-//! The title of the pane: as much as has room.
+//! The title of the results pane.
 
 use unicode_width::UnicodeWidthStr;
 
@@ -6,13 +6,13 @@ use super::pane::Results;
 use super::selection::line_count;
 use crate::tui::text;
 
-/// So much of the baseline's name, and of the word before it, tells something.
+/// Least useful width of the baseline's name with the word before it.
 const LEAST_OF_BASE: usize = ", against name…".len();
 
-/// Words for the variants, in full and in fewer.
+/// Words for the variants, the longest first.
 const VARIANTS: [&str; 2] = [", variants against the case", ", variants"];
 
-// Which lines of the table are in sight, where some are not; in words, in numbers, in arrows.
+// The range of visible lines of the table, if some are hidden: in words, in numbers, as arrows.
 fn position(pane: &Results<'_>, rows: usize) -> [String; 3] {
     let (lines, first) = (line_count(pane), pane.state.top + 1);
     let last = (pane.state.top + rows).min(lines);
@@ -31,7 +31,7 @@ fn position(pane: &Results<'_>, rows: usize) -> [String; 3] {
     ]
 }
 
-// As much of it as has room, so that nothing is cut.
+// The longest title that fits without a cut.
 pub(super) fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
     let name = if pane.shows_last_valid {
         "Results: LAST VALID"

@@ -1,4 +1,4 @@
-//! Outcome, gauges and notes in words.
+//! Outcome, gauges and notes as sentences.
 
 use std::collections::BTreeSet;
 
@@ -11,17 +11,17 @@ use crate::tui::ascii::symbol;
 use crate::tui::rows;
 use crate::tui::solver::Answer;
 
-/// Stands before a note.
+/// Prefix of a note.
 pub(super) const NOTE: &str = "Note: ";
 
-/// The outcome of a solve, in a sentence.
+/// The outcome of a solve as a sentence.
 #[must_use]
 pub(crate) fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
     let sentence = digest::sentence(solution, pane.units);
     symbol(&sentence, pane.look.ascii).into_owned()
 }
 
-/// Why the results are those of an earlier state of the form: the cause, then the fix.
+/// Why the results belong to an earlier state of the form: the cause, then the fix.
 pub(super) fn faults(pane: &Results<'_>) -> Vec<String> {
     match pane.refusal {
         Some(refusal) => vec![
@@ -32,8 +32,8 @@ pub(super) fn faults(pane: &Results<'_>) -> Vec<String> {
     }
 }
 
-// The first field that is wrong, in the order of the form, why, how many more are, and the key that
-// goes there.
+// The first invalid field in the order of the form with its cause, the number of further ones, and
+// the key that goes there.
 fn wrong(pane: &Results<'_>) -> Option<String> {
     let (row, problem) = pane.problems.iter().min_by_key(|(row, _)| *row)?;
     let name = format!(
@@ -58,7 +58,7 @@ fn wrong(pane: &Results<'_>) -> Option<String> {
     ))
 }
 
-/// The faults, the outcome, the limits, the gauges and the notes in full, a line each.
+/// The faults, the outcome, the limits, the gauges and the notes in full, one per line.
 #[must_use]
 pub(crate) fn in_full(pane: &Results<'_>) -> Vec<String> {
     let faults = faults(pane);
@@ -90,7 +90,7 @@ fn of_answer(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
         .collect()
 }
 
-/// A line for each variant that the model refuses.
+/// One line for each variant that the model refuses.
 pub(super) fn refused_variants<'a>(pane: &Results<'a>) -> impl Iterator<Item = String> + use<'a> {
     let columns = pane
         .variants

@@ -1,4 +1,5 @@
-//! A quantity over one field: the methods overlaid, the baseline behind them, gaps without contact.
+//! A quantity over one field: the methods overlaid, the baseline behind them, gaps where there is
+//! no contact.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -18,7 +19,7 @@ use crate::tui::study::{Layer, LayerFound, Question, StudyResults, Whose};
 
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
-/// Columns between labels below the plot.
+/// Least distance of labels below the plot, in columns.
 const LABEL_ROOM: u16 = 10;
 
 /// A plot with its axes.
@@ -93,7 +94,7 @@ pub(super) fn draw(
     plot.marks(buffer);
 }
 
-/// The axis: its numbers, or the places of choices.
+/// The range of the axis: numbers, or indices of choices.
 fn across(axis: &Axis) -> Span {
     let last = axis.points.len().saturating_sub(1);
     let span = Span::new(x(axis, 0), x(axis, last));
@@ -104,7 +105,7 @@ fn across(axis: &Axis) -> Span {
     }
 }
 
-/// The place of a point on the axis.
+/// The position of a point on the axis.
 fn x(axis: &Axis, at: usize) -> f64 {
     axis.points
         .get(at)
@@ -129,7 +130,7 @@ impl Plot<'_> {
             let width = label.width() as u16;
             let start = column.saturating_sub(width / 2);
             let start = start.min((cells.right() + 2).saturating_sub(width));
-            // The first label may begin right of the place where it would be centred.
+            // The first label may begin right of its centred position.
             let start = start.max(free.min(column));
             if start >= free {
                 buffer.set_string(column, bottom, "┴", rule);
@@ -173,7 +174,7 @@ impl Plot<'_> {
         self.area.draw_pieces(&pieces, look, buffer);
     }
 
-    /// Signs on the axis where the active method has no value: no contact, or refused.
+    /// Draws signs on the axis where the active method has no value: no contact, or refused.
     fn gaps(&self, found: &LayerFound, buffer: &mut Buffer) {
         for (at, outcome) in found.outcomes.iter().enumerate() {
             let sign = match outcome {
@@ -190,7 +191,7 @@ impl Plot<'_> {
         }
     }
 
-    /// The limit, the present value and the cursor.
+    /// Draws the limit, the present value and the cursor.
     fn marks(&self, buffer: &mut Buffer) {
         let theme = self.pane.look.theme;
         let limit = self

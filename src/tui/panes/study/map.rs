@@ -17,7 +17,7 @@ use crate::tui::study::{LayerFound, StudyResults};
 /// Shades from the least to the greatest value.
 const SHADES: [&str; 5] = ["∙", "░", "▒", "▓", "█"];
 const SHADES_ASCII: [&str; 5] = [".", ":", "=", "%", "#"];
-/// The sign of the limit and of the edge of contact.
+/// The sign of the limit; the next sign marks the edge of contact.
 const LIMIT: &str = "+";
 const EDGE: &str = "o";
 
@@ -81,7 +81,8 @@ pub(super) fn draw(
     map.legend((known, unit), rooms.legend, buffer);
 }
 
-/// The points with a label beside so many cells: both ends and, where it has room, the middle.
+/// The points with a label along an axis with this many cells: both ends and, if there is room, the
+/// middle.
 fn labelled(axis: &Axis, cells: u16) -> impl Iterator<Item = usize> + use<> {
     let last = axis.points.len().saturating_sub(1);
     let middle = Some(last / 2).filter(|&middle| cells >= 5 && middle > 0 && middle < last);
@@ -93,7 +94,7 @@ fn positions(cells: Rect) -> impl Iterator<Item = (u16, u16)> {
 }
 
 impl Map<'_> {
-    /// The point nearest to a cell: the first and the last cell show the ends.
+    /// The point nearest to a cell; the first and the last cell show the ends.
     fn at(cell: u16, cells: u16, points: usize) -> usize {
         let last = f64::from(cells.max(2) - 1);
         (f64::from(cell) / last * (points - 1) as f64).round() as usize
@@ -156,7 +157,7 @@ impl Map<'_> {
         shades[((part * shades.len() as f64) as usize).min(last)]
     }
 
-    /// Whether the value exceeds the limit beside a point that does not.
+    /// Whether the value of a cell exceeds the limit and a neighbour does not.
     fn is_on_limit(&self, column: u16, row: u16) -> bool {
         let Some(limit) = self.limit else {
             return false;
@@ -168,7 +169,7 @@ impl Map<'_> {
             })
     }
 
-    /// Whether a point without contact is beside one with contact.
+    /// Whether a point without contact has a neighbour with contact.
     fn is_on_edge(&self, column: u16, row: u16, outcome: Outcome) -> bool {
         let strikes = PointOutcome::Solved(Outcome::CornerContact);
         outcome == Outcome::NoCornerContact
@@ -215,7 +216,7 @@ impl Map<'_> {
         }
     }
 
-    /// The present values on the axes, and the cursor.
+    /// Draws the present values on the axes, and the cursor.
     fn marks(&self, shown: &StudyResults, buffer: &mut Buffer) {
         let (cells, theme) = (self.cells, self.pane.look.theme);
         let column = |at| cells.x + Map::of(at, cells.width, self.across.points.len());

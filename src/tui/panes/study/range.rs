@@ -1,4 +1,4 @@
-//! The range of a study: around the present value of a field, in the unit in which it is written.
+//! The range of a study: around the present value of a field, in the unit of the field's text.
 
 use crate::case::dependencies::value_of;
 use crate::case::fields::{FIELDS, Field, Kind};
@@ -10,38 +10,38 @@ use crate::study::axis::{Axis, AxisRange, Sampling};
 use crate::tui::rows;
 use crate::tui::scale::Span;
 
-/// The most halvings or doublings of a range.
+/// Greatest number of halvings or doublings of a range.
 pub(crate) const MOST_ZOOM: i32 = 12;
-/// A range reaches so far to both sides of the value, times the value.
+/// Distance of both ends from the value, relative to the value.
 const REACH: f64 = 0.5;
-/// A length in um around 0 reaches so far, times the module.
+/// Distance of both ends from a length of 0 in um, relative to the module.
 const REACH_OF_MODULE: f64 = 0.01;
-/// A number around 0 reaches so far.
+/// Distance of both ends from a number of 0.
 const REACH_OF_NUMBER: f64 = 0.5;
-/// Another value around 0 reaches this part of its limits.
+/// Distance of both ends from another value of 0, relative to the limits of the field.
 const REACH_OF_LIMITS: f64 = 0.01;
 /// Digits of the ends of a range.
 const DIGITS: usize = 6;
-/// Digits of round numbers; more are rounding errors.
+/// Digits of round numbers; further digits are rounding errors.
 const ROUND_DIGITS: usize = 14;
 
 /// The points of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Steps {
-    /// So many equal steps between the ends.
+    /// A number of equal steps between the ends.
     Equal(usize),
-    /// At most about so many points, at multiples of 1, 2 or 5 times a power of ten.
+    /// About this many points at most, at multiples of 1, 2 or 5 times a power of ten.
     Round(usize),
 }
 
-/// The state that ranges are made of.
+/// The state that ranges depend on.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RangeOf<'a> {
     /// The case in the form.
     pub(crate) case: &'a Case,
     /// The display units.
     pub(crate) units: System,
-    /// How often the range is halved.
+    /// Number of halvings of the range.
     pub(crate) zoom: i32,
 }
 
@@ -49,7 +49,7 @@ impl RangeOf<'_> {
     /// The axis of a field.
     ///
     /// # Errors
-    /// Why the field has no range.
+    /// Returns the reason if the field has no range.
     pub(crate) fn axis(self, field: usize, steps: Steps) -> Result<Axis, String> {
         let known = &FIELDS[field];
         match known.kind {
@@ -100,7 +100,7 @@ impl RangeOf<'_> {
         };
         let end = |si: f64| {
             let number: f64 = rounded(si);
-            // Rounding must not leave the limits of the field.
+            // Rounding must not exceed the limits of the field.
             if number * factor < least || number * factor > most {
                 si.clamp(least, most) / factor
             } else {
@@ -119,7 +119,7 @@ impl RangeOf<'_> {
         }
     }
 
-    /// The unit in which the value is written, else the usual one; its inch unit where inches are
+    /// The unit of the value as written, otherwise the usual unit, or its inch unit if inches are
     /// shown.
     fn unit(self, field: usize) -> String {
         let usual = match FIELDS[field].kind {
@@ -146,7 +146,7 @@ fn stepped(range: &AxisRange, steps: Steps) -> Result<Axis, Problem> {
     })
 }
 
-/// The axis with the present value of the field among its points.
+/// The axis with the present value of the field as one of its points.
 fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
     let written = rows::written_unit(case, axis.field).unwrap_or_default();
     let is_written = case.value(axis.field).is_some() && written == range.unit;
@@ -158,7 +158,7 @@ fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
     let Some(own) = point.number.map(rounded) else {
         return axis;
     };
-    // A point that differs by rounding alone is the present value.
+    // A point that differs only by rounding is the present value.
     let rounding = own.abs() * 10f64.powi(1 - i32::try_from(digits).unwrap_or(0));
     axis.points.retain(|other| {
         other
@@ -172,7 +172,7 @@ fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
     axis
 }
 
-/// The round numbers within a range: their own range and their count.
+/// The round numbers within a range, as a range and their number.
 fn round(range: &AxisRange, most: usize) -> Option<(AxisRange, usize)> {
     let intervals = u16::try_from(most).unwrap_or(u16::MAX).saturating_sub(1);
     let ticks = Span::new(range.from, range.to).ticks(intervals).labelled;
@@ -180,7 +180,7 @@ fn round(range: &AxisRange, most: usize) -> Option<(AxisRange, usize)> {
         let text = significant(number, ROUND_DIGITS);
         text.parse::<f64>().unwrap_or(number)
     });
-    // A tick beside the end of the range may be outside the limits of the field.
+    // A tick next to the end of the range may be outside the limits of the field.
     let numbers: Vec<f64> = numbers.filter(|number| range.at(*number).is_ok()).collect();
     let (from, to) = (*numbers.first()?, *numbers.last()?);
     let own = AxisRange {
@@ -195,7 +195,7 @@ fn worded(field: &Field, cause: &str) -> String {
     format!("{}: {cause}.", field.full_label())
 }
 
-/// The number of a field in SI, given or from other fields.
+/// The number of a field in SI, given or derived.
 fn number(case: &Case, field: usize) -> Option<f64> {
     case.value(field).or_else(|| {
         let (inputs, _) = case.read();
@@ -204,7 +204,7 @@ fn number(case: &Case, field: usize) -> Option<f64> {
     })
 }
 
-/// The centre distance without backlash, in m, where the field is the centre distance.
+/// For the field of the centre distance: the centre distance without backlash, in m.
 fn without_backlash(field: usize, inputs: &Inputs) -> Option<f64> {
     let quantity = Quantity::find(FIELDS[field].name())?;
     (quantity.key == "centre_distance")
@@ -212,7 +212,7 @@ fn without_backlash(field: usize, inputs: &Inputs) -> Option<f64> {
         .flatten()
 }
 
-/// The present value in SI: as written, else the default or an example.
+/// The present value in SI: as written, otherwise the default or an example.
 fn value(case: &Case, field: usize) -> f64 {
     let known = &FIELDS[field];
     let example = || match known.kind {

@@ -1,4 +1,4 @@
-//! The words of the study pane: its title, the values at the cursor, the refused points.
+//! The texts of the study pane: its title, the values at the cursor, the refused points.
 
 use unicode_width::UnicodeWidthStr;
 
@@ -14,7 +14,7 @@ use crate::tui::ascii::symbol;
 use crate::tui::study::{End, Layer, LayerFound, Question, SAMPLES, StudyResults, Whose};
 use crate::tui::text;
 
-/// The title in a room of that width.
+/// The longest title that fits a width.
 pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
     let Some(shown) = pane
         .study
@@ -62,7 +62,7 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
         .unwrap_or_else(|| text::cut(all.last().map_or("Study", String::as_str), room))
 }
 
-/// The visible lines of a tolerance, if some have no room.
+/// The visible lines of a tolerance, if some do not fit.
 fn position(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     let (lines, height) = (shown.page.len(), page_height(pane));
     if lines <= height {
@@ -80,7 +80,7 @@ fn in_unit(axis: &Axis) -> String {
     }
 }
 
-/// How far an unfinished study is.
+/// The progress of an unfinished study.
 fn progress(shown: &StudyResults) -> String {
     match (&shown.end, &shown.request.question) {
         (Some(End::Whole), _) => String::new(),
@@ -162,7 +162,7 @@ fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> 
     Some(format!("{name} {words}"))
 }
 
-/// The refused points of the first curve that has some: how many, and the most frequent reason.
+/// The refused points of the first curve that has some: their number and the most frequent reason.
 fn refused(shown: &StudyResults) -> Option<String> {
     let found = shown
         .layers
@@ -183,8 +183,8 @@ fn refused(shown: &StudyResults) -> Option<String> {
     ))
 }
 
-/// The hint line while the pane has the focus: the values at the cursor where the pane cuts them,
-/// else the signs.
+/// The hint line while the pane has the focus: the values at the cursor if the pane cuts them,
+/// otherwise the signs.
 pub(super) fn hint(pane: &StudyPane<'_>) -> String {
     let shown = pane.study.shown.as_ref();
     let shown = shown.filter(|_| pane.study.obstacle.is_none());
@@ -206,7 +206,7 @@ pub(super) fn hint(pane: &StudyPane<'_>) -> String {
     }
 }
 
-/// Columns of a line in a pane of that width.
+/// The number of columns of a line in a pane with a width.
 pub(super) fn room(width: u16) -> usize {
     usize::from(width).saturating_sub(2)
 }

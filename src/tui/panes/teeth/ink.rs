@@ -51,8 +51,8 @@ impl Ink {
         }
     }
 
-    /// The canvas has only colours, so a colour number encodes the ink until the cells get
-    /// their style.
+    /// The canvas stores only colours: a colour number encodes the ink until the cells get their
+    /// style.
     #[must_use]
     pub(crate) fn number(self) -> Color {
         Color::Indexed(self as u8)

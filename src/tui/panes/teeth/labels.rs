@@ -1,4 +1,4 @@
-//! Names of points, the scale and the factor, none on top of another.
+//! Names of points, the scale and the factor, placed without overlap.
 
 use nalgebra::Point2;
 use ratatui::buffer::Buffer;
@@ -36,7 +36,7 @@ impl Labels {
         }
     }
 
-    /// Writes the scale, the factor, and every name that has room. Returns their cells.
+    /// Writes the scale, the factor, and every name that fits. Returns their cells.
     pub fn draw(mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) -> Vec<Rect> {
         let theme = picture.look.theme;
         self.draw_scale(scene, picture, buffer);
@@ -94,7 +94,7 @@ impl Labels {
         });
     }
 
-    /// Writes the exaggeration of the gap in the first free corner, else in any free place.
+    /// Writes the exaggeration of the gap in the first free corner, otherwise at any free position.
     fn draw_factor(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
         let Some(factor) = scene.factor else { return };
         let text = format!("gap x{}", times(factor));
@@ -138,7 +138,7 @@ impl Labels {
         );
     }
 
-    /// The places where the line of action leaves the window towards a hidden point of tangency.
+    /// The points where the line of action leaves the window towards a hidden point of tangency.
     fn ways_out(&self, scene: &Scene, picture: &Picture) -> Vec<(&'static str, Position)> {
         let geometry = &picture.solution.geometry;
         let (first, second) = (
@@ -170,8 +170,8 @@ impl Labels {
         })
     }
 
-    /// Writes a name next to its point where it covers nothing, else near its point and no nearer
-    /// to another point, else where it covers the fewest cells, at most `most`.
+    /// Writes a name next to its point if it covers nothing there. Otherwise writes it close to its
+    /// point, if no other point is nearer, or where it covers the fewest cells, at most `most`.
     fn put_beside(
         &mut self,
         name: &str,
@@ -225,7 +225,7 @@ impl Labels {
             .all(|mark| *mark == at || from(mark) > from(&at))
     }
 
-    /// Writes a name at the first place where it covers nothing.
+    /// Writes a name at the first position where it covers nothing.
     fn put_inside(
         &mut self,
         name: &str,
@@ -243,7 +243,7 @@ impl Labels {
         }
     }
 
-    /// The cells of a word at an offset from a place. `None` if they leave the picture.
+    /// The cells of a word at an offset from a position; `None` if they leave the picture.
     fn room(&self, at: Position, right: i32, down: i32, width: i32) -> Option<Rect> {
         let (x, y) = (
             u16::try_from(i32::from(at.x) + right).ok()?,
@@ -258,7 +258,7 @@ impl Labels {
         (self.area.intersection(room) == room).then_some(room)
     }
 
-    /// Whether the cells have no mark, and no word in them or beside them.
+    /// Whether the cells contain no mark and no word, and no word is beside them.
     fn is_free(&self, room: Rect) -> bool {
         let spaced = Rect {
             x: room.x.saturating_sub(1),
@@ -306,13 +306,13 @@ fn covered(room: Rect, buffer: &Buffer) -> usize {
         .count()
 }
 
-/// A length in a fitting unit.
+/// A length in a suitable unit.
 fn length(length: f64, system: System) -> String {
     let (unit, name) = unit_of_length(length, system);
     format!("{} {name}", significant(length / unit, 1))
 }
 
-/// A factor: whole, or with one decimal.
+/// A factor as text: a whole number, or with one decimal.
 fn times(factor: f64) -> String {
     if (factor - factor.round()).abs() < 1e-9 {
         format!("{factor:.0}")

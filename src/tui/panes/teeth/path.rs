@@ -1,4 +1,4 @@
-//! Splits curves into straight stretches, as many as the visible dots need.
+//! Splits curves into straight pieces, as many as the visible dots need.
 
 use nalgebra::Point2;
 
@@ -6,12 +6,13 @@ use super::window::Window;
 
 /// The greatest distance between a chord and its curve, in dots.
 const STRAY: f64 = 0.4;
-/// The greatest ratio of an arc of up to a quarter of a turn to its two half chords.
+/// The greatest ratio of the length of an arc of at most a quarter turn to the length of its two
+/// half chords.
 const LONGER: f64 = 1.1;
 /// The greatest number of halvings of a curve.
 const MOST_HALVINGS: u32 = 32;
 
-/// A straight, wholly visible stretch of a curve, with the parameter at its ends.
+/// A straight visible piece of a curve, with the parameters at its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stretch {
     /// Parameter and point at the beginning.
@@ -20,11 +21,11 @@ pub(crate) struct Stretch {
     pub(crate) to: (f64, Point2<f64>),
 }
 
-/// Follows a curve over its parameter from 0 to 1 through the window, in stretches that are
-/// straight to within a dot.
+/// Follows a curve over its parameter from 0 to 1 through the window, in pieces that are straight
+/// within a dot.
 ///
-/// The curve turns by less than a quarter of a turn, and one way only. Its hidden parts are
-/// skipped, so that the cost depends on the dots and not on the zoom.
+/// The curve must turn by less than a quarter turn in one direction. Hidden parts are skipped, so
+/// that the cost depends on the dots and not on the zoom.
 pub(crate) fn follow(
     curve: impl Fn(f64) -> Point2<f64>,
     window: &Window,
@@ -45,7 +46,7 @@ fn halve(
     let at = f64::midpoint(from.0, to.0);
     let middle = (at, curve(at));
     let reach = LONGER * ((middle.1 - from.1).norm() + (to.1 - middle.1).norm());
-    // A curve of NaN is never visible.
+    // A curve with NaN is never visible.
     let in_sight = window.distance(middle.1) <= reach;
     if !in_sight {
         return;

@@ -1,4 +1,4 @@
-//! The content of the picture: pair, results, cursor and view.
+//! The input of the picture: pair, results, cursor and view.
 
 use ratatui::symbols::Marker;
 
@@ -7,29 +7,29 @@ use crate::case::units::System;
 use crate::model::{Inputs, Solution, contact_state};
 use crate::tui::theme::Look;
 
-/// All that the picture shows.
+/// The input of the picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Picture<'a> {
     /// The pair.
     pub inputs: &'a Inputs,
-    /// What the model found.
+    /// The solution of the model.
     pub solution: &'a Solution,
-    /// The driver's roll angle before E, in rad; without it D, or E where no tooth strikes.
+    /// The driver's roll angle before E, in rad. By default D, or E without corner contact.
     pub cursor: Option<f64>,
-    /// What of the plane is in sight.
+    /// The visible part of the plane.
     pub view: &'a TeethView,
-    /// What the terminal is able to show.
+    /// The capabilities of the terminal.
     pub look: Look,
-    /// How a point is drawn.
+    /// The marker of a dot.
     pub marker: Marker,
-    /// The units in which it is read.
+    /// The display units.
     pub units: System,
-    /// Whether the results are not those of what the form says now.
+    /// Whether the results are older than the form.
     pub is_stale: bool,
 }
 
 impl Picture<'_> {
-    /// The marker of a dot. In ASCII mode it has the dots from which letters are chosen.
+    /// The marker of a dot. In ASCII mode it is the marker from whose dots the letters are chosen.
     pub(crate) fn drawn_marker(&self) -> Marker {
         if self.look.ascii {
             Marker::Braille
@@ -38,7 +38,7 @@ impl Picture<'_> {
         }
     }
 
-    /// The driver's roll angle before E that is shown, in rad.
+    /// The displayed roll angle of the driver before E, in rad.
     #[must_use]
     pub fn angle(&self) -> f64 {
         let contact =

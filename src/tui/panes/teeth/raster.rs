@@ -1,4 +1,5 @@
-//! Draws strokes into cells: ratatui's canvas with the chosen marker, or letters in ASCII mode.
+//! Draws strokes into cells: with the canvas of ratatui and the selected marker, or with letters in
+//! ASCII mode.
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
@@ -10,7 +11,7 @@ use super::ink::Ink;
 use super::picture::Picture;
 use super::scene::Scene;
 
-/// Draw the strokes of a scene.
+/// Draws the strokes of a scene.
 pub fn draw(scene: &Scene, picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let canvas = Canvas::default()
         .marker(picture.drawn_marker())
@@ -35,7 +36,7 @@ pub fn draw(scene: &Scene, picture: &Picture, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Give a cell of the canvas its style, and its letter where Unicode is missing.
+/// Sets the style of a cell of the canvas, and its letter in ASCII mode.
 fn finish(cell: &mut Cell, picture: &Picture) {
     let theme = picture.look.theme;
     let Some(ink) = Ink::of(cell.fg) else { return };
@@ -64,7 +65,8 @@ fn finish(cell: &mut Cell, picture: &Picture) {
     }
 }
 
-/// The dots of a Braille sign row by row, the left one first: the top left one is the lowest bit.
+/// The dots of a Braille character row by row, the left dot first; the top left dot is the lowest
+/// bit.
 fn pattern(sign: char) -> Option<u8> {
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
     let dots = u32::from(sign)
@@ -77,7 +79,7 @@ fn pattern(sign: char) -> Option<u8> {
     )
 }
 
-/// Letters and the dots that they cover, four rows of two.
+/// Letters with their dots, four rows of two.
 #[rustfmt::skip]
 const LETTERS: [(char, &[u8]); 14] = [
     ('.', &[0b_01_00_00_00, 0b_10_00_00_00, 0b_00_01_00_00, 0b_00_10_00_00]),
@@ -96,7 +98,7 @@ const LETTERS: [(char, &[u8]); 14] = [
     ('#', &[0b_11_11_11_11]),
 ];
 
-/// The letter that looks most like a pattern of dots.
+/// The letter most similar to a pattern of dots.
 fn letter(pattern: u8) -> char {
     let off = |covers: &[u8]| {
         covers

@@ -12,7 +12,7 @@ use crate::report::stations::{COLUMNS, Column, Row};
 
 /// Significant digits of the opening.
 const GAP_DIGITS: usize = 4;
-/// The key of the opening, which is no column of the stations.
+/// The key of the opening, which is not a column of the stations.
 const OPEN: &str = "open";
 /// The key of the gap.
 const GAP: &str = "gap";
@@ -24,15 +24,15 @@ const NUMBER: usize = 7;
 /// A value at the cursor.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reading {
-    /// The symbol in the field's writing.
+    /// The symbol.
     pub symbol: &'static str,
-    /// The number, where there is one.
+    /// The number, if any.
     pub number: Option<String>,
     pub(crate) unit: &'static str,
 }
 
 impl Reading {
-    /// The width with any number in any unit of its kind, after a symbol of that width.
+    /// The width for any number in any unit of its kind, with a symbol of a width.
     #[must_use]
     pub(crate) fn width(&self, symbol: usize) -> usize {
         let unit = if self.unit.is_empty() {
@@ -72,8 +72,8 @@ pub fn readings(
         .collect()
 }
 
-/// The values shown: the driver's angle, those of the charts in their order, the others. The
-/// opening stands before the gap that it is a part of.
+/// The displayed values: the driver's angle, those of the charts in their order, the others. The
+/// opening precedes the gap, which includes it.
 fn keys() -> impl Iterator<Item = &'static str> {
     let shown = GRAPHS.iter().filter(|graph| graph.is_at(Place::Teeth));
     let of_charts = shown.flat_map(|graph| graph.columns.iter().copied());
@@ -137,7 +137,7 @@ fn reading(
     })
 }
 
-/// The value from the involutes alone, where the method has none.
+/// The value from the involutes, if the method has none.
 fn without_contact(moment: &ContactState, key: &str) -> Option<f64> {
     match key {
         "roll_angle_driver" => Some(moment.roll_angle_driver),
@@ -150,15 +150,15 @@ fn without_contact(moment: &ContactState, key: &str) -> Option<f64> {
     }
 }
 
-/// The values in lines of at most a width, each with the cells that it takes whatever its number,
-/// two spaces between them.
+/// The values in lines of at most a width. Each value has a fixed width, and two blanks separate
+/// the values.
 #[must_use]
 pub(crate) fn lines(values: impl Iterator<Item = (String, usize)>, width: usize) -> Vec<String> {
     let mut lines: Vec<(String, usize)> = Vec::new();
     for (value, cells) in values {
         match lines.last_mut() {
             Some((line, end)) if *end + 2 + cells <= width => {
-                // A number that is longer takes of the space behind it.
+                // A longer number uses the blanks after it.
                 let gap = (*end + 2).saturating_sub(line.width()).max(1);
                 line.push_str(&" ".repeat(gap));
                 line.push_str(&value);

@@ -30,7 +30,7 @@ pub struct Scene {
     pub strokes: Vec<Stroke>,
     /// Points with a name, the most important first.
     pub(crate) points: Vec<Named>,
-    /// Places for the name of each gear, the best first.
+    /// Candidate positions for the name of each gear, the best first.
     pub(crate) bodies: [Vec<Point2<f64>>; 2],
     /// The exaggeration of the opening.
     pub factor: Option<f64>,
@@ -41,13 +41,13 @@ pub struct Scene {
 /// A point with a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Named {
-    /// The place.
+    /// The position.
     pub(crate) at: Point2<f64>,
     pub(crate) name: &'static str,
 }
 
 impl Scene {
-    /// The visible parts on a screen of a given size.
+    /// The visible parts on a screen with a size.
     #[must_use]
     pub fn of(picture: &Picture, moment: Option<&ContactState>, size: Size) -> Scene {
         let Picture {
@@ -102,7 +102,7 @@ impl Scene {
     }
 }
 
-/// Base circles, line of action, path of contact, and path of the tip before it.
+/// Draws base circles, line of action, path of contact, and path of the tip before it.
 fn construction(pen: &mut Pen, picture: &Picture) {
     let geometry = &picture.solution.geometry;
     let centre = Point2::new(geometry.centre_distance, 0.0);
@@ -139,7 +139,7 @@ fn construction(pen: &mut Pen, picture: &Picture) {
 }
 
 /// D, E, D', the pitch point, the end of contact, the points of tangency and the centres. D' is the
-/// driven tip at the end of the impact duration, not past E. `static` and `dynamic` have no D'.
+/// driven tip at the end of the impact, at most at E. `static` and `dynamic` have no D'.
 fn points(picture: &Picture) -> Vec<Named> {
     let Picture {
         inputs, solution, ..
@@ -177,7 +177,7 @@ fn points(picture: &Picture) -> Vec<Named> {
     points
 }
 
-/// The visible points without those that are closer than two columns to an earlier point.
+/// The visible points without those closer than two columns to a previous point.
 fn distinct(points: Vec<Named>, window: &Window) -> Vec<Named> {
     let mut kept: Vec<Named> = Vec::new();
     for point in points.into_iter().filter(|point| window.sees(point.at)) {
@@ -191,8 +191,8 @@ fn distinct(points: Vec<Named>, window: &Window) -> Vec<Named> {
     kept
 }
 
-/// The contact points: the incoming pair from the first contact on, and the pairs ahead of it, one
-/// base pitch apart on the path of contact.
+/// The contact points: of the incoming pair from the first contact on, and of the pairs ahead of
+/// it, one base pitch apart on the path of contact.
 fn contacts(picture: &Picture, moment: &ContactState) -> Vec<Point2<f64>> {
     let geometry = &picture.solution.geometry;
     let incoming = geometry.start - moment.roll_angle_driver * geometry.driver.base;
@@ -205,7 +205,7 @@ fn contacts(picture: &Picture, moment: &ContactState) -> Vec<Point2<f64>> {
         .collect()
 }
 
-/// Places inside a gear: on the centre lines of the teeth, from the middle of a tooth to the
+/// Positions inside a gear: on the centre lines of the teeth, from the middle of a tooth to the
 /// centre.
 fn bodies(gear: &Placed) -> Vec<Point2<f64>> {
     let circles = gear.outline.profile().circles();

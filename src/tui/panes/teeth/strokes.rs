@@ -12,13 +12,13 @@ use super::zoom::round_down;
 use crate::case::units::System;
 use crate::model::gear_pose::Placed;
 
-/// The least pitch, in dots, at which teeth are drawn instead of circles.
+/// The least pitch, in dots, at which teeth are drawn rather than circles.
 const LEAST_PITCH: f64 = 5.0;
-/// The number of places along an edge that are tried for the scale bar.
+/// The number of candidate positions of the scale bar along an edge.
 const PLACES: u32 = 24;
-/// The columns of its label.
+/// The width of the label of the scale bar, in columns.
 const BAR_LABEL: f64 = 9.0;
-/// The greatest part of the width for the scale bar.
+/// The greatest length of the scale bar, as a fraction of the width.
 const BAR: f64 = 0.25;
 
 /// A straight stroke, or a dot if both ends coincide.
@@ -32,7 +32,7 @@ pub struct Stroke {
     pub(crate) ink: Ink,
 }
 
-/// A dashed line, in dots. Dashes of length 0 are dots.
+/// A dash pattern, in dots. Dashes of length 0 are dots.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dash {
     /// The length of a dash.
@@ -59,7 +59,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A gear with its tooth 0 turned by an angle.
+    /// Draws a gear with its tooth 0 turned by an angle.
     pub(crate) fn gear(&mut self, gear: &Placed, turned: f64, bore: f64, [ink, struck]: [Ink; 2]) {
         let circles = gear.outline.profile().circles();
         if bore > 0.0 {
@@ -131,7 +131,7 @@ impl<'a> Pen<'a> {
         first..(last.ceil() as i64 + 1).min(first + teeth)
     }
 
-    /// A circle, in one stroke or dashed.
+    /// Draws a circle, solid or dashed.
     pub(crate) fn circle(
         &mut self,
         centre: Point2<f64>,
@@ -166,7 +166,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A curve of a length, in one stroke or dashed. See [`follow`] for the condition on the curve.
+    /// Draws a curve of a length, solid or dashed. See [`follow`] for the condition on the curve.
     pub(crate) fn curve(
         &mut self,
         curve: impl Fn(f64) -> Point2<f64>,
@@ -185,7 +185,7 @@ impl<'a> Pen<'a> {
         });
     }
 
-    /// The dashes of a stretch of a curve that is `length` dots long.
+    /// Draws the dashes of a piece of a curve that is `length` dots long.
     fn dashes(&mut self, stretch: &Stretch, length: f64, dash: Dash, ink: Ink) {
         let ((from, start), (to, end)) = (stretch.from, stretch.to);
         let (period, rest) = ((dash.on + dash.off) / length, to - from);
@@ -204,7 +204,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// The scale bar, along the lower edge or the upper one, the lower left corner first.
+    /// Draws the scale bar along the lower or the upper edge, preferably in the lower left corner.
     pub(crate) fn bar(&mut self, system: System) -> (Point2<f64>, Point2<f64>) {
         let (dot, high) = (self.window.dot, self.window.dot_height());
         let most = BAR * 2.0 * self.window.half.x;
@@ -238,7 +238,7 @@ impl<'a> Pen<'a> {
         (from, to)
     }
 
-    /// The place along the lower or the upper edge with the fewest strokes, from the corners
+    /// The position along the lower or the upper edge with the fewest strokes, from the corners
     /// inwards.
     fn free_place(&self, low: Point2<f64>, top: Point2<f64>, room: Vector2<f64>) -> Point2<f64> {
         let part = |place: u32| f64::from(place) / f64::from(PLACES);
@@ -275,7 +275,7 @@ impl<'a> Pen<'a> {
         best.1
     }
 
-    /// A cross of five dots, or a dot if a dot is a cell.
+    /// Draws a cross of five dots, or one dot if the marker has one dot per cell.
     pub(crate) fn cross(&mut self, at: Point2<f64>, ink: Ink) {
         if self.window.sees(at) {
             let arm = if self.window.dot < self.window.column() {

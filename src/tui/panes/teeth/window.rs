@@ -13,17 +13,17 @@ use crate::tui::scale::bounds;
 
 /// The height of a cell over its width.
 const CELL_HEIGHT: f64 = 2.0;
-/// Bounds of the width of a cell, in m. Beyond them, differences of coordinates are lost or
+/// Bounds of the width of a cell, in m. Outside them, differences of coordinates are lost or
 /// overflow.
 const CELL: (f64, f64) = (1e-12, 1e6);
 
-/// Units of a length, the longest first, each in m and with its name.
+/// Units of a length, the longest first: factor to m, and name.
 const METRIC: [(f64, &str); 4] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")];
 const INCH: [(f64, &str); 2] = [(25.4e-3, "in"), (25.4e-6, "thou")];
 /// The least length in inches; shorter lengths are in thou.
 const LEAST_INCHES: f64 = 0.1;
 
-/// The unit for a length in m: its size in m and its name.
+/// The unit for a length in m: its factor to m, and its name.
 pub(crate) fn unit_of_length(length: f64, system: System) -> (f64, &'static str) {
     let (units, least) = match system {
         System::Metric => (&METRIC[..], 1.0),
@@ -46,13 +46,13 @@ pub struct Window {
     pub dot: f64,
     /// The columns and rows of the screen.
     pub(crate) size: Size,
-    /// The dots of a cell, across and down.
+    /// The dots of a cell, horizontally and vertically.
     pub(super) dots: (u16, u16),
 }
 
 impl Window {
-    /// The window of a view on a screen of a given size. The scale is the same in both directions,
-    /// and the window shows as little as possible beyond the pair.
+    /// The window of a view on a screen with a size. The scale is the same in both directions, and
+    /// the window shows as little as possible outside the pair.
     #[must_use]
     pub(crate) fn of(
         view: TeethView,
@@ -98,7 +98,7 @@ impl Window {
         }
     }
 
-    /// The window of a rectangle with a given lower left corner.
+    /// The window of a rectangle with a lower left corner.
     #[must_use]
     pub(crate) fn around(&self, from: Point2<f64>, room: Vector2<f64>) -> Window {
         Window {
@@ -138,7 +138,7 @@ impl Window {
         .norm()
     }
 
-    /// The visible part of a straight line, as shares of its length (Liang & Barsky 1984).
+    /// The visible part of a straight line, as fractions of its length (Liang & Barsky 1984).
     pub(crate) fn clip(&self, from: Point2<f64>, to: Point2<f64>) -> Option<(f64, f64)> {
         let (start, way) = (from - self.centre, to - from);
         let (mut first, mut last) = (0.0f64, 1.0f64);
@@ -193,7 +193,7 @@ impl Window {
     }
 }
 
-/// The point in the middle, if the view has one.
+/// The point at the centre, if the view has one.
 fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     let geometry = &solution.geometry;
     let start = on_line_of_action(geometry, geometry.start);
@@ -207,7 +207,7 @@ fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     }
 }
 
-/// The dots of a cell for each marker, across and down.
+/// The dots of a cell for each marker, horizontally and vertically.
 fn dots(marker: Marker) -> (u16, u16) {
     match marker {
         Marker::Braille | Marker::Octant => (2, 4),

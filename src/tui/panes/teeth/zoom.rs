@@ -7,15 +7,16 @@ use crate::model::{ContactState, Geometry, Inputs, Solution};
 /// The least height of the picture around the strike without zoom, in modules and in distances from
 /// D to E.
 const STRIKE: (f64, f64) = (3.4, 4.0);
-/// The height of the picture around the pitch point, in distances to the further end of the path of
-/// contact.
+/// The height of the picture around the pitch point, relative to the distance from it to the
+/// farther end of the path of contact.
 const PATH: f64 = 2.4;
-/// The last zoom step in. Each step is √2, and the last step shows some micrometres of a usual
+/// The last zoom step in. Each step is √2, and the last step shows some micrometres of a typical
 /// gear.
 const LAST_STEP_IN: i32 = 20;
 /// The last zoom step out, enough for two gears of 1000 teeth.
 const LAST_STEP_OUT: i32 = -24;
-/// The exaggerated deviation, as a share of the picture's height, and at most in modules.
+/// The exaggerated deviation as a fraction of the picture's height, and its greatest value in
+/// modules.
 const SHARE: f64 = 0.1;
 const MOST_DEVIATION: f64 = 0.2;
 /// The greatest exaggerated opening, in modules.
@@ -46,7 +47,7 @@ pub enum Centre {
     Pair,
 }
 
-/// Whether the gap is exaggerated.
+/// The exaggeration of the gap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Exaggeration {
     /// By a factor that makes the gap visible.
@@ -100,7 +101,7 @@ impl TeethView {
         }
     }
 
-    /// The view with the exaggeration of the gap switched.
+    /// The view with the exaggeration of the gap switched on or off.
     #[must_use]
     pub fn exaggerated_or_not(self) -> TeethView {
         let exaggeration = match self.exaggeration {
@@ -113,7 +114,7 @@ impl TeethView {
         }
     }
 
-    /// The length of the lesser side of the picture, in m.
+    /// The length of the shorter side of the picture, in m.
     #[must_use]
     pub fn extent(&self, inputs: &Inputs, solution: &Solution) -> f64 {
         let geometry = &solution.geometry;
@@ -140,7 +141,8 @@ impl TeethView {
     /// The exaggeration of the opening, 1 if the opening is visible true to scale.
     ///
     /// The factor is a round number that makes the deviation at most 10 % of the picture's height.
-    /// It decreases far from the flank, so that the struck tooth keeps its place, and is 1 after B.
+    /// The factor decreases far from the flank, so that the struck tooth does not move, and is 1
+    /// after B.
     #[must_use]
     pub(crate) fn factor(self, inputs: &Inputs, solution: &Solution, moment: &ContactState) -> f64 {
         if self.exaggeration == Exaggeration::True || moment.phase == Phase::RunOut {
@@ -165,7 +167,7 @@ pub(crate) fn whole(geometry: &Geometry) -> (f64, f64) {
     )
 }
 
-/// The greatest of 1, 2, 5 times a power of ten that is not above the value; 1 if there is none.
+/// The greatest of 1, 2, 5 times a power of ten that is not above the value; at least 1.
 pub(crate) fn round_down(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;

@@ -1,4 +1,4 @@
-//! Time and difference of every method with every compliance, a row a compliance.
+//! Time and difference of every method with every compliance, one row per compliance.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -9,14 +9,14 @@ use crate::report::trade::{Cell, compliance_name, compliances};
 use crate::study::trade::{METHODS, Setting, Trade};
 use crate::tui::theme::Theme;
 
-/// Columns of a compliance with its mark.
+/// Width of a compliance with its mark.
 const NAME: usize = 23;
-/// Columns of a cell with time and difference.
+/// Width of a cell with time and difference.
 const WIDE: usize = 14;
-/// Columns of a cell with the difference alone.
+/// Width of a cell with only the difference.
 const NARROW: usize = 8;
 
-/// What the table marks.
+/// The marked settings of the table.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Marks {
     /// The selected setting.
@@ -25,7 +25,7 @@ pub(super) struct Marks {
     pub(super) own: Option<StiffnessModels>,
 }
 
-/// Draws the table and returns the number of rows that it has used.
+/// Draws the table and returns the number of rows that it uses.
 pub(super) fn draw(
     trade: &Trade,
     marks: &Marks,

@@ -26,7 +26,7 @@ pub(crate) struct TradePane<'a> {
     pub(crate) area: Rect,
 }
 
-/// The settings that have an error and a time, the quicker ones first.
+/// The settings that have an error and a time, the faster ones first.
 #[must_use]
 pub(crate) fn ordered(trade: &Trade) -> Vec<&Measured> {
     let mut found: Vec<&Measured> = trade
@@ -54,8 +54,8 @@ fn visible(trade: &Trade, view: TradeView) -> Vec<Setting> {
     }
 }
 
-/// The visible setting nearest to the selected one: that setting itself, else one of its method,
-/// and among those one with its compliance.
+/// The visible setting nearest to the selected one: that setting itself, otherwise one of its
+/// method, preferably with its compliance.
 #[must_use]
 pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
     let (marked, trade) = (traded.marked?, traded.trade.as_ref()?);
@@ -69,7 +69,7 @@ pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
     visible(trade, view).into_iter().min_by_key(distance)
 }
 
-/// The setting so many places from the selected one, in the order of the view.
+/// The setting `by` places from the selected one, in the order of the view.
 #[must_use]
 pub(crate) fn stepped(traded: &Traded, view: TradeView, by: isize) -> Option<Setting> {
     let settings: Vec<Setting> = traded

@@ -1,4 +1,4 @@
-//! The chart of error against time: a letter per setting, both axes logarithmic.
+//! The chart of accuracy against run time: one letter per setting, both axes logarithmic.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -11,13 +11,13 @@ use crate::report::trade::plot::{Axis, shown, time};
 use crate::study::trade::{METHODS, Measured, Trade};
 use crate::tui::benchmark::Traded;
 
-/// Columns of a number beside the vertical axis.
+/// Width of a number beside the vertical axis.
 const LABEL: u16 = 9;
 
-/// The line of the error that is good enough.
+/// The line of the accepted error.
 pub(super) const LEVEL: &str = "╌";
 
-/// A method's letter, with its colour.
+/// The letter of a method, with its colour.
 fn mark(pane: &TradePane<'_>, method: Method) -> (char, Style) {
     let theme = pane.look.theme;
     match method {
@@ -29,7 +29,7 @@ fn mark(pane: &TradePane<'_>, method: Method) -> (char, Style) {
     }
 }
 
-/// What the letters mean, a word each, and then their writing.
+/// Draws the legend: the meaning of the letters, one word each, then their case.
 pub(super) fn draw_legend(pane: &TradePane<'_>, trade: &Trade, area: Rect, buffer: &mut Buffer) {
     let methods = METHODS.into_iter().chain([Method::Auto]);
     let words = methods.map(|method| (method.name().to_owned(), mark(pane, method).1));
@@ -105,7 +105,7 @@ pub(super) fn draw_plot(
         .collect();
     draw_front(pane, &front, field, buffer);
     let own = own(pane);
-    // What is marked and what is the case's own lie on top.
+    // The selected setting and the setting of the case are drawn on top.
     let weight = |measured: &Measured| {
         (
             traded.marked == Some(measured.setting),
@@ -121,8 +121,8 @@ pub(super) fn draw_plot(
     }
 }
 
-/// The rows of the field: one is that of the error that will do, and what is above or below it
-/// stands there.
+/// The rows of the field. One row is the accepted error; greater errors are above it and smaller
+/// ones below.
 struct Rows {
     up: Axis,
     within: f64,
@@ -160,7 +160,7 @@ impl Rows {
     }
 }
 
-/// The stairs under which no setting lies: the best error that is to be had by a time.
+/// Draws the steps of the least error for each time; no setting is below them.
 fn draw_front(pane: &TradePane<'_>, front: &[(u16, u16)], field: Rect, buffer: &mut Buffer) {
     let mut dot = |x: u16, y: u16| {
         buffer.set_string(x, y, "·", pane.look.theme.note);
@@ -172,7 +172,8 @@ fn draw_front(pane: &TradePane<'_>, front: &[(u16, u16)], field: Rect, buffer: &
     }
 }
 
-/// The method's letter, a capital on the front; in brackets where it is marked or the case's own.
+/// Draws the letter of the method, a capital letter on the front, in brackets if the setting is
+/// selected or belongs to the case.
 fn draw_mark(
     pane: &TradePane<'_>,
     measured: &Measured,
@@ -241,7 +242,7 @@ fn draw_axes(pane: &TradePane<'_>, across: &Axis, rows: &Rows, field: Rect, buff
     }
 }
 
-/// A power of ten in per cent, in seven characters at most.
+/// A power of ten in percent, at most seven characters wide.
 fn in_percent(decade: i32) -> String {
     match decade + 2 {
         exponent @ -3..=5 => format!("{}", 10f64.powi(exponent)),

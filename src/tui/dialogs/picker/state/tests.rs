@@ -1,4 +1,4 @@
-//! The order of the matches in the lists.
+//! Tests of the order of matches in lists.
 
 use super::*;
 

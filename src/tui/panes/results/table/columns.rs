@@ -1,5 +1,5 @@
-//! Which columns the table of quantities has in a width: measured, so that nothing in them is cut
-//! and no mark touches a unit.
+//! The columns of the table of quantities in a width, measured so that nothing is cut and no mark
+//! touches a unit.
 
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
@@ -13,38 +13,38 @@ use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 use crate::tui::text;
 
-/// Columns of a number, where there is room.
+/// Width of a number, if there is room.
 const NUMBER: usize = 9;
-/// A blank and the mark behind a unit.
+/// Width of the mark after a unit, with its blank.
 const MARK: usize = 2;
-/// With this many methods, labels get the room before a further method.
+/// From this number of methods on, labels have priority over a further method.
 const ENOUGH_METHODS: usize = 2;
-/// So many columns at least for the equations.
+/// Least width of the column of the equations.
 const EQUATIONS: usize = 12;
 /// The heading of the differences.
 const TO_BASE: &str = "vs baseline";
 /// The headings of the closed forms beside a method that resolves the impact.
 const FREE: [&str; 3] = ["free impact: ", "free: ", ""];
-/// The signs of a value equal to that of the baseline and of another one, where words have no room.
+/// Signs of a value equal to the baseline and of a different value, if the words do not fit.
 const EQUAL: &str = "=";
 const OTHER: &str = "!=";
-/// Columns of a symbol where value, unit and difference share the rest of the line.
+/// Width of a symbol if value, unit and difference share the rest of the line.
 const SHARED_SYMBOL: usize = 7;
 
 /// The columns of the table.
 pub(super) struct Columns {
     width: usize,
-    /// Columns of the symbols, with the blank behind them.
+    /// Width of the symbols with the following blank.
     symbol: usize,
-    /// Columns of the labels, where they are shown.
+    /// Width of the labels, if they are shown.
     label: Option<usize>,
     methods: Vec<Method>,
-    /// Columns of each method's numbers, with the blank before them; those of the first one hold
-    /// the symbol, too, where there are no labels.
+    /// Width of the numbers of each method with the preceding blank. Without labels the first width
+    /// includes the symbol.
     numbers: Vec<usize>,
     unit: usize,
     has_base: bool,
-    /// Whether value, unit and difference have no columns of their own.
+    /// Whether value, unit and difference share a column.
     is_shared: bool,
 }
 
@@ -168,7 +168,6 @@ impl Columns {
         ])
     }
 
-    /// The line of a quantity.
     pub(super) fn line(&self, pane: &Results<'_>, answer: &Answer, cells: &Cells) -> Line<'static> {
         let unit = cells.unit;
         let theme = pane.look.theme;
@@ -234,8 +233,8 @@ impl Columns {
     }
 }
 
-// Every choice of methods to show, the most first: without the one that the active method refines
-// most, and so on to the active one alone.
+// The sets of methods to show, the largest first: each set drops the least accurate of the
+// remaining methods, and the last set is the active method.
 fn subsets(answer: &Answer) -> Vec<Vec<Method>> {
     let mut methods = methods(answer);
     let mut subsets = vec![methods.clone()];
@@ -246,7 +245,7 @@ fn subsets(answer: &Answer) -> Vec<Vec<Method>> {
     subsets
 }
 
-// The heading of the differences, with the baseline's method where it is another.
+// The heading of the differences, with the method of the baseline if it differs.
 fn to_base(pane: &Results<'_>, answer: &Answer, room: usize) -> String {
     let base = pane
         .baseline
@@ -260,8 +259,8 @@ fn to_base(pane: &Results<'_>, answer: &Answer, room: usize) -> String {
     fits.unwrap_or_else(|| text::cut(TO_BASE, room))
 }
 
-// The value with its unit, the mark and the difference; the mark and the blank before the percent
-// sign are left out where there is no room, and a sign stands for a longer difference.
+// The value with its unit, the mark and the difference. Without room, the mark and the blank before
+// the percent sign are omitted, and a sign replaces the difference.
 fn shared_row(number: &str, unit: &str, mark: &str, difference: &str, width: usize) -> [String; 2] {
     let joined = |parts: &[&str]| {
         let parts = parts.iter().filter(|part| !part.trim().is_empty());

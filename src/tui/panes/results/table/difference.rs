@@ -13,8 +13,8 @@ use crate::tui::solver::Answer;
 /// Columns of a difference.
 pub(super) const WIDTH: usize = UNCHANGED.len();
 
-// The active method's value against the same method's of the baseline, in percent, or the value of
-// the baseline.
+// The difference of the active method's value from the baseline by the same method: in percent, or
+// the value of the baseline.
 pub(super) fn difference(
     pane: &Results<'_>,
     answer: &Answer,
@@ -33,7 +33,7 @@ pub(super) fn difference(
     }
 }
 
-// What the baseline's value was, in the unit of the line, with as many digits as have room.
+// The value of the baseline in the unit of the line, with as many digits as fit.
 fn was(base: f64, unit: &str, room: usize) -> String {
     let words = (1..=3)
         .rev()
@@ -44,8 +44,8 @@ fn was(base: f64, unit: &str, room: usize) -> String {
         .unwrap_or_else(|| "was other".to_owned())
 }
 
-/// The quantity's value and that of the baseline, with the method of the latter where it is
-/// another.
+/// The value of the quantity and the value of the baseline, with the method of the baseline if it
+/// differs.
 pub(in crate::tui::panes::results) fn compared(
     pane: &Results<'_>,
     answer: &Answer,
@@ -80,7 +80,7 @@ fn base(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> Option<(Met
     ))
 }
 
-// In percent, where a percentage has a meaning.
+// The difference in percent, if a percentage has a meaning.
 fn against(quantity: &Quantity, now: f64, base: f64) -> Option<String> {
     if is_unchanged(now, base) {
         return Some(UNCHANGED.to_owned());

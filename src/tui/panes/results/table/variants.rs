@@ -16,15 +16,14 @@ use crate::tui::text;
 use crate::tui::theme::Theme;
 use crate::tui::variants::Variants;
 
-/// The least columns of a value and of a difference.
+/// Least width of a value and of a difference.
 const LEAST: usize = 7;
-/// So many variants get room before the names of the results.
+/// From this number of variants on, the names of the results have priority over a further variant.
 const ENOUGH: usize = 2;
-/// A value that does not exist, and one that the model refuses.
+/// Texts of an absent value and of a refused variant.
 const NONE: &str = "–";
 const REFUSED: &str = "refused";
 
-/// The texts of a row.
 struct Cells {
     symbol: String,
     label: &'static str,
@@ -34,21 +33,20 @@ struct Cells {
     others: Vec<(String, String)>,
 }
 
-/// Widths of the columns.
 struct Layout {
     symbol: usize,
-    /// 0 where the names have no room.
+    /// 0 if the names do not fit.
     label: usize,
-    /// 0 where the values of the case have no room.
+    /// 0 if the values of the case do not fit.
     own: usize,
     value: usize,
     difference: usize,
     unit: usize,
-    /// How many variants have room.
+    /// Number of variants that fit.
     count: usize,
 }
 
-/// How many variants have room beside each other.
+/// The number of variants that fit side by side.
 pub(in crate::tui::panes::results) fn page(pane: &Results<'_>, width: usize) -> usize {
     let (Some(answer), Some(variants)) = (pane.answer, pane.variants) else {
         return 1;
@@ -204,7 +202,7 @@ impl Layout {
         [blank, own].into_iter().chain(names).collect()
     }
 
-    /// The line of a quantity. Without the values of the case, the unit follows the value.
+    /// The line of a quantity. Without the values of the case, the unit follows the first value.
     fn line(&self, cells: &Cells, seen: &[usize], width: usize, theme: &Theme) -> Line<'static> {
         let symbol = Span::raw(text::padded(&cells.symbol, self.symbol));
         if self.own == 0 {
