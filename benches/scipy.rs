@@ -1,6 +1,6 @@
-//! The method `dynamic` beside SciPy's integrators on the same pair: `cargo bench --bench scipy`
-//! prints how many times as long SciPy takes for the same measured error, `-- CASE.toml` on another
-//! case of `tests/reference/mesh`.
+//! Method `dynamic` compared with the integrators of SciPy on the same pair: `cargo bench --bench
+//! scipy` prints how many times as long SciPy takes for the same measured error, `-- CASE.toml` for
+//! another case of `tests/reference/mesh`.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -20,15 +20,15 @@ use tipstrike::model::inputs::Method;
 use tipstrike::model::spacing::Spacing;
 use tipstrike::model::{Inputs, Quantity, Solution, Stage, Stages, solve};
 
-/// What is compared, with SciPy's names of the errors.
+/// The compared quantities, with the names of their errors in the SciPy script.
 const KEYS: [(&str, &str); 3] = [
     ("dynamic_peak_force", "error_peak"),
     ("dynamic_peak_approach_force", "error_approach"),
     ("dynamic_first_contact_angle", "error_first"),
 ];
 
-/// A setting of ours: greatest error, time of a whole solve, and of the run alone on a mesh that is
-/// there.
+/// A setting of tipstrike: greatest error, time of a whole solve, and time of the motion on an
+/// existing mesh.
 struct Ours {
     tolerance: f64,
     error: f64,
@@ -36,7 +36,7 @@ struct Ours {
     run: f64,
 }
 
-/// A run of SciPy's.
+/// A run of SciPy.
 struct Theirs {
     name: String,
     error: f64,
@@ -54,8 +54,8 @@ impl Ours {
 }
 
 impl Theirs {
-    /// How many times as long as ours it takes, whole and run alone, against our quickest setting
-    /// that is no worse.
+    /// Ratios of the times of SciPy to those of our fastest setting with at most the same error:
+    /// whole, and motion only.
     fn ratios(&self, setup: f64, ours: &[Ours]) -> Option<(f64, f64)> {
         let no_worse = ours.iter().filter(|own| own.error <= self.error);
         let own = no_worse.min_by(|one, other| one.whole.total_cmp(&other.whole))?;
@@ -116,7 +116,7 @@ fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
     );
 }
 
-/// Time of its set-up and every run; nothing where it is not here.
+/// Set-up time and all runs of the SciPy script; `None` if SciPy is not installed.
 fn scipy(root: &Path, case: &Path) -> Option<(f64, Vec<Theirs>)> {
     let output = Command::new("python3")
         .arg(root.join("benches/scipy_dynamic.py"))
@@ -139,7 +139,7 @@ fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
         .case
         .inputs()
         .unwrap_or_else(|problems| panic!("{}", problems[0]));
-    // The numbers that SciPy's run looks for need no stations.
+    // The quantities of the SciPy run need no stations.
     let inputs = Inputs {
         method: Method::Dynamic,
         tolerance,
@@ -167,7 +167,7 @@ fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
     }
 }
 
-/// The greatest relative error over the numbers that the reference has.
+/// The greatest relative error over the quantities of the reference.
 fn error(solution: &Solution, reference: &Value) -> f64 {
     let off = |key: &str| {
         let expected = reference[key].as_f64()?;
@@ -179,7 +179,7 @@ fn error(solution: &Solution, reference: &Value) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The least of many, as SciPy's time is.
+/// The least time of many runs, as for SciPy.
 fn least_time(work: impl Fn() -> bool) -> f64 {
     let time = || {
         let begin = Instant::now();

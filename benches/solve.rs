@@ -1,4 +1,4 @@
-//! What one solve costs: `cargo bench`.
+//! Time of one solve: `cargo bench`.
 
 use std::hint::black_box;
 
@@ -45,7 +45,7 @@ fn stations(criterion: &mut Criterion) {
     });
 }
 
-/// Table 1 with the deflection that the load gives, as the methods that share the load take it.
+/// Table 1 with the computed deflection of the methods that share the load.
 fn shared_load(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("shared load");
     for teeth in ToothCompliance::ALL {

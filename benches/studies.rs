@@ -1,6 +1,6 @@
-//! Studies as whole processes: `cargo bench --bench studies` prints the times of ours, of the same
-//! study as a NumPy script on two threads, and of a loop over `tipstrike solve`. `PYTHON` names the
-//! Python that has NumPy.
+//! Studies as whole processes: `cargo bench --bench studies` prints the times of tipstrike, of the
+//! same study as a NumPy script on two threads, and of a loop over `tipstrike solve`. `PYTHON`
+//! names a Python with NumPy.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use serde_json::Value;
 
-/// Runs of each command, of which the quickest counts.
+/// Runs of each command; the fastest counts.
 const RUNS: usize = 5;
 
 /// Solves in the loop over processes.
@@ -35,7 +35,7 @@ fn main() {
     processes(case);
 }
 
-/// Table 1 with the deflection left to the load, a relief, and distributions.
+/// Table 1 with computed deflection, a relief, and distributions.
 fn case(folder: &Path) -> PathBuf {
     let table_1 = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/zhou-chen-2014.toml");
     let text = fs::read_to_string(table_1).expect("Table 1");
@@ -57,7 +57,7 @@ fn case(folder: &Path) -> PathBuf {
     path
 }
 
-/// The quickest of several runs, in seconds, and the output.
+/// The time of the fastest of several runs, in seconds, and its output.
 fn quickest(arguments: &[&str]) -> (f64, String) {
     let run = || {
         let begin = Instant::now();
@@ -92,7 +92,7 @@ fn sampled<'a>(case: &'a str, samples: &'a str) -> Vec<&'a str> {
 }
 
 fn tolerance(case: &str) {
-    // Two samples: the start of the program alone.
+    // Two samples measure the start of the program.
     let (start, _) = quickest(&sampled(case, "2"));
     println!("tolerance of impact_force by method exact, three fields spread:");
     for samples in ["100000", "1000000"] {
@@ -118,7 +118,7 @@ fn tolerance(case: &str) {
     }
 }
 
-/// Both programs must have solved the same study, with samples of their own.
+/// Checks that both programs solved the same study, each with its own samples.
 fn compare_medians(ours: &Value, theirs: &Value) {
     let median = &ours["quantities"]["impact_force"]["figures"]["p50"]["value"];
     let ours = median.as_f64().expect("a median");
@@ -127,7 +127,7 @@ fn compare_medians(ours: &Value, theirs: &Value) {
     assert!((ours / theirs - 1.0).abs() < 0.01, "another study");
 }
 
-/// Seconds of the process and of the study alone, and its results.
+/// Seconds of the process and of the study alone, with its results.
 fn numpy(samples: &str) -> Option<(f64, f64, Value)> {
     let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/tolerance.py");

@@ -1,4 +1,4 @@
-//! What one picture of the teeth costs: `cargo bench --bench teeth`.
+//! Time of one picture of the teeth: `cargo bench --bench teeth`.
 
 use std::hint::black_box;
 

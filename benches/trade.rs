@@ -1,6 +1,6 @@
-//! Speed against accuracy over the cases in `cases/`: `cargo bench --bench trade` prints the table
-//! and draws the picture; with `TIPSTRIKE_REGENERATE=1` both are kept, `tests/trade/table.md` and
-//! `assets/trade.svg`, and the lines of docs/speed.md.
+//! Accuracy against run time over the cases in `cases/`: `cargo bench --bench trade` prints the
+//! table and draws the picture. With `TIPSTRIKE_REGENERATE=1` it writes `tests/trade/table.md`,
+//! `assets/trade.svg` and the lines of docs/speed.md.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -17,7 +17,7 @@ use tipstrike::report::trade::plot::{Plot, Point, Series, svg};
 use tipstrike::study::trade::{METHODS, Patience, Setting, Subject, greatest};
 
 fn main() {
-    // `cargo test --benches` and `cargo bench -- --test` ask whether it starts, not what it finds.
+    // `cargo test --benches` and `cargo bench -- --test` only check that the benchmark starts.
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
@@ -33,7 +33,7 @@ fn main() {
     }
 }
 
-/// What each method leaves out, a line a case.
+/// The model error of each method, one line per case.
 fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
     let mut lines = vec![
         "| case | paper | exact | static | two ways to the reference |".to_owned(),
@@ -66,7 +66,8 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
     lines.join("\n")
 }
 
-/// Numerical error against time: a line a method over its stations, and one over the tolerances.
+/// Numerical error against time: one curve per method over its stations, and one over the
+/// tolerances.
 fn picture(table: &Table) -> String {
     let table_1 = tipstrike::case::Case::table_1();
     let pair = table_1.inputs().expect("the built-in case is valid");
