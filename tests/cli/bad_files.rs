@@ -1,5 +1,4 @@
-//! Every bad file is refused at the right place, with the cause and the fix, all faults in one
-//! run.
+//! Every invalid file is refused at the correct place with cause and fix, all faults in one run.
 use tipstrike::case::Document;
 use tipstrike::case::file::{Fault, FaultKind, MOST_BYTES};
 
@@ -17,7 +16,7 @@ fn printed(faults: &[Fault]) -> String {
         .join("\n")
 }
 
-/// A fault as a row expects it: line, column, field, part of the cause, part of the fix.
+/// An expected fault: line, column, field, part of the cause, part of the fix.
 type Row<'r> = (usize, usize, &'r str, &'r str, &'r str);
 
 #[track_caller]
@@ -39,8 +38,8 @@ fn expect(text: &str, rows: &[Row<'_>]) {
 const MODULE: &str = "module = \"5 mm\"";
 const LIMIT: &str = "impact_force = \"2500 N\"";
 
-/// A line of the good case, what stands in its place, how many lines below and in which column the
-/// fault is, its field, a part of its cause and a part of its fix.
+/// A line of the valid case, its replacement, the number of lines to the fault and its column, its
+/// field, a part of its cause and a part of its fix.
 type OneLine = (
     &'static str,
     &'static str,
@@ -106,7 +105,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("young = \"205 GPa\"", "young = \"205000\"", 0, 9, "driver.young", "has no unit", "\"205000 MPa\""),
     (MODULE, "module = “5 mm”", 0, 10, "pair.module", "has curly quotes", "\"5 mm\""),
     (MODULE, "module: \"5 mm\"", 0, 7, "pair.module", "`:` instead of `=`", "module = \"5 mm\""),
-    // words and choices
+    // texts and choices
     ("method = \"exact\"", "method = \"exat\"", 0, 10, "model.method", "unknown choice `exat`", "did you mean exact?"),
     ("method = \"exact\"", "method = \"dinamic\"", 0, 10, "model.method", "unknown choice `dinamic`", "did you mean dynamic?"),
     ("method = \"exact\"", "method = 2", 0, 10, "model.method",
@@ -159,7 +158,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("title = \"Zhou & Chen 2014, Table 1\"", "variants = 1", 0, 12, "variants",
         "expected the table [variants], found a number", "[variants]"),
     (LIMIT, "[variants.a]\n\"pair.module\" = 5 mm", 1, 17, "pair.module", "not in quotes", "\"5 mm\""),
-    // one field against another
+    // fields that contradict each other
     ("bore_radius = \"20 mm\"", "bore_radius = \"50 mm\"", 0, 15, "driver.bore_radius", "root circle's 43.75 mm",
         "radius (not a diameter)"),
     ("power = \"15 kW\"", "power = \"15 kW\"\ntorque = \"71.6 N m\"", 1, 10, "operation.torque", "both given", "remove one"),
@@ -193,7 +192,7 @@ fn one_bad_line() {
     }
 }
 
-/// The good case without the lines of one table.
+/// The valid case without the lines of one table.
 fn without(table: &str) -> String {
     let mut inside = false;
     let keep = |line: &&str| {

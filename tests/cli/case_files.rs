@@ -1,7 +1,6 @@
-//! Case files are read, edited and saved without loss: bytes, comments, modes, links and what
-//! others wrote.
+//! Case files are read, edited and saved without loss: bytes, comments, modes, links, and changes
+//! by other programs.
 
-// A test may stop at what it did not expect.
 use std::fs;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
@@ -38,7 +37,7 @@ fn write(document: &mut Document, key: &str, text: &str) {
     document.case.write(index_of(key).unwrap(), text);
 }
 
-/// Table 1 in a folder of its own.
+/// Table 1 in a temporary folder.
 fn on_disk() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.toml");
@@ -46,7 +45,7 @@ fn on_disk() -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// A document read from the path, with a change to save.
+/// A document from the path with a change to save.
 fn changed(path: &Path) -> Document {
     let mut document = Document::read(path).unwrap();
     write(&mut document, "pair.module", "6 mm");
@@ -568,7 +567,7 @@ fn a_folder_that_cannot_be_written_leaves_file_and_changes() {
         "{error}"
     );
     assert!(error.to_string().contains("mkdir -p"), "{error}");
-    // A folder without a place to write, for every user: the system's own.
+    // A folder of the system, in which no user can write.
     let mut document = Document::table_1();
     write(&mut document, "pair.module", "6 mm");
     assert!(document.save(Path::new("/proc/case.toml")).is_err());
@@ -651,7 +650,7 @@ fn hostile_names_are_shown_and_not_obeyed() {
     assert!(!error.contains(char::is_control), "{error:?}");
 }
 
-/// A text that the field takes: a value from its range, or its example.
+/// A text that the field accepts: a value in its range, or its example.
 fn valid_text(field: usize) -> BoxedStrategy<String> {
     let known = &FIELDS[field];
     match known.kind {
@@ -667,7 +666,7 @@ fn valid_text(field: usize) -> BoxedStrategy<String> {
     }
 }
 
-/// Table 1 with some fields written again and some taken out, valid or nearly so.
+/// Table 1 with some fields changed or removed, valid or almost valid.
 fn any_case() -> impl Strategy<Value = Case> {
     let change = (0..FIELDS.len()).prop_flat_map(|field| {
         let text = prop_oneof![3 => valid_text(field), 1 => Just(String::new())];
@@ -688,7 +687,7 @@ fn any_case() -> impl Strategy<Value = Case> {
     })
 }
 
-/// TOML as people mistype it: lines of the good case, mixed, cut and broken.
+/// TOML with typing errors: lines of the valid case, reordered, cut and broken.
 fn nearly_toml() -> impl Strategy<Value = String> {
     let line = prop::sample::select(TABLE_1.lines().collect::<Vec<_>>()).prop_map(str::to_owned);
     let broken = (

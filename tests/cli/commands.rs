@@ -1,5 +1,4 @@
-//! The built program from a script's side: what goes in, what comes out, and how it ends.
-// A test may stop at what it did not expect.
+//! The built program as scripts use it: input, output and exit codes.
 
 use crate::program::{output as run, program, stdout_of};
 use serde_json::Value;
@@ -42,7 +41,7 @@ fn json(arguments: &[&str]) -> Value {
     serde_json::from_str(&stdout_of(arguments)).unwrap()
 }
 
-/// A copy of Table 1 with something changed, in a folder of its own.
+/// A copy of Table 1 with a change, in a temporary folder.
 fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let text = fs::read_to_string(TABLE_1).unwrap();
@@ -156,8 +155,8 @@ fn a_selected_quantity_without_a_value_gives_the_reason() {
 
 #[test]
 fn the_outcome_is_the_methods_own_whatever_is_asked_for() {
-    // Between the relief that stops it by the printed equations, 61.8 um, and Δ = 0 by Eq. 1 as
-    // printed, 66.9 um.
+    // Between the relief that prevents corner contact by the printed equations, 61.8 um, and Δ = 0
+    // by Eq. 1 as printed, 66.9 um.
     let relieved = [
         "--set",
         "driven.tip_relief=64 um",
@@ -741,7 +740,7 @@ fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
     );
 }
 
-/// The values that a case requires, by key.
+/// The required values of a case, by key.
 const REQUIRED: [(&str, &str); 7] = [
     ("pair.module", "4 mm"),
     ("driver.teeth", "17"),

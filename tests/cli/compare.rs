@@ -1,4 +1,4 @@
-//! Variants of a case, and cases side by side, from a script's side.
+//! The commands with variants, and comparisons of cases.
 
 use crate::program::run;
 use clap::CommandFactory;
@@ -165,7 +165,7 @@ fn every_command_that_takes_a_case_takes_a_variant() {
     let (_folder, case) = case();
     let page = format!("{case}.md");
     let vary = "deviations.base_pitch=0..20 um";
-    // What a command needs beside its case.
+    // The other required arguments of a command.
     let needed: &[(&str, &[&str])] = &[
         ("seek", &["--vary", vary, "--until", "impact_force<=1 kN"]),
         ("sweep", &["--vary", vary, "--points", "3"]),

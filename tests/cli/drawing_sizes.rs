@@ -1,5 +1,5 @@
-//! Sizes as drawings give them: diametral pitch, tip and root diameters in place of module,
-//! addendum and dedendum coefficients.
+//! Sizes from drawings: diametral pitch, tip and root diameters instead of module, addendum and
+//! dedendum coefficients.
 use std::fs;
 use std::process::{Command, Output, Stdio};
 

@@ -1,5 +1,4 @@
-//! Every quantity explains itself, and what the explanation prints is true.
-// A test may stop at what it did not expect.
+//! Every quantity has an explanation, and the printed numbers of the explanation are correct.
 
 mod evaluate;
 mod formula;
@@ -14,7 +13,7 @@ use tipstrike::report::explain::{CORRECTIONS, How, Page, Work, explain, lines, r
 
 type Settings = &'static [(&'static str, &'static str)];
 
-/// Settings that turn a case into one with other formulas.
+/// Settings for which a case has other formulas.
 const VARIANTS: [Settings; 8] = [
     &[],
     &[("model.method", "paper")],
@@ -63,8 +62,8 @@ fn cases() -> Vec<(String, Case)> {
         .collect()
 }
 
-/// Quantities that read the elastic field, for the pages of gears with one: each page builds some
-/// forty fields for its sensitivities.
+/// Quantities that read the elastic field, for the pages of gears with a field: each page builds
+/// about forty fields for its sensitivities.
 const WITH_FIELD: [&str; 4] = [
     "combined_deflection",
     "hertz_half_width",
@@ -72,8 +71,7 @@ const WITH_FIELD: [&str; 4] = [
     "pair_compliance",
 ];
 
-/// The pages of some quantities of a case once the settings have changed it; none where the model
-/// refuses it.
+/// The pages of some quantities of a case with settings; empty if the model refuses the case.
 fn explained(
     name: &str,
     case: &Case,
@@ -120,7 +118,7 @@ static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
         .collect()
 });
 
-/// The pages of the values that Table 1 has only in this method.
+/// The pages of the values of Table 1 that only this method has.
 fn shared(method: &str) -> Explained {
     let mut case = Case::table_1();
     case.set("model.method", method).unwrap();
@@ -153,7 +151,7 @@ fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
     case.pages.into_iter().next().unwrap()
 }
 
-/// One unit of the last digit that a page shows of a value, in the shown unit.
+/// One unit of the last printed digit of a value, in the printed unit.
 fn last_place(work: &Work) -> f64 {
     let shown: f64 = work.shown.as_ref().unwrap().number.parse().unwrap();
     let magnitude = format!("{shown:e}").split('e').nth(1).unwrap().to_owned();
@@ -161,7 +159,7 @@ fn last_place(work: &Work) -> f64 {
     10f64.powi(magnitude.parse::<i32>().unwrap() + 1 - digits)
 }
 
-/// What is printed behind the last equals sign, in its unit, and what the numbers before it make.
+/// The printed value after the last equals sign, and the value that the numbers before it give.
 fn printed(work: &Work) -> Option<(f64, f64)> {
     let (numbers, shown) = (work.numbers.as_ref()?, work.shown.as_ref()?);
     let unit = factor(shown.unit).unwrap_or_else(|| panic!("{shown}"));
@@ -334,7 +332,7 @@ fn every_equation_that_is_cited_is_one() {
     }
 }
 
-/// The numbers behind every "Eq." and "Eqs." of a text, ranges in full.
+/// The numbers after every "Eq." and "Eqs." of a text, with ranges expanded.
 fn equations(text: &str) -> Vec<u32> {
     let lists = text
         .match_indices("Eq")

@@ -1,4 +1,4 @@
-//! Imports REXS models: values with their sources, refusals by name, bounded reading.
+//! Imports of REXS models: values with their sources, refusals by name, limited reading.
 
 use std::fs;
 use std::io::Write;
@@ -36,7 +36,7 @@ fn value(document: &Document, key: &str) -> Option<f64> {
     document.case.value(fields::index_of(key).unwrap())
 }
 
-/// A model in a file of its own, imported without an id of a stage.
+/// The refusal of a model, imported without a stage id.
 fn refusal_of(bytes: &[u8]) -> String {
     import(Path::new("m.rexs"), bytes, None)
         .unwrap_err()
@@ -66,7 +66,7 @@ fn units_signs_and_load_cases_of_a_model_become_si_values() {
     for (key, expected) in [
         ("pair.module", 5e-3),
         ("pair.centre_distance", 0.15),
-        // The model says that gear_2 drives.
+        // In the model, gear_2 is the driver.
         ("driver.teeth", 20.0),
         ("driven.teeth", 40.0),
         ("driver.bore_radius", 0.02),

@@ -1,5 +1,5 @@
-//! What a result, a verdict and a hint mean: one thing in a method, and where a method means
-//! another it says so.
+//! A result, a verdict or a hint has one meaning in a method, and the text says so where another
+//! method differs.
 use crate::program::{output as run, run as texts_of};
 use serde_json::Value;
 use tipstrike::case::fields::{Kind, index_of};
@@ -14,14 +14,14 @@ fn stdout_of(arguments: &[&str]) -> String {
     texts_of(arguments).1
 }
 
-/// The one line with which a command refuses, and its exit code.
+/// The error line of a refusing command, and its exit code.
 fn refused(arguments: &[&str]) -> (i32, String) {
     let (code, _, line) = texts_of(arguments);
     assert_eq!(line.lines().count(), 1, "{line}");
     (code, line.trim_end().to_owned())
 }
 
-/// The text of a solve of Table 1 with reliefs, without its line ends.
+/// The text of a solve of Table 1 with reliefs, without line ends.
 fn relieved(method: &str, command: &[&str]) -> String {
     let reliefs = [
         "--method",
@@ -138,7 +138,7 @@ fn a_limit_that_has_no_value_is_not_held_and_says_why() {
         page.contains("method exact does not compute this quantity; dynamic and auto do"),
         "{page}"
     );
-    // Nothing strikes: a limit on the impact holds, one on the motion is not known.
+    // Without corner contact, a limit on the impact is met, and one on the motion is unknown.
     let relieved = ["check", TABLE_1, "--set", "driven.tip_relief=80 um"];
     assert_eq!(run(&relieved).status.code(), Some(0));
     assert_eq!(
@@ -212,7 +212,7 @@ fn a_hint_offers_the_usual_unit_and_names_the_command_line() {
         line.starts_with("cases/zhou-chen-2014.toml, --set driver.bore_radius=44 mm: "),
         "{line}"
     );
-    // The line of the file is the place where another field is wrong beside the one that was set.
+    // The line of the file belongs to another field, which contradicts the set one.
     let (_, line) = set("driver.teeth=5");
     assert!(
         line.starts_with("cases/zhou-chen-2014.toml:")
@@ -336,7 +336,7 @@ fn the_printed_equations_say_what_they_miss() {
         page.contains("the friction ratio is not computed: the triangle of Eq. 34 does not close"),
         "{page}"
     );
-    // 60 um of relief count as 42 um as printed: the tooth strikes by the printed equations alone.
+    // 60 um of relief count as 42 um as printed: only by the printed equations the tooth strikes.
     let page = stdout_of(&[
         "solve",
         TABLE_1,
@@ -359,7 +359,7 @@ fn the_printed_equations_say_what_they_miss() {
     );
 }
 
-/// What a person looks at first, by method.
+/// The most important results of a method.
 fn headlines(solution: &Solution) -> Vec<String> {
     let keys: &[&str] = match solution.method.name() {
         "static" => &[
@@ -393,8 +393,8 @@ fn headlines(solution: &Solution) -> Vec<String> {
         .collect()
 }
 
-/// Every number of every case that changes none of the results that a person looks at says why, in
-/// each method.
+/// Every number of every case without an effect on the most important results has a reason in each
+/// method.
 #[test]
 fn a_field_that_moves_nothing_says_why() {
     let mut silent = Vec::new();
@@ -493,7 +493,8 @@ fn no_result_has_more_places_than_digits() {
 #[test]
 fn auto_computes_what_a_limit_or_a_selected_quantity_needs() {
     let by_auto = |command: &[&str]| {
-        // With this relief no tooth strikes, and without a need the closed form is enough.
+        // With this relief no tooth strikes, and the closed form is sufficient unless a result is
+        // requested.
         let case = [
             TABLE_1,
             "--method",

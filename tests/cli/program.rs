@@ -1,8 +1,8 @@
-//! The built program, without input.
+//! Runs of the built program, without input.
 
 use std::process::{Command, Output, Stdio};
 
-/// The program with arguments, in the folder of the sources.
+/// The program with arguments, in the source folder.
 pub(crate) fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
     command
@@ -12,12 +12,12 @@ pub(crate) fn program(arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs it; its exit code and its streams.
+/// The output of a run.
 pub(crate) fn output(arguments: &[&str]) -> Output {
     program(arguments).output().unwrap()
 }
 
-/// Runs it; its exit code, standard output and standard error.
+/// Exit code, standard output and standard error of a run.
 pub(crate) fn run(arguments: &[&str]) -> (i32, String, String) {
     texts(output(arguments))
 }
@@ -29,7 +29,7 @@ pub(crate) fn texts(output: Output) -> (i32, String, String) {
     (code, text(output.stdout), text(output.stderr))
 }
 
-/// Standard output of a run that must succeed in silence.
+/// Standard output of a run that must succeed without messages.
 pub(crate) fn stdout_of(arguments: &[&str]) -> String {
     let (code, text, errors) = run(arguments);
     assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");

@@ -1,4 +1,4 @@
-//! Writes pictures and pages: every chart, well-formed, complete in itself, texts made harmless.
+//! Pictures and pages: every chart is well-formed and self-contained, and texts are escaped.
 
 use std::fs;
 use std::path::Path;
@@ -73,7 +73,7 @@ fn a_chart_names_axes_with_units_and_the_legend_lies_below_the_field() {
 
 #[test]
 fn the_chart_over_speed_marks_the_speed_of_the_case_and_the_resonances() {
-    // Its speed is below the first one of the curve, N = 0.1.
+    // The speed of the case is below the first one of the curve, N = 0.1.
     let picture = stdout_of(&["plot", FZG, "--chart", "speed"]);
     for text in [
         ">present<",

@@ -1,5 +1,4 @@
-//! Every case of the collection solves, and its report reads as it did.
-// A test may stop at what it did not expect.
+//! Every case in `cases/` solves, and its report does not change.
 
 use serde_json::Value;
 use std::fs;
@@ -52,7 +51,7 @@ fn no_line_is_wider_than_80_columns() {
     }
 }
 
-/// Quantities of the reference answers lie within this, relative to their size.
+/// Relative tolerance of the quantities of the reference answers.
 const CLOSE: f64 = 1e-10;
 
 #[test]

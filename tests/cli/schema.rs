@@ -1,4 +1,4 @@
-//! The JSON Schemas: every key of a case and of a result is in them.
+//! The JSON Schemas contain every key of a case and of a result.
 
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};

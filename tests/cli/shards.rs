@@ -1,4 +1,4 @@
-//! Shards of a study: together they are the whole, and nothing else is taken for one.
+//! Shards of a study: together they give the whole study, and other files are refused.
 
 use crate::program::run;
 use std::fs;
@@ -128,7 +128,7 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
     assert!(code == 2 && errors.contains("write 1/3 to 3/3"), "{errors}");
 }
 
-/// A study of so many samples that it runs until it is stopped.
+/// A study with so many samples that it runs until a signal stops it.
 const ENDLESS: [&str; 4] = ["--samples", "20000000", "--ranking", "0"];
 
 /// Starts the program, sends it a signal once it has written a file into the folder, and returns

@@ -1,4 +1,4 @@
-//! The studies from a script's side: their tables, errors and files.
+//! The study commands: their tables, errors and files.
 
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
@@ -225,7 +225,7 @@ fn ctrl_c_ends_a_study_and_leaves_no_file() {
     .arg(&path)
     .spawn()
     .unwrap();
-    // The draft of the file shows that the study runs.
+    // The temporary file shows that the study is running.
     while fs::read_dir(folder.path()).unwrap().next().is_none() {
         std::thread::sleep(Duration::from_millis(5));
         assert!(child.try_wait().unwrap().is_none());
@@ -304,7 +304,7 @@ fn a_bad_search_gets_place_cause_and_fix() {
     }
 }
 
-/// Table 1 with distributions, in a folder of its own.
+/// Table 1 with distributions, in a temporary folder.
 fn with_spread(lines: &str) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.toml");

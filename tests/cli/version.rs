@@ -1,4 +1,4 @@
-//! The build script names the commit of a release: that of the crate or of the variable.
+//! The build script reads the commit of a release from the crate or from the variable.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ fn script(folder: &Path) -> PathBuf {
     script
 }
 
-/// The commit that the script names in a folder.
+/// The commit that the script prints in a folder.
 fn commit(script: &Path, folder: &Path, variables: &[(&str, &str)]) -> Option<String> {
     let output = Command::new(script)
         .current_dir(folder)
@@ -59,7 +59,7 @@ fn a_release_names_its_commit_with_and_without_git() {
     fs::write(packaged.join(".cargo_vcs_info.json"), about).unwrap();
     let short = commit(&script, &packaged, &release);
     assert_eq!(short.as_deref(), Some(&COMMIT[..12]));
-    // a build for development would compile again with every commit
+    // Otherwise a development build would compile again after every commit.
     let development = [("PROFILE", "debug")];
     assert_eq!(commit(&script, &packaged, &development), None);
 
@@ -83,7 +83,7 @@ fn a_release_names_its_commit_with_and_without_git() {
         commit(&script, &tree, &release).as_deref(),
         Some(head.trim())
     );
-    // a crate inside of another repository does not have the commit of that repository
+    // A crate inside another repository does not have the commit of that repository.
     let inside = at("tree/vendor/tipstrike");
     assert_eq!(commit(&script, &inside, &release), None);
 }

@@ -1,9 +1,9 @@
-//! How accurate every closed-form quantity is over the whole envelope, against an oracle of 90
+//! Accuracy of every closed-form quantity over the whole envelope, compared with an oracle of 90
 //! digits.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo test --test core accuracy::regenerate` makes the frozen rows and
-//! the table again; `TIPSTRIKE_PAIRS=1000000` looks at ten times as many fresh pairs,
-//! `TIPSTRIKE_SEED` at those of an earlier run.
+//! `TIPSTRIKE_REGENERATE=1 cargo test --test core accuracy::regenerate` computes the frozen rows
+//! and the table again. `TIPSTRIKE_PAIRS=1000000` checks ten times as many new pairs, and
+//! `TIPSTRIKE_SEED` repeats the pairs of an earlier run.
 use crate::oracle;
 
 use crate::envelope;
@@ -21,21 +21,21 @@ use twofloat::TwoFloat;
 /// Half a unit in the last place of a double.
 const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// What the default path promises where the problem is well conditioned.
+/// Promised relative error of the default path for well-conditioned problems.
 const DEFAULT: f64 = 1e-12;
-/// What the accurate path promises there.
+/// Promised relative error of the accurate path for well-conditioned problems.
 const ACCURATE: f64 = 1e-13;
-/// What no quantity of the default path may be off by, wherever it lies.
+/// Greatest relative error of the default path for any problem.
 const NEVER_WORSE: f64 = 1e-9;
-/// How many times the rounding of the inputs alone a quantity may be off where it is ill
-/// conditioned.
+/// Allowed error of an ill-conditioned quantity, as a multiple of the effect of rounding the
+/// inputs.
 const AMPLIFICATION: f64 = 4.0;
 
 fn regenerating() -> bool {
     std::env::var_os("TIPSTRIKE_REGENERATE").is_some()
 }
 
-/// Where a path is farthest off.
+/// The greatest errors of a path.
 #[derive(Debug, Default)]
 struct Worst {
     off: f64,
@@ -44,7 +44,7 @@ struct Worst {
 }
 
 impl Worst {
-    /// The quantities that were off by more than they may, if any.
+    /// Fails with the quantities that exceed their allowed error, if any.
     fn assert_none_beyond(&self) {
         let first = &self.beyond[..self.beyond.len().min(8)];
         assert!(
@@ -62,12 +62,12 @@ impl Worst {
     }
 }
 
-/// Hold one pair's quantities against the oracle's, by one path.
+/// Compares the quantities of one pair by one path with the oracle.
 ///
-/// A quantity may be off by the path's promise. Where it is ill conditioned, so that rounding the
-/// inputs to doubles moves it more than that, it may be off by four times what that rounding does:
-/// ROUNDING x the sum over all inputs of the relative change of the quantity over the relative
-/// change of the input.
+/// The relative error of a quantity may be the promise of the path. If the quantity is
+/// ill-conditioned, so that rounding the inputs to doubles changes it by more, the error may be
+/// four times this change: ROUNDING x the sum over all inputs of the relative change of the
+/// quantity over the relative change of the input.
 fn hold(row: &Row, accurate: bool, worst: &mut Worst) {
     let inputs = Inputs {
         accurate,
@@ -150,8 +150,7 @@ fn frozen_rows_cover_every_quantity_and_decade() {
     }
 }
 
-/// Pairs that are not frozen, so that model, oracle and generator are held against each other on
-/// each run; `TIPSTRIKE_SEED` gives other ones.
+/// Compares model and oracle on pairs that are not frozen; `TIPSTRIKE_SEED` selects other pairs.
 #[test]
 fn fresh_pairs_within_their_bounds() {
     let pairs_per_corner = std::env::var("TIPSTRIKE_PAIRS")
@@ -188,8 +187,8 @@ fn fresh_pairs_within_their_bounds() {
     worst_accurate.assert_none_beyond();
 }
 
-/// On request the rows are frozen again; else the first of each corner is made again and must be
-/// the frozen one.
+/// On request it freezes the rows again. Otherwise it computes the first row of each corner again
+/// and compares it with the frozen one.
 #[test]
 fn regenerate() {
     if regenerating() {
@@ -231,7 +230,7 @@ fn naive_forms_lose_digits_where_ours_keep_them() {
     }
 }
 
-/// The oracle itself, against constants printed elsewhere (NIST DLMF; Abramowitz & Stegun).
+/// Compares the oracle with published constants (NIST DLMF; Abramowitz & Stegun).
 #[test]
 fn oracle_knows_printed_constants() {
     let printed = [
@@ -265,7 +264,7 @@ fn oracle_knows_printed_constants() {
     assert_eq!(oracle::number::printed(&big(1000.0)), "1e3");
 }
 
-/// The accurate path's own arithmetic.
+/// Checks the arithmetic of the accurate path.
 #[test]
 fn double_double_functions_keep_thirty_digits() {
     let exact = |x: TwoFloat| big(x.hi()) + big(x.lo());

@@ -1,4 +1,4 @@
-//! A closed-form solve takes no memory from the heap.
+//! A closed-form solve allocates no memory on the heap.
 use std::hint::black_box;
 
 use tipstrike::case::Case;

@@ -1,6 +1,5 @@
-//! The folders of `src` import only those of the plan, no files import each other in a circle, and
-//! every file is short and has its first sentence.
-// A test may stop at what it did not expect.
+//! Architecture: the folders of `src` import only the planned ones, no files import each other in a
+//! circle, and every file is short and starts with a sentence.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -24,10 +23,10 @@ const FOLDERS: [(&str, &[&str]); 8] = [
     ),
 ];
 
-/// Names that stand for a terminal.
+/// Crates that use a terminal.
 const TERMINAL: [&str; 3] = ["ratatui", "crossterm", "tui_input"];
 
-/// Interfaces of Unix, which the folder `system` alone names outside of tests.
+/// Interfaces of Unix, which only the folder `system` may name outside tests.
 const UNIX: [&str; 7] = [
     "std::os",
     "os::unix",
@@ -38,7 +37,7 @@ const UNIX: [&str; 7] = [
     "xattr",
 ];
 
-/// What the computation core does without: shapes of files, files, threads, printing.
+/// Names that the computation core may not use: file formats, files, threads, printing.
 const OUTSIDE: [&str; 10] = [
     "serde",
     "serde_json",
@@ -96,7 +95,7 @@ impl Source {
             .find(|folder| *folder == first)
     }
 
-    /// The folders that the code names, by whatever way of naming them.
+    /// The folders that the code names, in any syntax.
     fn folders_named(&self) -> BTreeSet<String> {
         let to_root = "super::".repeat(self.modules().len());
         let roots = ["crate::", "tipstrike::", to_root.as_str()];
@@ -110,7 +109,7 @@ impl Source {
             .collect()
     }
 
-    /// What of the folder of these modules the code names, its tests left out.
+    /// The modules of this folder that the code names outside its tests.
     fn neighbours_named(&self, folder: &[&str]) -> BTreeSet<String> {
         let code = self.code.split("mod tests {").next().unwrap_or_default();
         let whole = format!("crate::{}::", folder.join("::"));
@@ -129,7 +128,7 @@ impl Source {
     }
 }
 
-/// What follows each place of `word` that is not the tail of a longer word.
+/// The text after each occurrence of `word` that is not the tail of a longer word.
 fn after<'a>(code: &'a str, word: &'a str) -> impl Iterator<Item = &'a str> {
     let whole = move |at: usize| !code[..at].ends_with(is_word);
     code.match_indices(word)
@@ -137,7 +136,7 @@ fn after<'a>(code: &'a str, word: &'a str) -> impl Iterator<Item = &'a str> {
         .map(move |(at, _)| &code[at + word.len()..])
 }
 
-/// The names at the head of a path, of which a group in braces has several.
+/// The first names of a path; a group in braces has several.
 fn heads(path: &str) -> Vec<&str> {
     let Some(group) = path.strip_prefix('{') else {
         return vec![head(path)];
@@ -238,7 +237,8 @@ fn no_files_import_each_other_in_a_circle() {
                 .or_default()
                 .extend(source.neighbours_named(&modules));
         }
-        // What needs nothing that is left can go; what stays needs itself by some way round.
+        // Removes each module that imports none of the remaining ones; modules that remain form a
+        // circle.
         while let Some(free) = needs.iter().find(|(own, others)| {
             others
                 .iter()

@@ -1,7 +1,7 @@
-//! The method `auto` takes what a trade would recommend, at about its cost.
+//! Method `auto` chooses what a trade study would recommend, at about its run time.
 //!
-//! `TIPSTRIKE_PAIRS=600 cargo test --test core auto:: -- --nocapture` looks at 600 pairs in place
-//! of 60.
+//! `TIPSTRIKE_PAIRS=600 cargo test --test core auto:: -- --nocapture` checks 600 pairs instead of
+//! 60.
 use crate::pairs;
 use crate::table;
 
@@ -11,7 +11,7 @@ use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Refusal, Solution, Stages, auto, solve};
 use tipstrike::study::trade::{Answer, METHODS, Subject, stages};
 
-/// What is good enough.
+/// Accepted errors.
 const WITHINS: [f64; 4] = [0.01, 0.05, 0.2, 0.5];
 
 fn by_choice(inputs: &Inputs, within: f64) -> Inputs {
@@ -23,7 +23,7 @@ fn by_choice(inputs: &Inputs, within: f64) -> Inputs {
     }
 }
 
-/// A solve with what a trade needs to know, or why there is none.
+/// A solve of the stages that a trade study needs, or its refusal.
 fn solved(inputs: &Inputs) -> Result<Solution, Refusal> {
     let solution = solve(inputs, stages(inputs.method))?;
     solution
@@ -32,7 +32,7 @@ fn solved(inputs: &Inputs) -> Result<Solution, Refusal> {
         .map_or(Ok(solution), Err)
 }
 
-/// Evaluations of the motion, and stages that ran.
+/// Evaluations of the motion, and number of stages that ran.
 fn counts(solution: &Solution) -> (f64, f64) {
     let evaluations = solution
         .dynamic
@@ -52,8 +52,8 @@ fn over_the_cases_it_takes_the_method_that_a_trade_recommends_at_its_cost() {
         let mut trade = trade.clone();
         trade.within = within;
         trade.judge();
-        // The compliance is that of the reference: no other one can be known to be near it before
-        // the reference is solved.
+        // The compliance is that of the reference: without the reference solve, no other compliance
+        // is known to be close to it.
         let reference = trade
             .reference
             .as_ref()
@@ -79,8 +79,8 @@ fn over_the_cases_it_takes_the_method_that_a_trade_recommends_at_its_cost() {
         let named = best.setting.inputs(&inputs);
         let ((evaluations, stages), (named_evaluations, named_stages)) =
             (counts(&chosen), counts(&solved(&named).unwrap()));
-        // The choice itself is made of the closed form, which takes microseconds where the others
-        // take milliseconds.
+        // The choice itself runs closed forms, which take microseconds while the other methods take
+        // milliseconds.
         let closed_form = Stages::CLOSED_FORM.iter().count() as f64;
         assert!(
             stages <= 1.5 * named_stages + closed_form + 1.0,

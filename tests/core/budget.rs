@@ -1,8 +1,7 @@
-//! Every solve ends within its budget of work, however extreme a valid case is.
+//! Every solve ends within its work budget, for every valid case.
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core budget:: -- --nocapture` draws a
-//! million cases in place of 1,000 and prints the costliest of them, by their counted work and by
-//! their time.
+//! million cases instead of 1,000 and prints the most expensive ones by counted work and by time.
 use crate::envelope;
 
 use std::collections::BTreeMap;
@@ -18,16 +17,16 @@ use tipstrike::model::compliance::{ElasticGear, model_of};
 use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{Inputs, QUANTITIES, Refusal, Solution, Stage, Stages, notes, solve};
 
-/// Heap that one solve may take, in bytes.
+/// Greatest heap of one solve, in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Work beyond the budget of a search: it ends after the mesh or the step that exceeds it.
+/// Work above the budget of a search, which ends after the mesh or step that exceeds the budget.
 const MARGIN: u64 = 100_000;
 
-/// Cases that are printed of each kind.
+/// Number of printed cases of each kind.
 const PRINTED: usize = 20;
 
-/// Fields that move away from the ordinary pair.
+/// Numbers of fields that are changed from the ordinary pair.
 const MOVED: [usize; 7] = [1, 2, 3, 5, 8, 15, 45];
 
 fn cases() -> u64 {
@@ -43,7 +42,7 @@ fn every_quantity() -> Stages {
         })
 }
 
-/// The pair of Table 1, with the deflection left to the load.
+/// The pair of Table 1 with computed deflection.
 fn ordinary() -> Case {
     let mut case = Case::table_1();
     let deflection = index_of("model.deflection").expect("a field");
@@ -63,7 +62,7 @@ fn drawn(number: u64) -> Case {
 }
 
 /// Table 1 with some fields anywhere in their ranges. Choices are drawn in every case, and the
-/// methods take turns.
+/// methods alternate.
 fn attempt(random: &mut Random, number: u64) -> Case {
     let mut case = ordinary();
     let is_choice = |field: &usize| matches!(FIELDS[*field].kind, Kind::Choice(..));
@@ -104,8 +103,8 @@ fn move_field(case: &mut Case, field: usize, random: &mut Random) {
     }
 }
 
-/// Every gear that the form accepts has a field, or a named refusal with which the beam serves and
-/// says so.
+/// Every gear that the form accepts has a field, or a named refusal with a note that the beam
+/// replaces the field.
 #[test]
 fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
     const CASES: u64 = 400;
@@ -128,7 +127,7 @@ fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
             assert_eq!(served, ToothCompliance::FINITE_ELEMENT, "{number}");
             continue;
         };
-        // A pair that no compliance solves has no note on one.
+        // A pair that no compliance solves has no such note.
         let Ok(solution) = solve(&inputs, Stages::CLOSED_FORM) else {
             continue;
         };
@@ -154,8 +153,8 @@ fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
     assert!(seen.len() > 1 && seen["field"] > 100, "{seen:?}");
 }
 
-/// An end of a range, or anywhere in it with every decade as likely; of a range about 0, twelve
-/// decades of either sign.
+/// An end of a range, or any value in it with logarithmic distribution; for a range around 0,
+/// twelve decades of either sign.
 fn anywhere(from: f64, to: f64, random: &mut Random) -> f64 {
     const DECADES: f64 = 1e-12;
     let of = |end: f64, random: &mut Random| {
@@ -170,7 +169,7 @@ fn anywhere(from: f64, to: f64, random: &mut Random) -> f64 {
     }
 }
 
-/// What a solve took and found.
+/// The cost and the outcome of a solve.
 #[derive(Debug, Clone)]
 struct Taken {
     number: u64,
@@ -180,7 +179,7 @@ struct Taken {
     bytes: u64,
 }
 
-/// Solve a case within its budget; its answer or refusal has numbers alone.
+/// Solves a case within its budget; every number of its answer or refusal must be finite.
 fn taken(name: &str, number: u64, inputs: &Inputs) -> Taken {
     let begun = Instant::now();
     let mut solved = Err(Refusal::Stopped);
@@ -201,7 +200,7 @@ fn taken(name: &str, number: u64, inputs: &Inputs) -> Taken {
     }
 }
 
-/// The work of a solution, every part of it within its budget.
+/// The work of a solution, with every part within its budget.
 fn work(name: &str, solution: &Solution) -> u64 {
     let mesh = solution.mesh.as_ref().map_or(0, |mesh| mesh.work());
     let motion = solution
@@ -225,7 +224,7 @@ fn work(name: &str, solution: &Solution) -> u64 {
     mesh + motion + search
 }
 
-/// The outcome in a few words, from an answer in which every number is one.
+/// The outcome as a short text; every number of the answer must be finite.
 fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> String {
     let sound = |sentence: &str| {
         let mut words = sentence.split(|letter: char| !letter.is_alphanumeric());
@@ -258,7 +257,7 @@ fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> S
     }
 }
 
-/// What some cases took: how often each outcome is, and the costliest.
+/// Statistics of some cases: the number of each outcome, and the most expensive cases.
 #[derive(Default)]
 struct Summary {
     outcomes: BTreeMap<String, u64>,
@@ -320,7 +319,7 @@ impl Summary {
     }
 }
 
-/// Keep a case among those of the greatest size.
+/// Keeps a case if it is among the largest.
 fn keep<T: Ord>(kept: &mut Vec<Taken>, taken: &Taken, size: impl Fn(&Taken) -> T) {
     let at = kept.partition_point(|other| size(other) >= size(taken));
     if at < PRINTED {
@@ -329,7 +328,7 @@ fn keep<T: Ord>(kept: &mut Vec<Taken>, taken: &Taken, size: impl Fn(&Taken) -> T
     }
 }
 
-/// What differs from Table 1 in a drawn case.
+/// The differences of a drawn case from Table 1.
 fn moved(number: u64) -> String {
     let (case, fresh) = (drawn(number), ordinary());
     let moved = (0..FIELDS.len()).filter(|&field| case.text(field) != fresh.text(field));
@@ -372,7 +371,7 @@ fn a_valid_case_however_extreme_ends_within_its_budget() {
     );
 }
 
-/// Cases that once took more than 20 s, as a random search drew them: with their outcome, and the
+/// Cases that took more than 20 s in the past, from a random search: with their outcome, and the
 /// required additional tip relief in um.
 const SLOW: [(&str, &str, &str); 13] = [
     ("1210-dynamic", "corner-contact", "22.628"),
@@ -405,7 +404,7 @@ fn cases_that_took_more_than_20_s_end_within_their_budget() {
     }
 }
 
-/// The case that took most memory of 120,000: a long motion whose curve needs many stations.
+/// The case with the largest memory of 120,000: a long motion whose curve needs many stations.
 #[test]
 fn the_case_with_the_longest_curve_stays_within_the_memory_of_a_solve() {
     let number = 112_869;
@@ -413,8 +412,8 @@ fn the_case_with_the_longest_curve_stays_within_the_memory_of_a_solve() {
     taken("case 112869", number, &inputs);
 }
 
-/// Contact and its loss alternate where a relief ends, when the load deflects the teeth less than
-/// the gap is known.
+/// Contact and loss of contact alternate at the end of a relief if the load deflects the teeth by
+/// less than the accuracy of the gap.
 #[test]
 fn next_to_no_load_and_next_to_no_relief_length_take_an_ordinary_search() {
     for (key, value) in [

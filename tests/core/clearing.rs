@@ -1,8 +1,8 @@
-//! The least tip relief that stops the corner contact: with it the method finds none, with a little
+//! The required additional tip relief: with it the method finds no corner contact, with slightly
 //! less it does.
 //!
-//! `TIPSTRIKE_PAIRS=600 cargo test --test core clearing:: -- --nocapture` looks at 600 pairs in
-//! place of 40.
+//! `TIPSTRIKE_PAIRS=600 cargo test --test core clearing:: -- --nocapture` checks 600 pairs instead
+//! of 40.
 use crate::pairs;
 
 use tipstrike::case::EXAMPLES;
@@ -27,8 +27,7 @@ fn examples() -> impl Iterator<Item = (&'static str, Inputs)> {
     })
 }
 
-/// Pairs as they are built, some of them near resonance, hardly damped, or with a relief that
-/// reaches far.
+/// Realistic pairs, some of them near resonance, with little damping, or with a long relief.
 fn built(number: u64) -> Inputs {
     let mut inputs = pairs::numbered(number);
     match number % 5 {
@@ -45,12 +44,12 @@ fn pairs_to_look_at() -> u64 {
     std::env::var("TIPSTRIKE_PAIRS").map_or(40, |count| count.parse().expect("a count"))
 }
 
-/// Whole enough to tell outcome and least relief.
+/// A solve of the stages for outcome and required relief.
 fn solved(inputs: &Inputs) -> Option<Solution> {
     solve(inputs, Stages::of(Stage::Clearing).with(Stage::Position)).ok()
 }
 
-/// What the method itself says of the pair with another tip relief of the driven gear.
+/// Whether the tooth strikes by the method with another tip relief of the driven gear.
 fn strikes(inputs: &Inputs, tip_relief: f64) -> bool {
     let relieved = Inputs {
         driven: Gear {
@@ -67,8 +66,8 @@ fn strikes(inputs: &Inputs, tip_relief: f64) -> bool {
     solve(&relieved, stages).expect("a solution").outcome == Outcome::CornerContact
 }
 
-/// Whether the answer keeps what it promises: none where the tooth does not strike, else the end of
-/// striking.
+/// Checks the promise of the answer: no relief without corner contact, otherwise the relief at
+/// which striking ends.
 fn assert_kept(name: &str, inputs: &Inputs, solution: &Solution) {
     let clearing = solution.clearing.expect("the stage ran");
     let given = inputs.driven.tip_relief;
@@ -186,8 +185,7 @@ fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_st
     );
 }
 
-/// Where the gears rattle small causes have large effects: what was tried holds, and no more is
-/// said.
+/// In a rattling pair small causes have large effects: only the tried reliefs are checked.
 #[test]
 fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
     let mut looked_at = 0;

@@ -22,19 +22,19 @@ use tipstrike::model::{Geometry, Inputs, Outline, Solution, Stage, Stages, notes
 use crate::support::standard_pair;
 use whole_gear::{Line, WholeGear};
 
-/// A pair with the finite elements of the program, and both its gears by others.
+/// A pair with the finite elements of the program, and with both gears by other elements.
 struct Check {
     inputs: Inputs,
     solution: Solution,
     mesh: Mesh,
-    /// Shape with the gears swapped, for the places after B.
+    /// Shape with the gears exchanged, for the places after B.
     swapped: Geometry,
     gears: [WholeGear; 2],
 }
 
-/// The pairs that may touch, the rearmost first.
+/// The pairs that may touch, the last one first.
 struct Pairs {
-    /// How many base pitches each is ahead of the incoming one.
+    /// Number of base pitches of each pair ahead of the incoming one.
     ahead: Vec<i32>,
     gaps: Vec<f64>,
     compliance: DMatrix<f64>,
@@ -81,8 +81,8 @@ impl Check {
         }
     }
 
-    /// Radii of the load points of a pair on driver and driven gear: where the flanks touch, or from
-    /// where the pressure ends at the corner of the tip.
+    /// Radii of the load points of a pair on driver and driven gear: at the contact of the flanks,
+    /// or at the greatest radius at which the pressure ends at the corner of the tip.
     fn radii(&self, s: f64) -> [f64; 2] {
         let geometry = &self.solution.geometry;
         let length = geometry.end - geometry.start;
@@ -112,7 +112,7 @@ impl Check {
         })
     }
 
-    /// The pairs with the incoming one at `s`, coupled by the whole gears.
+    /// The pairs for the incoming one at `s`, coupled by the whole gears.
     fn pairs(&self, s: f64) -> Pairs {
         let standing = self.mesh.pair_set(s, s);
         let standing = standing.pairs();
@@ -129,8 +129,9 @@ impl Check {
             if row == column {
                 return 1.0 / standing[row].place.stiffness;
             }
-            // A driver that turns anticlockwise has its earlier teeth further on in that direction;
-            // seen so that the force pushes clockwise, the driven gear has them the other way.
+            // Earlier teeth of a driver that turns anticlockwise are further anticlockwise. In the
+            // view in which the force pushes clockwise, those of the driven gear are in the
+            // opposite direction.
             let earlier = column.cast_signed() as i32 - row.cast_signed() as i32;
             let by_gear = [0, 1].map(|gear| {
                 let pitches = if gear == 0 { earlier } else { -earlier };
@@ -154,7 +155,7 @@ impl Check {
         )
     }
 
-    /// By how much the incoming pair would overlap under the others' forces.
+    /// Overlap of the incoming pair under the forces of the other pairs.
     fn lead(&self, s: f64) -> f64 {
         let pairs = self.pairs(s);
         let (displacement, forces, incoming) = pairs.shared(self.mesh.force, Some(0));
@@ -166,8 +167,8 @@ impl Check {
 }
 
 impl Pairs {
-    /// Displacement and forces by trying every set of touching pairs, and the place of the incoming
-    /// pair; without one pair where that is given.
+    /// Displacement and forces by trying every set of touching pairs, and the index of the incoming
+    /// pair; optionally without one pair.
     fn shared(&self, total: f64, without: Option<i32>) -> (f64, DVector<f64>, Option<usize>) {
         let count = self.gaps.len();
         let fits = (1..1u32 << count).find_map(|set| {
@@ -281,8 +282,9 @@ fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
     }
 }
 
-/// A pair and its answers by another finite-element program, which computes whole gears in contact
-/// with their own compliances, and moves a load whose pressure would extend beyond the tip's corner.
+/// A pair with its answers by another finite-element program. That program computes whole gears in
+/// contact with their own compliances, and moves a load whose pressure would extend beyond the
+/// corner of the tip.
 struct Answers {
     teeth: [u32; 2],
     shifts: [f64; 2],
@@ -290,7 +292,7 @@ struct Answers {
     degrees: f64,
     /// r_f/r_h of both gears.
     ratios: [f64; 2],
-    /// In N m and um.
+    /// Torque in N m and deviation in um.
     load: [f64; 2],
     /// First contact before E, in modules; force at E, in N.
     first_contact: f64,

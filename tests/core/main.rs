@@ -1,4 +1,4 @@
-//! The computation core and the case: figures, properties, speed against accuracy, and the
+//! The computation core and the case: reference values, properties, accuracy, run time and
 //! architecture.
 #![allow(
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! The methods `static` and `dynamic`, held against an independent computation of the same pairs.
+//! Methods `static` and `dynamic`, compared with an independent computation of the same pairs.
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -68,7 +68,7 @@ impl Row {
             .fold(0.0, f64::max)
     }
 
-    /// The relative error of a quantity; one that is absent must be absent in both.
+    /// The relative error of a quantity; an absent quantity must be absent in both.
     fn off(&self, solution: &Solution, key: &str) -> f64 {
         let found = (Quantity::find(key)
             .unwrap_or_else(|| panic!("no quantity {key}"))
@@ -150,8 +150,8 @@ fn dynamic_quantities_and_curves_of_every_row() {
         );
         for (time, expected) in row.samples("dynamic_samples") {
             let (found, spread) = between(&dynamic.stations, time);
-            // A kink of the curve, where a pair enters or leaves, is met by the cubic only so far
-            // as the stations lie apart.
+            // At a corner of the curve, where a pair enters or leaves, the accuracy of the cubic is
+            // limited by the distance of the stations.
             let allowed = 1e-8 * solution.mesh_force + 0.05 * spread;
             assert!(
                 (found - expected).abs() < allowed,
@@ -162,8 +162,8 @@ fn dynamic_quantities_and_curves_of_every_row() {
     }
 }
 
-/// The force at a time, by the cubic through the four stations around it, and how far those lie
-/// apart; none outside of the contact.
+/// The force at a time by the cubic through the four stations around it, with the spread of their
+/// forces; 0 outside the contact.
 fn between(stations: &[MeshStation], time: f64) -> (f64, f64) {
     let after = stations.partition_point(|station| station.time.unwrap() < time);
     if after == 0 || after == stations.len() {
@@ -239,7 +239,7 @@ fn whether_the_tooth_strikes_is_what_the_last_method_says() {
             "{}",
             row.name
         );
-        // Where none strikes there is no impact that could last.
+        // Without a strike the impact has no duration.
         assert_eq!(
             solution.dynamic.unwrap().impact_duration.is_some(),
             strikes,

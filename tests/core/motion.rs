@@ -1,5 +1,5 @@
-//! What the method `dynamic` must do whatever the pair: rest, swing, keep its energy, and come to
-//! the static load.
+//! Properties of method `dynamic` for any pair: rest, free oscillation, energy, and the static load
+//! at low speed.
 use tipstrike::case::Document;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
@@ -37,8 +37,7 @@ fn mesh(inputs: &Inputs, solution: &Solution) -> Mesh {
     .expect("a mesh")
 }
 
-/// The slower the gears turn, the less the force differs from that of the shared load at the same
-/// place.
+/// At lower speed the force differs less from the shared load at rest at the same place.
 #[test]
 fn slow_gears_carry_the_static_load() {
     let table_1 = case("zhou-chen-2014");
@@ -67,8 +66,8 @@ fn slow_gears_carry_the_static_load() {
     assert!(before < 2e-3, "{before:e}");
 }
 
-/// The equation once more, with the forces straight from the mesh: classical Runge-Kutta steps of
-/// fixed length that know no events. The greatest force of the incoming tooth on the way, from
+/// The equation solved again, with forces directly from the mesh: classical Runge-Kutta steps of
+/// fixed length without events. Returns the greatest force of the incoming tooth, from
 /// `warmup_cycles` base pitches before E.
 fn plain_peak(inputs: &Inputs, solution: &Solution, steps: u32) -> f64 {
     let mesh = mesh(inputs, solution);
@@ -159,8 +158,8 @@ fn the_error_falls_with_the_tolerance_and_the_effort_grows_slowly() {
     }
 }
 
-/// When the first impact ends is a matter of the force, not of the steps by which it is followed:
-/// neither their length nor the rounding at their borders moves it.
+/// The end of the first impact depends on the force and not on the integration steps: neither their
+/// length nor rounding at their borders changes it.
 #[test]
 fn the_first_impact_ends_when_it_does_whatever_the_tolerance() {
     let text = r#"
@@ -236,7 +235,7 @@ fn a_warm_up_that_repeats_itself_is_not_run_on_and_changes_nothing() {
         short.peak_force,
         long.peak_force
     );
-    // What swings on, no base pitch is like the one before.
+    // In an undamped oscillation no base pitch repeats the previous one.
     let (short, long) = (run(1e-3, 20), run(1e-3, 40));
     assert!(
         (long.peak_force / short.peak_force - 1.0).abs() > 1e-8,
@@ -304,7 +303,7 @@ fn friction_that_would_lock_the_gears_is_refused_and_less_makes_the_force_jump_a
         .unwrap()
         .pitch_jump
         .expect("friction jumps");
-    // One pair carries at the pitch point: F (1 -+ mu rho/rb) = F0 on the two sides of it.
+    // One pair carries at the pitch point: F (1 -+ mu rho/rb) = F0 on its two sides.
     let arm = 0.1 * (solution.geometry.start + solution.geometry.approach_length)
         / solution.geometry.driver.base;
     let expected = solution.mesh_force * (1.0 / (1.0 + arm) - 1.0 / (1.0 - arm));

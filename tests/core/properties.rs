@@ -1,7 +1,7 @@
-//! What must hold for every pair of the envelope.
+//! Properties of every pair of the envelope.
 //!
-//! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` looks at a million pairs
-//! in place of 25,000.
+//! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` checks a million pairs
+//! instead of 25,000.
 use crate::envelope;
 
 use std::collections::BTreeMap;
@@ -13,19 +13,19 @@ use tipstrike::model::{
     Inputs, Outcome, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages, geometry, notes, solve,
 };
 
-/// Every closed form, but for the stiffness spread, which builds the field of each gear.
+/// Every closed form except the stiffness spread, which builds the field of each gear.
 const WITHOUT_SPREAD: Stages = Stages::CLOSED_FORM.and(Stages::of(Stage::Stations));
 
 fn pairs() -> u64 {
     std::env::var("TIPSTRIKE_PAIRS").map_or(25_000, |pairs| pairs.parse().expect("a count"))
 }
 
-/// One pair of a numbered sequence, the same on every machine and whatever thread asks for it.
+/// One pair of a numbered sequence, the same on every machine and on every thread.
 fn numbered(number: u64) -> Inputs {
     let mut random = Random::new(number + 1);
     let corner = Corner::ALL[(number % Corner::ALL.len() as u64) as usize];
     let mut inputs = pair(&mut random, corner);
-    // Finite elements cost a thousand times as much: `examined` takes them now and then.
+    // Finite elements are a thousand times as expensive: `examined` uses them occasionally.
     let models = [ToothCompliance::KUANG_YANG, ToothCompliance::BEAM];
     inputs.tooth_compliance = Some(random.one_of(&models));
     inputs.accurate = random.chance(0.25);
@@ -44,7 +44,7 @@ fn value(solution: &Solution, key: &str) -> Option<f64> {
     (Quantity::find(key).expect("a quantity").value)(solution)
 }
 
-/// What became of a pair: its outcome, or the refusal's name.
+/// The result of a pair: its outcome, or the name of the refusal.
 fn verdict(solved: &Result<Solution, Refusal>) -> String {
     match solved {
         Err(refusal) => refusal.code().to_owned(),
@@ -56,14 +56,15 @@ fn verdict(solved: &Result<Solution, Refusal>) -> String {
     }
 }
 
-/// Whether every number in a sentence is one.
+/// Whether every number in a sentence is finite.
 fn is_sound(sentence: &str) -> bool {
     !sentence
         .split(|letter: char| !letter.is_alphanumeric())
         .any(|word| matches!(word, "NaN" | "inf" | "infinity"))
 }
 
-/// No quantity, station, note or refusal holds what is not a number; a pair's verdict.
+/// Checks that all quantities, stations, notes and refusals have finite numbers. Returns the result
+/// of the pair.
 fn examined(number: u64) -> String {
     const WITH_FIELD: u64 = 1_009;
     let mut inputs = numbered(number);
@@ -163,7 +164,8 @@ fn every_pair_is_solved_or_refused_by_name() {
     );
 }
 
-/// The default path against the accurate one, which the accuracy tests hold against the oracle.
+/// Compares the default path with the accurate one, which the accuracy tests compare with the
+/// oracle.
 #[test]
 fn default_path_is_nowhere_worse_than_1e_9() {
     let mut worst = (0.0, String::new());
@@ -204,7 +206,8 @@ fn default_path_is_nowhere_worse_than_1e_9() {
     assert!(worst.0 < 1e-9, "{:e}: {}", worst.0, worst.1);
 }
 
-/// Lengths times `length`, times times `time`, forces times `length`² so that every stress stays.
+/// Lengths times `length`, times times `time`, forces times `length`², so that every stress is
+/// unchanged.
 fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
     let gear = |gear: &Gear| Gear {
         face_width: gear.face_width * length,
@@ -238,7 +241,7 @@ fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
     }
 }
 
-/// What a unit becomes.
+/// The factor of a unit under this scaling.
 fn factor(unit: &str, length: f64, time: f64) -> f64 {
     match unit {
         "m" => length,
@@ -288,8 +291,8 @@ fn quantities_scale_with_the_units() {
     assert_eq!(checked.len(), 2_000);
 }
 
-/// Run-out is run-in of the pair the other way round: what lies after the pitch point here lies
-/// before it there.
+/// A run-out is the run-in of the pair with exchanged gears: the part after the pitch point becomes
+/// the part before it.
 #[test]
 fn swapped_gears_mirror_the_path_of_contact() {
     some(5_000, |inputs| {
@@ -328,7 +331,7 @@ fn swapped_gears_mirror_the_path_of_contact() {
     });
 }
 
-/// Eq. 55 adds the two materials, and Eq. 56 knows steel alone.
+/// Eq. 55 adds the two materials, and Eq. 56 is for steel only.
 #[test]
 fn swapped_materials_strike_alike_in_the_fit() {
     some(1_000, |inputs| {
@@ -351,7 +354,7 @@ fn swapped_materials_strike_alike_in_the_fit() {
     });
 }
 
-/// The pair with a deviation of `total`, all of it a given deflection.
+/// The pair with a deviation of `total`, given entirely as deflection.
 fn deviating(inputs: &Inputs, total: f64) -> Inputs {
     let mut inputs = Inputs {
         base_pitch_deviation: 0.0,
@@ -374,8 +377,8 @@ fn angle_velocity_energy_and_mostly_force_rise_with_the_deviation() {
         "impact_force",
     ];
     some(500, |inputs| {
-        // A tooth by beam theory is so much softer towards its tip that a soft driver may take a
-        // smaller force the earlier it is struck.
+        // By beam theory a tooth is so much softer towards its tip that a soft driver may have a
+        // smaller force with an earlier strike.
         let is_linear = inputs.tooth_compliance == Some(ToothCompliance::KUANG_YANG);
         let keys = &keys[..if is_linear { 4 } else { 3 }];
         let mut last = [0.0; 4];
@@ -401,7 +404,7 @@ fn angle_velocity_energy_and_mostly_force_rise_with_the_deviation() {
     });
 }
 
-/// S(u) = Δ closes, and S is the integral of what its slope says.
+/// Checks S(u) = Δ, and that S is the integral of its slope.
 #[test]
 fn gap_rises_with_the_angle() {
     use tipstrike::model::position::{gap_by_quadrature, tip_at};
@@ -440,7 +443,7 @@ fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
             value(&solution, "impact_force")?,
             value(&solution, "approach_angle_driven")?,
         );
-        // Where the tip lies on the base circle, S(u) has no such power yet.
+        // If the tip is on the base circle, S(u) does not have this power yet.
         let driven = &solution.geometry.driven;
         if angle * driven.base > 0.1 * driven.tip_curvature {
             return None;

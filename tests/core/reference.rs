@@ -1,5 +1,4 @@
-//! Answers computed apart from the project with 50-digit arithmetic: rows of positions, whole
-//! cases, and Table 1.
+//! Independent answers in 50-digit arithmetic: rows of positions, whole cases, and Table 1.
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -28,7 +27,7 @@ fn value(solution: &Solution, key: &str) -> Option<f64> {
     (quantity.value)(solution)
 }
 
-/// Relative difference; a difference from 0 counts as it is.
+/// Relative difference; the absolute difference from 0.
 fn off(found: f64, expected: f64) -> f64 {
     if expected == 0.0 {
         found.abs()
@@ -50,7 +49,7 @@ fn rows() -> Vec<Value> {
     serde_json::from_str(&text).expect("rows")
 }
 
-/// Table 1 with a row's module, pressure angle and tooth numbers, and without bores.
+/// Table 1 with the module, pressure angle and tooth numbers of a row, and without bores.
 fn row_inputs(row: &Value, method: Method) -> Inputs {
     let table_1 = inputs_of("Table 1", include_str!("../../cases/zhou-chen-2014.toml"));
     let mut inputs = Inputs {
@@ -90,7 +89,7 @@ fn every_row_of_positions_within_1e_11() {
     }
 }
 
-/// The promise is 1e-11 for Delta >= 1e-6 m; it is held tighter, and for every Delta of the rows.
+/// The promise is 1e-11 for Delta >= 1e-6 m; the test is stricter, and for every Delta of the rows.
 fn row_within(row: &Value, inputs: &Inputs, bound: f64) {
     let geometry = geometry::<f64>(&inputs.shape()).expect("geometry");
     let solution = solve(inputs, Stages::CLOSED_FORM).expect("a solution");
@@ -130,7 +129,7 @@ fn row_within(row: &Value, inputs: &Inputs, bound: f64) {
     }
 }
 
-/// What the printed equations give when half of Delta is error and half deflection.
+/// Answers of the printed equations if half of Delta is error and half deflection.
 #[test]
 fn printed_position_of_every_row() {
     let rows = rows();
@@ -193,7 +192,7 @@ fn every_solved_case_within_1e_10() {
     }
 }
 
-/// One answer of a case.
+/// Compares one answer of a case.
 fn hold(name: &str, solution: &Solution, key: &str, expected: &Value) {
     match key {
         "outcome" => assert_eq!(expected, solution.outcome.name(), "{name}"),
@@ -224,8 +223,8 @@ fn hold(name: &str, solution: &Solution, key: &str, expected: &Value) {
     }
 }
 
-/// Beyond the compliance fit only geometry, deviation, position and velocity have answers; the rest
-/// is withheld.
+/// Outside the compliance fit only geometry, deviation, position and velocity have answers; the
+/// other quantities are withheld.
 #[test]
 fn every_case_beyond_the_fit_within_1e_10() {
     const HELD: [&str; 16] = [
@@ -265,7 +264,7 @@ fn every_case_beyond_the_fit_within_1e_10() {
     }
 }
 
-/// Table 1 in one of the methods, with ten stations.
+/// Table 1 by one of the methods, with ten stations.
 fn table_1(method: Method) -> Solution {
     let inputs = Inputs {
         method,
@@ -275,7 +274,7 @@ fn table_1(method: Method) -> Solution {
     solve(&inputs, Stages::ALL).expect("a solution")
 }
 
-/// Every number to all the digits that were published with it.
+/// Compares a number with all its published digits.
 fn printed(solution: &Solution, key: &str, scale: f64, digits: usize, expected: &str) {
     let found = value(solution, key).unwrap_or_else(|| panic!("no {key}")) * scale;
     assert_eq!(format!("{found:.digits$}"), expected, "{key}");
@@ -341,7 +340,7 @@ fn table_1_at_the_exact_position() {
     angles(&solution, "11.167727", "38.465027", 6);
 }
 
-/// With D' by the printed Eq. 34 the exact position gives 0.367 in place of 0.392, and never the
+/// With D' by the printed Eq. 34 the exact position gives 0.367 instead of 0.392, and never the
 /// published 0.1811.
 #[test]
 fn table_1_friction_ratio_by_the_printed_end() {

@@ -1,13 +1,12 @@
-//! What the form says of each field, whether it acts, is what the model does when the field
-//! changes.
+//! The relevance of each field in the form agrees with the effect of the field in the model.
 use std::collections::BTreeSet;
 
 use tipstrike::case::fields::{Field, Kind, index_of};
 use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, relevance};
 use tipstrike::model::{self, QUANTITIES, Solution, Stage, Stages};
 
-/// Every case of the house, and Table 1 with what the others leave out, so that whatever can act
-/// does.
+/// Every case in `cases/`, and Table 1 with the fields that these omit, so that every field can
+/// have an effect.
 fn samples() -> Vec<Case> {
     let mut found: Vec<Case> = EXAMPLES
         .iter()
@@ -54,7 +53,7 @@ fn samples() -> Vec<Case> {
     found
 }
 
-/// Other texts that the field takes: near what holds in it, and across its range.
+/// Other texts for the field: near its value, and across its range.
 fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
     match field.kind {
         Kind::Text => vec!["other words".to_owned()],
@@ -84,7 +83,7 @@ fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
     }
 }
 
-/// As far as the method goes, without the motion in time, which takes long.
+/// Solves every stage of the method except the motion in time, which is slow.
 fn solve(case: &Case) -> Option<Solution> {
     let shares = case.inputs().ok()?.method.shares_load();
     let wanted = if shares {
@@ -107,8 +106,8 @@ fn results(solution: &Solution) -> (Vec<Option<u64>>, String) {
     )
 }
 
-/// Hold every field of every sample, or but the idle ones, against the model in a method; the
-/// fields that were said to act and those that did.
+/// Compares the relevance of every field of every sample, optionally of the idle ones only, with
+/// the model by one method. Returns the fields reported as relevant, and those with an effect.
 fn hold(
     method: &str,
     samples: &[Case],

@@ -1,4 +1,4 @@
-//! The tip relief to specify, against whole solves and against every relief of a grid.
+//! The tip relief to specify, compared with whole solves and with every relief of a grid.
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use tipstrike::case::Document;
@@ -40,7 +40,7 @@ fn solved(inputs: &Inputs) -> Solution {
     solve(inputs, stages).unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
-/// Whether no tip touches off the path of contact with each relief off by the tolerance.
+/// Whether no tip touches off the path of contact with each relief off by its tolerance.
 fn clears(inputs: &Inputs, demand: &Demand, reliefs: &TipReliefs) -> bool {
     let both = [-demand.tolerance, demand.tolerance];
     both.into_iter().all(|one| {
@@ -71,7 +71,7 @@ const DEMAND: Demand = Demand {
     tolerance: 3e-6,
 };
 
-/// Pairs whose teeth are independent springs, so that whole solves are quick.
+/// Pairs whose teeth are independent springs, so that whole solves are fast.
 fn pairs() -> [(&'static str, Inputs); 3] {
     [
         "tests/validation/dias-27-35",
@@ -110,8 +110,8 @@ fn whole_solves_find_the_figures_of_the_relief_and_no_corner_contact() {
     }
 }
 
-/// Every relief of a grid around the amounts of the answer and over all lengths: none that clears
-/// has a smaller transmission error, but for what round figures cost.
+/// Compares with every relief of a grid around the amounts of the answer and over all lengths: none
+/// without corner contact has a smaller transmission error, apart from the rounding of figures.
 #[test]
 fn no_relief_of_a_grid_is_better() {
     const ROUND: f64 = 0.97;
@@ -136,7 +136,7 @@ fn no_relief_of_a_grid_is_better() {
                     ],
                     lengths: lengths.map(|part| (part * longest).min(longest)),
                 };
-                // The cheaper test first.
+                // The faster test first.
                 if error(&inputs, &loads[2..], &reliefs) >= ROUND * own
                     || error(&inputs, &loads[..2], &reliefs) >= ROUND * own
                 {
@@ -154,7 +154,7 @@ fn no_relief_of_a_grid_is_better() {
     }
 }
 
-/// A linear relief that is the same on both gears, over every amount at its length.
+/// Compares a linear relief that is the same on both gears with every amount at its length.
 #[test]
 fn no_amount_that_clears_is_better_than_that_of_its_kind() {
     let inputs = inputs("cases/zhou-chen-2014");
@@ -246,7 +246,7 @@ fn where_no_relief_serves_the_reason_is_given() {
     );
 }
 
-/// Three pairs share the load on a short part of the path only, which does not limit the relief.
+/// Three pairs share the load only on a short part of the path, which does not limit the relief.
 #[test]
 fn a_contact_ratio_just_above_2_leaves_room_for_a_relief() {
     let mut inputs = inputs("cases/zhou-chen-2014");
@@ -309,10 +309,11 @@ fn compliance_of_source(inputs: &Inputs, along: f64) -> f64 {
     tooth(&inputs.driver, along) + tooth(&inputs.driven, tangent - along) + contact
 }
 
-/// The source chooses 43.58 um on both gears, by the least vibration. With the source's teeth the
-/// one loaded pair deflects as much when the next pair comes in, 43.23 um, which is the relief that
-/// tipstrike requires of independent springs. Kuang and Yang's teeth are stiffer; under as much more
-/// load they deflect as far and need the same relief.
+/// The source specifies 43.58 um on both gears, by the least vibration. With the teeth of the
+/// source, the single loaded pair deflects by almost the same amount when the next pair enters,
+/// 43.23 um; tipstrike requires this relief for independent springs. The teeth of Kuang and Yang
+/// are stiffer; under a proportionally greater load they have the same deflection and need the same
+/// relief.
 #[test]
 fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief() {
     const PUBLISHED: f64 = 43.58e-6;

@@ -1,4 +1,4 @@
-//! Rounded tips: against answers of another program with 50 digits, and against sharp tips.
+//! Rounded tips, compared with answers of another program with 50 digits, and with sharp tips.
 
 use std::path::Path;
 
@@ -60,7 +60,7 @@ fn every_rounded_pair_agrees_within_1e_11() {
     }
 }
 
-/// A loaded pair with a deviation and tips of a radius.
+/// A loaded pair with a deviation and with tips of one radius.
 fn pair(method: Method, tip_radius: Option<f64>) -> Inputs {
     let mut inputs = standard_pair(20, 33, 4e-3);
     (inputs.method, inputs.base_pitch_deviation) = (method, 12e-6);
@@ -230,8 +230,8 @@ fn a_tip_radius_beyond_its_limits_is_refused_by_name() {
     );
 }
 
-/// A driven gear of five teeth: a large deviation turns the contact normal past its centre, where
-/// the contact leaves the arc of its tip.
+/// A driven gear with five teeth: a large deviation turns the contact normal past its centre, where
+/// the contact leaves the tip arc.
 #[test]
 fn a_contact_beyond_the_arc_of_the_tip_is_refused() {
     let mut inputs = standard_pair(20, 5, 4e-3);

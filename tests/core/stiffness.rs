@@ -1,4 +1,4 @@
-//! Pair stiffness held against published values: ISO 6336-1 method B, and what open codes give.
+//! Pair stiffness compared with published values: ISO 6336-1 method B, and results of open codes.
 use crate::support;
 
 use support::standard_pair;
@@ -42,7 +42,7 @@ fn pair((z1, x1): (u32, f64), (z2, x2): (u32, f64)) -> Inputs {
     inputs
 }
 
-/// Six pairs and more: FZG type C, equal, unequal and shifted ones.
+/// Six or more pairs: FZG type C, equal, unequal and profile-shifted ones.
 pub(crate) fn pairs() -> Vec<Inputs> {
     vec![
         pair((16, 0.1817), (24, 0.1715)),
@@ -84,7 +84,7 @@ fn at_end(geometry: &Geometry) -> f64 {
 }
 
 /// The table of the documentation: `cargo test --test core stiffness:: -- --nocapture`. ISO 6336-1
-/// takes 0.8 of the theoretical value c'th for c', since measured gears yield more.
+/// uses 0.8 of the theoretical value c'th for c', because measured gears are softer.
 #[test]
 fn single_stiffness_is_within_a_quarter_of_the_range_from_iso_c_to_its_theoretical_value() {
     const MEASURED_PART: f64 = 0.8;
@@ -122,7 +122,7 @@ fn iso_value_of_the_standard_pair() {
     assert!((iso - 11.487).abs() < 5e-4, "{iso}");
 }
 
-/// z 20/20, m 5 mm, with the constant contact term, at the path's end and at the pitch point.
+/// z 20/20, m 5 mm, with the constant contact term, at the end of the path and at the pitch point.
 #[test]
 fn kuang_yang_has_the_published_stiffness_of_an_equal_pair() {
     let inputs = pair((20, 0.0), (20, 0.0));

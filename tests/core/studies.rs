@@ -1,4 +1,4 @@
-//! Studies against plain solves: every row is one, whatever the threads.
+//! Studies compared with plain solves: every row equals a plain solve, for any number of threads.
 
 use tipstrike::case::spread::Shape;
 use tipstrike::case::{Case, Spread};
@@ -15,7 +15,7 @@ use tipstrike::study::statistics::Estimate;
 use tipstrike::study::sweep::Grid;
 use tipstrike::study::tolerance::{Samples, Size, Tolerance};
 
-/// Every quantity but the required relief, whose search takes its time.
+/// Every quantity except the required relief, whose search is slow.
 fn quick_quantities() -> Vec<&'static Quantity> {
     let is_quick = |quantity: &&Quantity| quantity.stage != Stage::Clearing;
     QUANTITIES.iter().filter(is_quick).collect()
@@ -236,7 +236,7 @@ fn never_always_and_unknown_are_answers_of_a_search() {
     assert_eq!(states(relief, "impact_force<=9 kN"), [State::Met]);
     assert_eq!(states(relief, "impact_force<=9 N"), [State::NotMet]);
     assert_eq!(states(relief, "outcome=no-corner-contact"), [State::NotMet]);
-    // Without contact there is no force above a limit, and none below it either.
+    // Without contact there is no force, and hence none above or below a limit.
     let beyond = "driven.tip_relief=60..90 um";
     assert_eq!(states(beyond, "impact_force<=9 N"), [State::Met]);
     assert_eq!(states(beyond, "impact_force>9 N"), [State::NotMet]);
@@ -285,7 +285,7 @@ fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_th
     );
 }
 
-/// A design with uniform fields between -pi and pi, as the test functions of the literature have.
+/// A design with uniform fields between -pi and pi, for the test functions of the literature.
 fn uniform_design(fields: usize, samples: usize) -> Design {
     let distribution = Distribution {
         field: 0,
@@ -320,7 +320,7 @@ fn ranked(design: &Design, function: impl Fn(&[f64]) -> f64) -> Vec<Indices> {
 }
 
 fn assert_within(estimate: Estimate, exact: f64, name: &str) {
-    // Twice the 95 % interval: nearly four standard errors.
+    // Twice the 95 % interval: almost four standard errors.
     let half = estimate.to - estimate.from;
     assert!(half < 0.1, "{name}: {estimate:?}");
     assert!(

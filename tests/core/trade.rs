@@ -1,6 +1,7 @@
-//! Speed against accuracy: what the trade promises, and the stored errors of the cases in `cases/`.
+//! Accuracy against run time: the promises of the trade study, and the stored errors of the cases
+//! in `cases/`.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table, the lines of
+//! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` writes the stored table, the lines of
 //! docs/speed.md and its picture again.
 use crate::table;
 
@@ -31,7 +32,7 @@ fn traded(inputs: &Inputs, within: f64) -> Trade {
     trade(inputs, &question, &|| true, &mut |_| ()).unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
-/// Table 1, traded once for all tests.
+/// The trade study of Table 1, computed once for all tests.
 fn traded_table_1() -> &'static Trade {
     static TRADE: LazyLock<Trade> = LazyLock::new(|| traded(&table_1(), 0.05));
     &TRADE
@@ -158,7 +159,7 @@ fn every_method_is_compared_with_every_compliance_of_the_pair() {
     );
 }
 
-/// The rim is too thin for elements, and the beam serves.
+/// The rim is too thin for elements, and the beam replaces the field.
 #[test]
 fn a_pair_without_a_field_is_compared_with_the_beam_and_the_page_says_why() {
     let mut inputs = table_1();
@@ -230,8 +231,9 @@ fn errors_fall_with_stations_and_tolerance() {
                 off(pair[1])
             );
         }
-        // A kink of the curve costs as much as its distance from the nearest station, which falls
-        // with their number, but for the place of the kink between two stations.
+        // At a corner of the curve the error is proportional to the distance to the nearest
+        // station, which falls with their number; the position of the corner between two stations
+        // adds scatter.
         assert!(off(1024) < 5.0 * 8.0 / 1024.0 * off(8), "{method:?}");
     }
     let off = |tolerance| {
@@ -241,7 +243,8 @@ fn errors_fall_with_stations_and_tolerance() {
         };
         numerical(of(trade, &setting), Subject::PeakApproachForce)
     };
-    // A coarse one may by chance be as good as a finer one: its steps end at the same borders.
+    // A coarse setting may by chance be as good as a finer one, because its steps end at the same
+    // borders.
     for exponent in 3..=10 {
         let tolerance = table::tidy(10f64.powi(-exponent));
         assert!(
@@ -427,8 +430,8 @@ fn the_page_is_eighty_columns_wide() {
     }
 }
 
-/// Twice as many cycles or stations cost twice as many evaluations, but for what a run costs
-/// anyway; cycles only as long as they differ.
+/// Twice as many cycles or stations take twice as many evaluations, plus a constant; cycles only
+/// while they differ.
 #[test]
 fn cost_grows_linearly_with_cycles_and_stations() {
     let evaluations = |damping_ratio, cycles, stations| {

@@ -31,9 +31,9 @@ validation::` writes the page again, and the same test without the variable chec
 /// A program or standard with published figures.
 pub(crate) struct Source {
     title: &'static str,
-    /// Where the figures are from.
+    /// The origin of the figures.
     from: &'static str,
-    /// The file in `tests/validation`, without its ending.
+    /// The file in `tests/validation`, without its extension.
     case: &'static str,
     figures: &'static [Figure],
 }
@@ -64,7 +64,7 @@ pub(crate) fn inputs(file: &str) -> Inputs {
         .unwrap_or_else(|problems| panic!("{file}: {}", problems[0]))
 }
 
-/// The same with a tooth compliance.
+/// The same inputs with a tooth compliance.
 pub(crate) fn with_model(inputs: &Inputs, model: ToothCompliance) -> Inputs {
     Inputs {
         tooth_compliance: Some(model),

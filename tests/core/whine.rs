@@ -1,5 +1,5 @@
-//! Harmonics and dynamic factors of the periodic mesh against direct sampling and an integrator of
-//! fixed steps.
+//! Harmonics and dynamic factors of the periodic mesh compared with direct sampling and with an
+//! integrator of fixed steps.
 use std::f64::consts::TAU;
 
 use tipstrike::case::Document;
@@ -73,8 +73,8 @@ fn harmonics_at_rest_are_those_of_many_samples() {
     }
 }
 
-/// The last of many base pitches by classical Runge-Kutta steps that know no events: displacements,
-/// the greatest sum of forces and the greatest force of a tooth.
+/// The last of many base pitches by classical Runge-Kutta steps without events: displacements, the
+/// greatest sum of forces and the greatest force of a tooth.
 fn plain(mesh: &Mesh, inputs: &Inputs, mass: f64, laps: u32, steps: u32) -> (Vec<f64>, f64, f64) {
     let damping = 2.0 * inputs.damping_ratio * (mesh.mean_stiffness * mass).sqrt();
     let forces = |part: f64, x: f64| {
@@ -114,7 +114,7 @@ fn plain(mesh: &Mesh, inputs: &Inputs, mass: f64, laps: u32, steps: u32) -> (Vec
     (samples, of_mesh, of_tooth)
 }
 
-/// At a tenth of resonance, at a subharmonic, and where contact is lost beside resonance.
+/// At a tenth of resonance, at a subharmonic, and with loss of contact beside resonance.
 #[test]
 fn the_steady_motion_is_that_of_plain_steps() {
     let table_1 = case("zhou-chen-2014");
@@ -173,8 +173,8 @@ fn an_undamped_motion_has_no_steady_state_and_the_rest_of_the_solve_stays() {
     ));
 }
 
-/// With little damping at half the resonance the back flanks strike, the note and the quantities
-/// report it, and a wide backlash or none leaves the working flanks alone.
+/// With little damping at half the resonance speed the back flanks strike, and the note and the
+/// quantities report this. A wide backlash or none does not affect the working flanks.
 #[test]
 fn a_pair_with_little_damping_rattles_across_its_backlash() {
     let pair = |backlash: f64| Inputs {
@@ -222,7 +222,7 @@ fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
     let curve = speeds(&inputs, &mut |_| true).unwrap_or_else(|refusal| panic!("{refusal}"));
     assert_eq!(curve.up.len(), SPEEDS);
     assert!(!curve.is_cut);
-    // Where the run down finds the motion of the run up, a plain solve finds it as well.
+    // If the run-down finds the motion of the run-up, a plain solve finds it too.
     let jumps: Vec<f64> = curve.jumps().map(|point| point.speed).collect();
     let known = curve.up.iter().flatten().rev();
     let up = known
@@ -239,7 +239,7 @@ fn the_run_over_the_speed_passes_through_the_steady_motion_of_the_case() {
     assert!(off.abs() < 1e-4, "{off:e}");
     let last = curve.speeds[SPEEDS - 1];
     assert!(curve.speeds[0] < curve.resonance && curve.resonance < last);
-    // The caller may end it.
+    // The caller may stop it.
     let mut shown = 0;
     let stopped = speeds(&inputs, &mut |_| {
         shown += 1;

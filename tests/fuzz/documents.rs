@@ -1,4 +1,4 @@
-//! Cases as texts: read, checked, solved, edited, saved, read again.
+//! Cases as texts: read, checked, solved, edited, saved, and read again.
 
 use std::cell::Cell;
 use std::ffi::OsString;
@@ -22,7 +22,7 @@ enum Edit {
     Field(usize, String),
     Limit(Index, String),
     Unspread,
-    /// A variant with this override, where the field takes it.
+    /// A variant with this override, if the field accepts it.
     Variant(usize, String),
     /// No variants.
     Invariant,
@@ -119,8 +119,8 @@ fn edits_are_kept_and_so_are_comments() {
                 .unwrap_or_else(|faults| panic!("{}\n{rendered}", faults[0]));
             assert_same(&document, &again);
             assert_eq!(again.render(), rendered);
-            // A comment that landed inside a text of many lines is none, and a variant that is
-            // removed takes those inside it along.
+            // A comment inside a multi-line text is not a comment, and removing a variant also
+            // removes the comments inside it.
             let is_same = is_same && !edits.iter().any(|edit| matches!(edit, Edit::Invariant));
             let lost = (0..comments.len())
                 .filter(|index| !rendered.contains(&format!("# kept {index}")))
@@ -245,7 +245,7 @@ impl Edit {
     fn apply(&self, case: &mut Case) {
         match self {
             Edit::Field(field, text) => case.write(*field, text),
-            // What is no limit leaves the case as it was.
+            // An invalid limit does not change the case.
             Edit::Limit(at, text) => {
                 drop(case.set_limit(QUANTITIES[at.index(QUANTITIES.len())].key, text));
             }
@@ -263,7 +263,7 @@ impl Edit {
     }
 }
 
-/// Comments on lines of their own, or at the end of lines that say nothing else but a table's name.
+/// Comments on separate lines, or at the end of lines with only a table name.
 fn with_comments(text: &str, comments: &[(Index, bool)]) -> String {
     let mut lines: Vec<String> = text.split('\n').map(str::to_owned).collect();
     for (index, (at, at_header)) in comments.iter().enumerate() {
@@ -289,7 +289,7 @@ fn assert_bytes(bytes: &[u8]) {
     }
 }
 
-/// Each command tells its outcome by the exit code, and nothing that acts on the terminal.
+/// Checks that each command reports its outcome by the exit code and prints no control characters.
 fn assert_safe_headless(text: &str) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("case \u{1b}[2J\u{202e}.toml");

@@ -1,5 +1,5 @@
-//! Keys, pastes and sizes into the workbench without a terminal: the state stays sound, the screen
-//! safe, nothing is lost.
+//! Keys, pastes and sizes in the workbench without a terminal: the state stays valid, the screen
+//! safe, and no edit is lost.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -37,39 +37,39 @@ use tipstrike::tui::testing::{effects, rows, update, view, worker};
 use crate::values::{HOSTILE, field_and_text};
 use crate::{hold, is_hostile, texts};
 
-/// Something that happens to the workbench.
+/// An event for the workbench.
 #[derive(Debug, Clone)]
 enum Happening {
-    /// A key, as often as said.
+    /// A key and its number of presses.
     Key(KeyEvent, usize),
     /// Letters typed one after the other.
     Type(String),
-    /// Letters at once.
+    /// A pasted text.
     Paste(String),
-    /// The terminal has another size.
+    /// A new size of the terminal.
     Resize(u16, u16),
-    /// A field is gone to, emptied and filled, perhaps not to the end.
+    /// Typing a text into a field after clearing it, possibly incompletely.
     Fill(usize, String),
-    /// Another case is asked for by this name, or the first of the list.
+    /// Opening another case by this name, or the first of the list.
     Open(String),
-    /// Someone else writes the file, and then it is saved.
+    /// Another program writes the file, and then the workbench saves.
     Meddle(String),
 }
 
-/// A workbench in a folder of its own, and what must come of it.
+/// A workbench in a temporary folder, and the expected state.
 struct Bench {
     app: App,
     autosave: Autosave,
     folder: TempDir,
-    /// The folder of state.
+    /// The state folder.
     _state: TempDir,
-    /// What the worker has not answered yet.
+    /// The request that the worker has not answered.
     waiting: Option<Request>,
-    /// The cases to which undoing everything may lead back: every one that was opened.
+    /// The cases that a full undo may restore: every opened case.
     opened: Vec<Case>,
-    /// What files have held, as far as the workbench knows.
+    /// The contents of files that the workbench has read or written.
     on_disk: Vec<Case>,
-    /// What has come to pass.
+    /// The kinds of events so far.
     seen: BTreeSet<&'static str>,
 }
 
@@ -182,7 +182,7 @@ fn happenings() -> impl Strategy<Value = Vec<Happening>> {
     prop::collection::vec(happening, 0..40)
 }
 
-/// Every key that a terminal sends, those of the table of bindings more often.
+/// Every key that a terminal sends; keys of the table of bindings more often.
 fn keys() -> impl Strategy<Value = KeyEvent> {
     use KeyCode::{
         BackTab, Backspace, CapsLock, Delete, Down, End, Enter, Esc, Home, Insert, Left, Null,
@@ -221,7 +221,7 @@ fn done(job: Job) -> Option<Action> {
 }
 
 impl Bench {
-    /// On a file of that text where it is a case, else on the built-in case.
+    /// A workbench on a file with this text if it is a case, otherwise on the built-in case.
     fn on(text: &str, ascii: bool) -> Bench {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("case.toml");
@@ -314,7 +314,7 @@ impl Bench {
             .extend([prompt, invalid, refused].into_iter().flatten());
     }
 
-    /// A batch of events, as the workbench takes it.
+    /// Applies a batch of events, as the main loop does.
     fn feed(&mut self, events: impl IntoIterator<Item = Event>) {
         let mut events = events.into_iter().peekable();
         while events.peek().is_some() {
@@ -324,7 +324,7 @@ impl Bench {
         }
     }
 
-    /// Change the state, and do what it asks for within the folder.
+    /// Applies an action and carries out its effects within the folder.
     fn act(&mut self, action: Action) {
         let mut actions = vec![action];
         while let Some(action) = actions.pop() {
@@ -340,7 +340,7 @@ impl Bench {
         }
     }
 
-    /// What a file that was read or written says from now on.
+    /// Stores the new content of a file that was read or written.
     fn note(&mut self, action: &Action) {
         let seen = match action {
             Action::Loaded(_, Ok(document)) => {
@@ -418,7 +418,7 @@ impl Bench {
                 exporting.path = self.within(&exporting.path);
                 done(Job::Export(exporting))
             }
-            // A search for a relief takes seconds, and no key needs its answer.
+            // A search for a relief takes seconds, and no key needs its result.
             Effect::Job(job) if !matches!(job, Job::Relief(_)) => done(job),
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
@@ -447,7 +447,7 @@ impl Bench {
         }
     }
 
-    /// A path that stays in the folder, whatever was typed.
+    /// A path limited to the folder.
     fn within(&self, path: &Path) -> PathBuf {
         let inside = path.strip_prefix(self.folder.path()).unwrap_or(path);
         let names = inside
@@ -472,7 +472,8 @@ impl Bench {
             .concat();
             let is_words = rows::field(&app.tab.case, app.tab.form.focus)
                 .is_some_and(|field| matches!(field.kind, Kind::Text));
-            // While a number is typed, its unit may be the field's, and blanks may stand around it.
+            // While a number is typed, its unit may be that of the field, and it may have
+            // surrounding blanks.
             let said = if is_words || !app.has_line() {
                 line.as_str()
             } else {
@@ -539,7 +540,7 @@ impl Bench {
         }
     }
 
-    /// Undo everything, and see the first case; redo it, and see the last one.
+    /// Undoes all edits and expects the first case; redoes them and expects the last one.
     fn assert_undone(&mut self) {
         self.feed(vec![
             Event::Input(Input::Key(key(KeyCode::Esc)));

@@ -1,8 +1,8 @@
-//! Hostile texts, edits, keys and bytes: whatever comes in, nothing falls over, nothing is lost,
-//! nothing acts on the terminal.
+//! Invalid texts, edits, keys and bytes: nothing panics, no edit is lost, and no control character
+//! reaches the terminal.
 //!
-//! A run is the same every time. `TIPSTRIKE_FUZZ=N cargo test --test fuzz` runs N times as many
-//! cases, others each time. What was found once stands under `kept` and is tried first, each time.
+//! Every run is the same. `TIPSTRIKE_FUZZ=N cargo test --test fuzz` runs N times as many cases,
+//! other ones each time. Failures of the past are stored under `kept` and are tried first.
 
 #![cfg(all(feature = "cli", feature = "tui"))]
 #![allow(
@@ -25,17 +25,17 @@ use std::env;
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
-/// So long may a failing case be made smaller, in ms.
+/// Time limit for the minimization of a failing case, in ms.
 const SHRINKING: u32 = 30_000;
 
-/// How many times as many cases are asked for, where it is asked for.
+/// The requested multiple of cases, if any.
 fn times() -> Option<u32> {
     env::var("TIPSTRIKE_FUZZ")
         .ok()
         .map(|times| times.parse().expect("TIPSTRIKE_FUZZ is a number"))
 }
 
-/// Hold a property, which asserts, against this many cases.
+/// Checks a property, which asserts, with a number of cases.
 #[track_caller]
 fn hold<S: Strategy>(cases: u32, strategy: &S, property: impl Fn(S::Value)) {
     let asked = times();
@@ -57,8 +57,8 @@ fn hold<S: Strategy>(cases: u32, strategy: &S, property: impl Fn(S::Value)) {
     result.unwrap_or_else(|failure| panic!("{failure}"));
 }
 
-/// Whether a character acts on a terminal or is none to the eye: controls, directions, and what
-/// Unicode calls ignorable.
+/// Whether a character controls a terminal or is invisible: controls, directions, and
+/// default-ignorable characters of Unicode.
 fn is_hostile(character: char) -> bool {
     const IGNORABLE: [(char, char); 19] = [
         ('\u{ad}', '\u{ad}'),
@@ -87,7 +87,7 @@ fn is_hostile(character: char) -> bool {
             .any(|&(from, to)| (from..=to).contains(&character))
 }
 
-/// Lines that a terminal may be shown.
+/// Checks that the lines are safe to print on a terminal.
 #[track_caller]
 fn assert_safe(text: &str) {
     let hostile = text

@@ -1,4 +1,4 @@
-//! What holds for every text, every case and every report.
+//! Properties of every text, every case and every report.
 
 use serde_json::Value;
 use tipstrike::case::fields::index_of;
@@ -9,19 +9,19 @@ use tipstrike::report::{self, Report, Selection};
 
 use crate::assert_safe;
 
-/// What became of a text.
+/// The result for a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fate {
-    /// It is no case.
+    /// The text is not a valid case.
     Faulty,
-    /// It is a case, and the model refuses it.
+    /// The text is a case that the model refuses.
     Refused,
-    /// It is solved.
+    /// The case is solved.
     Solved,
 }
 
-/// A text is a case, or every fault in it is reported at its place; a case is solved, or
-/// refused by name.
+/// Checks that a text is a case or that every fault is reported at its place, and that a case is
+/// solved or refused by name.
 pub(crate) fn read_and_solve(text: &str) -> Fate {
     match Document::parse("a case.toml", text) {
         Ok(document) => {
@@ -39,7 +39,8 @@ pub(crate) fn read_and_solve(text: &str) -> Fate {
     }
 }
 
-/// Faults have a place inside the text, and print on one line that is safe for a terminal.
+/// Checks that faults have a place inside the text, and print on one line that is safe for a
+/// terminal.
 pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
     assert!(!faults.is_empty(), "a refusal has a reason");
     let lines: Vec<&str> = text
@@ -99,7 +100,7 @@ fn solve(document: &Document) -> Fate {
     }
 }
 
-/// A refusal has a name, a field and a fix, and its numbers are numbers.
+/// Checks that a refusal has a name, a field and a fix, and finite numbers.
 pub(crate) fn assert_named(refusal: &Refusal) {
     let message = refusal.to_string();
     assert!(
@@ -110,7 +111,7 @@ pub(crate) fn assert_named(refusal: &Refusal) {
     assert_numbers(&message);
 }
 
-/// No report prints a NaN or an infinity, in any format.
+/// Checks that no report prints a NaN or an infinity, in any format.
 pub(crate) fn assert_sound(report: &Report) {
     assert_finite(&report.solution);
     report
@@ -143,12 +144,12 @@ fn assert_finite(solution: &Solution) {
     }
 }
 
-/// Where no force acts there is no compliance under it: at E in the closed forms.
+/// Without a force there is no compliance: at E in the closed forms.
 fn has_none(key: &str, row: report::stations::Row) -> bool {
     matches!(row, report::stations::Row::Impact(station) if key == "pair_compliance" && station.impact_force == 0.0)
 }
 
-/// Text without a NaN, an infinity or a number that could not be printed.
+/// Checks that a text has no NaN, no infinity and no number that cannot be printed.
 fn assert_numbers(words: &str) {
     let no_number = |word: &str| ["NaN", "inf", "-inf", "n/a"].contains(&word);
     let found = words
@@ -269,7 +270,7 @@ fn bits(number: &str) -> u64 {
     number.parse::<f64>().expect("a number").to_bits()
 }
 
-/// Two cases say the same: texts to the letter, bare numbers by their value.
+/// Checks that two cases are equal: texts exactly, bare numbers by value.
 pub(crate) fn assert_same(one: &Document, other: &Document) {
     let inputs = |document: &Document| -> Inputs { document.case.inputs().expect("a valid case") };
     assert_eq!(inputs(one), inputs(other));

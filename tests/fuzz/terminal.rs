@@ -1,5 +1,5 @@
-//! Bytes into the built program on a real terminal: it stays, it leaves on request, and gives the
-//! terminal back.
+//! Random bytes for the built program on a real terminal: it keeps running, quits on request, and
+//! restores the terminal.
 
 use std::fs;
 use std::process::Command;
@@ -16,11 +16,11 @@ use tipstrike::tui::testing::session::Journal;
 use crate::hold;
 use crate::tty::{PATIENCE, Tty, journals};
 
-/// The program has taken what came when it writes nothing for so long. Longer than it waits for the
-/// rest of a sequence.
+/// The program has processed its input if it writes nothing for this time, which is longer than its
+/// timeout for a sequence.
 const QUIET: Duration = Duration::from_millis(120);
 
-/// What terminals send, whole, in part, and what none should.
+/// Sequences of terminals, complete and partial, and invalid ones.
 #[rustfmt::skip]
 const SEQUENCES: [&[u8]; 60] = [
     b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D", b"\x1b[H", b"\x1b[F", b"\x1b[Z", b"\x1bOP", b"\x1bOQ", b"\x1b[15~", b"\x1b[17~",
@@ -32,11 +32,11 @@ const SEQUENCES: [&[u8]; 60] = [
     b"\t", b"5 mm",
 ];
 
-/// What an impatient user tries, key after key: to close a prompt; to quit; to discard.
+/// Keys that close a prompt, quit, and discard.
 const WAYS_OUT: [&[u8]; 3] = [b"\x1b", b"\x11", b"d"];
 
-/// It leaves by itself, or by Ctrl-C or Ctrl-\ on a terminal that is the shell's while it is
-/// suspended.
+/// Ways to end: by itself, or by Ctrl-C or Ctrl-\ while it is suspended and the terminal belongs to
+/// the shell.
 const ENDS: [&str; 2] = ["Interrupt", "Quit"];
 
 #[test]
@@ -94,7 +94,7 @@ fn floods_are_survived() {
     });
 }
 
-/// Without paths out of its folder.
+/// Removes paths outside the folder.
 fn harmless(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes.retain(|&byte| byte != b'/');
     bytes
@@ -127,7 +127,7 @@ fn survive(pieces: &[Vec<u8>], sizes: &[(u16, u16)]) {
     assert_nothing_left(&tty, &status);
 }
 
-/// Tries every way out until the program has left.
+/// Tries every key that quits until the program has ended.
 fn leave(tty: &mut Tty) -> ExitStatus {
     let end = Instant::now() + PATIENCE;
     for keys in WAYS_OUT.into_iter().cycle() {
@@ -137,7 +137,7 @@ fn leave(tty: &mut Tty) -> ExitStatus {
         }
         assert!(Instant::now() < end, "it does not leave: {:?}", words(tty));
         tty.wake();
-        // It may leave at any time.
+        // The program may end at any time.
         tty.try_to_type(keys).ok();
     }
     unreachable!("the keys go round and round")
@@ -147,8 +147,8 @@ fn words(tty: &Tty) -> String {
     String::from_utf8_lossy(tty.written.as_deref().unwrap_or_default()).into_owned()
 }
 
-/// No process on the terminal, a case that opens again, and whole journals of what was not thrown
-/// away.
+/// Checks that no process remains on the terminal, that the case opens again, and that the journals
+/// of undiscarded edits are complete.
 fn assert_nothing_left(tty: &Tty, status: &ExitStatus) {
     let left = Command::new("ps")
         .args(["-o", "pid=", "-s", &tty.id().to_string()])

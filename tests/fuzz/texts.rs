@@ -1,4 +1,4 @@
-//! Texts of cases, mutated so that most of them are still TOML and many of them still cases.
+//! Mutated texts of cases; most of them are still TOML and many still cases.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
@@ -10,7 +10,7 @@ const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 const SPEED_UP: &str = include_str!("../../cases/hydro-speed-up.toml");
 const FINE: &str = include_str!("../../cases/turbo-fine-fast.toml");
 
-/// The same pair, with every way of TOML to write a table.
+/// The same pair, with every TOML syntax of a table.
 const COMPACT: &str = r#"format = 1
 title = 'compact' # as far as TOML allows
 pair = { module = "5 mm", "pressure_angle" = "20 deg" }
@@ -41,7 +41,7 @@ spread."deviations.base_pitch" = ""
 impact_force = "900 N"
 "#;
 
-/// What stands on the right of a line.
+/// Right-hand sides of a line.
 #[rustfmt::skip]
 const VALUES: [&str; 32] = [
     "nan", "-inf", "1e400", "1e-400", "0x14", "0b1", "2_0", "+20", "-0.0",
@@ -51,14 +51,14 @@ const VALUES: [&str; 32] = [
     "\"−20 mm\"", "\"2,0 mm\"", "",
 ];
 
-/// What stands on the left of a line.
+/// Left-hand sides of a line.
 #[rustfmt::skip]
 const NAMES: [&str; 14] = [
     "modul", "\"module\"", "driver.teeth", "\"driver\" . 'teeth'", "\"\"", "\"\\u001b]0;x\\u0007\"", "\"ключ\"", "a.b.c",
     "format", "torque", "impact_force", "\"deviations.base_pitch\"", "\"a\\nb\"", "title",
 ];
 
-/// What is put in anywhere.
+/// Texts to insert anywhere.
 #[rustfmt::skip]
 const PIECES: [&str; 40] = [
     "\u{1b}[2J", "\0", "\u{9b}", "\u{85}", "\u{202e}", "\u{200b}", "\u{feff}", "\u{e0041}", "\u{2028}", "\u{ffa0}", "\u{34f}",
@@ -70,28 +70,28 @@ const PIECES: [&str; 40] = [
         "\n[variants.\"ключ\"]\npair.module = \"4 mm\"\n",
 ];
 
-/// One change of a text.
+/// A mutation of a text.
 #[derive(Debug, Clone)]
 enum Mutation {
     /// A field gets another value.
     Write(usize, String),
-    /// Two lines change places.
+    /// Two lines are swapped.
     Swap(Index, Index),
-    /// A line goes.
+    /// A line is deleted.
     Delete(Index),
-    /// A line stands at a second place too.
+    /// A line is repeated at a second place.
     Double(Index, Index),
-    /// The right side of a line.
+    /// The right-hand side of a line is replaced.
     Value(Index, &'static str),
-    /// The left side of a line.
+    /// The left-hand side of a line is replaced.
     Name(Index, &'static str),
-    /// Another way to write a line.
+    /// A line gets another syntax.
     Restyle(Index, Style),
-    /// Something is put in.
+    /// A text is inserted.
     Insert(Index, &'static str),
     /// The value of a line is nested this deep.
     Nest(Index, usize),
-    /// The end goes.
+    /// The end is cut off.
     Cut(Index),
     /// Lines end as on Windows.
     Crlf,
@@ -109,7 +109,7 @@ enum Style {
     Array,
 }
 
-/// Texts of cases, from untouched ones to ruins.
+/// Texts of cases, from unchanged to heavily damaged.
 pub(crate) fn mutated() -> impl Strategy<Value = String> {
     (select(bases()), prop::collection::vec(mutation(), 0..7)).prop_map(|(text, mutations)| {
         mutations
@@ -118,7 +118,7 @@ pub(crate) fn mutated() -> impl Strategy<Value = String> {
     })
 }
 
-/// Texts of cases in which only fields have other values.
+/// Texts of cases in which only values of fields differ.
 pub(crate) fn written() -> impl Strategy<Value = String> {
     (
         select(bases()),
@@ -131,7 +131,7 @@ pub(crate) fn written() -> impl Strategy<Value = String> {
         })
 }
 
-/// Good cases in every layout.
+/// Valid cases in every layout.
 pub(crate) fn bases() -> Vec<String> {
     let template = Document::new(Document::table_1().case).render();
     [TABLE_1, SPEED_UP, FINE, COMPACT]
@@ -201,7 +201,7 @@ impl Mutation {
     }
 }
 
-/// A field written into its line, or into a new one below its table's header.
+/// Writes a field into its line, or into a new line below the header of its table.
 fn with_field(text: &str, field: usize, value: &str) -> String {
     let known = &FIELDS[field];
     let quoted = if known.is_bare() {
@@ -265,7 +265,7 @@ fn with_lines(text: &str, change: impl FnOnce(&mut Vec<String>)) -> String {
     lines.join("\n")
 }
 
-/// One of the lines with an equals sign, its two sides written again.
+/// Replaces one of the lines with an equals sign; `side` maps its two sides.
 fn with_side(text: &str, at: Index, side: impl FnOnce(&str, &str) -> String) -> String {
     with_lines(text, |lines| {
         let mut sides: Vec<&mut String> =
@@ -280,7 +280,7 @@ fn with_side(text: &str, at: Index, side: impl FnOnce(&str, &str) -> String) -> 
     })
 }
 
-/// A place between two characters.
+/// A position between two characters.
 fn character_at(text: &str, at: Index) -> usize {
     let count = text.chars().count();
     text.char_indices()

@@ -1,11 +1,11 @@
-//! Values for fields: sound ones of every range, and ones that nobody should write.
+//! Values for fields: valid ones of every range, and invalid ones.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use tipstrike::case::fields::{FIELDS, Kind, Range};
 use tipstrike::case::units::{self, Dimension};
 
-/// Texts that no field of a measure takes, or hardly.
+/// Texts that almost no field of a measure accepts.
 #[rustfmt::skip]
 pub(crate) const HOSTILE: [&str; 42] = [
     "", " ", "nan", "-inf mm", "1e400 mm", "1e-400 mm", "1e308 mm", "-1e-320 um",
@@ -16,8 +16,7 @@ pub(crate) const HOSTILE: [&str; 42] = [
         "\u{180b}\u{1d173}\u{e0041}b", "👩\u{200d}🔧", "static",
 ];
 
-/// A field and a text for it: mostly a value that it takes, near its usual one or anywhere in its
-/// range.
+/// A field and a text for it: mostly a valid value, near its default or anywhere in its range.
 pub(crate) fn field_and_text() -> impl Strategy<Value = (usize, String)> {
     any::<Index>().prop_flat_map(|at| {
         let field = at.index(FIELDS.len());
@@ -30,7 +29,7 @@ fn text_of(field: usize) -> BoxedStrategy<String> {
     prop_oneof![10 => sound(field), 1 => Just(String::new()), 2 => hostile].boxed()
 }
 
-/// A text that the field takes, on its own.
+/// A text that the field accepts by itself.
 fn sound(field: usize) -> BoxedStrategy<String> {
     let known = &FIELDS[field];
     match known.kind {

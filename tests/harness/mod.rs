@@ -1,4 +1,4 @@
-//! A workbench without a terminal: keys in, screen out, files in a folder of its own.
+//! A workbench without a terminal: keys in, screen out, files in a temporary folder.
 
 #![allow(dead_code, reason = "each test file uses its own part")]
 
@@ -53,7 +53,7 @@ pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml")
 )]
 pub(crate) struct Desk {
     pub(crate) app: App,
-    /// Saves, locks and keeps edits as in the program.
+    /// Saves, locks and journals as in the program.
     pub(crate) autosave: Autosave,
     state: TempDir,
     pub(crate) folder: TempDir,
@@ -69,7 +69,7 @@ pub(crate) struct Desk {
 }
 
 impl Desk {
-    /// On the built-in case, which is solved once per size.
+    /// A workbench on the built-in case, which is solved once per size.
     pub(crate) fn new(size: Size) -> Desk {
         static SOLVED: Mutex<Vec<App>> = Mutex::new(Vec::new());
         let mut solved = SOLVED.lock().unwrap_or_else(PoisonError::into_inner);
@@ -82,7 +82,7 @@ impl Desk {
         Desk::with(app)
     }
 
-    /// On that state, with an empty folder.
+    /// A workbench with a state, in an empty folder.
     pub(crate) fn with(app: App) -> Desk {
         Desk::in_folder(app, tempfile::tempdir().expect("a folder"))
     }
@@ -106,14 +106,14 @@ impl Desk {
         }
     }
 
-    /// On a file of that text.
+    /// A workbench on a file with a text.
     pub(crate) fn on(size: Size, name: &str, text: &str) -> Desk {
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join(name), text).expect("room on the disk");
         Desk::of_file(size, folder, name)
     }
 
-    /// On a file that is in the folder already.
+    /// A workbench on an existing file of the folder.
     pub(crate) fn at(folder: TempDir, name: &str) -> Desk {
         Desk::of_file(SMALL, folder, name)
     }
@@ -139,8 +139,8 @@ impl Desk {
         fs::read_to_string(self.path(name)).expect("the file is there")
     }
 
-    /// Keys by their names: `Ctrl-S`, `Alt-S`, `F1`, `Down`; anything else is typed letter by
-    /// letter.
+    /// Presses keys by their names: `Ctrl-S`, `Alt-S`, `F1`, `Down`; anything else is typed letter
+    /// by letter.
     pub(crate) fn keys(&mut self, keys: &[&str]) -> &mut Desk {
         for key in keys {
             match named(key) {
@@ -163,7 +163,7 @@ impl Desk {
         }
     }
 
-    /// The effects of a key, which are not performed.
+    /// The effects of a key, which are not carried out.
     pub(crate) fn effects(&mut self, key: &str) -> Vec<Effect> {
         let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
         let event = named(key).unwrap_or_else(letter);
@@ -171,7 +171,7 @@ impl Desk {
         update(&mut self.app, action)
     }
 
-    /// Change the state and do at once what it asks for.
+    /// Applies an action and carries out its effects immediately.
     pub(crate) fn act(&mut self, action: Action) {
         let mut actions = vec![action];
         while let Some(action) = actions.pop() {
@@ -213,13 +213,13 @@ impl Desk {
         }
     }
 
-    /// Carry out an effect as the program does.
+    /// Carries out an effect as the program does.
     pub(crate) fn perform(&mut self, effect: Effect) {
         let action = effects::perform(effect, &mut self.autosave);
         self.act(action.expect("a result"));
     }
 
-    /// Go to a field by its key.
+    /// Goes to a field by its key.
     pub(crate) fn go_to(&mut self, key: &str) -> &mut Desk {
         let field = tipstrike::case::fields::index_of(key).expect("a field of that key");
         self.keys(&["Ctrl-Home"]);
@@ -230,7 +230,7 @@ impl Desk {
         self
     }
 
-    /// Write a field again.
+    /// Replaces the text of a field.
     pub(crate) fn fill(&mut self, key: &str, text: &str) -> &mut Desk {
         self.go_to(key);
         if !self.app.has_line() {
@@ -243,8 +243,7 @@ impl Desk {
         self.screen_at(self.app.layout.size())
     }
 
-    /// The screen as text, the folder of the test named `DIR`, each line without the spaces at its
-    /// end.
+    /// The screen as text, with `DIR` for the folder of the test, without trailing blanks.
     pub(crate) fn screen_at(&self, size: Size) -> String {
         let folder = self.folder.path().display().to_string();
         let lines: Vec<String> = self
@@ -282,7 +281,7 @@ impl Desk {
     }
 }
 
-/// Times that are the same on every machine: each setting takes a tenth more than the one before.
+/// Sets the same times on every machine: each setting takes a tenth longer than the previous one.
 pub(crate) fn time_evenly(desk: &mut Desk) {
     let traded = desk.app.tab.traded.as_mut().expect("a measurement");
     let trade = traded.trade.as_mut().expect("it is whole");
@@ -298,7 +297,7 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
     traded.marked = trade.recommended().map(|measured| measured.setting);
 }
 
-/// All that a measurement sends, the last first; each setting is run once.
+/// All messages of a benchmark, the last first; each setting runs once.
 fn measured(measuring: Measuring) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
     let once = Measuring {
@@ -315,7 +314,7 @@ fn measured(measuring: Measuring) -> Vec<Action> {
     sent
 }
 
-/// All that a study sends, the last first.
+/// All messages of a study, the last first.
 fn studied(request: &StudyRequest) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
     let running = Running {
@@ -328,7 +327,7 @@ fn studied(request: &StudyRequest) -> Vec<Action> {
     sent
 }
 
-/// All that the worker of the charts of whine sends, the last first.
+/// All messages of the worker of the charts of whine, the last first.
 fn whined(request: &WhineRequest) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
     let running = Running {
@@ -341,7 +340,7 @@ fn whined(request: &WhineRequest) -> Vec<Action> {
     sent
 }
 
-/// An autosave with its state in a folder, and without a thread that writes.
+/// An autosave with its state in a folder, and without a writer thread.
 pub(crate) fn autosave(folder: &Path) -> Autosave {
     let state = State {
         folder: Some(folder.to_owned()),
@@ -350,7 +349,7 @@ pub(crate) fn autosave(folder: &Path) -> Autosave {
     Autosave::new(state, Arc::new(JournalWriter::default()))
 }
 
-/// A file that holds a case and its name.
+/// The name of a case file.
 pub(crate) fn name(path: &Path) -> &str {
     path.to_str().expect("a name in UTF-8")
 }
@@ -366,8 +365,7 @@ pub(crate) fn event(key: &str) -> KeyEvent {
     named(key).unwrap_or_else(letter)
 }
 
-/// The screen without the rest of the lines in which a folder of the test is named: its name has a
-/// length of its own.
+/// The screen, with lines cut at the name of the test folder, whose length varies.
 pub(crate) fn without_folder(desk: &Desk) -> String {
     let lines = desk.screen();
     let kept = lines.lines().map(|line| match line.find("DIR") {

@@ -7,8 +7,8 @@ use tipstrike::model::inputs::{
     ContactCompliance, Drive, Gear, InertiaModel, Method, ToothCompliance,
 };
 
-/// A small generator with a named sequence (splitmix64, Steele, Lea & Flood 2014), the same on
-/// every machine.
+/// A small random generator with a named sequence (splitmix64, Steele, Lea & Flood 2014), the same
+/// on every machine.
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -23,12 +23,12 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// Evenly between two values.
+    /// A uniform value between two values.
     pub(crate) fn even(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Between two positive values, every decade as likely.
+    /// A value between two positive values, uniform in its logarithm.
     pub(crate) fn decades(&mut self, from: f64, to: f64) -> f64 {
         self.even(from.ln(), to.ln()).exp()
     }
@@ -42,24 +42,24 @@ impl Random {
     }
 }
 
-/// Where in the envelope a pair lies.
+/// A region of the envelope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Corner {
     /// Anywhere.
     Anywhere,
     /// Inside the fit of Eq. 56, so that forces have a closed form.
     Fit,
-    /// N₁E next to nothing: interference is near.
+    /// N₁E almost 0: close to interference.
     StartNearTangent,
     /// γ₂ near 0: contact starts at the pitch point.
     StartNearPitch,
     /// α_w far below α.
     FlatAngle,
-    /// A path of contact next to nothing.
+    /// A very short path of contact.
     ShortPath,
-    /// The sliding velocity next to its zero.
+    /// The sliding velocity almost 0.
     SlidingNearZero,
-    /// Deflection and error all but cancel.
+    /// Deflection and error almost cancel.
     Cancelling,
 }
 
@@ -76,7 +76,7 @@ impl Corner {
     ];
 }
 
-/// A pair of a corner of the envelope.
+/// A pair of a region of the envelope.
 pub(crate) fn pair(random: &mut Random, corner: Corner) -> Inputs {
     let fit = match corner {
         Corner::Anywhere => false,
@@ -102,14 +102,14 @@ pub(crate) fn pair(random: &mut Random, corner: Corner) -> Inputs {
     inputs
 }
 
-/// The contact compliances of the oracle. The frozen rows are drawn from this list in this order.
+/// The contact compliances of the oracle. The order of this list determines the frozen rows.
 const CONTACT_MODELS: [ContactCompliance; 3] = [
     ContactCompliance::LOGARITHMIC,
     ContactCompliance::CONSTANT,
     ContactCompliance::WEBER,
 ];
 
-/// No addendum beyond what a tooth can have.
+/// Limits the addendum to a possible tooth.
 fn shorten(gear: &mut Gear) {
     gear.addendum = gear.addendum.clamp(-1.0, 2.0);
 }
@@ -137,7 +137,7 @@ fn anywhere(random: &mut Random, fit: bool) -> Inputs {
         method: random.one_of(&[Method::Exact, Method::Exact, Method::Exact, Method::Paper]),
         tooth_compliance: fit.then_some(ToothCompliance::KUANG_YANG),
         contact_compliance: random.one_of(&CONTACT_MODELS),
-        // The oracle knows the disc to the base circle.
+        // The oracle has only the disc up to the base circle.
         inertia: InertiaModel::BaseCircle,
         stations: Some(8),
         ..Inputs::default()
@@ -206,7 +206,7 @@ fn gear(random: &mut Random, module: f64, pressure_angle: f64, teeth: u32, fit: 
     }
 }
 
-/// A deviation of 1e-15 m to 5 % of the module, every decade as likely.
+/// A deviation from 1e-15 m to 5 % of the module, uniform in its logarithm.
 fn deviate(random: &mut Random, inputs: &mut Inputs) {
     let total = random.decades(1e-15, 0.05 * inputs.module);
     let share = random.one_of(&[0.0, 0.0, 0.3, 0.9, 1.0]);
@@ -261,7 +261,7 @@ impl Line {
     }
 }
 
-/// Give the gear the addendum at which its tip has the radius of curvature `curvature`.
+/// Gives the gear the addendum at which its tip has the radius of curvature `curvature`.
 fn reach(gear: &mut Gear, module: f64, base: f64, curvature: f64) {
     let reference = module * f64::from(gear.teeth) / 2.0;
     gear.tip_chamfer = 0.0;
@@ -323,7 +323,7 @@ fn short_path(random: &mut Random, inputs: &mut Inputs) {
     );
 }
 
-/// Bring D to where the tip does not slide, as near as the deviation can.
+/// Moves D to where the tip does not slide, as far as the deviation allows.
 fn sliding_near_zero(random: &mut Random, inputs: &mut Inputs) {
     use tipstrike::model::{Stage, Stages, solve};
     inputs.deflection = inputs.deflection.or(Some(1e-6 * inputs.module));
@@ -347,7 +347,7 @@ fn sliding_near_zero(random: &mut Random, inputs: &mut Inputs) {
     }
 }
 
-/// A relief that takes back all but a small rest of the deviation.
+/// A relief that cancels almost the whole deviation.
 fn cancelling(random: &mut Random, inputs: &mut Inputs) {
     let rest = inputs.deflection.unwrap_or(1e-9) + SQRT_2 * inputs.base_pitch_deviation;
     let (length, method) = (rest * random.decades(1e1, 1e6), inputs.method);

@@ -6,7 +6,7 @@ use super::given::{Gear, Given};
 use super::number::{Big, decimal, logarithm, pi, root, rounded, sine, whole};
 use super::{Answers, Circles, Pair, Tip, leg, tip_at};
 
-/// What Eq. 32 lacks of Hertz's duration: 2 (15/16)^(2/5) (2/5) B(2/5, 1/2) π^(2/5).
+/// Ratio of Hertz's duration to Eq. 32: 2 (15/16)^(2/5) (2/5) B(2/5, 1/2) π^(2/5).
 const HERTZ_PREFACTOR: &str = "4.53397716400848829738503123122036048657195919674238717815628";
 
 /// Speeds, load, masses and material.
@@ -59,7 +59,7 @@ impl Load {
         }
     }
 
-    /// δ of the pairs that carry the load while the incoming one stands at E.
+    /// δ of the pairs that carry the load while the incoming pair is at E.
     pub(crate) fn deflection(&self, given: &Given, pair: &Pair) -> Option<Big> {
         let tangent = &pair.distance * pair.working.sin();
         let mut along = &pair.start + &pair.base_pitch;
@@ -84,7 +84,7 @@ impl Load {
         (rounded(&stiffness) > 0.0).then(|| &self.mesh_force / (&self.width * stiffness))
     }
 
-    /// Everything from the velocity on, as far as it exists.
+    /// Every quantity from the velocity on, if it exists.
     pub(crate) fn strike(
         &self,
         given: &Given,
@@ -156,8 +156,8 @@ impl Load {
         fifth.exp()
     }
 
-    /// Eq. 57 with the half-width of its own force, by fixed point. `None` where no fit gives a
-    /// compliance.
+    /// Eq. 57 with the half-width of its own force, by fixed-point iteration. `None` if no fit
+    /// gives a compliance.
     fn impact(&self, given: &Given, pair: &Pair, tip: &Tip, momentum: &Big) -> Option<Struck> {
         const STEPS: usize = 400;
         const FORCE_SETTLED: f64 = 1e-32;
@@ -190,7 +190,7 @@ impl Load {
         root(4 * force / &self.width * curvature * (&self.give[0] + &self.give[1]) / pi())
     }
 
-    /// Contact compliance by the case's formula.
+    /// Contact compliance by the formula of the case.
     fn contact(&self, given: &Given, depths: &[Big; 2], half_width: &Big) -> Big {
         let [first, second] = &self.give;
         match given.contact_compliance {
@@ -211,7 +211,7 @@ impl Load {
         }
     }
 
-    /// Eqs. 29-45 and 64. `None` where D' does not exist.
+    /// Eqs. 29-45 and 64. `None` if D' does not exist.
     fn friction(
         &self,
         given: &Given,
@@ -249,21 +249,21 @@ impl Load {
     }
 }
 
-/// Angle at O₂ between the centre line and the tip where it is `radius` from O₁.
+/// Angle at O₂ between the centre line and the tip at a distance `radius` from O₁.
 pub(crate) fn polar_angle(pair: &Pair, radius: &Big) -> Option<Big> {
     let (tip, distance) = (&(&pair.driven.tip - &pair.driven.edge), &pair.distance);
     let cosine = (tip * tip + distance * distance - radius * radius) / (2 * tip * distance);
     (rounded(radius) > 0.0 && rounded(&cosine).abs() < 1.0).then(|| cosine.acos())
 }
 
-/// ρ_S, with the tip's own edge where one is given.
+/// ρ_S, with the rounding of the tip if given.
 fn reduced_curvature(given: &Given, pair: &Pair, tip: &Tip) -> Big {
     let flank = leg(&pair.driven.tip, &pair.driven.base).expect("a tip outside its base circle");
     let driven = given.driven.tip_radius.as_ref().unwrap_or(&flank);
     &tip.curvature * driven / (&tip.curvature + driven)
 }
 
-/// q₁ + q₂ by Eq. 56; `None` where the case asks for a method that is no closed form.
+/// q₁ + q₂ by Eq. 56; `None` for a tooth compliance without a closed form.
 fn teeth(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<Big> {
     let fit = [&given.driver, &given.driven]
         .iter()
@@ -295,8 +295,8 @@ fn tooth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Big {
     1 / (decimal("1e9") * (a0 + a1 * shift + (a2 + a3 * shift) * height))
 }
 
-/// Depths from the flanks to the teeth's centre lines along the line of force, which Weber's
-/// formula alone reads. `None` where no tooth is left.
+/// Depths from the flanks to the centre lines of the teeth along the line of force, which only
+/// Weber's formula reads. `None` if no tooth is left.
 fn depths(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<[Big; 2]> {
     if given.contact_compliance != ContactCompliance::WEBER {
         return Some([whole(0), whole(0)]);
@@ -307,7 +307,7 @@ fn depths(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<[Big; 2]> {
     ])
 }
 
-/// Depth from the flank to the tooth's centre line along the line of force. `None` where no tooth
+/// Depth from the flank to the centre line of the tooth along the line of force. `None` if no tooth
 /// is left.
 fn depth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Option<Big> {
     let involute = |angle: &Big| angle.tan() - angle;

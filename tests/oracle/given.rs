@@ -1,4 +1,4 @@
-//! What a solve reads, in 90 digits.
+//! The inputs of a solve with 90 digits.
 
 use tipstrike::model::Inputs;
 use tipstrike::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance};
@@ -56,7 +56,7 @@ impl Gear {
     }
 }
 
-/// All that a solve reads.
+/// The inputs of a solve.
 pub(crate) struct Given {
     pub(crate) module: Big,
     pub(crate) pressure_angle: Big,
@@ -131,7 +131,7 @@ impl Given {
         }
     }
 
-    /// b, the smaller width.
+    /// b, the smaller face width.
     pub(crate) fn common_width(&self) -> Big {
         self.driver
             .face_width

@@ -1,9 +1,9 @@
-//! Every closed-form quantity a second time, in 90 digits, by its definition and not by the form
-//! that is stable in 16.
+//! Every closed-form quantity computed independently with 90 digits, by its definition and not by
+//! the form that is stable with 16 digits.
 //!
-//! Symbols and equations are those of Zhou & Chen 2014 and of the model's own documentation.
-//! Squares are subtracted, angles come from arc cosines, and the gap S(u) is the difference of its
-//! three terms: with 90 digits that costs nothing.
+//! Symbols and equations are those of Zhou & Chen 2014 and of the model's documentation. Squares
+//! are subtracted, angles come from arc cosines, and the gap S(u) is the difference of its three
+//! terms: with 90 digits the cancellation is harmless.
 
 mod force;
 mod given;
@@ -18,13 +18,13 @@ use given::Gear;
 pub(crate) use given::Given;
 use number::{Big, pi, root, rounded, whole};
 
-/// Quantities by their key, those that exist.
+/// The existing quantities by key.
 pub(crate) type Answers = BTreeMap<&'static str, Big>;
 
-/// Half of the digits: where an iteration counts as settled.
+/// Half of the digits: an iteration ends below this change.
 const SETTLED: f64 = 1e-45;
 
-/// No contact is sought beyond, in rad.
+/// Greatest angle of the search for a contact, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
 
 /// Circles of one gear.
@@ -32,7 +32,7 @@ struct Circles {
     reference: Big,
     base: Big,
     tip: Big,
-    /// Radius of the arc that rounds the tip; 0 for a sharp tip.
+    /// Radius of the tip rounding; 0 for a sharp tip.
     edge: Big,
 }
 
@@ -67,8 +67,8 @@ struct Tip {
     normal_length: Big,
 }
 
-/// The quantities and, for each, how much a relative change of the inputs moves it relatively: the
-/// sum over all inputs.
+/// The quantities with their condition numbers: relative change over the relative change of an
+/// input, summed over all inputs.
 pub(crate) fn answers_with_conditions(
     inputs: &Inputs,
 ) -> Option<(Answers, BTreeMap<&'static str, f64>)> {
@@ -97,8 +97,8 @@ pub(crate) fn answers_with_conditions(
     Some((plain, conditions))
 }
 
-/// All that is defined for the pair. `None` where no mesh, or no corner contact on the driver's
-/// flank, exists.
+/// All quantities that are defined for the pair. `None` without a mesh or without corner contact on
+/// the flank of the driver.
 fn of_given(given: &Given) -> Option<Answers> {
     let pair = pair(given)?;
     let load = force::Load::of(given, &pair);
@@ -146,7 +146,7 @@ fn of_given(given: &Given) -> Option<Answers> {
     Some(found)
 }
 
-/// Δf by Eqs. 1 and 2; outside of the method `paper` the modification counts in full.
+/// Δf by Eqs. 1 and 2; except in method `paper` the modification counts in full.
 fn equivalent_error(given: &Given) -> Big {
     let modification = -(&given.driven.tip_relief + &given.driver.root_relief);
     let random = 2 * &given.base_pitch_deviation - &given.backlash;
@@ -161,7 +161,7 @@ fn circles(given: &Given, gear: &Gear) -> Circles {
     let base = &reference * given.pressure_angle.cos();
     let tip =
         &reference + &given.module * (&gear.addendum + &gear.profile_shift) - &gear.tip_chamfer;
-    // The paper knows sharp tips alone.
+    // The paper covers only sharp tips.
     let edge = match (&gear.tip_radius, given.method) {
         (Some(edge), method) if method != Method::Paper => edge.clone(),
         _ => whole(0),
@@ -211,14 +211,14 @@ fn pair(given: &Given) -> Option<Pair> {
     })
 }
 
-/// Radius of curvature at which the involute ends: an arc of radius r_e takes over where its centre
-/// is on the involute parallel to the flank.
+/// Radius of curvature at the end of the involute: an arc of radius r_e begins where its centre is
+/// on the involute parallel to the flank.
 fn involute_end(circles: &Circles) -> Option<Big> {
     Some(leg(&(&circles.tip - &circles.edge), &circles.base)? + &circles.edge)
 }
 
-/// Whether the centre of the tip's rounding is outside the base circle and not beyond the tooth's
-/// centre line.
+/// Whether the centre of the tip rounding is outside the base circle and not beyond the centre line
+/// of the tooth.
 fn has_room(given: &Given, gear: &Gear, circles: &Circles) -> bool {
     let Some(string) = leg(&(&circles.tip - &circles.edge), &circles.base) else {
         return false;
@@ -260,7 +260,7 @@ fn working_angle(given: &Given) -> Option<Big> {
     None
 }
 
-/// The driven tip at an angle before E. `None` where it lies inside the driver's base circle.
+/// The driven tip at an angle before E. `None` inside the base circle of the driver.
 fn tip_at(pair: &Pair, angle: &Big) -> Option<Tip> {
     let (distance, base) = (&pair.distance, &pair.driver.base);
     let tip = &(&pair.driven.tip - &pair.driven.edge);
@@ -294,8 +294,8 @@ pub(crate) fn gap_at(inputs: &Inputs, angle: f64) -> Option<Big> {
     Some(gap(&pair, &angle, &tip_at(&pair, &angle)?))
 }
 
-/// S(u) = Δ, by Newton's method on √S from the parabola at E, or from the driver's tip if that is
-/// nearer; dS/du = rb2 − rb2'.
+/// S(u) = Δ, by Newton's method on √S from the parabola at E, or from the tip of the driver if that
+/// is closer; dS/du = rb2 − rb2'.
 fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
     const STEPS: usize = 200;
     let edge = &pair.driven.edge;
@@ -326,7 +326,7 @@ fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
     None
 }
 
-/// The driven gear's angle before E by the printed Eqs. 11-20, as differences of arc tangents.
+/// The angle of the driven gear before E by the printed Eqs. 11-20, as differences of arc tangents.
 fn printed_angle(given: &Given, pair: &Pair, error: &Big, deflection: &Big) -> Big {
     let base = &pair.driver.base;
     let angle = |along: &Big| base.atan2(along);

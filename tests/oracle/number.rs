@@ -10,8 +10,8 @@ use std::rc::Rc;
 use dashu_float::round::mode::HalfEven;
 use dashu_float::{CachedFBig, ConstCache, FBig};
 
-/// Binary digits that every value carries. The definitions cancel up to 40 decimal digits in the
-/// corners of the envelope, and fifty must be left.
+/// Binary digits of every value. The definitions cancel up to 40 decimal digits in the corners of
+/// the envelope, and fifty must remain.
 const PRECISION: usize = 300;
 
 /// A number of 90 digits.
@@ -21,7 +21,7 @@ thread_local! {
     static CONSTANTS: Rc<RefCell<ConstCache>> = Rc::new(RefCell::new(ConstCache::new()));
 }
 
-/// A double, taken as exact.
+/// A double as an exact number.
 pub(crate) fn big(value: f64) -> Big {
     let exact = FBig::<HalfEven, 2>::try_from(value).expect("a finite number");
     CONSTANTS.with(|constants| Big::new(exact.with_precision(PRECISION).value(), constants.clone()))
@@ -33,7 +33,7 @@ pub(crate) fn whole(value: i64) -> Big {
     CONSTANTS.with(|constants| Big::new(exact.with_precision(PRECISION).value(), constants.clone()))
 }
 
-/// A decimal as it is printed, such as `3.867`.
+/// A printed decimal, such as `3.867`.
 pub(crate) fn decimal(printed: &str) -> Big {
     let (sign, digits) = printed
         .strip_prefix('-')
@@ -49,7 +49,7 @@ pub(crate) fn decimal(printed: &str) -> Big {
     sign * value * power_of_ten(places)
 }
 
-/// 10 to a whole power.
+/// An integer power of 10.
 fn power_of_ten(exponent: i32) -> Big {
     let power = (0..exponent.abs()).fold(whole(1), |power, _| power * 10);
     if exponent < 0 { 1 / power } else { power }

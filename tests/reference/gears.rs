@@ -65,7 +65,8 @@ fn the_field_agrees_with_finite_elements_of_another_program() {
         ];
         for (value, key, tolerance) in found {
             let off = value / (number(&row, key) - field.twist().unwrap()) - 1.0;
-            // The row of z 28 at the tip is itself that far off: a finer mesh gives the value here.
+            // The reference value of z 28 at the tip has this error: a finer mesh converges to the
+            // value here.
             let tolerance = match (&row["teeth"], number(&row, "fraction")) {
                 (teeth, 1.0) if *teeth == 28 => 7e-3,
                 _ => tolerance,

@@ -1,4 +1,4 @@
-//! What several tests start from.
+//! Inputs that several tests share.
 
 use tipstrike::case::Case;
 use tipstrike::model::Inputs;

@@ -1,4 +1,4 @@
-//! While long work runs, a key is echoed as soon as ever, and Esc ends the work.
+//! During long work, the echo of a key is not delayed, and Esc ends the work.
 use crate::tty;
 
 use std::fs;
@@ -8,13 +8,13 @@ use tty::{Launch, PATIENCE, TABLE_1, Tty, stat};
 
 const KEYS: usize = 40;
 const PART: Duration = Duration::from_millis(1);
-/// The promises are 5 ms for a key and 100 ms for Esc; a busy machine may take its time, but not
-/// that of the work.
+/// The promises are 5 ms for a key and 100 ms for Esc; the limits allow for a busy machine, but not
+/// for a wait for the work.
 const MOST_FOR_A_KEY: Duration = Duration::from_millis(60);
 const MOST_FOR_ESC: Duration = Duration::from_millis(600);
 
-/// A case whose solve takes about as long as its budget allows: slow gears under the same load,
-/// without damping, so that nothing comes to rest and every cycle is run.
+/// A case whose solve almost exhausts its budget: slow gears under the same load without damping,
+/// so that the motion never becomes steady and every cycle is run.
 fn slow_case() -> String {
     let slow = [
         (
@@ -23,7 +23,7 @@ fn slow_case() -> String {
         ),
         ("speed = \"2000 rpm\"", "speed = \"1 rpm\""),
         ("power = \"15 kW\"", "power = \"7.5 W\""),
-        // Coupled pairs take longer.
+        // Coupled pairs are slower.
         ("\"kuang-yang\"", "\"finite-element\""),
     ];
     slow.into_iter()
@@ -33,7 +33,7 @@ fn slow_case() -> String {
         })
 }
 
-/// How long a key takes to its echo, of the slowest but a few.
+/// The time from a key to its echo, without the slowest few.
 fn echo(tty: &mut Tty) -> Duration {
     let mut times: Vec<_> = (0..KEYS)
         .map(|at| echo_of(tty, ["a", "b", "c"][at % 3]))
@@ -57,8 +57,8 @@ fn echo_of(tty: &mut Tty, key: &str) -> Duration {
     start.elapsed()
 }
 
-/// The workbench in the title, which is emptied. No result depends on it, and the cursor moves with
-/// each key until the line is full.
+/// The workbench in the emptied title field. No result depends on the title, and the cursor moves
+/// with each key until the line is full.
 fn begin(text: &str) -> Tty {
     let launch = Launch::on_table_1().size(40, 240);
     fs::write(launch.case(), text).expect("room on the disk");

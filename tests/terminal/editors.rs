@@ -1,5 +1,5 @@
-//! The same faults for the workbench and for the editors of the day: what becomes of the file, and
-//! of what was typed.
+//! The same faults for the workbench and for common editors: the state of the file and of the typed
+//! text.
 use crate::tty;
 
 use std::fs;
@@ -10,20 +10,20 @@ use std::time::{Duration, Instant};
 
 use tty::{Launch, PROGRAM, TABLE_1, Tty, is_there, skip};
 
-/// What is typed; in no file before.
+/// The typed text, which no file contains before.
 const TYPED: &str = "6.8125 mm";
 const QUIET: Duration = Duration::from_millis(150);
 const ATTEMPTS: usize = 20;
 const WHOLE: &str = "file whole";
-/// With comments up to this length a case fills a page, and a longer one needs another.
+/// Up to this length of comments a case fits one page.
 const PAGE: usize = 4096;
 
 /// A program that edits a text file.
 struct Editor {
     name: &'static str,
-    /// What its screen shows when it is ready.
+    /// A text on its screen when it is ready.
     ready: &'static str,
-    /// Before what is typed, and after it.
+    /// Keys before and after the typed text.
     typing: (&'static str, &'static str),
     save: &'static str,
 }
@@ -62,7 +62,7 @@ const FAULTS: [&str; 4] = [
     "kill -9 after 2.2 s",
 ];
 
-/// What is left after a fault.
+/// The state after a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Left {
     file: String,
@@ -133,7 +133,7 @@ fn under(editor: &Editor, fault: &str) -> Option<Left> {
     }
 }
 
-/// An editor on the case, by way of another program.
+/// An editor on the case, run through another program.
 fn launch(editor: &Editor, folder: Launch, wrapper: &[&str]) -> Launch {
     let home = folder
         .folder
@@ -152,7 +152,7 @@ fn launch(editor: &Editor, folder: Launch, wrapper: &[&str]) -> Launch {
         .variable("HOME", &home)
 }
 
-/// Opened, typed into; `false` when it ended before.
+/// Opens the editor and types. Returns false if it ended before.
 fn type_in(tty: &mut Tty, editor: &Editor) -> bool {
     let keys = [editor.typing.0, TYPED, editor.typing.1].concat();
     wait(tty, editor.ready) && {
@@ -161,7 +161,7 @@ fn type_in(tty: &mut Tty, editor: &Editor) -> bool {
     }
 }
 
-/// Wait for a text, or for the end; whether the text came.
+/// Waits for a text or for the end. Returns whether the text appeared.
 fn wait(tty: &mut Tty, text: &str) -> bool {
     let text = text.to_owned();
     tty.wait_until(&format!("{text:?} or the end"), |tty| {
@@ -203,8 +203,8 @@ fn killed_at_its_write(editor: &Editor) -> Left {
     left(&tty)
 }
 
-/// Killed at the first write of a save, which goes to a file that has a name of its own: found by
-/// its place among the writes, which is not quite the same every time.
+/// Killed at the first write of a save to a temporary file, which is found by its position among
+/// the writes; this position varies slightly.
 fn killed_at_the_write_beside(editor: &Editor) -> Left {
     let mut step = usize::MAX;
     for _ in 0..ATTEMPTS {
@@ -253,7 +253,7 @@ fn killed_at_the_write_beside(editor: &Editor) -> Left {
         let at = writes.iter().position(|line| line.contains(&beside));
         match at {
             Some(at) if has_died && at + 1 == writes.len() => return left,
-            // Counted for each thread apart.
+            // Counted separately for each thread.
             Some(at) => {
                 step = writes[..=at]
                     .iter()
@@ -270,7 +270,7 @@ fn thread_of(line: &str) -> Option<&str> {
     line.split_whitespace().next()
 }
 
-/// On a disk without room, which only a name space of its own may have.
+/// On a full disk, which requires a mount namespace.
 fn on_a_full_disk(editor: &Editor) -> Option<Left> {
     let may = Command::new("unshare")
         .args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"])
@@ -286,11 +286,11 @@ fn on_a_full_disk(editor: &Editor) -> Option<Left> {
         folder.folder.path().join("last"),
     );
     fs::write(&case, old_text()).expect("room on the disk");
-    // Where vim goes when there is no room beside the file.
+    // The fallback folder of vim if there is no room beside the file.
     fs::create_dir(&disk)
         .and_then(|()| fs::create_dir(folder.folder.path().join("tmp")))
         .expect("a folder");
-    // The editor works on a copy on the full disk; what that says in the end is copied back.
+    // The editor works on a copy on the full disk; the final content is copied back.
     let script = r#"trap : HUP
         mount -t tmpfs -o size=16k none "$0" && cp "$1" "$0/case.toml" || exit 9
         head -c 100k /dev/zero >"$0/filler" 2>/dev/null
@@ -320,7 +320,7 @@ fn on_a_full_disk(editor: &Editor) -> Option<Left> {
     tty.type_in(editor.save);
     tty.settle(QUIET);
     let typed = tty.shows(TYPED);
-    // The whole of it goes down, so that the shell has the last word on the file.
+    // The whole process group is killed, so that the shell writes the file last.
     let all = format!("-{}", tty.id());
     assert!(
         Command::new("kill")
@@ -349,8 +349,7 @@ fn old_text() -> String {
     text + "# " + &".".repeat(rest) + "\n"
 }
 
-/// The old text, or the new one: what was typed stands in place of a value or before the first
-/// line.
+/// The old text, or the new one: the typed text replaces a value or precedes the first line.
 fn file(path: &Path) -> String {
     let (text, old) = (fs::read_to_string(path).unwrap_or_default(), old_text());
     let new = [
@@ -364,7 +363,7 @@ fn file(path: &Path) -> String {
     }
 }
 
-/// Whether what was typed is in any file.
+/// Whether any file contains the typed text.
 fn kept(folder: &Path) -> bool {
     files(folder)
         .iter()

@@ -1,5 +1,5 @@
 //! Saves under injected faults: at every step that can fail or be the last, the old file or the new
-//! one is there, whole.
+//! one is complete.
 use crate::tty;
 
 use std::env;
@@ -16,19 +16,19 @@ use tipstrike::case::{Document, fields};
 
 use tty::{Launch, PROGRAM, TABLE_1, is_there, skip};
 
-/// Every call by which a file is made, filled and put into its place.
+/// Every system call that creates, writes or renames a file.
 const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,flistxattr,llistxattr,lgetxattr,fsetxattr,rename,renameat,renameat2,link,linkat,unlink,close,ftruncate";
-/// More steps than any save has; the loop ends before, when nothing is hit any more.
+/// More steps than any save has; the loop ends earlier, when no call is hit.
 const MOST_STEPS: usize = 100;
-/// Where the save to be disturbed finds its file.
+/// Environment variable with the target of the disturbed save.
 const TARGET: &str = "TIPSTRIKE_SAVE_TARGET";
-/// An attribute that the case has, where the file system knows such.
+/// An extended attribute of the case, if the file system supports attributes.
 const MARK: &str = "user.tipstrike.test";
 const SAVED: i32 = 0;
 const REFUSED: i32 = 5;
 
-/// Not a test of its own: the process whose calls are made to fail. It edits the case, saves it,
-/// and says how that went.
+/// Not a test: the process whose calls are made to fail. It edits and saves the case, and reports
+/// the result.
 #[test]
 fn saver() {
     let Some(path) = env::var_os(TARGET).map(std::path::PathBuf::from) else {
@@ -50,7 +50,7 @@ fn saver() {
         Ok(_) => std::process::exit(SAVED),
         Err(error) => {
             assert!(!error.to_string().contains('\n'));
-            // Past the harness, which would hold it back.
+            // Written directly, because the test harness captures the output.
             std::io::stderr()
                 .write_all(error.to_string().as_bytes())
                 .expect("someone reads");
@@ -59,7 +59,7 @@ fn saver() {
     }
 }
 
-/// The command that saves, without the words of the test harness.
+/// The command that saves, without the output of the test harness.
 fn saver_command(wrapper: &[&str], target: &Path) -> Command {
     let own = env::current_exe().expect("a path");
     let own = own.to_str().expect("a name in UTF-8");
@@ -99,7 +99,7 @@ fn mark(path: &Path) -> Option<Vec<u8>> {
     xattr::get(path, MARK).ok().flatten()
 }
 
-/// What a fresh case has: nothing, where the file system knows no attributes.
+/// The attribute of a new case; `None` if the file system does not support attributes.
 fn mark_of_a_case() -> Option<Vec<u8>> {
     static FRESH: LazyLock<Option<Vec<u8>>> = LazyLock::new(|| mark(&folder_with_case().1));
     FRESH.clone()
@@ -109,8 +109,8 @@ fn new_text() -> String {
     TABLE_1.replace("\"5 mm\"", "\"6 mm\"")
 }
 
-/// The old file or the new one, whole, with its mode; which of them, where the saver said how it
-/// went.
+/// Checks that the old file or the new one is complete, with its mode; and which one, if the saver
+/// reported its result.
 #[track_caller]
 fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
     let text = fs::read_to_string(path).expect("the file is there");
@@ -132,7 +132,8 @@ fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
     }
 }
 
-/// Make the N-th call of every kind fail or be the last, N rising until none is hit; how many were.
+/// Makes the N-th call of every kind fail or be the last, for rising N until no call is hit.
+/// Returns their number.
 fn under_every_fault(fault: &str, run: impl Fn(&[&str]) -> Output) -> usize {
     let mut hits = 0;
     for call in made(&run) {
@@ -154,7 +155,7 @@ fn under_every_fault(fault: &str, run: impl Fn(&[&str]) -> Output) -> usize {
     hits
 }
 
-/// Which of the calls are made when nothing fails.
+/// The calls of an undisturbed save.
 fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
     let (output, log) = traced(&["-e", &format!("trace={CALLS}")], run);
     assert!(output.status.success(), "{output:?}");
@@ -164,8 +165,7 @@ fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
             .all(|call| log.contains(call)),
         "not the calls of a save: {log}"
     );
-    // The bytes are on the disk before the name leads to them, and the name is before all is said
-    // to be done.
+    // The data is on the disk before the rename, and the folder before the save returns.
     let calls: Vec<_> = log
         .lines()
         .filter(|line| line.contains("fsync(") || line.contains("rename"))
@@ -285,7 +285,7 @@ fn a_limit_on_the_size_of_files_is_reported_and_leaves_the_old_file() {
     if !is_there("prlimit") {
         return;
     }
-    // With the signal of that limit ignored, as under many job systems, and with it.
+    // With the signal of that limit ignored, as under many job systems, and with the signal.
     for (ignored, shell) in [
         (true, r#"trap '' XFSZ; exec "$@""#),
         (false, r#"exec "$@""#),
@@ -360,8 +360,7 @@ fn a_full_disk_is_reported_and_leaves_the_old_file() {
 fn a_folder_that_may_not_be_written_leaves_the_old_file() {
     let (folder, path) = folder_with_case();
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).expect("our own folder");
-    // Who may write everywhere is made to be nobody; the folder and the file are nobody's too,
-    // then.
+    // The superuser runs this as nobody; folder and file then also belong to nobody.
     let is_root = fs::File::create(folder.path().join("probe")).is_ok();
     let wrapper: &[&str] = if is_root {
         &[
@@ -397,7 +396,8 @@ fn a_folder_that_may_not_be_written_leaves_the_old_file() {
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).expect("our own folder");
 }
 
-/// An access list as the system keeps it: version 2, then tag, permissions and who, 8 bytes each.
+/// An access list in the format of the kernel: version 2, then tag, permissions and id, 8 bytes
+/// each.
 fn access_list(entries: &[(u16, u16, u32)]) -> Vec<u8> {
     let bytes = |&(tag, may, who): &(u16, u16, u32)| {
         [
@@ -453,7 +453,7 @@ fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
             & 0o7777,
         0o640
     );
-    // A folder that opens its new files to others does not open an old one.
+    // A folder whose default list opens new files to others does not open an old file.
     let plain = folder.path().join("plain.toml");
     fs::write(&plain, TABLE_1).expect("room on the disk");
     xattr::set(folder.path(), OF_NEW_FILES, &entries(4)).expect("a list for new files");
@@ -481,8 +481,8 @@ fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
     {
         return skip("nobody cannot be made of us here");
     }
-    // Where all may write: in a folder that lets each rename all, and in one that lets each rename
-    // but his own.
+    // In writable folders: one in which everybody may rename every file, and one in which everybody
+    // may rename only his own.
     for (folder_mode, expected) in [(0o777, "belongs to user 0"), (0o1777, "belongs to user 0")] {
         let (folder, path) = folder_with_case();
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(folder_mode))
@@ -502,7 +502,7 @@ fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
         let left = fs::read_dir(folder.path()).expect("a folder").count();
         assert_eq!(left, 1, "nothing is left beside it");
     }
-    // Who may give files away does.
+    // The superuser may change the owner of files.
     let (_folder, path) = folder_with_case();
     std::os::unix::fs::chown(&path, Some(65534), Some(65534)).expect("we may");
     assert_eq!(

@@ -1,5 +1,5 @@
-//! Files as they come: changed by someone else, linked, closed, no files at all; nothing is lost
-//! and nothing waits.
+//! Files in all states: changed by another program, linked, closed, missing; no edit is lost and
+//! nothing blocks.
 use crate::harness;
 use crate::tty;
 
@@ -28,8 +28,8 @@ fn edited() -> Desk {
     desk
 }
 
-/// What someone else makes of the file: the same size and time, an older time, another file in its
-/// place.
+/// Changes of the file by another program: the same size and time, an older time, another file with
+/// its name.
 fn meddle(desk: &Desk, how: &str, text: &str) {
     let path = desk.path("case.toml");
     let time = fs::metadata(&path)
@@ -58,7 +58,7 @@ fn meddle(desk: &Desk, how: &str, text: &str) {
 fn a_file_that_someone_else_changed_is_refused_and_what_differs_is_shown() {
     for how in ["same time", "older", "newer", "replaced"] {
         let mut desk = edited();
-        // As long as the old text.
+        // The same length as the old text.
         meddle(
             &desk,
             how,
@@ -476,7 +476,7 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
         assert_eq!(output.status.code(), Some(5), "new {name}: {words}");
         assert!(words.contains(&cause), "new {name}: {words}");
     }
-    // A link to nowhere is a name for a new file.
+    // A dangling link is the name of a new file.
     let output = Command::new(PROGRAM)
         .arg("new")
         .arg(path("dangling"))
@@ -547,7 +547,7 @@ fn a_file_that_another_program_writes_is_read_again_where_nothing_is_edited() {
     tty.wait_for("it changed on disk");
     assert!(tty.shows("6 mm") && !tty.shows("5 mm"));
 
-    // As an editor saves: another file takes its place.
+    // As an editor saves: a new file replaces the old one.
     let other = tty.case().with_extension("new");
     fs::write(&other, TABLE_1.replace("\"5 mm\"", "\"7 mm\"")).expect("room on the disk");
     fs::rename(&other, tty.case()).expect("the same folder");

@@ -1,4 +1,4 @@
-//! The first frame comes as soon as an editor's, and a headless solve is not to be waited for.
+//! The first frame is as fast as that of an editor, and a headless solve has no noticeable delay.
 use crate::tty;
 
 use std::process::{Command, Stdio};
@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use tty::{Launch, PROGRAM, is_there};
 
-/// Start a program on a terminal of its own; how long until its screen shows the text, and how many
-/// bytes that took.
+/// Starts a program on a new terminal. Returns the time until its screen shows the text, and the
+/// number of bytes.
 fn first_frame(launch: Launch, text: &str) -> (Duration, usize) {
     let start = Instant::now();
     let mut tty = launch.size(40, 120).start();
@@ -53,7 +53,7 @@ fn the_first_frame_comes_within_two_and_a_half_times_vims() {
 #[test]
 fn a_headless_solve_is_soon_done() {
     const RUNS: usize = 200;
-    /// Times the start of a program that does nothing; the promise is 10 ms.
+    /// Multiple of the start time of an empty program; the promise is 10 ms.
     const MOST: f64 = 10.0;
     let launch = Launch::on_table_1();
     let case = launch.case();
@@ -67,7 +67,7 @@ fn a_headless_solve_is_soon_done() {
         assert!(status.is_ok_and(|status| status.success()), "{program}");
         start.elapsed().as_secs_f64()
     };
-    // Other tests run beside this one: the least times are those of an undisturbed run.
+    // Other tests run in parallel: the least times are those of an undisturbed run.
     let (mut solve, mut nothing) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..RUNS {
         solve = solve.min(run(PROGRAM, &["solve"]));

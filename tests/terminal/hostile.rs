@@ -1,5 +1,5 @@
-//! No byte of a file, a name or an error controls a terminal, on any screen of any size, and in no
-//! command's words.
+//! No byte of a file, a name or an error controls a terminal: on any screen of any size, and in the
+//! output of any command.
 use crate::harness;
 use crate::tty;
 
@@ -24,7 +24,7 @@ use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::view;
 use tty::{Launch, PROGRAM};
 
-/// Escape sequences, C1 controls, direction overrides, what has no width, ends of lines.
+/// Escape sequences, C1 controls, direction overrides, zero-width characters, line ends.
 const HOSTILE: &str = "\u{1b}[2J\u{1b}]0;x\u{7}\u{9b}31m\u{90}q\u{9c}\u{202e}\u{2066}\u{200b}\u{feff}\u{7f}\r\n\t\u{8}x";
 const ESCAPED: &str =
     r"\u001b[2J\u001b]0;x\u0007\u009b31m\u0090q\u009c\u202e\u2066\u200b\ufeff\u007f\r\n\t\bx";
@@ -39,7 +39,7 @@ fn hostile_case() -> String {
     text.replacen("notes = \"", &format!("notes = \"{ESCAPED}"), 1)
 }
 
-/// A folder with cases, good and bad, whose names are as hostile as they are.
+/// A folder with valid and invalid cases, with names and contents full of control characters.
 fn folder() -> (TempDir, Vec<PathBuf>) {
     let folder = tempfile::tempdir().expect("a folder");
     let good = hostile_case();
@@ -97,7 +97,7 @@ fn no_command_says_a_control() {
             &["man", HOSTILE],
         ] {
             let mut command = Command::new(PROGRAM);
-            // Some of them are names of files to be made.
+            // Some arguments are names of new files.
             command
                 .args(words)
                 .arg(path)
@@ -117,7 +117,7 @@ fn no_command_says_a_control() {
     assert!(runs > 100);
 }
 
-/// Every screen of the workbench, by the keys that lead there.
+/// The keys to every screen of the workbench.
 #[rustfmt::skip]
 const SCREENS: [&[&str]; 24] = [
     &[], &["F1"], &["F1", "PageDown"], &["Ctrl-P"], &["Ctrl-O"], &["F2"], &["Ctrl-Q"], &["Ctrl-C"], &["Esc", "/"],
@@ -176,7 +176,7 @@ fn no_screen_shows_a_control() {
     }
 }
 
-/// Messages with texts from outside: file names, locks, journals.
+/// Messages with foreign texts: file names, locks, journals.
 fn foreign_texts() -> Vec<Action> {
     let words = || HOSTILE.to_owned();
     let saved = |fault| Action::Saved(HOSTILE.into(), Next::Stay, Err(fault));
@@ -250,8 +250,8 @@ fn what_reaches_a_terminal_is_text_and_the_sequences_of_a_screen() {
     }
 }
 
-/// The first place that is neither text, nor an end of a line, nor CSI with plain parameters and
-/// one of our final letters.
+/// The first position that is not text, a line end, or CSI with plain parameters and one of our
+/// final letters.
 fn not_of_a_screen(bytes: &[u8]) -> Option<String> {
     let text = std::str::from_utf8(bytes).ok()?;
     let mut rest = text;

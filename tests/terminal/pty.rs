@@ -1,5 +1,4 @@
-//! The built program on a real terminal: it types, saves, leaves, and gives the terminal back as it
-//! found it.
+//! The built program on a real terminal: it types, saves, quits, and restores the terminal.
 use crate::tty;
 
 use std::fs;
@@ -27,7 +26,7 @@ fn it_types_saves_quits_and_gives_the_terminal_back() {
     );
 }
 
-/// Signals that end a process, and what the system calls them.
+/// Signals that end a process, and their descriptions by the system.
 const DEADLY: [(&str, &str); 24] = [
     ("HUP", "Hangup"),
     ("INT", "Interrupt"),

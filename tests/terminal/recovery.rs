@@ -1,5 +1,5 @@
-//! What is typed survives: kept in time, offered again, never trusted when damaged; and one session
-//! writes a case.
+//! Typed text survives: journaled in time, offered again, not trusted if damaged; and only one
+//! session writes a case.
 use crate::tty;
 
 use std::fs;
@@ -23,14 +23,14 @@ use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journa
 const SECOND: Duration = Duration::from_secs(1);
 const OFFER: &str = "Unsaved edits found";
 
-/// The workbench on Table 1, ready for keys; the module is focused.
+/// The workbench on Table 1, ready for keys, with the focus on the module.
 fn opened() -> Tty {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty
 }
 
-/// The same case in the same folder, once more.
+/// The same case in the same folder in a second session.
 fn again(tty: &Tty) -> Tty {
     let case = tty.case();
     Launch::of(Arc::clone(&tty.folder)).argument(case).start()
@@ -46,7 +46,7 @@ fn wait_for_journal(tty: &mut Tty, text: &str) {
     tty.wait_until(&format!("a journal with {text:?}"), |_| is_kept(&state));
 }
 
-/// A case in memory, and what keeps it.
+/// A case in memory, with its autosave.
 fn bench(folder: &Path) -> (App, Autosave, Arc<JournalWriter>) {
     let path = folder.join("case.toml");
     fs::write(&path, TABLE_1).expect("room on the disk");
@@ -311,7 +311,7 @@ fn journals_keep_away_from_a_folder_that_others_may_write() {
     assert!(!state.join("last-case").exists());
     let kept = fs::read_dir(folder.path().join("run/tipstrike/journals"));
     assert_eq!(kept.expect("a folder").count(), 1);
-    // They are offered from there, also once the usual folder is private again.
+    // They are offered from there, even after the usual folder is private again.
     fs::set_permissions(&state, Permissions::from_mode(0o700)).expect("our own folder");
     let mut next = Launch::of(Arc::clone(&folder))
         .argument(folder.path().join("case.toml"))
@@ -399,7 +399,7 @@ fn a_signal_keeps_what_was_typed_just_before_it() {
             next.shows("5 mm ->  1.25 in") || next.shows("1.25 in"),
             "{signal}"
         );
-        // Refused, they are gone for good.
+        // Discarded edits are deleted.
         next.type_in("d\x11");
         assert_eq!(next.wait_for_end().exit_code(), 0, "{signal}");
         assert!(journals(next.folder.path()).is_empty(), "{signal}");
@@ -430,7 +430,7 @@ fn a_workbench_that_is_stuck_is_ended_by_a_hang_up_without_loss_and_without_work
     tty.wait_for("Corner contact");
     tty.type_in("\x151.25 in");
     tty.wait_for("1.25 in");
-    // From here on it draws nothing, hears nothing and ends nothing by itself.
+    // From here on it draws nothing, reads nothing and does not end by itself.
     tty.type_in("\x0c");
     tty.settle(Duration::from_millis(100));
     tty.type_in("7");
@@ -468,7 +468,7 @@ fn a_terminal_that_goes_without_a_signal_is_noticed() {
     }
 }
 
-/// Break the line and wait for the end; what the journal keeps then.
+/// Closes the terminal and waits for the end. Returns the content of the journal.
 fn hang_up(tty: &mut Tty) -> String {
     let id = tty.id();
     hang_up_of(tty, id)
@@ -488,7 +488,7 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
     let broken = Instant::now();
     tty.hang_up();
     let (mut kept, mut burnt) = (None, before);
-    // One that is gone may still have to be buried.
+    // An ended process may remain as a zombie.
     while !tty.has_ended() || stat(id).is_some_and(|words| words[0] != "Z") {
         kept = kept.or_else(|| (!journals(tty.folder.path()).is_empty()).then(|| broken.elapsed()));
         burnt = burnt.max(ticks(id));
@@ -501,7 +501,7 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
         kept.unwrap_or(gone),
         burnt - before
     );
-    // The promise is 0.2 s and 1 s; a machine that is busy may take a while to wake it.
+    // The promises are 0.2 s and 1 s; a busy machine may wake the process later.
     assert!(
         kept.unwrap_or(gone) < SECOND / 2,
         "its edits are kept after {kept:?}"
@@ -571,7 +571,7 @@ fn a_file_that_was_changed_since_shows_what_would_change_now() {
     );
     next.type_in("l");
     next.quit();
-    // What the file says by now is nothing to offer.
+    // Edits equal to the present file are not offered.
     fs::write(tty.case(), TABLE_1.replace("\"5 mm\"", "\"6 mm\"")).expect("room on the disk");
     let mut next = again(&tty);
     next.wait_for("quit");
@@ -617,7 +617,7 @@ fn a_damaged_journal_is_set_aside_reported_and_never_trusted_nor_deleted() {
                 .any(|entry| fs::read(entry.path()).is_ok_and(|bytes| bytes == text.as_bytes()))
         );
     }
-    // Bytes that are no text, and what is no file.
+    // Invalid UTF-8, and a path that is not a file.
     fs::write(&path, b"\xff\xfe").expect("room on the disk");
     let mut next = again(&tty);
     next.wait_for("unsaved edits of this case cannot be restored: ");
@@ -654,7 +654,7 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
     second.type_in("\x15other.toml\r");
     second.wait_for("saved other.toml");
     assert!(!second.shows("*read-only*"));
-    // Nor may it save over the first one's by another way.
+    // It may not save over the first session's file under another path either.
     second.type_in(format!("\x1bs\x15{}\r", first.case().display()));
     second.wait_for("Open elsewhere");
     second.type_in("c\x1b");
@@ -685,7 +685,7 @@ fn when_the_first_session_has_ended_the_second_may_save() {
     let mut first = opened();
     let link = first.folder.path().join("link.toml");
     symlink("case.toml", &link).expect("a link");
-    // By whatever name.
+    // Under any name.
     let mut second = Launch::of(Arc::clone(&first.folder))
         .argument(&link)
         .start();

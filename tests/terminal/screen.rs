@@ -1,5 +1,5 @@
-//! What the workbench writes, keeps awake and leaves behind on a real terminal: every way out,
-//! every kind, counted bytes.
+//! Output, wake-ups and remains of the workbench on a real terminal: every exit, every terminal,
+//! counted bytes.
 use crate::tty;
 
 use std::fs;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use tty::{Launch, PATIENCE, TABLE_1, Tty, cells, has_faults_on_demand, is_there, journals};
 
-/// Nothing more comes when nothing came for so long.
+/// The output is complete if nothing arrives for this time.
 const QUIET: Duration = Duration::from_millis(150);
 
 fn opened(launch: Launch) -> Tty {
@@ -98,7 +98,7 @@ fn a_shell_stops_it_and_brings_it_back() {
             tty.settle(QUIET);
             assert_eq!(tty.modes(), taken, "the workbench has its modes");
         }
-        // A stop of which nobody tells it, so that the shell writes over its picture.
+        // An unannounced stop, during which the shell writes over the screen.
         tty.send_to_program("STOP");
         tty.wait_for("Stopped");
         tty.settle(QUIET);
@@ -158,7 +158,7 @@ fn a_terminal_that_takes_nothing_more_does_not_hold_it() {
     let mut tty = opened(Launch::on_table_1());
     tty.type_in("\x151.25 in");
     tty.wait_for("1.25 in");
-    // Nobody reads: once the terminal's own room is full, a write waits for ever.
+    // Nobody reads: once the buffer of the terminal is full, a write blocks.
     tty.stall();
     tty.send_signal("TERM");
     let start = Instant::now();
@@ -198,7 +198,7 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
     let before = resident(tty.id());
     tty.written = Some(Vec::new());
     tty.set_pace(PACE);
-    // More pictures than the system's own queue for the line holds, each key apart.
+    // More frames than the queue of the system holds, each key separate.
     let keys = [&b"\x0c"[..], b"\x1b[B", b"\x0c", b"\x1b[A"];
     for key in (0..KEYS).map(|at| keys[at % keys.len()]) {
         tty.type_in(key);
@@ -219,8 +219,8 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
         "{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after \
             the last key"
     );
-    // A picture a key would be 9 MB; 64 KiB wait in the system, and one more picture and the line's
-    // own share are on their way.
+    // A frame per key would be 9 MB; the system buffers 64 KiB, and one frame and the share of the
+    // line are in transit.
     assert!(written <= 200 << 10, "{written} bytes");
     assert!(grown <= 2 << 10, "{grown} KiB");
     tty.assert_restored();
@@ -311,7 +311,7 @@ fn a_flood_and_a_long_paste_cost_little_and_press_nothing() {
         start.elapsed()
     );
     assert!(written <= 64 << 10, "{written} bytes");
-    // Into a question, a megabyte of every button's letter.
+    // Into a question, a megabyte of the first letters of every button.
     tty.type_in("\x11");
     tty.wait_for("Discard");
     tty.pour(
@@ -359,7 +359,7 @@ fn a_reply_that_nobody_asked_for_and_an_unfinished_sequence_leave_the_keys_alive
         tty.type_in("\x15");
         tty.type_in("1.25 in");
         tty.wait_for("1.25 in");
-        // A control character need not wait for the end of a sequence.
+        // A control character ends an unfinished sequence without a delay.
         let stray = if is_paste { b"" } else { stray };
         tty.type_in([stray, b"\x11"].concat());
         tty.wait_for("Discard");
@@ -385,8 +385,8 @@ fn an_old_picture_in_the_alternate_screen_is_cleared() {
     tty.written = Some(Vec::new());
     tty.wait_for("quit");
     tty.settle(QUIET);
-    // The terminal after a lost connection: full of the old picture, with a background to erase
-    // with, and in the alternate screen already, which is then not cleared by entering it.
+    // The terminal after a lost connection: full of old content, with a background colour for
+    // erasing, and already in the alternate screen, so that entering it does not clear it.
     let mut old = vt100::Parser::new(cells(24), cells(80), 0);
     old.process("\x1b[44mX".repeat(24 * 80).as_bytes());
     let written = String::from_utf8(tty.written.clone().unwrap_or_default()).expect("words");
@@ -451,7 +451,7 @@ fn nothing_wakes_an_idle_workbench_and_it_is_small() {
     tty.quit();
 }
 
-/// How often all its threads were put on a processor.
+/// The number of times that the system scheduled its threads.
 fn wake_ups(process: u32) -> u64 {
     let tasks = fs::read_dir(format!("/proc/{process}/task"))
         .expect("it runs")
@@ -485,10 +485,10 @@ fn number_after(text: &str, name: &str) -> u64 {
 fn a_typed_digit_costs_few_bytes() {
     for (rows, columns) in [(24, 80), (40, 120)] {
         let mut tty = opened(Launch::on_table_1().size(rows, columns));
-        // In a field that the results do not depend on, the field alone is written.
+        // In a field without effect on the results, only the field is written.
         tty.type_in("\x1b[1;5H\x1b[B\x15");
         tty.settle(QUIET);
-        // The first key of a visit also puts the mark of unsaved edits into the header.
+        // The first key of a visit also writes the mark of unsaved edits into the header.
         let first = each_key(&mut tty, "0")[0];
         let alone = largest(each_key(&mut tty, "123456789"));
         tty.type_in("\x1b[1;5H\x1b[B\x1b[B\x155.");

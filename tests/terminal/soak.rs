@@ -1,5 +1,5 @@
-//! A long session of random actions on a real terminal: no fault, flat memory, every file a case at
-//! every moment, and the form the same as the file when it is saved.
+//! A long session of random actions on a real terminal: no fault, constant memory, every file valid
+//! at every moment, and the form equal to the file after a save.
 use crate::tty;
 
 use std::fs;
@@ -17,17 +17,17 @@ use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::update::{opened, update};
 use tty::{Launch, TABLE_1, Tty, journals};
 
-/// `TIPSTRIKE_SOAK` says how many; the suite has no time for more.
+/// Default number of actions; `TIPSTRIKE_SOAK` sets another one.
 const FEW: usize = 1000;
-/// Growth that is still flat: caches and histories fill once.
+/// Accepted growth: caches and histories fill once.
 const MOST_GROWTH: u64 = 6 << 10;
 const QUIET: Duration = Duration::from_millis(60);
-/// Actions from one look at the files to the next, and to the next comparison of form and file.
+/// Number of actions between two checks of the files, and between two comparisons of form and file.
 const LOOK: usize = 100;
 const COMPARE: usize = 500;
-/// Endings of what `:export` writes.
+/// File extensions for `:export`.
 const EXPORTS: [&str; 5] = [".html", ".md", ".csv", ".json", ".svg"];
-/// Values that fix one field or another of what a random session has left behind.
+/// Values that fix one field or another after random actions.
 const FIXES: [&[u8]; 10] = [
     b"",
     b"5 mm",
@@ -42,14 +42,13 @@ const FIXES: [&[u8]; 10] = [
 ];
 const MOST_FIXES: usize = 60;
 
-/// What a session is made of. None leaves the folder, and none quits but where the question to quit
-/// is refused.
+/// The actions of a session. None leaves the folder, and the session refuses each question to quit.
 #[rustfmt::skip]
 const ACTIONS: [&[u8]; 77] = [
     // Edits.
     b"\x151.25 in", b"\x155 mm", b"\x1522", b"\x150.1", b"\x15no number", b"7", b"\x7f", b"\x1b[3~", b"\x17", b" ", b"+", b"-",
     b"\x1b[1;2A", b"\x1b[1;2B", b"\x1b[200~ 5 mm\x1b[201~", b"\x15\x1b[200~a\x07b\r\nc\x1b[201~", b"\x0b", b"\x01",
-    // Going about in form and results.
+    // Navigation in form and results.
     b"\t", b"\x1b[Z", b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D", b"\x1b[5~", b"\x1b[6~", b"\x1b[1;5H", b"\x1b[1;5F", b"j", b"k",
     b"/", b"\r", b"\x1bOS",
     // Undo, redo, save, save elsewhere, methods.
@@ -73,13 +72,13 @@ struct Soak {
     suspensions: usize,
     values: usize,
     saves: usize,
-    /// How many cases were open at the last comparison, and at most.
+    /// The number of open cases at the last comparison, and the greatest number.
     tabs: usize,
     most_tabs: usize,
 }
 
 impl Soak {
-    /// A generator of its own, so that a session is the same every time.
+    /// A separate random generator, so that every session is the same.
     fn next(&mut self, below: usize) -> usize {
         self.random ^= self.random << 13;
         self.random ^= self.random >> 7;
@@ -103,14 +102,14 @@ impl Soak {
             }
         }
         self.tty.take_output(Duration::from_millis(1));
-        // The palette has the command to suspend, too.
+        // The palette also lists the command that suspends.
         self.tty.wake();
     }
 
-    /// Ctrl-C or Ctrl-\, and no to what it asks.
+    /// Ctrl-C or Ctrl-\, and no to the question.
     fn cancel(&mut self) {
         let key: &[u8] = if self.next(2) == 0 { b"\x03" } else { b"\x1c" };
-        // Where it has suspended itself, such a key would end it, as it would anything.
+        // In a suspended workbench such a key would end the process.
         self.be_there();
         self.press(key);
         self.press(b"\x1b");
@@ -125,7 +124,7 @@ impl Soak {
         self.tty.wait_until("it to come back", is_back);
     }
 
-    /// A key alone, and all that it does.
+    /// Presses a key and waits for its effects.
     fn press(&mut self, key: &[u8]) {
         self.tty.type_in(key);
         self.tty.settle(QUIET);
@@ -135,7 +134,7 @@ impl Soak {
         self.tty.send_signal("TSTP");
         self.tty
             .wait_until("it to stop", |tty| tty.state() == Some('T'));
-        // Nobody knows for how long: every edit is kept by now.
+        // Every edit must be in a journal, because the suspension may last long.
         for path in journals(self.tty.folder.path()) {
             let text = fs::read_to_string(&path).expect("it is there");
             assert!(Journal::from_text(&text).is_ok(), "{text}");
@@ -164,8 +163,8 @@ impl Soak {
         resident(&self.tty)
     }
 
-    /// Save what the form says, copy every value of it to the clipboard, and hold them against
-    /// those of the file.
+    /// Saves the form, copies every value of it to the clipboard, and compares these with the
+    /// values of the file.
     fn compare(&mut self) {
         self.tty.resize(24, 80);
         let Some(path) = self.saved() else {
@@ -183,7 +182,7 @@ impl Soak {
         );
         self.comparisons += 1;
         self.values += form.len();
-        // An edit, and no to the question whether to lose it.
+        // An edit, and no to the question whether to discard it.
         self.press(b"\x1b[1;5Hi");
         self.press(b"x\x11");
         assert!(!self.tty.has_ended(), "it quits with an unsaved edit");
@@ -193,7 +192,7 @@ impl Soak {
         self.most_tabs = self.most_tabs.max(self.tabs);
     }
 
-    /// How many cases are open: from the first one, the one before it is the last.
+    /// The number of open cases: the tab before the first one is the last one.
     fn count_tabs(&mut self) -> usize {
         self.press(b"\x1b1\x1b[5;5~");
         let screen = self.tty.screen().contents();
@@ -204,7 +203,7 @@ impl Soak {
         current.unwrap_or(1)
     }
 
-    /// Save, fixing what stands in the way; the file, where the form has one.
+    /// Saves, and fixes invalid fields first. Returns the file, if the form has one.
     fn saved(&mut self) -> Option<PathBuf> {
         for keys in [b"\x1b", b"\x1b", b"\x1b", b"1", b"i", b"\x13"] {
             self.press(keys);
@@ -212,7 +211,7 @@ impl Soak {
         for fix in FIXES.iter().cycle().take(MOST_FIXES) {
             let (name, is_unsaved) = self.case()?;
             if name.starts_with("built-in") || name.starts_with("new case") {
-                // Neither has a file.
+                // Neither case has a file.
                 for keys in [
                     &b"\x1b"[..],
                     b"\x1b",
@@ -225,14 +224,14 @@ impl Soak {
                     self.press(keys);
                 }
             } else if self.tty.shows("Reload") {
-                // Another tab has the same file, by way of a save under another name.
+                // Another tab has the same file after a save under another name.
                 self.press(b"o");
             } else if is_unsaved {
-                // The first field that is wrong has the focus.
+                // The first invalid field has the focus.
                 self.press(b"\x1b");
                 self.press(&[b"1i\x15", *fix, b"\x13"].concat());
             } else {
-                // Names may end in what no screen shows.
+                // Names may end in invisible characters.
                 let is_it = |path: &PathBuf| {
                     path.file_name()
                         .is_some_and(|own| own.to_string_lossy().trim() == name)
@@ -243,7 +242,7 @@ impl Soak {
         None
     }
 
-    /// The file of the case that is shown, and whether it is marked as unsaved.
+    /// The file of the visible case, and whether it has the mark of unsaved edits.
     fn case(&self) -> Option<(String, bool)> {
         let screen = self.tty.screen().contents();
         let head = screen.lines().next()?;
@@ -269,7 +268,7 @@ impl Soak {
         ))
     }
 
-    /// Every value of the form by way of the clipboard.
+    /// Every value of the form, copied through the clipboard.
     fn values_of_form(&mut self) -> Vec<String> {
         self.press(b"\x1b");
         self.press(b"\x1b[1;5H");
@@ -279,7 +278,7 @@ impl Soak {
         self.tty.settle(QUIET);
         let written = self.tty.written.take().unwrap_or_default();
         let text = String::from_utf8_lossy(&written);
-        // The last line is copied again and again: nothing comes after it.
+        // The last line is copied repeatedly: there is no line after it.
         let mut values: Vec<_> = text
             .split("\x1b]52;c;")
             .skip(1)
@@ -293,7 +292,7 @@ impl Soak {
     }
 }
 
-/// The files of cases in the folder, whatever a session has called them; exported pages are none.
+/// The case files in the folder, with any names; exported pages are not included.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder").flatten();
     let is_case = |path: &PathBuf| {
@@ -306,9 +305,9 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// What the clipboard gets of each line of the form on a file.
+/// The clipboard text of each line of the form for a file.
 fn values_of_file(path: &Path) -> Vec<String> {
-    // A new case may be saved before its required fields are filled in.
+    // A new case may be saved before its required fields have values.
     let text = fs::read_to_string(path).expect("it is there");
     let document =
         Document::parse_draft("case", &text).unwrap_or_else(|faults| panic!("{faults:?}"));
@@ -333,7 +332,7 @@ fn values_of_file(path: &Path) -> Vec<String> {
     copied.collect()
 }
 
-/// Base64, as terminals have it.
+/// Decodes Base64 as terminals do.
 fn decoded(text: Option<&str>) -> String {
     const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let (mut bits, mut count, mut bytes) = (0_u32, 0, Vec::new());
@@ -365,8 +364,8 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
         .ok()
         .and_then(|count| count.parse().ok())
         .unwrap_or(FEW);
-    // What a thread frees stays in its arena of glibc: one arena shows what the program itself
-    // keeps.
+    // Memory that a thread frees remains in its glibc arena: with one arena the test measures what
+    // the program itself keeps.
     let launch = Launch::on_table_1().variable("MALLOC_ARENA_MAX", "1");
     fs::write(launch.folder.path().join("other.toml"), TABLE_1).expect("room on the disk");
     let mut tty = launch.start();

@@ -1,5 +1,5 @@
-//! Long work on a real terminal: the trade's progress and Ctrl-C; keys and Esc while a slow method
-//! runs.
+//! Long work on a real terminal: the progress of the benchmark and Ctrl-C; keys and Esc while a
+//! slow method runs.
 use crate::tty;
 
 use std::fs;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use tty::{Launch, TABLE_1, Tty};
 
-/// Table 1 by a method that takes seconds: nothing comes to rest.
+/// Table 1 by a method that takes seconds: the motion never becomes steady.
 fn slow_case() -> String {
     const SLOW: &str = "[model]\nmethod = \"dynamic\"\ndamping_ratio = 0.0\nwarmup_cycles = 10000\ntolerance = \
             1e-11\n";
@@ -28,7 +28,7 @@ fn launch(command: &[&str]) -> Launch {
     }
 }
 
-/// How long until the screen shows the text.
+/// The time until the screen shows the text.
 fn time_until(tty: &mut Tty, text: &str) -> Duration {
     let begun = Instant::now();
     tty.wait_until(text, |tty| tty.shows(text));
@@ -75,7 +75,7 @@ fn keys_are_answered_while_a_slow_method_runs() {
             time_until(&mut tty, &format!(" {digit}5 mm"))
         })
         .collect();
-    // That of the last edit runs.
+    // The solve of the last edit is running.
     tty.wait_for("dynamic pending");
     times.sort();
     warn_beyond(
@@ -97,7 +97,7 @@ fn esc_ends_a_measurement_at_once() {
     tty.wait_for("measuring");
     tty.type_in("\x1b");
     let time = time_until(&mut tty, "the measurement is stopped");
-    // 50 ms of silence separate a lone Esc from the start of an arrow key.
+    // 50 ms of silence distinguish a lone Esc from the start of an arrow key.
     warn_beyond(
         "Esc to the end of a measurement",
         time,

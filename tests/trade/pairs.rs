@@ -1,4 +1,4 @@
-//! Gear pairs as they are built: steel, usual loads and speeds, some relieved.
+//! Realistic gear pairs: steel, usual loads and speeds, some with relief.
 
 use tipstrike::case::Case;
 use tipstrike::model::Inputs;

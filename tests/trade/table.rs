@@ -1,4 +1,4 @@
-//! The work-precision table of the cases in `cases/`, made, kept and compared.
+//! The work-precision table of the cases in `cases/`: computed, stored and compared.
 #![allow(dead_code, reason = "test and bench each use their own part")]
 
 use std::fmt::Write;
@@ -14,7 +14,7 @@ use tipstrike::study::trade::{
     Differences, METHODS, Patience, Question, Setting, Subject, Trade, greatest, trade,
 };
 
-/// Below this an error is rounding, and one machine may differ from another.
+/// Errors below this are rounding and may differ between machines.
 const ROUNDING: f64 = 1e-11;
 
 /// The cases, by name.
@@ -43,13 +43,13 @@ pub(crate) fn inputs(path: &Path) -> Inputs {
     }
 }
 
-/// Every setting that is compared in each of the cases.
+/// Every setting that is compared in each case.
 pub(crate) fn settings() -> Vec<Setting> {
     let table_1 = tipstrike::case::Case::table_1();
     Setting::all(&table_1.inputs().expect("the built-in case is valid"))
 }
 
-/// A power of ten as it is read from a file.
+/// A power of ten as a file reader parses it.
 pub(crate) fn tidy(tolerance: f64) -> f64 {
     format!("{tolerance:.0e}").parse().expect("a number")
 }
@@ -57,7 +57,7 @@ pub(crate) fn tidy(tolerance: f64) -> f64 {
 /// A setting over all cases.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
-    /// The setting in words.
+    /// The setting as text.
     pub(crate) setting: String,
     /// Median time, in s.
     pub(crate) seconds: Option<f64>,
@@ -74,7 +74,7 @@ fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/trade/table.md")
 }
 
-/// Every case and its trade, in the order of `cases`.
+/// Every case and its trade study, in the order of `cases`.
 pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
     let question = Question {
         within: 0.05,
@@ -95,7 +95,8 @@ pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
     cases().into_iter().map(made).collect()
 }
 
-/// Every case traded once, for all tests of a program; the times are those of a loaded machine.
+/// The trade study of every case, computed once for all tests of a program; the times are those of
+/// a loaded machine.
 pub(crate) fn traded_once() -> &'static [(String, Trade)] {
     static TRADES: LazyLock<Vec<(String, Trade)>> = LazyLock::new(|| trades(&Patience::ONCE));
     &TRADES
@@ -120,7 +121,7 @@ impl Table {
         std::fs::write(path(), self.markdown()).expect("the table is written");
     }
 
-    /// Write its errors beside the stored times, which the benchmark alone measures.
+    /// Writes the errors beside the stored times, which only the benchmark measures.
     pub(crate) fn keep_errors(&self) {
         const TIMES: usize = 4;
         let stored = std::fs::read_to_string(path()).expect("the stored table");
@@ -169,7 +170,7 @@ impl Table {
         text
     }
 
-    /// The lines of docs/speed.md: a selection of the stored ones.
+    /// The lines of docs/speed.md: a selection of the stored lines.
     pub(crate) fn of_docs() -> Vec<String> {
         let text = std::fs::read_to_string(path()).expect("the stored table");
         let names: Vec<String> = settings()
@@ -183,7 +184,7 @@ impl Table {
         found.map(|(_, line)| line.to_owned()).collect()
     }
 
-    /// The lines of docs/speed.md on every compliance: time and total error of each method, from
+    /// The lines of docs/speed.md about every compliance: time and total error of each method, from
     /// the stored lines.
     pub(crate) fn of_compliances() -> Vec<String> {
         let text = std::fs::read_to_string(path()).expect("the stored table");
@@ -217,7 +218,8 @@ impl Table {
         heads.map(str::to_owned).into_iter().chain(rows).collect()
     }
 
-    /// No error of the other table is more than twice the one of this; times may differ.
+    /// Checks that no error of the other table is more than twice that of this table; times may
+    /// differ.
     pub(crate) fn holds(&self, made: &Table) {
         let names = |table: &Table| {
             table
@@ -251,7 +253,7 @@ impl Table {
     }
 }
 
-/// Write the lines of docs/speed.md between its marks.
+/// Writes the lines of docs/speed.md between its marks.
 pub(crate) fn write_docs() {
     const MARKS: [&str; 2] = [
         "<!-- speed against accuracy -->\n",
@@ -279,16 +281,16 @@ pub(crate) fn write_docs() {
 
 const COMPLIANCE_MARKS: [&str; 2] = ["<!-- compliances -->\n", "<!-- /compliances -->"];
 
-/// Whether docs/speed.md has it.
+/// Whether docs/speed.md lists the setting.
 fn is_listed(setting: &Setting) -> bool {
     let few = setting
         .stations
         .is_none_or(|stations| [8, 64, 1024].contains(&stations));
-    // At the coarsest tolerance and at the usual one; each other tolerance once.
+    // At the coarsest and at the default tolerance; every other tolerance once.
     few && !setting.accurate && has_default_compliance(setting)
 }
 
-/// Whether the compliance is that of a case that names none.
+/// Whether the compliance is the default one.
 fn has_default_compliance(setting: &Setting) -> bool {
     let usual = settings()
         .into_iter()

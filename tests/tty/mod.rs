@@ -1,4 +1,4 @@
-//! A terminal of its own with a program in it: keys in, screen and bytes out, files in a folder.
+//! A pseudo-terminal with a program: keys in, screen and bytes out, files in a folder.
 
 #![allow(dead_code, reason = "each test file uses its own part")]
 
@@ -19,19 +19,19 @@ use tempfile::TempDir;
 
 pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_tipstrike");
 pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
-/// Far longer than anything takes; only a failing test waits for it.
-/// A flood is poured in such a time on any machine, however busy, unless the other end is stuck.
+/// Far longer than any wait; only a failing test reaches it. Any machine sends a flood in this
+/// time, unless the other end blocks.
 const STUCK: Duration = Duration::from_secs(120);
 pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
 
-/// How often in a second a slow line takes something.
+/// Reads per second of a slow line.
 const BEATS: usize = 100;
 
-/// Our picture of a terminal of any size has no more cells than these.
+/// Greatest size of the emulated screen, in cells.
 const MOST_ROWS: u16 = 600;
 const MOST_COLUMNS: u16 = 1200;
 
-/// What to start, and on which terminal.
+/// The program to start, and its terminal.
 pub(crate) struct Launch {
     pub(crate) folder: Arc<TempDir>,
     command: Vec<OsString>,
@@ -39,31 +39,31 @@ pub(crate) struct Launch {
     size: (u16, u16),
 }
 
-/// A terminal with a program in it.
+/// A terminal with a running program.
 pub(crate) struct Tty {
     pub(crate) folder: Arc<TempDir>,
     pub(crate) child: Box<dyn Child + Send + Sync>,
-    /// Everything that was written, where it is kept.
+    /// All output, if it is recorded.
     pub(crate) written: Option<Vec<u8>>,
     line: Option<Line>,
     screen: vt100::Parser,
-    /// The modes of the terminal before the program had it.
+    /// The modes of the terminal before the start of the program.
     before: String,
 }
 
-/// Our end of the terminal; when this is dropped, and its reader ends, the terminal hangs up.
+/// Our end of the terminal; dropping it and its reader hangs up the terminal.
 struct Line {
     master: Box<dyn MasterPty + Send>,
     writer: Box<dyn Write + Send>,
     output: Receiver<Vec<u8>>,
     reader: JoinHandle<()>,
     is_stalled: Arc<AtomicBool>,
-    /// Bytes that are read in a second; 0 stands for all that there are.
+    /// Bytes read per second; 0 for all available bytes.
     pace: Arc<AtomicUsize>,
 }
 
 impl Launch {
-    /// The workbench on a case in a folder of its own.
+    /// The workbench on a case in a temporary folder.
     pub(crate) fn on_table_1() -> Launch {
         let launch = Launch::of(Arc::new(tempfile::tempdir().expect("a folder")));
         fs::write(launch.case(), TABLE_1).expect("room on the disk");
@@ -71,7 +71,7 @@ impl Launch {
         launch.argument(case)
     }
 
-    /// The workbench in a folder that is there already.
+    /// The workbench in an existing folder.
     pub(crate) fn of(folder: Arc<TempDir>) -> Launch {
         let state = folder.path().to_str().expect("a name in UTF-8");
         let variables = [
@@ -96,14 +96,14 @@ impl Launch {
         self
     }
 
-    /// By way of another program, such as `strace`.
+    /// Runs through another program, such as `strace`.
     pub(crate) fn through(mut self, wrapper: &[&str]) -> Launch {
         self.command
             .splice(0..0, wrapper.iter().map(OsString::from));
         self
     }
 
-    /// Another program altogether.
+    /// Runs another program.
     pub(crate) fn instead(mut self, program: &str) -> Launch {
         self.command[0] = program.into();
         self
@@ -220,14 +220,14 @@ impl Tty {
             .expect("the terminal takes keys");
     }
 
-    /// A program that has left takes nothing more.
+    /// Sends keys; fails if the program has ended.
     pub(crate) fn try_to_type(&mut self, keys: &[u8]) -> std::io::Result<()> {
         let writer = &mut self.line().writer;
         writer.write_all(keys).and_then(|()| writer.flush())
     }
 
-    /// Keys from a thread of their own: a terminal takes only so much at a time. Meanwhile, its
-    /// size changes.
+    /// Sends keys from a separate thread, because a terminal accepts a limited number at a time.
+    /// Changes the size in the meantime.
     pub(crate) fn pour(&mut self, pieces: Vec<Vec<u8>>, sizes: &[(u16, u16)]) {
         let mut writer = std::mem::replace(&mut self.line().writer, Box::new(std::io::sink()));
         let pouring = thread::spawn(move || {
@@ -285,7 +285,7 @@ impl Tty {
         }
     }
 
-    /// How many bytes came within the time.
+    /// The number of bytes that arrive within the time.
     pub(crate) fn take_output(&mut self, time: Duration) -> usize {
         let Some(line) = &self.line else {
             thread::sleep(time);
@@ -307,7 +307,7 @@ impl Tty {
         }
     }
 
-    /// All that comes until nothing comes for so long; how many bytes that is.
+    /// Reads until nothing arrives for `quiet`. Returns the number of bytes.
     pub(crate) fn settle(&mut self, quiet: Duration) -> usize {
         let end = Instant::now() + PATIENCE;
         let mut total = 0;
@@ -336,7 +336,7 @@ impl Tty {
         assert!(status.success());
     }
 
-    /// Go on, if it has suspended itself.
+    /// Continues the program if it has suspended itself.
     pub(crate) fn wake(&self) {
         if self.state() == Some('T') {
             self.send_signal("CONT");
@@ -351,7 +351,7 @@ impl Tty {
         let end = Instant::now() + PATIENCE;
         loop {
             if let Some(status) = self.child.try_wait().expect("our own child") {
-                // Until the terminal says that nobody is left to write.
+                // Until the terminal reports that no writer is left.
                 while self.take_output(Duration::from_millis(50)) > 0 {}
                 return status;
             }
@@ -364,13 +364,13 @@ impl Tty {
         }
     }
 
-    /// Quit, with nothing unsaved.
+    /// Quits a workbench without unsaved edits.
     pub(crate) fn quit(&mut self) {
         self.type_in("\x11");
         assert_eq!(self.wait_for_end().exit_code(), 0);
     }
 
-    /// The terminal goes away, as when a connection breaks.
+    /// Closes the terminal, as a broken connection does.
     pub(crate) fn hang_up(&mut self) {
         let Line {
             master,
@@ -381,8 +381,8 @@ impl Tty {
         } = self.line.take().expect("the terminal has not hung up");
         drop(output);
         drop(writer);
-        // The reader sleeps on a copy of our end until something comes: we write to the other end
-        // ourselves.
+        // The reader sleeps on a copy of our end until bytes arrive: the test writes to the other
+        // end itself.
         let other_end = master.tty_name().expect("the terminal has a name");
         let end = Instant::now() + PATIENCE;
         while !reader.is_finished() {
@@ -396,7 +396,7 @@ impl Tty {
         }
     }
 
-    /// A signal to what stands in front of the shell of this terminal.
+    /// Sends a signal to the foreground program of this terminal.
     pub(crate) fn send_to_program(&self, name: &str) {
         let front = self
             .line
@@ -410,7 +410,7 @@ impl Tty {
         assert!(status.success());
     }
 
-    /// Read nothing more, and have the program draw until the terminal takes nothing more.
+    /// Stops reading, and makes the program draw until the terminal accepts no more bytes.
     pub(crate) fn stall(&mut self) {
         self.line().is_stalled.store(true, Ordering::Relaxed);
         for _ in 0..60 {
@@ -419,7 +419,7 @@ impl Tty {
         }
     }
 
-    /// The line takes only so many bytes a second from now on; 0 stands for all that there are.
+    /// Limits the line to a number of bytes per second; 0 for no limit.
     pub(crate) fn set_pace(&mut self, bytes_a_second: usize) {
         self.line().pace.store(bytes_a_second, Ordering::Relaxed);
     }
@@ -434,7 +434,7 @@ impl Tty {
         )
     }
 
-    /// The terminal as it was before: modes, screen, cursor, paste.
+    /// Checks that the terminal is restored: modes, screen, cursor, paste.
     pub(crate) fn assert_restored(&self) {
         assert_eq!(self.modes(), self.before, "the modes are what they were");
         assert!(
@@ -445,13 +445,13 @@ impl Tty {
         assert!(!self.screen().bracketed_paste(), "pastes are plain again");
     }
 
-    /// The terminal as the workbench has it.
+    /// Checks that the terminal has the modes of the workbench.
     pub(crate) fn assert_taken(&self) {
         assert!(self.screen().alternate_screen() && self.screen().bracketed_paste());
         assert_ne!(self.modes(), self.before);
     }
 
-    /// The state of the process: `T` when it is stopped.
+    /// The state of the process: `T` if it is stopped.
     pub(crate) fn state(&self) -> Option<char> {
         stat(self.id())?.first()?.chars().next()
     }
@@ -459,14 +459,14 @@ impl Tty {
 
 impl Drop for Tty {
     fn drop(&mut self) {
-        // A test that failed leaves nothing behind.
+        // A failed test must leave no process behind.
         self.child.kill().ok();
         self.child.wait().ok();
     }
 }
 
-/// The words of a process's state after its name: state, parent, group, ...; 11 and 12 are its
-/// ticks in user and system.
+/// The fields of a process's state after its name: state, parent, group, ...; 11 and 12 are its
+/// ticks in user and system mode.
 pub(crate) fn stat(process: u32) -> Option<Vec<String>> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     Some(
@@ -478,7 +478,7 @@ pub(crate) fn stat(process: u32) -> Option<Vec<String>> {
     )
 }
 
-/// The journals of unsaved edits in a folder of state.
+/// The journals of unsaved edits in a state folder.
 pub(crate) fn journals(state: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(state.join("tipstrike/journals"))
         .into_iter()
@@ -492,8 +492,7 @@ pub(crate) fn journals(state: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// A tool that a test cannot do without; where it is missing, says so, so that a skipped test is
-/// seen.
+/// Whether a required tool is installed; reports a missing tool, so that a skipped test is visible.
 pub(crate) fn is_there(tool: &str) -> bool {
     let found = Command::new("sh")
         .args(["-c", "command -v \"$0\" >/dev/null", tool])
@@ -505,7 +504,7 @@ pub(crate) fn is_there(tool: &str) -> bool {
     found
 }
 
-/// Whether the program has faults on demand; where it is a release, says so.
+/// Whether the program has faults on request; reports a release build, which has none.
 pub(crate) fn has_faults_on_demand() -> bool {
     if !cfg!(debug_assertions) {
         skip("a release has no faults on demand");
@@ -513,8 +512,8 @@ pub(crate) fn has_faults_on_demand() -> bool {
     cfg!(debug_assertions)
 }
 
-/// Say that a test did not run, past the harness, which holds back what passing tests print;
-/// `.ci/run` counts them.
+/// Reports a skipped test directly, because the harness hides the output of passing tests;
+/// `.ci/run` counts these reports.
 pub(crate) fn skip(why: &str) {
     let line = format!(
         "SKIPPED {}: {why}\n",

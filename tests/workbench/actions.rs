@@ -1,4 +1,4 @@
-//! Every line of the table of actions: keys in, screen out. A line without a test here fails.
+//! Every line of the table of actions: keys in, screen out. A line without a test fails here.
 use crate::harness;
 
 use std::collections::BTreeSet;
@@ -8,8 +8,8 @@ use tipstrike::tui::testing::commands::BINDINGS;
 
 const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n";
 
-/// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is
-/// not without the key. `:name` calls a command by the palette.
+/// Keys before, the key, keys after, and a text on the screen or an effect that is absent without
+/// the key. `:name` runs a command of the palette.
 #[rustfmt::skip]
 const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // In the form, outside its fields.
@@ -32,7 +32,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2 j j", "k", "", "T_S impact duration, by the method"),
     ("Esc 2", "G", "", "(impulse_ratio)."),
     ("Esc 2 G", "g", "", "F_S impact force, Eq. 57"),
-    // Error against time.
+    // Accuracy against run time.
     ("Esc 5 m", "Enter", "", "; u undoes"),
     ("Esc 5", "m", "", "Within 5.0 %: dynamic with"),
     ("Esc 5 m", "v", "", "▸ 5 Run time and difference from the reference"),
@@ -152,7 +152,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", "PageUp", "", "title. A name"),
     ("Esc 3", "Ctrl-Home", "", "title. A name"),
     ("", "Ctrl-End", "", "Upper limit of impact force"),
-    // In a field of names.
+    // In a field with choices.
     ("METHOD", "Right", "", "‹ static ›"),
     ("METHOD", "Left", "", "‹ paper ›"),
     ("METHOD Right", "Backspace", "", "‹ (exact) ›"),
@@ -181,7 +181,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2 j j Enter", "BackTab", "", "▸model.accurate"),
     ("Esc 2 j j Enter Tab Tab Tab", "Enter", "", "z1 driver number of teeth,"),
     ("Esc 2 j j Enter", "q", "", "▸ 2 Results"),
-    // In a line of text.
+    // In an input line.
     ("End", "Left", "X", "5 mXm"),
     ("Home", "Right", "X", "5X mm"),
     ("End", "Ctrl-Left", "X", "5 Xmm"),
@@ -222,7 +222,7 @@ fn press(desk: &mut Desk, keys: &str) {
     }
 }
 
-/// The screen, and what was asked of the world.
+/// The screen and the effects.
 fn out(desk: &Desk) -> String {
     let flags = [
         (desk.has_quit, "[quit]"),
@@ -243,7 +243,7 @@ fn out(desk: &Desk) -> String {
     format!("{}\n{}{copied}", desk.screen(), flags.collect::<String>())
 }
 
-/// The line of the table that a key calls there.
+/// The line of the table for a key in the present state.
 fn called(desk: &Desk, key: &str) -> Option<usize> {
     if let Some(name) = key.strip_prefix(':').filter(|name| !name.is_empty()) {
         return BINDINGS.iter().position(|binding| {

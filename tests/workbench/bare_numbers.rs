@@ -1,4 +1,4 @@
-//! A number typed into a field of the form without its unit takes the unit that the field shows.
+//! A bare number typed into a field of the form gets the unit that the field shows.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};

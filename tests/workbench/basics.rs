@@ -1,5 +1,4 @@
-//! Keys in, screen out: the frame of the workbench - focus, palette, tabs, baseline, cursor,
-//! copying, mouse, settings.
+//! Keys in, screen out: focus, palette, tabs, baseline, cursor, copying, mouse, settings.
 use crate::harness;
 
 use std::time::Instant;
@@ -701,8 +700,8 @@ fn long_work_shows_how_far_it_is_and_esc_cancels_it() {
     assert!(!desk.shows("25 %"));
 }
 
-/// The least relief of a method that shares the load comes after the rest: until then a place is
-/// kept for it, and no figure of another method or of an earlier edit stands there.
+/// The required relief of a method that shares the load arrives after the other results: until then
+/// a placeholder is shown, and no figure of another method or of an earlier edit.
 #[test]
 fn the_least_relief_has_a_place_until_it_is_there() {
     let mut desk = Desk::new(LARGE);
@@ -851,8 +850,8 @@ fn torque_takes_the_place_of_power_and_gives_it_back() {
     assert!(!desk.app.tab.is_unsaved(), "both changes are one step");
 }
 
-/// Wall time is of the machine and gates nothing; what others do on it is kept out by the best of
-/// several runs.
+/// Prints the wall time, which depends on the machine and fails no test; the best of several runs
+/// excludes other load.
 #[test]
 fn a_keystroke_to_its_frame() {
     const RUNS: usize = 5;
@@ -875,8 +874,8 @@ fn a_keystroke_to_its_frame() {
     }
 }
 
-/// How long each of many keys takes to its frame, and each answer, in ms: a letter is deleted and
-/// typed again; then the cursor walks through every chart, close up and from afar.
+/// The time from each of many keys to its frame, and to each answer, in ms: deletes and types a
+/// letter, then moves the cursor through every chart at two zooms.
 fn keystrokes(method: &str) -> Vec<f64> {
     const KEYS: usize = 60;
     let size = Size {
@@ -905,7 +904,7 @@ fn keystrokes(method: &str) -> Vec<f64> {
     times
 }
 
-/// From the key to its frame, and from the answer that it asks for to that one's.
+/// The times from the key to its frame, and from its answer to the next frame.
 fn frame_of(desk: &mut Desk, code: KeyCode) -> Vec<f64> {
     let action = actions::of_key(code.into(), desk.app.place()).expect("a key of the place");
     let area = Rect::from(desk.app.layout.size());
@@ -991,7 +990,7 @@ fn no_stiffness_spread_without_corner_contact() {
     }
 }
 
-/// Gears that no other test has, so that no field of theirs is kept.
+/// Gears that no other test uses, so that their fields are not cached.
 #[test]
 fn the_first_frame_waits_for_no_elastic_field() {
     for (method, compliance, teeth) in [

@@ -1,5 +1,5 @@
-//! The browser of files: folders, previews with their verdict, recent cases; whatever a folder
-//! holds, nothing waits for it.
+//! The file browser: folders, previews with their verdict, recent cases; no content of a folder
+//! delays the screen.
 use crate::harness;
 
 use std::ffi::OsStr;
@@ -22,7 +22,7 @@ use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 use tipstrike::tui::testing::worker::Workers;
 
-/// Five cases and a folder; the second one is open.
+/// Five cases and a folder; the second case is open.
 fn shelf(desk: &mut Desk) {
     for (file, text) in [
         ("a-strikes.toml", TABLE_1.to_owned()),
@@ -59,7 +59,7 @@ fn desk_before_a_shelf(size: ratatui::layout::Size) -> Desk {
     desk
 }
 
-/// What the marked one is said to hold, on one line.
+/// The preview of the selected line, on one line.
 fn preview(desk: &Desk) -> String {
     let screen = desk.screen();
     let right = screen

@@ -44,7 +44,7 @@ fn at_method(size: Size, method: &str) -> Desk {
         "case.toml",
         &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")),
     );
-    // The first frame does not wait for a slow method; an edit does.
+    // The first frame does not wait for a slow method; an edit starts it.
     desk.fill("title", "a");
     desk.keys(&["Esc", "3"]);
     desk
@@ -70,7 +70,7 @@ fn chart(desk: &Desk) -> Vec<String> {
         .collect()
 }
 
-/// Every chart of the method, one below the other.
+/// Every chart of the method, one after the other.
 fn album(desk: &mut Desk) -> String {
     let mut pages = Vec::new();
     for _ in 0..GRAPHS.len() {
@@ -221,7 +221,7 @@ fn no_title_is_cut_in_any_chart_at_any_size() {
                     let has_title = assert_whole(desk.keys(&[key])) > 0;
                     assert!(has_title, "{}", desk.screen());
                 }
-                // A field that takes digits has longer keys in the titles.
+                // While a field takes digits, the titles show longer keys.
                 assert_whole(desk.keys(&["1", "Enter"]));
                 desk.keys(&["Esc", "3", "j"]);
             }
@@ -235,7 +235,7 @@ fn no_title_is_cut_in_any_chart_at_any_size() {
     }
 }
 
-/// The bars at each harmonic at rest and in motion; the runs up and down with present speed and
+/// The bars at each harmonic at rest and in motion; the run-up and run-down with present speed and
 /// resonances; in ASCII, and while the form is invalid.
 #[test]
 fn the_charts_of_whine() {
@@ -536,7 +536,7 @@ fn the_axis_covers_the_results_and_the_baseline() {
                     );
                 }
             }
-            // A baseline of the method paper has the curve of that method alone, not of exact.
+            // A baseline by method paper has a curve only of that method and not of exact.
             assert!(
                 method == "paper" || desk.app.tab.scale.across == pinned.across,
                 "{method} {relief}: the axis stays while it serves"
@@ -724,7 +724,8 @@ fn plots(desk: &Desk) -> Vec<Rect> {
     plots
 }
 
-/// Every curve is drawn whole, and every curve is named, with no dash or dot of a line in its name.
+/// Checks that every curve is drawn completely and has a name, with no dash or dot of a line in its
+/// name.
 fn assert_legends(desk: &Desk) {
     let app = &desk.app;
     let screen = desk.buffer(app.layout.size());
@@ -765,8 +766,8 @@ fn a_legend_never_covers_a_curve() {
     }
 }
 
-/// Every chart at several sizes: no panic, no invalid number, round ticks, different labels, and
-/// legends clear of curves.
+/// Checks every chart at several sizes: no panic, no invalid number, round ticks, different labels,
+/// and legends without overlap with curves.
 fn assert_charts(desk: &mut Desk) {
     desk.keys(&["Esc", "3"]);
     for (size, keys) in [(SMALL, "0"), (TINY, "v"), (LARGE, "+"), (HUGE, "t")] {
@@ -935,7 +936,7 @@ fn the_mesh_stiffness_has_a_curve_for_every_model_with_that_of_the_case_on_top()
         panic!("curves of several models");
     };
     assert!(curves::is_field(field.whose) && !curves::is_field(own.whose));
-    // From E to the end of the path of contact, the strike left aside.
+    // From E to the end of the path of contact, without the strike.
     let window = charts.window();
     assert!(window.from < 0.0 && window.to > 20.0, "{window:?}");
     let geometry = &charts.solution().expect("a solution").geometry;

@@ -1,5 +1,5 @@
-//! Results that explain themselves: Enter shows the page of `tipstrike explain`, and from its
-//! fields one goes to the form.
+//! Explanations of results: Enter shows the page of `tipstrike explain`, and its fields lead to the
+//! form.
 use crate::harness;
 
 use std::process::Command;
@@ -31,7 +31,7 @@ fn in_box(desk: &Desk) -> Vec<String> {
     lines.filter_map(inside).collect()
 }
 
-/// The whole page, scrolled through line by line.
+/// The whole page, line by line.
 fn read_through(desk: &mut Desk) -> Vec<String> {
     let mut page = in_box(desk);
     loop {
@@ -74,7 +74,7 @@ fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
         let path = desk.path("case.toml").display().to_string();
         let count = results::count(&desk.app.results());
         assert!(count >= pages, "{method}: {count}");
-        // Of the slow method every sixth: the text is the same, and each takes a dozen solves.
+        // For the slow method every sixth row: the text is the same, and each takes a dozen solves.
         for row in (0..count).step_by(if method == "dynamic" { 6 } else { 1 }) {
             desk.app.tab.results.row = row;
             desk.keys(&["Esc", "2", "Enter"]);

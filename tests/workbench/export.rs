@@ -9,7 +9,7 @@ use tipstrike::tui::testing::actions::{Effect, of_key};
 use tipstrike::tui::testing::jobs::Job;
 use tipstrike::tui::testing::update::update;
 
-/// A workbench on `pair.toml` with an edit that is not saved.
+/// A workbench on `pair.toml` with an unsaved edit.
 fn edited() -> Desk {
     let mut desk = Desk::on(LARGE, "pair.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "24 um");
@@ -18,7 +18,7 @@ fn edited() -> Desk {
 
 fn names(desk: &Desk) -> Vec<String> {
     let entries = fs::read_dir(desk.folder.path()).expect("the folder");
-    // The lock of the open case is hidden.
+    // The lock of the open case is a hidden file.
     let mut names: Vec<_> = entries
         .map(|entry| {
             entry
@@ -112,7 +112,7 @@ fn what_cannot_be_exported_is_refused_in_words_and_writes_nothing() {
 fn one_export_runs_at_a_time_and_quitting_asks_for_it() {
     let mut desk = edited();
     desk.keys(&["Alt-X"]);
-    // The export is requested and not performed.
+    // The export is requested and not carried out.
     let accept = of_key(harness::event("Enter"), desk.app.place()).expect("an action");
     let effects = update(&mut desk.app, accept);
     assert!(matches!(effects.first(), Some(Effect::Job(Job::Export(_)))));

@@ -1,5 +1,4 @@
-//! What makes the form a pleasure: steps, conversions, materials, limits, inch units, what does not
-//! act.
+//! Aids of the form: steps, conversions, materials, limits, inch units, fields without effect.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
@@ -13,7 +12,7 @@ fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
         .unwrap_or_default()
 }
 
-/// A line of the screen that holds this text.
+/// A line of the screen with this text.
 fn line(desk: &Desk, text: &str) -> String {
     let screen = desk.screen();
     screen

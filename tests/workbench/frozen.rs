@@ -1,5 +1,5 @@
-//! Old cases open for ever and keep their bytes; newer ones are shown and never written; saves
-//! leave no litter.
+//! Cases of earlier versions open without a change of their bytes; newer ones are shown and never
+//! overwritten; saves leave no temporary files.
 use crate::harness;
 
 use std::fs;
@@ -63,7 +63,7 @@ fn a_newer_format_is_shown_and_never_written() {
         desk.screen()
     );
     assert_eq!(desk.read("newer.toml"), newer);
-    // Nor is a text without any sense a newer case.
+    // An invalid text is not a newer case either.
     let path = desk.write("none.toml", "format = 2\n\u{1b}[2J");
     desk.perform(Effect::Load(path));
 }

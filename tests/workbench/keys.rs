@@ -1,4 +1,4 @@
-//! Keys in, screen and files out: editing, saving, opening, leaving.
+//! Keys in, screen and files out: editing, saving, opening, quitting.
 use crate::harness;
 
 use std::fs;
@@ -255,7 +255,7 @@ fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
         );
         assert_eq!(desk.read("case.toml"), TABLE_1, "{keys:?}");
     }
-    // Of several cases, the faulty one stops the leaving; the others are saved.
+    // Of several cases, an invalid one stops the quitting; the others are saved.
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm");
     let other = desk.write("other.toml", TABLE_1);

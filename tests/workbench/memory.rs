@@ -1,4 +1,4 @@
-//! What an open case, an edit and a measurement keep: no more than they say.
+//! Memory of an open case, an edit and a benchmark.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
@@ -6,7 +6,7 @@ use tipstrike::case::Document;
 use tipstrike::model::inputs::Method;
 use tipstrike::tui::testing::actions::Action;
 
-/// Bytes that are kept after this, once for each of so many times.
+/// Remaining bytes per run, over a number of runs.
 fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {
     let info = allocation_counter::measure(|| (0..times).for_each(&mut run));
     info.bytes_current as f64 / times as f64
@@ -64,7 +64,7 @@ fn an_open_case_keeps_little_and_a_closed_one_nothing() {
             });
         });
         assert_eq!(desk.app.tabs().count(), 1);
-        // The list of cases has its room, and the first one its results.
+        // The list of cases keeps its capacity, and the first case its results.
         println!(
             "after closing them: {:.1} kB",
             whole.bytes_current as f64 / 1e3

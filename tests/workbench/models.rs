@@ -1,4 +1,4 @@
-//! A model of another program opens as a case, and a save never writes over the model.
+//! A model of another program opens as a case, and a save never overwrites the model.
 
 use crate::harness::{Desk, SMALL};
 
@@ -29,7 +29,7 @@ fn a_model_opens_as_a_case_that_is_saved_beside_it() {
     assert_eq!(desk.read("gears.rexs"), MODEL);
 }
 
-/// A lock has the folder in full, and the path of a model may lead elsewhere and back.
+/// A lock uses the full path of the folder, and the path of a model may lead through links.
 #[test]
 fn a_model_by_another_path_is_saved_by_the_session_that_opened_it() {
     let mut desk = Desk::new(SMALL);

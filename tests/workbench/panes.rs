@@ -1,4 +1,4 @@
-//! Keys in, screen out: what stands in results, chart and teeth while a case is worked on.
+//! Keys in, screen out: the content of results, chart and teeth during the work on a case.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
@@ -62,7 +62,7 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
         "{}",
         desk.screen()
     );
-    // What is gone comes back marked.
+    // A removed quantity is selected again when it returns.
     desk.keys(&["g", "j", "j"]);
     assert_eq!(marked(&desk), Some("approach_angle_driver"));
     desk.fill("driven.tip_relief", "80 um");

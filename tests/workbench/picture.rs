@@ -1,5 +1,5 @@
-//! The README's pictures are what the workbench shows: `TIPSTRIKE_REGENERATE=1 cargo test --test
-//! picture` draws them again.
+//! The pictures of the README are screens of the workbench: `TIPSTRIKE_REGENERATE=1 cargo test
+//! --test picture` draws them again.
 use crate::harness;
 
 use std::fmt::Write;
@@ -41,7 +41,7 @@ fn the_pictures_of_the_readme() {
     }
 }
 
-/// The picture of a screen, over a folder with the examples.
+/// The picture of a screen, in a folder with the examples.
 fn taken(title: &str, keys: &[&str]) -> String {
     let mut desk = Desk::new(LARGE);
     std::fs::create_dir(desk.path("gears")).expect("a folder");
@@ -60,13 +60,13 @@ fn taken(title: &str, keys: &[&str]) -> String {
         LARGE,
     );
     desk.keys(keys);
-    // The folder of a test has another name each time.
+    // The folder of a test has a different name in each run.
     let folder = desk.folder.path().display().to_string();
     let stand_in = format!("{:<1$}", "/home/me/drives", folder.chars().count());
     picture(title, &desk.buffer(LARGE)).replace(&folder, &stand_in)
 }
 
-/// A screen as SVG: a text a row, cut where the style changes, each piece at its column.
+/// A screen as SVG: one text per row, split where the style changes, each piece at its column.
 fn picture(title: &str, buffer: &Buffer) -> String {
     let (columns, rows) = (buffer.area.width, buffer.area.height);
     let (width, height) = (
@@ -87,7 +87,7 @@ fn picture(title: &str, buffer: &Buffer) -> String {
     svg + "</svg>\n"
 }
 
-/// One piece of a row in one style.
+/// Adds one piece of a row in one style.
 fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
     let text: String = piece.iter().map(Cell::symbol).collect();
     let (x, y) = (
@@ -128,12 +128,12 @@ fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
     }
 }
 
-/// Braille is drawn, since few fonts have it at the width of their letters.
+/// Braille is drawn as dots, because few fonts have it at the width of their letters.
 fn is_dotted(cell: char) -> bool {
     ('\u{2800}'..='\u{28ff}').contains(&cell)
 }
 
-/// The dots of a cell of Braille at this place.
+/// The dots of a cell of Braille at a position.
 fn dots(cell: char, x: f64, y: f64) -> Vec<String> {
     const PLACES: [(u8, u8); 8] = [
         (0, 0),
@@ -163,8 +163,8 @@ fn dots(cell: char, x: f64, y: f64) -> Vec<String> {
         .collect()
 }
 
-/// What stands between gaps of two blanks and more, each with its column, so that columns stay
-/// columns in any font.
+/// The pieces between gaps of two or more blanks, each with its column, so that columns are aligned
+/// in any font.
 fn stretches(text: &str) -> Vec<(usize, &str)> {
     let mut column = 0;
     let mut found = Vec::new();
@@ -179,7 +179,7 @@ fn stretches(text: &str) -> Vec<(usize, &str)> {
     found
 }
 
-/// Colour, bold and reversed.
+/// Colour, bold and reverse.
 fn look(cell: &Cell) -> (&'static str, bool, bool) {
     let dim = cell.modifier.contains(Modifier::DIM);
     let fill = match cell.fg {

@@ -1,11 +1,11 @@
-//! The mouse, where the user wants it: a press marks, a second one does what Enter does.
+//! The mouse, if the setting is on: a click selects, a second click is Enter.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::{Position, Size};
 use tipstrike::tui::testing::actions::Action;
 
-/// Press the first letter of a word.
+/// Clicks the first letter of a word.
 fn press(desk: &mut Desk, word: &str) {
     let screen = desk.screen();
     let found = screen

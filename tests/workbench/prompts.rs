@@ -1,5 +1,4 @@
-//! What lies over the panes and stands around them, as a person sees it: at 80x24, at 140x45 and in
-//! ASCII.
+//! Dialogs and the lines around the panes: at 80x24, at 140x45 and in ASCII.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
@@ -17,7 +16,7 @@ use tipstrike::tui::testing::theme::{Look, MONO};
 
 const HOLDER: &str = "process 4711 on drawing-office, since 12 min";
 
-/// What is done to come to a screen.
+/// The actions that lead to a screen.
 type Way = fn(&mut Desk);
 
 const SCREENS: &[(&str, Way)] = &[

@@ -1,5 +1,5 @@
-//! README and guide show what the program does: the commands of the README print what it shows, and
-//! the keys of the guide's walk bring its sentences onto the screen.
+//! README and guide agree with the program: the commands of the README print its output, and the
+//! keys of the guide bring its sentences onto the screen.
 //!
 //! `TIPSTRIKE_REGENERATE=1 cargo test --test workbench readme_session::` writes the output of the
 //! commands again.

@@ -1,4 +1,4 @@
-//! The room on the screen: titles, panes alone, rows on a small screen, columns that line up.
+//! Room on the screen: titles, panes alone, rows on a small screen, aligned columns.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};

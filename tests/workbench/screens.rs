@@ -1,4 +1,4 @@
-//! The screens, as a person sees them: at 80x24, with room at 140x45, and at every size.
+//! The screens: at 80x24, at 140x45, and at every size.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
@@ -50,7 +50,7 @@ fn no_corner_contact_is_a_result() {
     }
 }
 
-/// Table 1 in motion, where the closed form stands beside what the method resolves itself.
+/// Table 1 in motion, with the closed form beside the results of the method.
 fn in_motion(size: Size) -> Desk {
     let mut desk = Desk::new(size);
     desk.fill("model.method", "dynamic");

@@ -1,5 +1,5 @@
 //! The study pane: a field over its range, a map of two fields, the tolerance of the case; and
-//! variants kept from the edits.
+//! variants saved from the edits.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
@@ -331,7 +331,7 @@ fn escape_in_a_field_leaves_the_field_while_a_study_runs() {
         .keys(&["Esc", "6", "1", "Enter"]);
     assert!(desk.app.has_line());
     assert!(requested(desk.effects("3")).is_some());
-    // The digit is taken back, then the field is left.
+    // The digit is undone, then the field is left.
     desk.effects("5");
     desk.effects("Esc");
     assert!(!desk.app.has_line());

@@ -384,13 +384,14 @@ fn the_pane_on_the_screen() {
     assert_snapshot!("pane_80x24", desk.screen());
 }
 
-/// Solved pairs of the whole envelope, some by static.
+/// Solved pairs of the whole envelope, some by method static.
 fn some_pairs(count: u64) -> impl Iterator<Item = (Inputs, Solution, Random)> {
     (0..count).filter_map(|number| {
         let mut random = Random::new(number + 1);
         let corner = Corner::ALL[(number % Corner::ALL.len() as u64) as usize];
         let mut inputs = pair(&mut random, corner);
-        // A picture does not show the stiffness, and finite elements cost a thousand times as much.
+        // A picture does not show the stiffness, and finite elements are a thousand times as
+        // expensive.
         inputs.tooth_compliance = inputs.tooth_compliance.or(Some(ToothCompliance::BEAM));
         if number % 48 == 1 {
             inputs.method = Method::Static;
@@ -514,8 +515,8 @@ fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
     assert!(drawn_pairs > 4_000, "only {drawn_pairs}");
 }
 
-/// Every stroke is finite and visible, and no two words overlap. Returns the share of the allowed
-/// strokes.
+/// Checks that every stroke is finite and visible, and that no two words overlap. Returns the
+/// number of strokes over the allowed number.
 fn examine(picture: &Picture, size: Size, expected: &dyn Fn() -> String) -> f64 {
     let moment = ContactState::at(picture.inputs, picture.solution, picture.angle());
     let scene = Scene::of(picture, moment.as_ref(), size);
@@ -556,7 +557,7 @@ fn examine(picture: &Picture, size: Size, expected: &dyn Fn() -> String) -> f64 
     share
 }
 
-/// Sizes of the picture alone on usual terminals, and beside other panes.
+/// Sizes of the picture alone on typical terminals, and beside other panes.
 const PLOTS: [(u16, u16); 5] = [(60, 9), (80, 6), (56, 15), (80, 17), (238, 62)];
 
 #[test]
@@ -625,7 +626,7 @@ fn words_cover_no_line_where_there_is_room() {
     );
 }
 
-/// Prints the wall time. The test of the strokes is the limit.
+/// Prints the wall time; the number of strokes is the criterion.
 #[test]
 fn a_picture_has_few_strokes() {
     for (case, centre) in [

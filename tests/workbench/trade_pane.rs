@@ -1,4 +1,4 @@
-//! The pane of error against time: measuring, stopping, walking along the settings, taking one.
+//! The trade pane: benchmark, stop, selection of a setting, and its use in the case.
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
@@ -329,7 +329,7 @@ fn v_shows_every_method_with_every_compliance_as_a_table() {
     }
 }
 
-/// A time that only the machine knows is not in a snapshot.
+/// Replaces machine-dependent times for the snapshot.
 fn evened(desk: &mut Desk) {
     let traded = desk.app.tab.traded.as_mut().expect("a measurement");
     let trade = traded.trade.as_mut().expect("it is whole");
@@ -389,7 +389,7 @@ fn every_mark_is_on_the_right_side_of_the_tolerance() {
             });
             plot.filter(|cell| "pesdaPESDA".contains(*cell)).collect()
         };
-        // On Table 1 the closed forms, the load at rest and every other compliance are farther off
+        // On Table 1 the closed forms, the load at rest and every other compliance differ by more
         // than 5 %.
         let (above, below) = (
             letters(&pane[usize::from(level > 5)..level]),

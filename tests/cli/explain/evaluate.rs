@@ -1,13 +1,12 @@
-//! Works out what a page prints: numbers with units, and nothing that the program knows of its own
-//! formulas.
+//! Evaluates the printed numbers and units of a page, independently of the formulas of the program.
 
 use tipstrike::case::units;
 use tipstrike::report::explain::STEP_UNITS;
 
-/// Between a number and its unit.
+/// The space between a number and its unit.
 const GLUE: char = '\u{a0}';
 
-/// The value in SI of an expression as it is printed.
+/// The value of a printed expression in SI.
 pub(crate) fn evaluate(text: &str) -> f64 {
     let mut reader = Reader { rest: text };
     let value = reader.sum();
@@ -19,7 +18,7 @@ pub(crate) fn evaluate(text: &str) -> f64 {
     value
 }
 
-/// What one of a unit is in SI.
+/// The factor of a unit to SI.
 pub(crate) fn factor(unit: &str) -> Option<f64> {
     units::factor(unit).or_else(|| {
         STEP_UNITS
@@ -137,7 +136,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The longest unit that the text starts with.
+    /// The longest unit at the start of the text.
     fn unit(&mut self, text: &str) -> f64 {
         let plain = text.replace(GLUE, " ");
         let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());

@@ -1,4 +1,4 @@
-//! Evaluates a formula as a page prints it, `ΔV_n √(b M/q_s)`, with the values of its symbols.
+//! Evaluates a printed formula such as `ΔV_n √(b M/q_s)` with the values of its symbols.
 
 use std::f64::consts::PI;
 
@@ -14,23 +14,23 @@ pub(crate) enum Tree {
     Pi,
     /// A symbol.
     Symbol(String),
-    /// One of a unit, in brackets.
+    /// The factor of a unit, in brackets.
     Unit(String),
-    /// Terms, each with whether it is taken away.
+    /// Terms, each with whether it is subtracted.
     Sum(Vec<(bool, Tree)>),
-    /// Factors, each with whether it divides.
+    /// Factors, each with whether it is a divisor.
     Product(Vec<(bool, Tree)>),
     /// Base and exponent.
     Power(Box<Tree>, Box<Tree>),
     /// √.
     Root(Box<Tree>),
-    /// Without its sign.
+    /// Absolute value.
     Absolute(Box<Tree>),
-    /// A function of one argument or more.
+    /// A function with one or more arguments.
     Call(Function, Vec<Tree>),
 }
 
-/// A function by its name in print, and what it does.
+/// A function by its printed name.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Function {
     pub(crate) name: &'static str,
@@ -44,7 +44,7 @@ impl PartialEq for Function {
     }
 }
 
-/// Every function; one of no fixed count of arguments has the count 0.
+/// Every function; the number of arguments is 0 if it is not fixed.
 const FUNCTIONS: [Function; 9] = [
     Function {
         name: "sin",
@@ -94,7 +94,7 @@ const FUNCTIONS: [Function; 9] = [
 ];
 
 impl Tree {
-    /// The tree of a text; `None` where it is no formula.
+    /// The tree of a text; `None` if the text is not a formula.
     pub(crate) fn read(text: &str) -> Option<Tree> {
         let mut reader = Reader {
             tokens: tokens(text)?,
@@ -104,7 +104,7 @@ impl Tree {
         (reader.at == reader.tokens.len()).then_some(tree)
     }
 
-    /// Its value, where every symbol has one.
+    /// Its value, if every symbol has one.
     pub(crate) fn value(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
         let list = |parts: &[Tree]| {
             parts
@@ -141,7 +141,7 @@ impl Tree {
 
 const SUPERSCRIPTS: [(char, &str); 3] = [('²', "2"), ('³', "3"), ('⁴', "4")];
 
-/// Tokens and how many of them are read.
+/// Tokens and the number of read ones.
 struct Reader<'a> {
     tokens: Vec<Token<'a>>,
     at: usize,
@@ -152,7 +152,7 @@ impl<'a> Reader<'a> {
         self.tokens.get(self.at).copied()
     }
 
-    /// Whether the mark came next; then it is read.
+    /// Reads the mark if it is next. Returns whether it was.
     fn took(&mut self, mark: char) -> bool {
         let is_next = self.peek() == Some(Token::Mark(mark));
         self.at += usize::from(is_next);

@@ -1,11 +1,11 @@
-//! The formulas as they are printed, in doubles: what a hand calculation or a script loses.
+//! The printed formulas in doubles: the accuracy of a hand calculation or a script.
 
 use std::f64::consts::PI;
 
 use tipstrike::model::Inputs;
 use tipstrike::model::inputs::{ContactCompliance, Gear, ToothCompliance};
 
-/// The pair as the printed formulas see it.
+/// The pair for the printed formulas.
 pub(crate) struct Naive<'a> {
     inputs: &'a Inputs,
     base: [f64; 2],
@@ -71,7 +71,7 @@ impl<'a> Naive<'a> {
         }
     }
 
-    /// S(u) as it is written.
+    /// S(u) as printed.
     pub(crate) fn gap(&self, angle: f64) -> f64 {
         let tip = self.tip_at(angle);
         (tip.curvature - self.start) + self.base[1] * angle
@@ -102,7 +102,7 @@ impl<'a> Naive<'a> {
         ]
     }
 
-    /// F_S by Eq. 57 with Eq. 55 or a constant, where Eq. 56 serves.
+    /// F_S by Eq. 57 with Eq. 55 or a constant; `None` outside the range of Eq. 56.
     pub(crate) fn force(&self, angle: f64) -> Option<f64> {
         let inputs = self.inputs;
         let logarithmic = inputs.contact_compliance == ContactCompliance::LOGARITHMIC;

@@ -1,5 +1,4 @@
-//! Frozen rows: pairs, their quantities to 22 digits, and how each reacts to a change of the
-//! inputs.
+//! Frozen rows: pairs, their quantities with 22 digits, and the condition of each quantity.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -12,7 +11,7 @@ use tipstrike::model::{Inputs, QUANTITIES};
 use crate::envelope::{self, Corner, Random};
 use crate::oracle::{self, number};
 
-/// How many rows of each corner of the envelope are frozen.
+/// Number of frozen rows of each corner of the envelope.
 const COUNTS: [(Corner, usize); 8] = [
     (Corner::Anywhere, 180),
     (Corner::Fit, 240),
@@ -24,19 +23,20 @@ const COUNTS: [(Corner, usize); 8] = [
     (Corner::Cancelling, 70),
 ];
 
-/// A pair and what the oracle says of it.
+/// A pair with the answers of the oracle.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
     pub(crate) corner: Corner,
     pub(crate) inputs: Inputs,
-    /// 22 digits, by quantity.
+    /// Answers with 22 digits, by quantity.
     pub(crate) answers: BTreeMap<String, String>,
-    /// By quantity: its relative change over a relative change of the inputs, summed over them.
+    /// Condition numbers by quantity: relative change over the relative change of an input, summed
+    /// over all inputs.
     pub(crate) conditions: BTreeMap<String, f64>,
 }
 
 impl Row {
-    /// The pair's row; `None` where the oracle finds no corner contact.
+    /// The row of a pair; `None` if the oracle finds no corner contact.
     pub(crate) fn of(corner: Corner, inputs: Inputs) -> Option<Row> {
         let (answers, conditions) = oracle::answers_with_conditions(&inputs)?;
         let short = |condition: f64| format!("{condition:.2e}").parse().expect("a number");
@@ -59,14 +59,14 @@ impl Row {
         Some(self.answers.get(key)?.parse().expect("a number"))
     }
 
-    /// How far a found value is off, relatively; from 0, absolutely.
+    /// The relative error of a found value; the absolute error from an answer of 0.
     pub(crate) fn off(&self, key: &str, found: f64) -> f64 {
         off(found, &number::decimal(&self.answers[key]))
     }
 }
 
-/// How far a found value is off, relatively; from 0, absolutely. What is not finite is off by 1 at
-/// least.
+/// The relative error of a found value; the absolute error from an answer of 0. A value that is not
+/// finite has an error of at least 1.
 pub(crate) fn off(found: f64, answer: &number::Big) -> f64 {
     if !found.is_finite() {
         return f64::INFINITY;
@@ -99,7 +99,7 @@ pub(crate) fn frozen() -> Vec<Row> {
         .collect()
 }
 
-/// Make the rows again, on two threads, and freeze them.
+/// Computes the rows again on two threads and freezes them.
 pub(crate) fn regenerate() {
     let rows: Vec<Row> = thread::scope(|scope| {
         let (first, second) = COUNTS.split_at(2);
@@ -119,7 +119,7 @@ pub(crate) fn regenerate() {
     std::fs::write(path(), written(&rows)).expect("the rows are written");
 }
 
-/// The first rows of a corner, always the same.
+/// The first rows of a corner, the same in every run.
 pub(crate) fn rows_of(corner: Corner, count: usize) -> Vec<Row> {
     let mut random = Random::new(corner as u64 + 1);
     let pairs = std::iter::repeat_with(|| envelope::pair(&mut random, corner));
@@ -189,7 +189,7 @@ fn read(row: &Value, keys: &[&str]) -> Row {
     }
 }
 
-/// A place in the inputs.
+/// A reference to a value of the inputs.
 enum LatestRequest<'a> {
     Count(&'a mut u32),
     Number(&'a mut f64),
@@ -215,7 +215,7 @@ impl LatestRequest<'_> {
     }
 }
 
-/// A number of the inputs: its name and its place.
+/// A number of the inputs: its name and its reference.
 type Field = (&'static str, fn(&mut Inputs) -> LatestRequest<'_>);
 
 /// Every number of the inputs that differs between rows.
@@ -304,7 +304,7 @@ const FIELDS: [Field; 30] = [
     ("backlash", |i| LatestRequest::Number(&mut i.backlash)),
 ];
 
-/// What is chosen from a list, in words.
+/// The choices of the inputs as text.
 fn choices(inputs: &Inputs) -> String {
     let drive = if matches!(inputs.drive, Drive::Power(_)) {
         "power"
@@ -321,7 +321,7 @@ fn choices(inputs: &Inputs) -> String {
     )
 }
 
-/// Inputs with these choices and no numbers yet.
+/// Inputs with these choices and default numbers.
 fn chosen(choices: &str) -> Inputs {
     let words: Vec<&str> = choices.split(' ').collect();
     let named = |contact: &ContactCompliance| contact.name() == words[3];

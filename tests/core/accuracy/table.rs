@@ -1,5 +1,5 @@
-//! The measured answer to "how stable is it": per quantity and decade of the deviation, printed
-//! formulas beside ours.
+//! The accuracy table: per quantity and decade of the deviation, the printed formulas and
+//! tipstrike.
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use super::rows::{self, Row};
 use crate::envelope::Corner;
 use crate::oracle;
 
-/// Symbols of the table and the keys of the quantities; S has none of its own.
+/// Symbols of the table and the keys of the quantities; S has no key.
 const QUANTITIES: [(&str, &str); 7] = [
     ("S", ""),
     ("u", "approach_angle_driven"),
@@ -28,7 +28,7 @@ const QUANTITIES: [(&str, &str); 7] = [
 /// Decades of Δ, in m.
 const DECADES: [i32; 12] = [-15, -14, -13, -12, -11, -10, -9, -8, -7, -6, -5, -4];
 
-/// Below this, an error is rounding, and one machine may differ from another.
+/// Errors below this are rounding and may differ between machines.
 const ROUNDING: f64 = 1e-16;
 
 /// Median and greatest relative error.
@@ -48,7 +48,7 @@ struct Line {
 /// The table.
 pub(crate) struct Table(Vec<Line>);
 
-/// The decade of a row's Δ.
+/// The decade of the Δ of a row.
 pub(crate) fn decade(row: &Row) -> i32 {
     row.answer("total_deviation")
         .expect("a deviation")
@@ -60,14 +60,13 @@ fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/core/accuracy/table.md")
 }
 
-/// Keep the table beside the rows.
+/// Stores the table beside the rows.
 pub(crate) fn freeze() {
     std::fs::write(path(), Table::made(&rows::frozen()).markdown()).expect("the table is written");
 }
 
 impl Table {
-    /// The table of the rows that lie anywhere in the envelope and in the fit, by the exact
-    /// position.
+    /// The table of the rows anywhere in the envelope and in the fit, by the exact position.
     pub(crate) fn made(rows: &[Row]) -> Table {
         let mut errors = vec![vec![Vec::new(); DECADES.len()]; 2 * QUANTITIES.len()];
         let plain = |row: &&Row| {
@@ -102,7 +101,7 @@ impl Table {
         )
     }
 
-    /// The table as it is kept.
+    /// The stored table.
     pub(crate) fn stored() -> Table {
         let text = std::fs::read_to_string(path()).expect("the stored table");
         Table(text.lines().skip(2).map(read_line).collect())
@@ -128,7 +127,7 @@ impl Table {
         text + "\n"
     }
 
-    /// Median errors of the naive formula and of ours.
+    /// Median errors of the printed formula and of tipstrike.
     pub(crate) fn median_at(&self, quantity: &str, decade: i32) -> (f64, f64) {
         let column = DECADES
             .iter()
@@ -145,7 +144,7 @@ impl Table {
         (of("naive"), of("tipstrike"))
     }
 
-    /// Whether each cell is of the same order of magnitude.
+    /// Checks that each cell has the same order of magnitude.
     pub(crate) fn agrees_with(&self, made: &Table) {
         assert_eq!(self.0.len(), made.0.len());
         for (stored, made) in self.0.iter().zip(&made.0) {
@@ -171,7 +170,7 @@ impl Table {
     }
 }
 
-/// Per quantity the error of the naive formula and of ours.
+/// Per quantity the error of the printed formula and of tipstrike.
 fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
     let naive = Naive::of(&row.inputs);
     let solution = solve(&row.inputs, Stages::CLOSED_FORM).expect("a solution");
@@ -207,7 +206,7 @@ fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
     errors
 }
 
-/// Median and greatest; what has no digit left is off by 1.
+/// Median and greatest error; a value without correct digits has an error of 1.
 fn cell(mut errors: Vec<f64>) -> Option<Cell> {
     for error in &mut errors {
         *error = error.min(1.0);

@@ -6,10 +6,10 @@ use tipstrike::model::inputs::Gear;
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::{Inputs, Solution};
 
-/// Gaps up to which a mesh is computed, in m.
+/// Greatest gap of the mesh, in m.
 const REACH: f64 = 4e-4;
 
-/// The mesh of a pair with so much more tip relief of the driven gear, in m.
+/// The mesh of a pair with additional tip relief of the driven gear, in m.
 fn mesh(inputs: &Inputs, solution: &Solution, relief: f64) -> Option<Mesh> {
     let driven = Gear {
         tip_relief: inputs.driven.tip_relief + relief,
@@ -24,14 +24,14 @@ fn mesh(inputs: &Inputs, solution: &Solution, relief: f64) -> Option<Mesh> {
     Some(mesh.ok()?.uncoupled())
 }
 
-/// The motion of the method `dynamic` without coupling.
+/// The motion by method `dynamic` without coupling.
 pub(crate) fn motion(inputs: &Inputs, solution: &Solution) -> Option<Dynamic> {
     let settings = Settings::of(inputs, solution.reduced_mass);
     dynamic(&mesh(inputs, solution, 0.0)?, &settings, &|_| true).ok()
 }
 
-/// The required additional tip relief without coupling, in m: the greatest of a grid of reliefs
-/// with which the tooth touches, refined.
+/// The required additional tip relief without coupling, in m: the greatest of a grid of reliefs at
+/// which the tooth touches, refined.
 pub(crate) fn required_relief(inputs: &Inputs, solution: &Solution) -> Option<f64> {
     const GRID: f64 = 2e-6;
     const MOST: i32 = 60;

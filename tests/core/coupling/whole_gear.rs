@@ -1,4 +1,4 @@
-//! A whole gear in plane strain by other finite elements than the program's: eight-node elements,
+//! A whole gear in plane strain with other finite elements than the program: eight-node elements,
 //! every sector condensed to its two cuts and all sectors joined in one ring, without harmonics and
 //! without the symmetry of a tooth.
 use std::collections::HashMap;
@@ -7,8 +7,8 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Point2, SMatrix, Vector
 use tipstrike::model::Outline;
 use tipstrike::model::outline::Piece;
 
-/// Elements across a tooth, up its fillet's lower and upper half and its flank, over half of a
-/// space, and from the root to the bore.
+/// Number of elements across a tooth; then along the lower and upper half of its fillet and along
+/// its flank, over half of a space, and from the root to the bore.
 const ACROSS: usize = 6;
 const LOW: usize = 3;
 const HIGH: usize = 3;
@@ -24,23 +24,23 @@ pub(crate) struct WholeGear {
     poisson: f64,
     bore: f64,
     places: Vec<Point2<f64>>,
-    /// Nodes of the flank that the force pushes, from the root to the tip.
+    /// Nodes of the loaded flank, from the root to the tip.
     flank: Vec<usize>,
-    /// Where the free components of each node are among the inner ones.
+    /// Indices of the free components of each node among the inner components.
     inner: HashMap<usize, usize>,
     factored: Cholesky<f64, Dyn>,
-    /// From the cuts' components to the inner ones.
+    /// Transformation from the components of the cuts to the inner components.
     to_cuts: DMatrix<f64>,
     ring: Cholesky<f64, Dyn>,
 }
 
 /// A unit force on the flank of one tooth, or the displacement along its line.
 pub(crate) struct Line {
-    /// Its components, inner ones alone.
+    /// Its inner components.
     vector: DVector<f64>,
-    /// The inner displacements that it causes while the cuts are held.
+    /// The inner displacements that it causes with fixed cuts.
     held: DVector<f64>,
-    /// The force that it passes on to the cuts.
+    /// The force that it transmits to the cuts.
     passed: DVector<f64>,
 }
 
@@ -75,7 +75,7 @@ impl WholeGear {
         for (node, at) in &inner {
             (columns[*at], columns[at + 1]) = (2 * node, 2 * node + 1);
         }
-        // Radial and tangential components, which both neighbours of a cut have in common.
+        // Radial and tangential components are common to both neighbours of a cut.
         let count = 2 * cuts[0].len();
         let mut turn = DMatrix::zeros(stiffness.nrows(), 2 * count);
         for (at, &node) in cuts.iter().flatten().enumerate() {
@@ -133,7 +133,7 @@ impl WholeGear {
     }
 
     /// Displacement along one line by the force on another, which acts `pitches` further
-    /// anticlockwise; the force pushes clockwise. The twist of the body is left out.
+    /// anticlockwise; the force pushes clockwise. Without the twist of the body.
     pub(crate) fn displacement(&self, measured: &Line, loaded: &Line, pitches: i32) -> f64 {
         let count = loaded.passed.len() / 2;
         let mut force = DVector::zeros(self.sectors * count);
@@ -168,7 +168,7 @@ impl WholeGear {
         circles.base * circles.base * (1.0 + self.poisson) / std::f64::consts::TAU * rest
     }
 
-    /// Into the tooth and clockwise, with the base radius for an arm.
+    /// Into the tooth and clockwise, with the base radius as lever arm.
     fn force_at(&self, radius: f64) -> Vector2<f64> {
         let place = self.place_at(radius);
         let along = place.coords / radius;
@@ -184,7 +184,7 @@ impl WholeGear {
         })
     }
 
-    /// The three nodes of the flank's edge at a radius, with the shares of a place there.
+    /// The three nodes of the edge of the flank at a radius, with their shape functions.
     fn shares(&self, radius: f64) -> [(usize, f64); 3] {
         let radius_of = |at: usize| self.places[self.flank[at]].coords.norm();
         let edge = (0..FLANK)
@@ -240,7 +240,7 @@ impl Mesh {
         node
     }
 
-    /// The nodes of every element: corners, then the middles of the edges.
+    /// The nodes of every element: corners, then midpoints of the edges.
     fn elements(&mut self) -> Vec<[usize; 8]> {
         const PLACES: [(usize, usize); 8] = [
             (0, 0),
@@ -268,7 +268,7 @@ impl Mesh {
         elements
     }
 
-    /// A place of the tooth, in half elements across (clockwise flank first) and up.
+    /// A point of the tooth, in half elements across (clockwise flank first) and up.
     fn tooth(&self, across: usize, up: usize) -> Point2<f64> {
         let edge = if up <= 2 * HIGH {
             self.outline
@@ -280,7 +280,7 @@ impl Mesh {
         Point2::new(edge.x, edge.y * (across as f64 / ACROSS as f64 - 1.0))
     }
 
-    /// A place of the body, in half elements around (clockwise cut first) and up from the bore.
+    /// A point of the body, in half elements around (clockwise cut first) and up from the bore.
     fn rim(&self, around: usize, up: usize) -> Point2<f64> {
         let top = self.top(around);
         let angle = top.y.atan2(top.x);
@@ -297,7 +297,7 @@ impl Mesh {
         }
         let (profile, side) = (self.outline.profile(), 2 * (LOW + SPACE));
         let [from, to] = [profile.half_pitch(), profile.root_half_angle()];
-        // Two fillets may leave nothing of the root circle.
+        // Two fillets may leave no part of the root circle.
         let land = if from - to > 1e-3 * from {
             2 * SPACE
         } else {
@@ -333,7 +333,7 @@ fn assembled(places: &[Point2<f64>], elements: &[[usize; 8]], poisson: f64) -> D
     all
 }
 
-/// Stiffness of an eight-node element in plane strain by nine points.
+/// Stiffness of an eight-node element in plane strain with nine integration points.
 fn element(places: &[Point2<f64>; 8], poisson: f64) -> SMatrix<f64, 16, 16> {
     let scale = 1.0 / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     let (own, other, shear) = (1.0 - poisson, poisson, 0.5 - poisson);
@@ -366,7 +366,7 @@ fn element(places: &[Point2<f64>; 8], poisson: f64) -> SMatrix<f64, 16, 16> {
     stiffness
 }
 
-/// Slopes of the shares of the eight nodes.
+/// Derivatives of the eight shape functions.
 fn slopes(x: f64, y: f64) -> [Vector2<f64>; 8] {
     let corner = |a: f64, b: f64| {
         Vector2::new(

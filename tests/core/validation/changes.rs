@@ -1,4 +1,4 @@
-//! What inertia, elastic field and coupling change in three pairs.
+//! The effect of inertia, elastic field and coupling in three pairs.
 
 use std::fmt::Write as _;
 
@@ -52,7 +52,7 @@ impl Found {
         cells.join(" | ")
     }
 
-    /// The change from another one to this one, in %.
+    /// The change from `from` to this result, in %.
     fn change(&self, from: &Found) -> String {
         let mut cells = Vec::new();
         for (to, from) in self.0.iter().zip(from.0) {

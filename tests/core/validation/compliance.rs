@@ -1,4 +1,4 @@
-//! The other tooth compliances against the elastic field.
+//! The other tooth compliances compared with the elastic field.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ use crate::support::standard_pair;
 
 const FRACTIONS: [f64; 6] = [0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
 
-/// The gears of `tests/reference/field/teeth.json`, each with its equal.
+/// The gears of `tests/reference/field/teeth.json`, each paired with an equal gear.
 fn gears() -> Vec<Inputs> {
     let rows: Vec<Value> =
         serde_json::from_str(include_str!("../../reference/field/teeth.json")).unwrap();
@@ -96,7 +96,7 @@ pub(super) fn section() -> String {
     text
 }
 
-/// Bodies with r_f/r_h from 2 to 5 and a tooth within the range of the foundation, or nearly.
+/// Bodies with r_f/r_h from 2 to 5 and a tooth within or close to the range of the foundation.
 #[test]
 fn the_beam_is_up_to_22_percent_softer_than_the_field_where_its_foundation_is_fitted() {
     let mut seen = 0;

@@ -1,4 +1,4 @@
-//! The published figures and what the program computes for them.
+//! The published figures and the values that the program computes for them.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -30,8 +30,8 @@ fn by(inputs: &Inputs, method: Method, key: &str) -> Option<f64> {
     value(&solved(inputs, method)?, key)
 }
 
-/// Mesh stiffness F_0/x of the load at rest at each station: way since E over the base pitch, and
-/// the stiffness in N/um.
+/// Mesh stiffness F_0/x of the load at rest at each station: distance from E over the base pitch,
+/// and the stiffness in N/um.
 fn mesh_stiffness(inputs: &Inputs) -> Option<Vec<(f64, f64)>> {
     let inputs = Inputs {
         stations: Some(512),
@@ -63,7 +63,7 @@ fn greatest_stiffness(inputs: &Inputs) -> Option<f64> {
         .max_by(f64::total_cmp)
 }
 
-/// Stiffness per width of the pair at the pitch point, where it carries alone, in N/(um mm).
+/// Stiffness per unit width of the pair at the pitch point, in single-tooth contact, in N/(um mm).
 fn single_stiffness(inputs: &Inputs) -> Option<f64> {
     let geometry = geometry::<f64>(&inputs.shape()).ok()?;
     let way = geometry.approach_length / geometry.base_pitch;
@@ -85,7 +85,7 @@ fn teeth_alone(inputs: &Inputs, place: impl Fn(&Geometry) -> f64) -> Option<f64>
     Some(1e9 * (teeth.at(&at).ok()?.sum() + twists))
 }
 
-/// Dynamic factor of one tooth under the light load of the source, at a speed in rpm.
+/// Dynamic factor of one tooth under the small load of the source, at a speed in rpm.
 fn light_factor(inputs: &Inputs, speed: f64) -> Option<f64> {
     let inputs = Inputs {
         drive: Drive::Torque(381.97e-4),
@@ -103,7 +103,7 @@ fn dynamic_factor(inputs: &Inputs) -> Option<f64> {
     Some(value(&solution, "dynamic_peak_force")? / value(&solution, "static_peak_force")?)
 }
 
-/// The same at the speed at which a tooth passes in the period of the mesh.
+/// The dynamic factor at the speed at which one tooth passes in the period of the mesh.
 fn resonant_factor(inputs: &Inputs) -> Option<f64> {
     let solution = solved(inputs, Method::Static)?;
     let frequency = (value(&solution, "mesh_stiffness")? / solution.reduced_mass).sqrt();
@@ -113,7 +113,7 @@ fn resonant_factor(inputs: &Inputs) -> Option<f64> {
     })
 }
 
-/// Mean number of pairs that carry at rest.
+/// Mean number of loaded pairs at rest.
 fn loaded_pairs(inputs: &Inputs) -> Option<f64> {
     let solution = solved(inputs, Method::Static)?;
     let geometry = solution.geometry;
@@ -122,7 +122,7 @@ fn loaded_pairs(inputs: &Inputs) -> Option<f64> {
     Some(geometry.contact_ratio + (before + after) / geometry.base_pitch)
 }
 
-/// Force of the incoming pair per width where it is at a radius of the driver, in N/mm.
+/// Force of the incoming pair per unit width at a contact radius of the driver, in N/mm.
 fn force_at_radius(inputs: &Inputs, radius: f64) -> Option<f64> {
     let inputs = Inputs {
         stations: Some(512),
@@ -410,7 +410,7 @@ pub(super) const SOURCES: &[Source] = &[
     },
 ];
 
-/// The stiffness of pairs against ISO 6336-1.
+/// The stiffness of pairs compared with ISO 6336-1.
 pub(super) fn iso_table() -> String {
     let names: Vec<&str> = ToothCompliance::ALL.map(ToothCompliance::name).into();
     let mut text = format!(
