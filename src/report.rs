@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn plain_notation_where_it_can_be_read_and_an_exponent_elsewhere() {
+    fn numbers_have_plain_notation_in_a_readable_range_and_an_exponent_outside() {
         assert_eq!(text(0.001_234_56, "N", 3), "0.00123 N");
         assert_eq!(text(0.000_999_4, "N", 3), "9.99e-4 N");
         assert_eq!(text(0.000_999_6, "N", 3), "0.00100 N");

@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn a_case_is_told_in_a_few_lines() {
+    fn a_digest_summarizes_a_case_in_a_few_lines() {
         let digest = digest(&[]);
         assert_eq!(
             (digest.pair.as_str(), digest.load.as_str()),
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_that_is_exceeded_and_a_tooth_that_does_not_strike_are_said() {
+    fn a_digest_reports_exceeded_limits_and_missing_contact() {
         assert_eq!(
             digest(&[("limits.impact_force", "2 kN")]).verdict(),
             "corner contact: 2191.0 N; 1 of 1 limit EXCEEDED"
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tooth_that_the_load_at_rest_alone_would_bring_in_early_is_told_without_contradiction() {
+    fn a_digest_is_consistent_if_only_the_load_at_rest_causes_early_contact() {
         let in_motion = digest(&[("model.method", "dynamic"), ("driven.tip_relief", "39 um")]);
         assert!(
             in_motion.outcome.starts_with(
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn each_method_tells_its_own_force() {
+    fn a_digest_shows_the_force_of_the_method() {
         let forces =
             ["static", "dynamic", "auto"].map(|method| digest(&[("model.method", method)]));
         assert_eq!(
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refusal_is_the_verdict() {
+    fn a_refusal_is_the_outcome_of_a_digest() {
         let digest = digest(&[("driven.addendum", "1.9")]);
         assert!(
             digest.outcome.starts_with("Not solved: ")

@@ -132,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_quantity_stands_in_one_group() {
+    fn every_quantity_is_in_one_group() {
         for method in Method::ALL {
             let mut keys: Vec<_> = quantities(method).map(|quantity| quantity.key).collect();
             keys.sort_unstable();
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_method_tells_its_own_first_and_the_closed_form_last() {
+    fn groups_begin_with_the_last_stage_and_end_with_the_closed_form() {
         for (method, first) in [
             (Method::Exact, Stage::Geometry),
             (Method::Static, Stage::Static),

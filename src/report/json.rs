@@ -172,7 +172,7 @@ mod tests {
     use crate::report::Selection;
 
     #[test]
-    fn a_value_that_is_no_number_is_absent_and_a_note_says_so() {
+    fn json_omits_a_value_that_is_no_number_and_adds_a_note() {
         let case = Case::table_1();
         let inputs = case.inputs().unwrap();
         let mut solution = solve(&inputs, Stages::ALL).unwrap();
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_terminal_would_obey_is_escaped_and_reads_back_the_same() {
+    fn control_characters_are_escaped_and_parse_to_the_same_text() {
         let text = "a\u{1b}[2J\u{7f}\u{9b}\u{202e}\u{e0041}\"\\\n é";
         let mut out = Vec::new();
         write_line(&text, &mut out).unwrap();

@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn the_run_down_jumps_where_it_is_another_motion() {
+    fn the_run_down_jumps_where_its_motion_differs() {
         let up = [
             Some((1.2, false)),
             Some((2.0, false)),

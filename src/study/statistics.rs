@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_values_and_a_single_one_have_figures_without_nan() {
+    fn equal_values_and_a_single_value_have_figures_without_nan() {
         for values in [vec![3.0], vec![3.0; 7]] {
             let found = figures(values.iter().copied(), 10).unwrap();
             assert_eq!(found.histogram.len(), 1);

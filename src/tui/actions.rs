@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_type_in_a_text_and_command_nowhere_there() {
+    fn letters_are_text_and_not_commands_inside_a_field() {
         for letter in ('a'..='z').chain(['?', ' ', 'Q', ':', '/', '1']) {
             for place in [Place::TEXT, Place::PATH, Place::PICK] {
                 assert!(

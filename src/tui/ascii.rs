@@ -175,7 +175,7 @@ mod tests {
     use ratatui::layout::Rect;
 
     #[test]
-    fn what_controls_or_hides_is_shown_as_a_mark() {
+    fn control_and_invisible_characters_are_shown_as_marks() {
         for hostile in [
             "\u{1b}[2J",
             "\u{9b}2J",

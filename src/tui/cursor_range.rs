@@ -267,7 +267,7 @@ mod tests {
     };
 
     #[test]
-    fn the_first_key_brings_the_cursor_to_d() {
+    fn the_first_key_moves_the_cursor_to_d() {
         assert!(REACH.moved(None, 1) == 0.024 && REACH.moved(None, -10) == 0.024);
     }
 

@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_of_letters_is_taken_as_one() {
+    fn a_run_of_letters_becomes_one_action() {
         let mut inputs = keys(&"16 um".chars().map(KeyCode::Char).collect::<Vec<_>>())
             .into_iter()
             .peekable();

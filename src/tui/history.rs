@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn every_state_comes_back_whole_and_in_turn() {
+    fn undo_restores_every_state_in_order() {
         let states = states();
         let (mut history, last) = (History::default(), states.len() - 1);
         for (focus, state) in states[..last].iter().enumerate() {
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_state_takes_no_more_than_what_it_says_otherwise() {
+    fn a_state_stores_only_its_difference() {
         let mut history = History::default();
         let mut case = Case::table_1();
         for number in 0..1000 {

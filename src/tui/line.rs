@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_typed_replaces_what_is_selected_and_a_move_keeps_it() {
+    fn typing_replaces_the_selection_and_a_move_keeps_the_text() {
         for (requests, text) in [
             (&[][..], "μ/x.toml"),
             (&[DeletePrevChar], "μ/x.toml"),

@@ -204,7 +204,7 @@ mod tests {
     use crate::tui::theme::{MONO, QUIET};
 
     #[test]
-    fn what_is_not_known_here_stays_in_the_file() {
+    fn unknown_settings_remain_in_the_file() {
         let old =
             "# mine\nlater = 3\nmarker = \"dot\" # small\nmouse = false\n\n[future]\nkey = 1\n";
         let settings = Settings {
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn every_setting_comes_back() {
+    fn every_setting_is_saved_and_read() {
         for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
             for (units, ascii) in [
                 (System::Metric, false),
@@ -287,13 +287,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_toml_is_not_written_over() {
+    fn invalid_toml_is_not_overwritten() {
         assert_eq!(Settings::parse("no toml ["), Settings::default());
         assert!(Settings::default().render("no toml [").is_err());
     }
 
     #[test]
-    fn a_theme_of_the_settings_gives_way_to_no_color() {
+    fn no_color_overrides_the_theme_of_the_settings() {
         let settings = Settings {
             theme: Some(ThemeName::Quiet),
             ..Settings::default()

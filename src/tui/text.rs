@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_says_that_it_is_one() {
+    fn a_cut_text_has_a_mark() {
         assert_eq!(cut("combined deflection", 10), "combined …");
         assert_eq!(cut("module", 6), "module");
         assert_eq!(cut("module", 0), "");

@@ -251,7 +251,7 @@ fn a_missing_value_is_reported_at_its_key_its_table_or_the_end() {
 }
 
 #[test]
-fn a_file_with_nothing_in_it_lacks_all_that_a_case_needs() {
+fn an_empty_file_lacks_every_required_value() {
     for text in ["", "\u{feff}", "\n\n", "# a comment"] {
         let found = faults(text);
         let fields: Vec<&str> = found.iter().map(|fault| fault.field.as_str()).collect();
@@ -273,7 +273,7 @@ fn a_file_with_nothing_in_it_lacks_all_that_a_case_needs() {
 }
 
 #[test]
-fn all_faults_come_in_one_run_in_the_order_of_the_places() {
+fn one_run_reports_all_faults_in_their_order_in_the_file() {
     let text = GOOD
         .replacen(MODULE, "module = 5 mm", 1)
         .replacen("teeth = 20", "teeth = 20.5", 1)

@@ -62,7 +62,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn every_case_is_valid_says_its_source_and_has_limits() {
+fn every_case_is_valid_names_its_source_and_has_limits() {
     for (path, text) in cases() {
         let document = Document::read(&path).unwrap_or_else(|error| panic!("{error}"));
         assert!(document.case.inputs().is_ok(), "{}", path.display());
@@ -76,7 +76,7 @@ fn every_case_is_valid_says_its_source_and_has_limits() {
 }
 
 #[test]
-fn the_collection_has_what_its_files_say() {
+fn the_cases_have_the_features_that_their_files_state() {
     let solved = |name: &str| {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("cases")
@@ -184,7 +184,7 @@ fn a_title_of_two_lines_keeps_the_comments_of_a_file_with_other_line_ends() {
 }
 
 #[test]
-fn a_field_that_is_taken_out_goes_with_its_own_comment_only() {
+fn removing_a_field_removes_only_its_own_comment() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "model.deflection", "");
     let line = "deflection = \"24.7 um\" # as the paper takes it from its reference 20\n";
@@ -199,7 +199,7 @@ fn a_field_that_is_taken_out_goes_with_its_own_comment_only() {
 }
 
 #[test]
-fn a_new_field_goes_to_its_place_in_its_table() {
+fn a_new_field_is_inserted_at_its_place_in_its_table() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "pair.centre_distance", "101 mm");
     write(&mut document, "operation.friction_coefficient", "0.06");
@@ -218,7 +218,7 @@ fn a_new_field_goes_to_its_place_in_its_table() {
 }
 
 #[test]
-fn a_new_table_goes_to_the_end_whatever_ends_the_file() {
+fn a_new_table_is_appended_to_any_file() {
     let short = TABLE_1.split("[limits]").next().unwrap().trim_end();
     for (text, line_end) in [
         (short.to_owned(), "\n"),
@@ -300,7 +300,7 @@ fn changed_variants_are_edited_in_place_and_keep_their_comments() {
 }
 
 #[test]
-fn a_new_variant_goes_to_the_end_and_leaves_the_rest_alone() {
+fn a_new_variant_is_appended_without_other_changes() {
     let mut document = parsed(TABLE_1);
     let mut edited = document.case.clone();
     edited.set("model.deflection", "").unwrap();
@@ -331,7 +331,7 @@ fn a_new_document_is_a_commented_text_with_every_field() {
 }
 
 #[test]
-fn a_draft_takes_its_values_in_their_places_and_may_be_saved_half_written() {
+fn a_draft_gets_its_values_in_place_and_may_be_saved_incomplete() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("draft.toml");
     let mut draft = Document::new(Case::fresh());
@@ -387,7 +387,7 @@ fn a_field_that_a_new_document_shows_as_a_comment_is_written_into_its_table() {
 }
 
 #[test]
-fn what_is_not_valid_is_saved_as_typed() {
+fn invalid_text_is_saved_as_typed() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "driver.teeth", "twenty");
     write(&mut document, "pair.module", "5");
@@ -549,7 +549,7 @@ fn unreadable_files_are_distinguished() {
 }
 
 #[test]
-fn a_read_only_file_is_refused_and_left_as_it_is() {
+fn a_read_only_file_is_refused_and_not_changed() {
     let (folder, path) = on_disk();
     fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();
     let error = changed(&path).save(&path).unwrap_err();
@@ -575,7 +575,7 @@ fn a_folder_that_cannot_be_written_leaves_file_and_changes() {
 }
 
 #[test]
-fn what_someone_else_wrote_is_not_overwritten_unasked() {
+fn changes_by_other_programs_are_not_overwritten_without_a_question() {
     let (folder, path) = on_disk();
     let mut document = changed(&path);
     let (time, same_length) = (

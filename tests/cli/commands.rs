@@ -119,7 +119,7 @@ fn json_stations_run_from_d_to_e() {
 }
 
 #[test]
-fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
+fn an_absent_value_is_omitted_and_the_outcome_gives_the_reason() {
     let on_time = [
         "--set",
         "deviations.base_pitch=0 um",
@@ -154,7 +154,7 @@ fn a_selected_quantity_without_a_value_gives_the_reason() {
 }
 
 #[test]
-fn the_outcome_is_the_methods_own_whatever_is_asked_for() {
+fn the_outcome_does_not_depend_on_the_requested_quantities() {
     // Between the relief that prevents corner contact by the printed equations, 61.8 um, and Δ = 0
     // by Eq. 1 as printed, 66.9 um.
     let relieved = [
@@ -213,7 +213,7 @@ fn only_requested_quantities_are_computed_and_printed() {
 }
 
 #[test]
-fn an_unknown_quantity_is_wrong_usage_and_the_right_name_is_near() {
+fn an_unknown_quantity_is_wrong_usage_and_gets_a_suggestion() {
     let output = run(&["solve", TABLE_1, "--only", "impact_forc"]);
     assert_eq!((code(&output), out(&output).as_str()), (2, ""));
     assert!(
@@ -314,7 +314,7 @@ fn standard_input_is_a_case() {
 }
 
 #[test]
-fn several_cases_are_an_object_a_line_and_a_bad_one_stops_no_other() {
+fn several_cases_give_one_object_per_line_and_an_invalid_one_stops_no_other() {
     let (_folder, bad) = changed("teeth = 20", "teeth = \"many\"");
     let output = run(&[
         "solve",
@@ -463,7 +463,7 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
 }
 
 #[test]
-fn a_refused_case_says_of_each_limit_that_it_cannot_be_computed() {
+fn a_refused_case_reports_each_limit_as_not_computable() {
     let (_folder, path) = changed(
         "module = \"5 mm\"",
         "module = \"5 mm\"\ncentre_distance = \"80 mm\"",
@@ -520,7 +520,7 @@ fn a_check_is_a_verdict_a_line() {
 }
 
 #[test]
-fn json_says_which_quantities_are_of_the_free_impact() {
+fn json_marks_the_quantities_of_the_free_impact() {
     for (method, of) in [
         ("exact", Value::Null),
         ("static", "free-impact".into()),
@@ -626,7 +626,7 @@ fn the_printed_relief_prevents_contact_and_a_little_less_does_not() {
 }
 
 #[test]
-fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
+fn the_page_of_a_result_by_auto_shows_the_chosen_tolerance() {
     let page = stdout_of(&["explain", "dynamic_peak_force", TABLE_1, "--method", "auto"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(page.contains("method dynamic, chosen by auto"), "{page}");
@@ -690,7 +690,7 @@ fn a_bad_case_outranks_an_exceeded_limit() {
 }
 
 #[test]
-fn a_limit_holds_where_no_tooth_strikes() {
+fn a_limit_is_met_where_no_tooth_strikes() {
     let (_folder, path) = changed("base_pitch = \"16 um\"", "base_pitch = \"-50 um\"");
     assert_eq!(
         stdout_of(&["check", &path]),
@@ -1009,7 +1009,7 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
 }
 
 #[test]
-fn what_cannot_be_explained_is_refused_as_a_solve_is() {
+fn an_unexplainable_quantity_is_refused_as_by_solve() {
     for (arguments, exit, says) in [
         (
             &["explain", "impact_forc"][..],
@@ -1079,7 +1079,7 @@ fn a_trade_names_the_cheapest_setting_that_will_do() {
 }
 
 #[test]
-fn a_trade_that_cannot_be_made_says_why() {
+fn an_impossible_trade_reports_the_reason() {
     for within in ["0", "-5%", "five", "nan"] {
         let output = run(&["trade", TABLE_1, "--within", within]);
         assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{within}");
@@ -1132,7 +1132,7 @@ fn help_and_version_are_results_and_wrong_usage_is_not() {
 }
 
 #[test]
-fn a_reader_that_goes_away_ends_the_program_quietly() {
+fn a_closed_reader_ends_the_program_without_a_message() {
     let mut child = program(&["solve", TABLE_1, "--stations", "10000", "--format", "csv"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -113,7 +113,7 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
 }
 
 #[test]
-fn cases_and_variants_stand_side_by_side_with_differences_and_units() {
+fn cases_and_variants_are_compared_with_differences_and_units() {
     let (_folder, case) = case();
     let only = [
         "--only",
@@ -141,7 +141,7 @@ fn cases_and_variants_stand_side_by_side_with_differences_and_units() {
 }
 
 #[test]
-fn an_input_without_a_symbol_has_its_label_where_labels_have_no_room() {
+fn an_input_without_a_symbol_has_its_label_where_labels_do_not_fit() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("gear.toml");
     let variants = "[variants.method]\nmodel.method = \"paper\"\n\

@@ -368,7 +368,7 @@ fn no_line_is_wider_than_asked_for() {
 }
 
 #[test]
-fn a_step_of_a_field_does_what_a_solve_says() {
+fn a_step_of_a_field_changes_the_result_as_a_solve_does() {
     let page = page("zhou", "impact_force", &[]);
     let of = |key: &str| {
         page.effects
@@ -404,7 +404,7 @@ fn a_step_of_a_field_does_what_a_solve_says() {
 }
 
 #[test]
-fn a_quantity_without_a_value_says_why() {
+fn an_absent_quantity_has_a_reason() {
     let relieved = page("tip-relief-enough", "impact_force", &[]);
     assert!(
         relieved

@@ -250,7 +250,7 @@ fn zipped(files: &[(&str, usize)]) -> Vec<u8> {
 }
 
 #[test]
-fn import_writes_a_new_file_and_solve_takes_a_model_as_it_is() {
+fn import_writes_a_new_file_and_solve_reads_a_model_directly() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("case.toml");
     let out = out.to_str().unwrap();

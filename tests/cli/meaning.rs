@@ -49,7 +49,7 @@ fn the_modification_is_printed_by_every_method_and_means_the_same() {
 }
 
 #[test]
-fn an_equivalent_error_without_the_reliefs_is_called_so() {
+fn an_equivalent_error_without_the_reliefs_is_named_so() {
     for (method, row) in [
         ("paper", "Δf equivalent error 12.021 um"),
         ("exact", "Δf equivalent error 7.6274 um"),
@@ -92,7 +92,7 @@ fn an_equivalent_error_without_the_reliefs_is_called_so() {
 }
 
 #[test]
-fn an_explanation_says_what_holds_in_its_method() {
+fn an_explanation_describes_its_method() {
     let strikes = "Above 0 the tip strikes before E";
     for (method, holds) in [
         ("paper", false),
@@ -124,7 +124,7 @@ fn an_explanation_says_what_holds_in_its_method() {
 }
 
 #[test]
-fn a_limit_that_has_no_value_is_not_held_and_says_why() {
+fn a_limit_on_an_absent_value_is_not_met_and_has_a_reason() {
     let output = run(&["check", TABLE_1, "--set", "limits.dynamic_peak_force=2 kN"]);
     let page = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(1));
@@ -256,7 +256,7 @@ fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
 }
 
 #[test]
-fn a_command_line_that_makes_no_sense_is_refused_in_one_line() {
+fn a_contradictory_command_line_is_refused_in_one_line() {
     for (arguments, exit, says) in [
         (
             &["slove", TABLE_1][..],
@@ -319,7 +319,7 @@ fn a_command_line_that_makes_no_sense_is_refused_in_one_line() {
 }
 
 #[test]
-fn the_printed_equations_say_what_they_miss() {
+fn the_printed_equations_have_a_note_on_their_error() {
     let page = relieved("paper", &["solve", TABLE_1]);
     assert!(
         page.contains("the printed equations leave the gap open: at D the tip has closed 0.0"),
@@ -396,7 +396,7 @@ fn headlines(solution: &Solution) -> Vec<String> {
 /// Every number of every case without an effect on the most important results has a reason in each
 /// method.
 #[test]
-fn a_field_that_moves_nothing_says_why() {
+fn a_field_without_effect_has_a_reason() {
     let mut silent = Vec::new();
     for (method, example) in METHODS[..4].iter().flat_map(|method| {
         EXAMPLES
@@ -444,7 +444,7 @@ fn a_field_that_moves_nothing_says_why() {
 }
 
 #[test]
-fn a_given_deflection_is_said_to_keep_the_load_out() {
+fn a_note_reports_that_a_given_deflection_replaces_the_load() {
     let note = "the deflection of 24.70 um is given: power and torque change only F_0";
     for (method, says) in [
         ("paper", true),

@@ -44,7 +44,7 @@ fn every_chart_and_the_teeth_are_well_formed_pictures() {
 }
 
 #[test]
-fn a_chart_names_axes_with_units_and_the_legend_lies_below_the_field() {
+fn a_chart_has_axes_with_units_and_a_legend_below_the_field() {
     let picture = stdout_of(&["plot", TABLE_1, "--chart", "gap"]);
     for text in [
         "Gap S, µm",
@@ -273,7 +273,7 @@ fn texts_of_a_case_are_harmless_in_a_page_and_in_a_picture() {
 }
 
 #[test]
-fn an_unknown_ending_is_refused_and_a_bad_case_is_left_out() {
+fn an_unknown_extension_is_refused_and_an_invalid_case_is_omitted() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let pdf = run(&["report", TABLE_1, "--out", &path("a.pdf")]);

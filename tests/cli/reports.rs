@@ -26,7 +26,7 @@ fn report(path: &Path, selection: Selection) -> Report {
 }
 
 #[test]
-fn every_case_reads_as_it_did() {
+fn the_report_of_every_case_is_unchanged() {
     for path in toml_files("cases") {
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
         insta::assert_snapshot!(
@@ -55,7 +55,7 @@ fn no_line_is_wider_than_80_columns() {
 const CLOSE: f64 = 1e-10;
 
 #[test]
-fn json_tells_the_reference_answers() {
+fn json_contains_the_reference_answers() {
     for path in toml_files("tests/reference/solve") {
         let mut line = Vec::new();
         json::write(&report(&path, Selection::default()), &mut line).unwrap();

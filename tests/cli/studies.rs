@@ -477,7 +477,7 @@ fn a_sweep_explains_a_column_that_its_methods_do_not_compute() {
 }
 
 #[test]
-fn refused_points_with_one_reason_take_one_line_whatever_its_numbers() {
+fn refused_points_with_one_reason_share_one_line() {
     let vary = ["--vary", "pair.module=0.5..5 mm", "--points", "200"];
     let (code, rows, errors) = printed(&[&["sweep", TABLE_1][..], &vary].concat());
     let refused = rows.lines().filter(|row| row.ends_with("refused")).count();

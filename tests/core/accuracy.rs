@@ -219,7 +219,7 @@ fn table_of_errors_is_the_stored_one() {
 }
 
 #[test]
-fn naive_forms_lose_digits_where_ours_keep_them() {
+fn printed_forms_lose_digits_and_tipstrike_does_not() {
     let made = table::Table::made(&rows::frozen());
     for quantity in ["S", "u", "ΔV_n", "F_S"] {
         let (naive, ours) = made.median_at(quantity, -12);

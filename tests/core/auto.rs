@@ -42,7 +42,7 @@ fn counts(solution: &Solution) -> (f64, f64) {
 }
 
 #[test]
-fn over_the_cases_it_takes_the_method_that_a_trade_recommends_at_its_cost() {
+fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
     let mut dearer = Vec::new();
     let traded = table::cases().into_iter().zip(table::traded_once());
     for ((path, (name, trade)), within) in
@@ -136,7 +136,7 @@ fn off(inputs: &Inputs, method: Method, truth: &Answer) -> Option<f64> {
 }
 
 #[test]
-fn over_other_pairs_it_is_never_wrong_and_seldom_takes_more_than_it_needs() {
+fn auto_is_never_wrong_on_other_pairs_and_seldom_too_expensive() {
     let count: u64 =
         std::env::var("TIPSTRIKE_PAIRS").map_or(60, |count| count.parse().expect("a count"));
     let mut agreed = [0; WITHINS.len()];

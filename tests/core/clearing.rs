@@ -98,7 +98,7 @@ fn rattles(solution: &Solution) -> bool {
 }
 
 #[test]
-fn the_least_relief_stops_it_and_less_does_not_whatever_its_shape_and_length() {
+fn the_required_relief_prevents_contact_and_less_does_not_for_any_shape_and_length() {
     let mut striking = [0; METHODS.len()];
     for (name, inputs) in examples() {
         let pitch = solve(&inputs, Stages::of(Stage::Geometry))

@@ -457,7 +457,7 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
 
 /// The note on a compliance without coupling states the range over the cases in `cases/`.
 #[test]
-fn the_cost_of_no_coupling_is_what_the_note_states() {
+fn the_error_without_coupling_is_as_the_note_states() {
     let mut changes = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
     for path in crate::table::cases() {
         let inputs = Inputs {

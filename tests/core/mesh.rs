@@ -229,7 +229,7 @@ fn friction_work_of_a_vanishing_coefficient_is_the_integral_of_force_and_sliding
 }
 
 #[test]
-fn whether_the_tooth_strikes_is_what_the_last_method_says() {
+fn the_tooth_strikes_if_the_reference_has_a_first_contact() {
     for row in rows() {
         let strikes = row.answer("dynamic_first_contact_angle").is_some();
         let solution = row.solved(1e-6);

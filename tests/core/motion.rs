@@ -111,7 +111,7 @@ fn plain_peak(inputs: &Inputs, solution: &Solution, steps: u32) -> f64 {
 }
 
 #[test]
-fn plain_steps_come_to_the_same_peak() {
+fn fixed_steps_give_the_same_peak() {
     for name in ["zhou-chen-2014", "nasa-lewis-28-28", "high-contact-ratio"] {
         let inputs = Inputs {
             tolerance: 1e-10,
@@ -161,7 +161,7 @@ fn the_error_falls_with_the_tolerance_and_the_effort_grows_slowly() {
 /// The end of the first impact depends on the force and not on the integration steps: neither their
 /// length nor rounding at their borders changes it.
 #[test]
-fn the_first_impact_ends_when_it_does_whatever_the_tolerance() {
+fn the_end_of_the_first_impact_does_not_depend_on_the_tolerance() {
     let text = r#"
         format = 1
         pair = { module = "1.5 mm", pressure_angle = "20 deg" }
@@ -212,7 +212,7 @@ fn the_first_impact_ends_when_it_does_whatever_the_tolerance() {
 }
 
 #[test]
-fn a_warm_up_that_repeats_itself_is_not_run_on_and_changes_nothing() {
+fn a_periodic_warm_up_ends_early_without_a_change() {
     let run = |damping_ratio: f64, warmup_cycles: u32| {
         let inputs = Inputs {
             damping_ratio,
@@ -256,7 +256,7 @@ fn a_run_stops_on_request() {
 }
 
 #[test]
-fn what_is_too_slow_to_be_followed_is_refused_and_auto_takes_the_static_load() {
+fn a_too_slow_motion_is_refused_and_auto_chooses_static() {
     let slow = Inputs {
         speed: 1e-4,
         drive: Drive::Torque(70.0),

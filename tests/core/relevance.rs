@@ -149,7 +149,7 @@ fn hold(
 }
 
 #[test]
-fn what_acts_is_what_changes_a_result() {
+fn the_relevant_fields_are_those_that_change_a_result() {
     for method in ["paper", "exact"] {
         let (said, found) = hold(method, &samples(), false);
         let idle: Vec<_> = said.difference(&found).collect();
@@ -166,7 +166,7 @@ fn what_acts_is_what_changes_a_result() {
 }
 
 #[test]
-fn what_is_idle_where_the_load_is_shared_changes_nothing() {
+fn an_idle_field_changes_no_result_of_a_shared_load() {
     let mut few = Case::table_1();
     few.set("model.stations", "4").unwrap();
     hold("static", &[few], true);

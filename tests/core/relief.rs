@@ -203,7 +203,7 @@ fn a_relief_for_the_motion_has_no_corner_contact_in_motion() {
 }
 
 #[test]
-fn where_auto_chooses_the_motion_the_relief_is_that_of_the_motion() {
+fn if_auto_chooses_dynamic_the_relief_is_that_of_dynamic() {
     let (_, zhou_chen) = &pairs()[1];
     let by = |method| {
         let inputs = Inputs {
@@ -219,7 +219,7 @@ fn where_auto_chooses_the_motion_the_relief_is_that_of_the_motion() {
 }
 
 #[test]
-fn where_no_relief_serves_the_reason_is_given() {
+fn a_search_without_a_relief_gives_the_reason() {
     let (_, dias) = &pairs()[0];
     let none = |inputs: &Inputs, loads| {
         let demand = Demand {
@@ -351,7 +351,7 @@ fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief(
 }
 
 #[test]
-fn a_search_ends_where_its_user_stops_it() {
+fn the_user_can_stop_a_search() {
     let (_, dias) = &pairs()[0];
     let stopped = specify(dias, &DEMAND, &|_| false).unwrap_err();
     assert_eq!(

@@ -104,7 +104,7 @@ fn station_at_start(solution: &Solution) -> &MeshStation {
 }
 
 #[test]
-fn the_flank_and_not_the_arc_counts_where_contact_on_the_line_of_action_begins() {
+fn contact_on_the_line_of_action_begins_on_the_flank_and_not_on_the_arc() {
     for method in [Method::Static, Method::Dynamic] {
         let at = |radius| {
             let inputs = Inputs {

@@ -169,7 +169,7 @@ fn rows_do_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-fn a_study_stops_when_its_user_or_its_reader_says_so() {
+fn the_user_or_the_reader_can_stop_a_study() {
     let inputs = Case::table_1().inputs().unwrap();
     let grid = grid(&["operation.speed=1..9000 rpm"], 100_000);
     let batch = Batch {

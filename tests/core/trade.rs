@@ -183,7 +183,7 @@ fn a_pair_without_a_field_is_compared_with_the_beam_and_the_page_says_why() {
 }
 
 #[test]
-fn nothing_qualifies_within_what_no_setting_reaches() {
+fn no_setting_qualifies_for_an_unreachable_tolerance() {
     let trade = traded(&table_1(), 1e-15);
     assert!(trade.recommended().is_none());
     assert!(text(&trade).ends_with("%: none\n"));
@@ -257,7 +257,7 @@ fn errors_fall_with_stations_and_tolerance() {
 }
 
 #[test]
-fn what_a_method_has_not_does_not_count_and_what_it_needs_does() {
+fn only_needed_subjects_count_if_a_method_lacks_some() {
     let trade = traded_table_1();
     let is_fine = |measured: &&Measured| trade.model(&measured.setting).is_some();
     for measured in trade.settings.iter().filter(is_fine) {
@@ -491,7 +491,7 @@ fn the_page_on_speed_has_the_stored_table() {
 }
 
 #[test]
-fn stored_errors_hold_within_a_factor_of_two() {
+fn stored_errors_agree_within_a_factor_of_two() {
     let (stored, made) = (
         table::Table::stored(),
         table::Table::of(table::traded_once()),

@@ -29,7 +29,7 @@ enum Edit {
 }
 
 #[test]
-fn what_was_found_once_holds() {
+fn no_stored_failure_occurs_again() {
     for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/kept"))
         .expect("a folder")
     {
@@ -91,7 +91,7 @@ fn bytes_that_are_no_text_are_reported_with_their_places() {
 }
 
 #[test]
-fn edits_are_kept_and_so_are_comments() {
+fn a_save_keeps_edits_and_comments() {
     let comments = prop::collection::vec((any::<Index>(), any::<bool>()), 0..4);
     let edited = Cell::new(0u32);
     let texts = prop_oneof![texts::written(), texts::mutated()];
@@ -174,7 +174,7 @@ fn an_inline_table_of_many_lines_keeps_its_comments() {
 }
 
 #[test]
-fn what_is_saved_is_what_is_read() {
+fn a_saved_case_is_read_unchanged() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("case.toml");
     hold(60, &(texts::written(), edits()), |(text, edits)| {
@@ -198,7 +198,7 @@ fn what_is_saved_is_what_is_read() {
 }
 
 #[test]
-fn a_setting_is_taken_or_leaves_the_case_as_it_was() {
+fn a_setting_is_accepted_or_does_not_change_the_case() {
     let keys = prop_oneof![
         (0..FIELDS.len()).prop_map(|field| FIELDS[field].key.to_owned()),
         "limits\\.[a-z_]{0,20}",
@@ -220,7 +220,7 @@ fn a_setting_is_taken_or_leaves_the_case_as_it_was() {
 }
 
 #[test]
-fn the_headless_commands_say_what_is_wrong_safely() {
+fn the_headless_commands_report_errors_without_control_characters() {
     hold(150, &texts::mutated(), |text| assert_safe_headless(&text));
 }
 

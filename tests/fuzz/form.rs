@@ -74,7 +74,7 @@ struct Bench {
 }
 
 #[test]
-fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
+fn any_typing_leaves_the_form_valid_and_the_screen_safe() {
     let draft = Document::new(Case::fresh()).render();
     let text = prop_oneof![
         texts::written(),
@@ -115,7 +115,7 @@ fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
 }
 
 #[test]
-fn a_name_that_hides_or_controls_is_shown_as_one_that_does() {
+fn control_characters_in_a_name_are_shown_as_marks() {
     let mut bench = Bench::on(&texts::bases()[0], false);
     for title in HOSTILE {
         bench.take(Happening::Paste(title.to_owned()));

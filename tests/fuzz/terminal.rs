@@ -40,7 +40,7 @@ const WAYS_OUT: [&[u8]; 3] = [b"\x1b", b"\x11", b"d"];
 const ENDS: [&str; 2] = ["Interrupt", "Quit"];
 
 #[test]
-fn after_any_input_it_quits_on_command_and_restores_the_terminal() {
+fn after_any_input_the_workbench_quits_and_restores_the_terminal() {
     let piece = prop_oneof![
         8 => select(&SEQUENCES[..]).prop_map(<[u8]>::to_vec),
         2 => prop::collection::vec(any::<u8>(), 1..40),

@@ -101,7 +101,7 @@ fn keys_are_echoed_while_a_solve_runs() {
 }
 
 #[test]
-fn a_solve_that_takes_long_shows_how_far_it_is_and_esc_ends_it() {
+fn a_long_solve_shows_its_progress_and_esc_stops_it() {
     let mut tty = begin(&slow_case());
     tty.wait_for("solving dynamic; Esc cancels");
     let start = Instant::now();

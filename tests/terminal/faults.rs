@@ -415,7 +415,7 @@ fn access_list(entries: &[(u16, u16, u32)]) -> Vec<u8> {
 }
 
 #[test]
-fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
+fn a_save_keeps_access_lists_and_attributes_and_inherits_none() {
     const LIST: &str = "system.posix_acl_access";
     const OF_NEW_FILES: &str = "system.posix_acl_default";
     const NOBODY_IN_PARTICULAR: u32 = u32::MAX;
@@ -462,7 +462,7 @@ fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
 }
 
 #[test]
-fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
+fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
     let nobody = [
         "setpriv",
         "--reuid=65534",

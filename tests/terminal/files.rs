@@ -55,7 +55,7 @@ fn meddle(desk: &Desk, how: &str, text: &str) {
 }
 
 #[test]
-fn a_file_that_someone_else_changed_is_refused_and_what_differs_is_shown() {
+fn a_file_changed_by_another_program_is_refused_and_the_differences_are_shown() {
     for how in ["same time", "older", "newer", "replaced"] {
         let mut desk = edited();
         // The same length as the old text.
@@ -91,7 +91,7 @@ fn a_file_that_someone_else_changed_is_refused_and_what_differs_is_shown() {
 }
 
 #[test]
-fn then_it_is_reloaded_saved_elsewhere_overwritten_or_left() {
+fn a_changed_file_is_reloaded_saved_elsewhere_overwritten_or_kept() {
     let theirs = TABLE_1.replace("2000 rpm", "2100 rpm");
     for (keys, there, unsaved) in [
         (&["r"][..], "2100 rpm", false),
@@ -117,7 +117,7 @@ fn then_it_is_reloaded_saved_elsewhere_overwritten_or_left() {
 }
 
 #[test]
-fn a_save_that_fails_changes_nothing_and_nothing_comes_after_it() {
+fn a_failed_save_changes_nothing_and_skips_the_next_step() {
     let faults = [
         SaveFault::Exists(Vec::new()),
         SaveFault::Changed(vec!["speed".to_owned()]),
@@ -167,7 +167,7 @@ fn a_save_that_fails_changes_nothing_and_nothing_comes_after_it() {
 }
 
 #[test]
-fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
+fn text_typed_during_a_save_remains_unsaved() {
     let mut desk = edited();
     let effects = update(&mut desk.app, Action::Do(Do::Save));
     let save = effects
@@ -187,7 +187,7 @@ fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
 }
 
 #[test]
-fn a_deleted_file_is_created_again_with_its_mode_and_the_save_says_so() {
+fn a_save_creates_a_deleted_file_again_with_its_mode_and_reports_this() {
     let desk = Desk::on(SMALL, "case.toml", TABLE_1);
     let path = desk.path("case.toml");
     fs::set_permissions(&path, Permissions::from_mode(0o600)).expect("our own file");
@@ -299,7 +299,7 @@ fn a_mere_touch_does_not_ask() {
 }
 
 #[test]
-fn after_a_save_the_form_says_what_the_file_says() {
+fn after_a_save_form_and_file_are_equal() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     for (key, text) in [
         ("driver.teeth", " 21  "),
@@ -539,7 +539,7 @@ fn a_tilde_is_the_home_folder_where_paths_are_typed() {
 }
 
 #[test]
-fn a_file_that_another_program_writes_is_read_again_where_nothing_is_edited() {
+fn a_file_written_by_another_program_is_read_again_without_edits() {
     let mut tty = Launch::on_table_1().size(24, 80).start();
     tty.wait_for("5 mm");
     let theirs = TABLE_1.replace("\"5 mm\"", "\"6 mm\"");

@@ -22,7 +22,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 #[test]
-fn the_first_frame_comes_within_two_and_a_half_times_vims() {
+fn the_first_frame_takes_at_most_two_and_a_half_times_that_of_vim() {
     const PAIRS: usize = 15;
     const MOST: f64 = 2.5;
     const MOST_BYTES: usize = 9000;

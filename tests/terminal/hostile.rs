@@ -73,7 +73,7 @@ fn folder() -> (TempDir, Vec<PathBuf>) {
 }
 
 #[test]
-fn no_command_says_a_control() {
+fn no_command_prints_a_control_character() {
     let (folder, paths) = folder();
     let mut runs = 0;
     for path in paths
@@ -232,7 +232,7 @@ fn every_size_is_drawn_on_every_screen() {
 }
 
 #[test]
-fn what_reaches_a_terminal_is_text_and_the_sequences_of_a_screen() {
+fn only_text_and_screen_sequences_reach_a_terminal() {
     let (_folder, paths) = folder();
     for path in &paths {
         let launch = Launch::of(tempfile::tempdir().expect("a folder").into()).argument(path);

@@ -72,7 +72,7 @@ fn every_deadly_signal_restores_the_terminal_keeps_the_edit_and_ends_the_process
 }
 
 #[test]
-fn it_suspends_and_comes_back() {
+fn the_workbench_suspends_and_resumes() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.send_signal("TSTP");
@@ -101,7 +101,7 @@ fn nothing_is_written_while_idle() {
 }
 
 #[test]
-fn a_flood_of_keys_leaves_it_responsive() {
+fn a_flood_of_keys_does_not_block_the_workbench() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.pour(vec!["7".repeat(100_000).into_bytes()], &[]);
@@ -116,7 +116,7 @@ fn a_flood_of_keys_leaves_it_responsive() {
 }
 
 #[test]
-fn a_paste_presses_nothing() {
+fn a_paste_presses_no_button() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.type_in("\x15\x1b[200~3\x03\x11\rmm\x1b[201~");
@@ -214,7 +214,7 @@ fn without_a_terminal_it_names_the_headless_command() {
 }
 
 #[test]
-fn a_dumb_terminal_is_refused_even_if_it_is_one() {
+fn a_dumb_terminal_is_refused() {
     let mut tty = Launch::on_table_1().variable("TERM", "dumb").start();
     assert_eq!(tty.wait_for_end().exit_code(), 2);
     tty.assert_restored();

@@ -72,7 +72,7 @@ fn write(app: &mut App, key: &str, text: &str) {
 }
 
 #[test]
-fn edits_are_kept_a_second_after_the_last_and_every_two_while_typing() {
+fn edits_are_journaled_a_second_after_the_last_and_every_two_during_typing() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut autosave, _chest) = bench(folder.path());
     let start = Instant::now();
@@ -143,7 +143,7 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
 }
 
 #[test]
-fn a_journal_that_could_not_be_written_is_written_as_soon_as_it_can_be() {
+fn a_failed_journal_is_written_as_soon_as_possible() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut autosave, journal_writer) = bench(folder.path());
     autosave.follow(&app.sheets(), Instant::now());
@@ -235,7 +235,7 @@ fn a_case_without_a_lock_is_named_and_its_file_is_still_compared() {
 }
 
 #[test]
-fn a_folder_or_a_file_system_that_takes_no_locks_is_named() {
+fn a_folder_or_file_system_without_locks_is_reported() {
     if !is_there("strace") {
         return;
     }
@@ -380,7 +380,7 @@ fn kill_9_after_two_seconds_loses_nothing() {
 }
 
 #[test]
-fn a_signal_keeps_what_was_typed_just_before_it() {
+fn text_typed_just_before_a_signal_is_journaled() {
     for signal in ["HUP", "TERM", "INT", "QUIT"] {
         let mut tty = opened();
         tty.type_in("\x15 1.25 in");
@@ -411,7 +411,7 @@ fn a_signal_keeps_what_was_typed_just_before_it() {
 }
 
 #[test]
-fn a_terminal_that_hangs_up_ends_it_at_once_without_loss_and_without_work() {
+fn a_hang_up_ends_the_workbench_at_once_without_loss() {
     let mut tty = opened();
     tty.type_in("\x151.25 in");
     tty.wait_for("1.25 in");
@@ -440,7 +440,7 @@ fn a_workbench_that_is_stuck_is_ended_by_a_hang_up_without_loss_and_without_work
 }
 
 #[test]
-fn a_terminal_that_goes_without_a_signal_is_noticed() {
+fn a_terminal_closed_without_a_signal_is_noticed() {
     if !is_there("setsid") || !has_faults_on_demand() {
         return;
     }
@@ -519,7 +519,7 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
 }
 
 #[test]
-fn edits_of_the_built_in_case_are_kept_too() {
+fn edits_of_the_built_in_case_are_journaled() {
     let folder = Arc::new(tempfile::tempdir().expect("a folder"));
     let mut tty = Launch::of(Arc::clone(&folder)).start();
     tty.wait_for("built-in");
@@ -554,7 +554,7 @@ fn edits_of_the_built_in_case_are_kept_too() {
 }
 
 #[test]
-fn a_file_that_was_changed_since_shows_what_would_change_now() {
+fn an_offer_for_a_changed_file_shows_the_present_differences() {
     let mut tty = opened();
     tty.type_in("\x156 mm");
     tty.wait_for("6 mm");

@@ -18,7 +18,7 @@ fn opened(launch: Launch) -> Tty {
 }
 
 #[test]
-fn a_panic_of_the_screen_gives_the_terminal_back_and_keeps_what_was_typed() {
+fn a_panic_of_the_screen_restores_the_terminal_and_keeps_the_edits() {
     if !has_faults_on_demand() {
         return;
     }
@@ -59,7 +59,7 @@ fn a_panic_of_the_worker_is_reported_and_the_workbench_continues() {
 }
 
 #[test]
-fn a_shell_stops_it_and_brings_it_back() {
+fn a_shell_stops_and_resumes_the_workbench() {
     if !is_there("bash") {
         return;
     }
@@ -118,7 +118,7 @@ fn a_shell_stops_it_and_brings_it_back() {
 }
 
 #[test]
-fn a_shell_ends_a_stopped_workbench_without_bringing_it_back() {
+fn a_shell_ends_a_stopped_workbench_without_resuming_it() {
     if !is_there("bash") {
         return;
     }
@@ -154,7 +154,7 @@ fn a_shell_ends_a_stopped_workbench_without_bringing_it_back() {
 }
 
 #[test]
-fn a_terminal_that_takes_nothing_more_does_not_hold_it() {
+fn a_terminal_that_accepts_no_bytes_does_not_block_the_end() {
     let mut tty = opened(Launch::on_table_1());
     tty.type_in("\x151.25 in");
     tty.wait_for("1.25 in");
@@ -250,7 +250,7 @@ fn a_storm_of_sizes_ends_in_the_right_picture() {
 }
 
 #[test]
-fn every_kind_of_terminal_gets_what_it_can_show() {
+fn every_kind_of_terminal_gets_its_character_set_and_colours() {
     for term in [
         "xterm",
         "xterm-256color",
@@ -299,7 +299,7 @@ fn every_kind_of_terminal_gets_what_it_can_show() {
 }
 
 #[test]
-fn a_flood_and_a_long_paste_cost_little_and_press_nothing() {
+fn a_flood_and_a_long_paste_are_cheap_and_press_no_button() {
     let mut tty = opened(Launch::on_table_1());
     tty.written = Some(Vec::new());
     let start = Instant::now();
@@ -437,7 +437,7 @@ fn a_title_of_combining_marks_does_not_flood_the_terminal() {
 }
 
 #[test]
-fn nothing_wakes_an_idle_workbench_and_it_is_small() {
+fn an_idle_workbench_sleeps_and_is_small() {
     const IDLE: Duration = Duration::from_secs(3);
     let mut tty = opened(Launch::on_table_1());
     tty.settle(Duration::from_millis(500));

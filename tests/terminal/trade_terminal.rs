@@ -43,7 +43,7 @@ fn warn_beyond(what: &str, time: Duration, limit: Duration) {
 }
 
 #[test]
-fn a_trade_shows_its_progress_and_ctrl_c_ends_it_without_a_trace() {
+fn a_trade_shows_its_progress_and_ctrl_c_ends_it() {
     let mut tty = launch(&["trade"]).start();
     tty.wait_for("settings, ");
     tty.type_in("\x03");
@@ -96,7 +96,7 @@ fn esc_ends_a_measurement_at_once() {
     tty.type_in("5m");
     tty.wait_for("measuring");
     tty.type_in("\x1b");
-    let time = time_until(&mut tty, "the measurement is stopped");
+    let time = time_until(&mut tty, "the benchmark is stopped");
     // 50 ms of silence distinguish a lone Esc from the start of an arrow key.
     warn_beyond(
         "Esc to the end of a measurement",

@@ -258,7 +258,7 @@ fn called(desk: &Desk, key: &str) -> Option<usize> {
 }
 
 #[test]
-fn every_key_does_what_its_line_says() {
+fn every_key_has_the_effect_of_its_line() {
     let (mut covered, mut wrong) = (BTreeSet::new(), Vec::new());
     for (before, key, after, says) in ACTIONS {
         let (mut with, mut without) = (bench(), bench());

@@ -14,7 +14,7 @@ fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
 }
 
 #[test]
-fn a_bare_number_is_completed_while_it_is_typed_and_written_with_its_unit() {
+fn a_bare_number_gets_its_unit_during_typing() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "48");
     assert!(
@@ -82,7 +82,7 @@ fn on_the_way_to_a_value_no_error_flickers() {
 }
 
 #[test]
-fn the_unit_is_the_one_that_was_written_else_the_one_that_is_shown() {
+fn the_unit_is_the_written_one_or_else_the_displayed_one() {
     let mut desk = Desk::on(LARGE, "case.toml", &TABLE_1.replace("15 kW", "20 hp"));
     desk.fill("operation.power", "25");
     assert_eq!(text(&desk, "operation.power"), "25 hp");
@@ -99,7 +99,7 @@ fn the_unit_is_the_one_that_was_written_else_the_one_that_is_shown() {
 }
 
 #[test]
-fn a_unit_is_never_guessed_against_what_is_typed() {
+fn a_typed_unit_is_never_replaced() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "48 m");
     assert!(
@@ -128,7 +128,7 @@ fn a_unit_is_never_guessed_against_what_is_typed() {
 }
 
 #[test]
-fn what_says_the_same_is_no_edit() {
+fn an_equal_text_is_not_an_edit() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("deviations.base_pitch")
         .keys(&["End", "Backspace", "Backspace", "Backspace"]);

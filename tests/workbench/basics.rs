@@ -234,7 +234,7 @@ fn hjkl_and_the_arrows_are_alike_outside_a_field() {
 }
 
 #[test]
-fn tab_goes_round_the_panes_and_letters_are_never_text_there() {
+fn tab_cycles_the_panes_whose_letters_are_commands() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc"]);
     for pane in [
@@ -281,7 +281,7 @@ fn every_pane_can_be_shown_at_every_size() {
 }
 
 #[test]
-fn f5_switches_the_lower_area_and_names_what_is_hidden() {
+fn f5_switches_the_lower_area_and_names_the_hidden_panes() {
     let mut desk = Desk::new(SMALL);
     assert!(desk.shows("4 Teeth  5 Trade"));
     desk.keys(&["F5"]);
@@ -294,7 +294,7 @@ fn f5_switches_the_lower_area_and_names_what_is_hidden() {
 }
 
 #[test]
-fn what_is_not_in_sight_is_not_computed() {
+fn hidden_results_are_not_computed() {
     let mut desk = Desk::new(SMALL);
     let stages = |desk: &Desk| desk.app.tab.answer.as_ref().expect("a result").stages;
     assert!(stages(&desk).has(Stage::Stations));
@@ -360,7 +360,7 @@ fn a_field_is_found_by_its_name_or_symbol() {
 }
 
 #[test]
-fn cases_stand_in_tabs_each_with_its_own_results_and_history() {
+fn cases_are_in_tabs_each_with_its_own_results_and_history() {
     let mut desk = three_cases(LARGE);
     assert_eq!(desk.app.tabs().count(), 3);
     assert!(desk.shows("1 one.toml") && desk.shows("2 two.toml*") && desk.shows("[3 three.toml]"));
@@ -377,7 +377,7 @@ fn cases_stand_in_tabs_each_with_its_own_results_and_history() {
 }
 
 #[test]
-fn a_case_that_is_open_is_gone_to_and_keeps_its_edits() {
+fn opening_an_open_case_goes_to_its_tab_and_keeps_its_edits() {
     let mut desk = three_cases(LARGE);
     let two = desk.path("two.toml");
     desk.keys(&["Ctrl-O", "Ctrl-U", name(&two), "Enter"]);
@@ -385,7 +385,7 @@ fn a_case_that_is_open_is_gone_to_and_keeps_its_edits() {
 }
 
 #[test]
-fn a_tab_closes_when_asked_and_asks_when_unsaved() {
+fn a_tab_closes_on_request_and_asks_about_unsaved_edits() {
     let mut desk = three_cases(LARGE);
     desk.keys(&["Alt-W"]);
     assert!(desk.shows("[2 two.toml*]") && desk.app.tabs().count() == 2);
@@ -401,7 +401,7 @@ fn a_tab_closes_when_asked_and_asks_when_unsaved() {
 }
 
 #[test]
-fn quitting_asks_over_every_unsaved_case() {
+fn quitting_asks_about_every_unsaved_case() {
     let both = || {
         let mut desk = three_cases(LARGE);
         desk.keys(&["Alt-1"]).fill("operation.speed", "1100 rpm");
@@ -490,7 +490,7 @@ fn the_baseline_is_pinned_and_the_difference_is_shown_beside_it() {
 }
 
 #[test]
-fn the_baseline_holds_over_tabs_and_has_its_curve_even_if_no_chart_was_in_sight() {
+fn the_baseline_is_common_to_tabs_and_has_its_curve_even_if_no_chart_was_visible() {
     let mut desk = three_cases(SMALL);
     desk.keys(&["Alt-1", "F5", "Esc", "b", "Alt-3"]);
     let pinned = desk.app.baseline.as_ref().expect("it is pinned");
@@ -510,7 +510,7 @@ fn the_baseline_holds_over_tabs_and_has_its_curve_even_if_no_chart_was_in_sight(
 }
 
 #[test]
-fn what_is_held_against_the_baseline_is_plain_at_every_size() {
+fn comparisons_with_the_baseline_are_readable_at_every_size() {
     for size in [
         Size {
             width: 60,
@@ -545,7 +545,7 @@ fn what_is_held_against_the_baseline_is_plain_at_every_size() {
 }
 
 #[test]
-fn a_verdict_is_a_word_where_there_is_room_and_its_limit_is_whole() {
+fn a_verdict_is_a_word_if_it_fits_and_its_limit_is_not_cut() {
     for (size, words) in [
         (SMALL, "EXCEEDED 110 %"),
         (
@@ -585,7 +585,7 @@ fn values_that_an_edit_changed_are_marked_until_the_next_visit() {
 }
 
 #[test]
-fn the_cursor_walks_by_columns_and_goes_away() {
+fn the_cursor_moves_by_columns_and_can_be_hidden() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "3", "l"]);
     assert!(desk.shows("1.3663 deg of the driver before E: F_S 2191.0 N") && desk.shows("┊"));
@@ -611,7 +611,7 @@ fn the_cursor_walks_by_columns_and_goes_away() {
 }
 
 #[test]
-fn the_approach_plays_to_its_end_and_then_nothing_ticks() {
+fn the_animation_plays_to_its_end_and_then_the_clock_stops() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "3", "Space"]);
     assert!(desk.ticks);
@@ -657,7 +657,7 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
 }
 
 #[test]
-fn what_is_too_long_for_a_clipboard_is_not_sent() {
+fn a_text_too_long_for_a_clipboard_is_not_sent() {
     let mut desk = Desk::new(SMALL);
     desk.fill("title", "");
     for _ in 0..20 {
@@ -687,7 +687,7 @@ fn notes_are_never_off_the_screen() {
 }
 
 #[test]
-fn long_work_shows_how_far_it_is_and_esc_cancels_it() {
+fn long_work_shows_its_progress_and_esc_stops_it() {
     let mut desk = Desk::new(SMALL);
     desk.act(Action::Progress(Some(Progress {
         what: "trade".to_owned(),
@@ -703,7 +703,7 @@ fn long_work_shows_how_far_it_is_and_esc_cancels_it() {
 /// The required relief of a method that shares the load arrives after the other results: until then
 /// a placeholder is shown, and no figure of another method or of an earlier edit.
 #[test]
-fn the_least_relief_has_a_place_until_it_is_there() {
+fn the_required_relief_has_a_placeholder_until_it_is_present() {
     let mut desk = Desk::new(LARGE);
     assert!(
         desk.shows("Required tip relief of the driven gear: exact 47.4 um"),
@@ -753,7 +753,7 @@ fn the_least_relief_has_a_place_until_it_is_there() {
 }
 
 #[test]
-fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
+fn a_slow_solve_shows_its_progress_and_esc_stops_it() {
     let mut desk = three_cases(LARGE);
     let effects = update(&mut desk.app, Action::Do(Command::ToggleMethod));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {
@@ -784,7 +784,7 @@ fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
 }
 
 #[test]
-fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
+fn the_mouse_is_off_by_default_and_then_selects() {
     let mut desk = Desk::new(SMALL);
     assert!(!Settings::default().mouse);
     desk.keys(&["Ctrl-P", "mouse", "Enter"]);
@@ -808,7 +808,7 @@ fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
 }
 
 #[test]
-fn choices_for_every_case_are_kept() {
+fn settings_for_every_case_are_saved() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["F8", "Ctrl-P", "theme", "Enter"]);
     assert_eq!(
@@ -832,7 +832,7 @@ fn recent_cases_are_a_key_away() {
 }
 
 #[test]
-fn torque_takes_the_place_of_power_and_gives_it_back() {
+fn torque_replaces_power_and_restores_it() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.torque", "7");
     let notice = "power 15 kW replaced by the torque";

@@ -152,7 +152,7 @@ fn the_case_under_the_cursor_shows_its_verdict() {
 }
 
 #[test]
-fn folders_are_entered_and_left_and_the_mark_is_where_one_came_from() {
+fn entering_and_leaving_folders_selects_the_previous_folder() {
     let mut desk = desk_before_a_shelf(SMALL);
     desk.keys(&["Ctrl-O", "sub", "Enter"]);
     assert_eq!(marked(&desk), "deep.toml");
@@ -208,7 +208,7 @@ fn paths_are_typed_or_pasted_and_the_home_folder_is_a_tilde() {
 }
 
 #[test]
-fn the_entry_that_is_called_what_is_typed_is_marked_before_those_that_contain_it() {
+fn an_entry_with_the_typed_name_is_selected_before_those_that_contain_it() {
     let mut desk = desk_before_a_shelf(SMALL);
     desk.write("a-case.toml", TABLE_1);
     desk.keys(&["Ctrl-O", "case.toml"]);
@@ -227,7 +227,7 @@ fn the_entry_that_is_called_what_is_typed_is_marked_before_those_that_contain_it
 }
 
 #[test]
-fn recent_cases_stand_on_the_same_page_and_missing_ones_are_said_to_be() {
+fn recent_cases_are_on_the_same_page_and_missing_files_are_marked() {
     let mut desk = desk_before_a_shelf(SMALL);
     desk.recents = vec![
         desk.path("a-strikes.toml"),
@@ -304,7 +304,7 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
 }
 
 #[test]
-fn what_is_no_case_is_refused_in_words() {
+fn a_file_that_is_no_case_is_refused_with_a_message() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     let pipe = desk.path("p-pipe.toml");
     assert!(
@@ -355,7 +355,7 @@ fn what_is_no_case_is_refused_in_words() {
 }
 
 #[test]
-fn a_folder_of_ten_thousand_is_read_once_and_a_key_asks_for_one_preview_at_most() {
+fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     for number in 0..10_000 {
         fs::write(desk.path(&format!("{number:05}.toml")), "").expect("room");
@@ -386,7 +386,7 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_asks_for_one_preview_at_most(
 }
 
 #[test]
-fn while_a_folder_is_read_keys_are_taken_and_a_late_answer_is_dropped() {
+fn keys_work_during_the_reading_of_a_folder_and_a_late_result_is_dropped() {
     let mut desk = desk_before_a_shelf(SMALL);
     let press = |desk: &mut Desk, key: &str| {
         let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
@@ -499,7 +499,7 @@ fn the_screens() {
 }
 
 #[test]
-fn what_is_typed_is_looked_for_below_the_folder_and_among_the_examples() {
+fn typing_searches_the_folders_below_and_the_examples() {
     let mut desk = desk_before_a_shelf(LARGE);
     fs::create_dir_all(desk.path("sub/gearbox/stage 2")).expect("folders");
     fs::create_dir_all(desk.path(".hidden/x")).expect("folders");

@@ -81,7 +81,7 @@ fn album(desk: &mut Desk) -> String {
 }
 
 #[test]
-fn a_chart_opened_while_a_field_is_invalid_says_so() {
+fn a_chart_opened_with_an_invalid_field_reports_it() {
     let mut desk = Desk::on(TINY, "case.toml", TABLE_1);
     desk.keys(&["x", "Esc", "3"]);
     let text = chart(&desk).join("\n");
@@ -327,7 +327,7 @@ fn the_latest_request_for_a_chart_of_whine_wins() {
 }
 
 #[test]
-fn a_chart_of_whine_left_by_another_tab_is_requested_again() {
+fn a_chart_of_whine_interrupted_by_another_tab_is_requested_again() {
     let mut desk = at_method(SMALL, "exact");
     let press = |desk: &mut Desk, key| {
         let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
@@ -340,7 +340,7 @@ fn a_chart_of_whine_left_by_another_tab_is_requested_again() {
 }
 
 #[test]
-fn a_chart_of_the_free_impact_says_so_in_its_title() {
+fn the_title_of_a_chart_names_the_free_impact() {
     for (method, is_free) in [("exact", false), ("static", true), ("dynamic", true)] {
         let mut desk = at_method(SMALL, method);
         for graph in GRAPHS {

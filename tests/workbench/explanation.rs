@@ -90,7 +90,7 @@ fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
 }
 
 #[test]
-fn from_the_fields_behind_a_result_one_goes_to_the_form() {
+fn the_fields_behind_a_result_lead_to_the_form() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2", "Enter"]);
     let fields = of(&desk).fields();
@@ -119,7 +119,7 @@ fn from_the_fields_behind_a_result_one_goes_to_the_form() {
 }
 
 #[test]
-fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
+fn an_unfinished_page_is_marked_and_a_late_page_is_dropped() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2"]);
     let event = harness::event("Enter");
@@ -160,7 +160,7 @@ fn a_refusal_and_an_invalid_value_are_explained_in_words() {
 }
 
 #[test]
-fn the_page_says_which_units_it_is_in() {
+fn the_page_names_its_units() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2", "Enter"]);
     assert!(!desk.shows("inch"));

@@ -34,7 +34,7 @@ fn names(desk: &Desk) -> Vec<String> {
 }
 
 #[test]
-fn the_report_of_the_form_is_written_and_the_status_line_says_where() {
+fn the_report_of_the_form_is_written_and_the_status_line_shows_its_path() {
     let mut desk = edited();
     desk.keys(&["Alt-X"]);
     assert!(desk.shows("Export") && desk.shows("pair.html"));
@@ -49,7 +49,7 @@ fn the_report_of_the_form_is_written_and_the_status_line_says_where() {
 }
 
 #[test]
-fn the_ending_and_the_focused_pane_choose_what_is_written() {
+fn the_extension_and_the_focused_pane_select_the_content() {
     let cases = [
         ("1", "a.md", "# Zhou & Chen 2014, Table 1"),
         ("1", "a.csv", "case,"),
@@ -95,7 +95,7 @@ fn a_file_that_exists_is_replaced_on_demand_alone() {
 }
 
 #[test]
-fn what_cannot_be_exported_is_refused_in_words_and_writes_nothing() {
+fn an_impossible_export_is_refused_and_writes_nothing() {
     let mut desk = edited();
     desk.keys(&["Alt-X", "Ctrl-U", &desk_path(&desk, "page.pdf"), "Enter"]);
     assert!(desk.shows("not exported: unknown file extension"));
@@ -109,7 +109,7 @@ fn what_cannot_be_exported_is_refused_in_words_and_writes_nothing() {
 }
 
 #[test]
-fn one_export_runs_at_a_time_and_quitting_asks_for_it() {
+fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
     let mut desk = edited();
     desk.keys(&["Alt-X"]);
     // The export is requested and not carried out.
@@ -133,7 +133,7 @@ fn one_export_runs_at_a_time_and_quitting_asks_for_it() {
 }
 
 #[test]
-fn a_picture_is_named_and_refused_where_no_chart_is_visible() {
+fn a_picture_is_refused_by_name_if_no_chart_is_visible() {
     let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
     desk.keys(&[
         "Esc",

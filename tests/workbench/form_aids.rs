@@ -50,7 +50,7 @@ fn a_value_steps_inside_a_field_and_outside() {
 }
 
 #[test]
-fn of_two_ways_to_give_a_size_the_form_shows_the_given_one_and_the_other_value() {
+fn the_form_shows_the_given_size_and_the_value_of_its_alternative() {
     let mut desk = Desk::new(LARGE);
     assert!(line(&desk, "diametral pitch").contains("(5.08 1/in)"));
     assert!(line(&desk, "tip diameter").contains("(110 mm)"));
@@ -76,7 +76,7 @@ fn of_two_ways_to_give_a_size_the_form_shows_the_given_one_and_the_other_value()
 }
 
 #[test]
-fn a_step_where_there_is_none_says_so_and_changes_nothing() {
+fn an_impossible_step_is_reported_and_changes_nothing() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("model.deflection").keys(&["Ctrl-U"]);
     desk.keys(&["Shift-Up"]);
@@ -96,7 +96,7 @@ fn a_value_in_another_unit_is_shown_in_the_usual_unit() {
 }
 
 #[test]
-fn what_the_method_does_without_is_marked_and_says_why() {
+fn fields_that_the_method_does_not_use_are_marked_with_a_reason() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("driver.root_relief");
     let idle = line(&desk, "Ca1");
@@ -106,7 +106,7 @@ fn what_the_method_does_without_is_marked_and_says_why() {
 }
 
 #[test]
-fn a_material_fills_three_fields_at_once_and_undo_takes_it_back() {
+fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
     let mut desk = Desk::new(LARGE);
     desk.go_to("driven.teeth").keys(&["Alt-G"]);
     assert!(desk.shows("Material of the driven gear"));
@@ -168,7 +168,7 @@ fn limits_are_a_group_of_the_form_with_their_verdicts() {
 }
 
 #[test]
-fn a_limit_begins_with_what_the_result_is_and_goes_when_it_is_emptied() {
+fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Alt-L", "normal_vel", "Enter"]);
     assert!(
@@ -206,7 +206,7 @@ fn a_limit_that_is_no_value_is_not_saved() {
 }
 
 #[test]
-fn inch_units_are_shown_and_the_case_stays_as_it_is_written() {
+fn inch_units_are_shown_and_the_case_keeps_its_own_units() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "units", "Enter"]);
     assert!(

@@ -69,7 +69,7 @@ fn a_newer_format_is_shown_and_never_written() {
 }
 
 #[test]
-fn a_save_takes_away_what_a_killed_one_left_and_nothing_else() {
+fn a_save_deletes_only_the_temporary_file_of_a_killed_save() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     let dead = u32::MAX / 4;
     let ours = std::process::id();

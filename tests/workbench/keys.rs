@@ -29,7 +29,7 @@ fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
 }
 
 #[test]
-fn an_invalid_value_keeps_the_last_valid_results_and_says_so() {
+fn an_invalid_value_keeps_the_last_valid_results_and_marks_them() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.speed", "2000 rpx");
     assert!(desk.shows("LAST VALID"));
@@ -55,7 +55,7 @@ fn the_method_is_a_field_and_a_key() {
 }
 
 #[test]
-fn undo_goes_back_a_field_and_redo_forward() {
+fn undo_and_redo_move_by_one_field() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.speed", "1500 rpm")
         .keys(&["Tab", "0.1", "Ctrl-Z"]);
@@ -79,7 +79,7 @@ fn undo_goes_back_a_field_and_redo_forward() {
 }
 
 #[test]
-fn the_method_that_is_switched_through_is_one_step_of_undo() {
+fn switching_through_methods_is_one_step_of_undo() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["6", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
     assert!(
@@ -102,7 +102,7 @@ fn the_method_that_is_switched_through_is_one_step_of_undo() {
 }
 
 #[test]
-fn what_no_value_begins_with_is_a_command_in_a_field_of_a_value() {
+fn a_character_that_cannot_begin_a_value_is_a_command() {
     let mut desk = Desk::new(LARGE);
     for (keys, expected) in [
         (&["/power", "Enter", "16"][..], "16 kW"),
@@ -146,7 +146,7 @@ fn the_notes_open_from_every_pane() {
 }
 
 #[test]
-fn what_is_copied_of_chart_and_teeth_is_the_reading_at_the_cursor() {
+fn chart_and_teeth_copy_the_reading_at_the_cursor() {
     for pane in ["3", "4"] {
         let mut desk = Desk::new(LARGE);
         desk.keys(&["Esc", pane, "y"]);
@@ -171,7 +171,7 @@ fn what_is_copied_of_chart_and_teeth_is_the_reading_at_the_cursor() {
 }
 
 #[test]
-fn a_left_out_field_shows_what_holds() {
+fn an_empty_field_shows_its_default() {
     let mut desk = Desk::new(SMALL);
     desk.fill("model.deflection", "");
     assert!(desk.shows("(from the load)"));
@@ -180,7 +180,7 @@ fn a_left_out_field_shows_what_holds() {
 }
 
 #[test]
-fn a_save_keeps_comments_and_order_and_takes_the_mark_away() {
+fn a_save_keeps_comments_and_order_and_clears_the_mark() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm");
     assert!(desk.shows("*unsaved*"));
@@ -194,7 +194,7 @@ fn a_save_keeps_comments_and_order_and_takes_the_mark_away() {
 }
 
 #[test]
-fn the_built_in_case_asks_for_a_name_and_an_existing_file_for_leave() {
+fn saving_the_built_in_case_asks_for_a_name_and_about_an_existing_file() {
     let mut desk = Desk::new(SMALL);
     let taken = desk.write("taken.toml", "not yours");
     desk.keys(&["Ctrl-S", "Ctrl-U", name(&taken), "Enter"]);
@@ -223,7 +223,7 @@ fn a_faulty_form_is_not_saved() {
 }
 
 #[test]
-fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
+fn an_invalid_form_is_never_marked_as_saved() {
     for keys in [
         &["Ctrl-S"][..],
         &["F2"],
@@ -304,7 +304,7 @@ fn a_file_that_someone_else_changed_is_not_overwritten_unasked() {
 }
 
 #[test]
-fn a_mere_touch_asks_nothing() {
+fn saving_over_an_equal_rewritten_file_asks_nothing() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm");
     desk.write("case.toml", TABLE_1);
@@ -327,7 +327,7 @@ fn opening_lists_the_folder_filters_as_you_type_and_opens() {
 }
 
 #[test]
-fn folders_are_walked_with_enter_and_tab_takes_a_name_over() {
+fn enter_opens_folders_and_tab_completes_a_name() {
     let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
     fs::create_dir(desk.path("sub")).expect("a folder");
     desk.write("sub/deep.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
@@ -338,7 +338,7 @@ fn folders_are_walked_with_enter_and_tab_takes_a_name_over() {
 }
 
 #[test]
-fn a_bad_file_shows_every_fault_at_its_place_and_loses_nothing() {
+fn an_invalid_file_shows_every_fault_at_its_place_and_no_edit_is_lost() {
     let mut desk = Desk::on(LARGE, "good.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     desk.write(
@@ -414,7 +414,7 @@ fn escape_never_destroys() {
 }
 
 #[test]
-fn a_paste_never_presses_a_button_and_brings_no_control_character() {
+fn a_paste_never_presses_a_button_and_inserts_no_control_character() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "")
         .act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
@@ -510,7 +510,7 @@ fn a_failed_solve_is_reported_and_the_results_are_marked() {
 }
 
 #[test]
-fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
+fn typing_replaces_the_value_and_a_move_keeps_it() {
     for (keys, text) in [
         (&["1500"][..], "1500 rpm"),
         (&["Enter", "Up", "1500"], "1500 rpm"),
@@ -533,7 +533,7 @@ fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
 }
 
 #[test]
-fn escape_takes_back_the_first_digit_and_the_digit_then_shows_its_pane() {
+fn escape_undoes_the_first_digit_and_the_digit_then_shows_its_pane() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::new(size);
         let before = desk.app.tab.case.clone();
@@ -609,7 +609,7 @@ fn an_unbound_key_is_reported() {
 }
 
 #[test]
-fn undo_tells_what_it_took_back() {
+fn undo_reports_the_reverted_edit() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u"]);
     assert!(
@@ -634,7 +634,7 @@ fn undo_tells_what_it_took_back() {
 }
 
 #[test]
-fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
+fn the_baseline_gets_the_name_of_its_saved_file() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "Alt-B"]);
     assert!(
@@ -717,7 +717,7 @@ fn a_value_that_no_further_digit_can_fix_is_wrong_at_once() {
 }
 
 #[test]
-fn a_text_as_long_as_may_be_gives_way_to_what_is_typed() {
+fn typing_replaces_a_text_of_the_greatest_length() {
     let mut desk = Desk::new(SMALL);
     desk.fill("title", "").act(Action::Paste("x".repeat(5000)));
     desk.keys(&["Down", "Up", "short"]);

@@ -13,7 +13,7 @@ fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {
 }
 
 #[test]
-fn an_edit_keeps_what_it_changed_and_undo_has_no_end() {
+fn an_edit_stores_its_difference_and_undo_has_no_limit() {
     const EDITS: usize = 5000;
     let mut desk = Desk::new(SMALL);
     let edit = |desk: &mut Desk, text: &str| {
@@ -33,7 +33,7 @@ fn an_edit_keeps_what_it_changed_and_undo_has_no_end() {
 }
 
 #[test]
-fn an_open_case_keeps_little_and_a_closed_one_nothing() {
+fn an_open_case_needs_little_memory_and_a_closed_one_none() {
     const CASES: usize = 32;
     let mut desk = Desk::new(LARGE);
     let mut tell = |method: Method, most: f64| {
@@ -77,7 +77,7 @@ fn an_open_case_keeps_little_and_a_closed_one_nothing() {
 }
 
 #[test]
-fn a_measurement_keeps_its_figures_and_no_curve() {
+fn a_benchmark_stores_its_figures_and_no_curve() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
     let bytes = kept(1, |_| {

@@ -76,7 +76,7 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
 }
 
 #[test]
-fn the_top_of_the_results_is_shown_where_nothing_was_marked() {
+fn the_top_of_the_results_is_shown_without_a_selection() {
     let mut desk = Desk::new(SMALL);
     for (relief, first) in [("80 um", "Δ  "), ("0 um", "F_S  ")] {
         desk.fill("driven.tip_relief", relief);
@@ -153,7 +153,7 @@ fn the_angle_of_the_verdict_has_the_symbol_of_its_row_in_ascii_too() {
 }
 
 #[test]
-fn the_closed_forms_beside_another_method_are_called_free_impact() {
+fn the_closed_forms_beside_another_method_are_named_free_impact() {
     for (size, heading) in [
         (LARGE, "free impact: paper     exact"),
         (SMALL, "free: exact"),
@@ -249,7 +249,7 @@ fn a_limit_with_a_long_name_shows_the_name_where_the_line_has_room() {
 }
 
 #[test]
-fn what_rounding_leaves_of_zero_is_zero_in_the_teeth() {
+fn rounding_errors_of_zero_are_zero_in_the_teeth() {
     let mut desk = Desk::new(LARGE);
     for _ in 0..3 {
         desk.keys(&["Esc", "4", "End"]);

@@ -17,7 +17,7 @@ fn press(desk: &mut Desk, word: &str) {
 }
 
 #[test]
-fn the_name_of_a_pane_out_of_sight_brings_it() {
+fn a_click_on_the_name_of_a_hidden_pane_shows_it() {
     let (names, keys) = (["4 Teeth", "5 Trade", "3 Chart"], ["4 5 6", "5 6", "3 4 6"]);
     for (size, words) in [(SMALL, names), (Size::new(64, 24), keys)] {
         let mut desk = Desk::new(size);
@@ -35,7 +35,7 @@ fn the_name_of_a_pane_out_of_sight_brings_it() {
 }
 
 #[test]
-fn a_first_press_marks_a_line_of_a_list_and_a_second_takes_it() {
+fn a_first_click_selects_a_line_of_a_list_and_a_second_accepts_it() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Ctrl-P", "m"]);
@@ -88,7 +88,7 @@ fn a_button_and_the_name_of_a_case_are_pressed() {
 }
 
 #[test]
-fn a_press_goes_to_a_field_and_a_second_one_types_into_it() {
+fn a_first_click_focuses_a_field_and_a_second_edits_it() {
     let mut desk = Desk::new(LARGE);
     press(&mut desk, "number of teeth");
     assert!(

@@ -159,7 +159,7 @@ fn the_screens() {
 }
 
 #[test]
-fn a_name_that_is_typed_takes_the_place_of_the_one_that_is_offered() {
+fn a_typed_name_replaces_the_suggested_one() {
     for (keys, file) in [
         (&["whine48"][..], "whine48.toml"),
         (&["Backspace", "whine48"], "whine48.toml"),
@@ -203,7 +203,7 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
 }
 
 #[test]
-fn an_angle_that_is_refused_gives_way_to_what_is_typed_next() {
+fn typing_replaces_a_refused_angle() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "a", "0,5", "Enter"]);
     assert!(desk.shows("write 0.5, not 0,5"), "{}", desk.screen());

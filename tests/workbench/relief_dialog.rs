@@ -10,7 +10,7 @@ fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
 }
 
 #[test]
-fn the_relief_to_specify_is_found_shown_and_taken_into_the_case_as_one_edit() {
+fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "relief", "Enter"]);
     insta::assert_snapshot!("relief_140x45", desk.screen());
@@ -32,7 +32,7 @@ fn the_relief_to_specify_is_found_shown_and_taken_into_the_case_as_one_edit() {
 }
 
 #[test]
-fn a_typed_demand_is_searched_again_and_a_wrong_one_says_why() {
+fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "relief", "Enter"]);
     assert!(desk.shows("for 25 to 110 %"), "{}", desk.screen());

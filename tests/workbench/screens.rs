@@ -76,7 +76,7 @@ fn the_results_of_the_method_itself_come_first() {
 }
 
 #[test]
-fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
+fn every_quantity_can_be_scrolled_into_view_and_the_title_shows_the_visible_rows() {
     for size in [TINY, SMALL, LARGE] {
         let mut desk = in_motion(size);
         let (count, mut rows) = (results::count(&desk.app.results()), Vec::new());
@@ -142,7 +142,7 @@ fn the_questions() {
 }
 
 #[test]
-fn plain_ascii_where_the_terminal_has_nothing_else() {
+fn plain_ascii_on_a_terminal_without_unicode() {
     for (name, size) in [("ascii_80x24", SMALL), ("ascii_140x45", LARGE)] {
         let mut desk = Desk::new(size);
         desk.app.look = Look {
@@ -156,7 +156,7 @@ fn plain_ascii_where_the_terminal_has_nothing_else() {
 }
 
 #[test]
-fn a_terminal_too_small_says_so_and_keeps_the_state() {
+fn a_too_small_terminal_shows_a_message_and_keeps_the_state() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.speed", "1500 rpm");
     let before = desk.screen();

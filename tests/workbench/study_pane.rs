@@ -86,7 +86,7 @@ fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
 }
 
 #[test]
-fn enter_takes_the_value_under_the_cursor_and_undo_returns_it() {
+fn enter_uses_the_value_at_the_cursor_and_undo_reverts_it() {
     let mut desk = study(SMALL, "operation.speed");
     desk.keys(&["l", "l", "h", "Enter"]);
     assert_eq!(written(&desk, "operation.speed"), "2020 rpm");
@@ -178,7 +178,7 @@ fn escape_stops_the_study_and_its_results_stay() {
 }
 
 #[test]
-fn a_hidden_study_is_not_computed_and_a_late_answer_is_left_out() {
+fn a_hidden_study_is_not_computed_and_a_late_result_is_ignored() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "2100 rpm");
     assert!(desk.app.tab.study.request.is_none());
@@ -231,7 +231,7 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
 }
 
 #[test]
-fn variants_stand_beside_the_case_with_their_differences() {
+fn variants_are_shown_beside_the_case_with_their_differences() {
     let variants = "\n[variants.relieved]\n\"driven.tip_relief\" = \"30 \
             um\"\n[variants.far]\npair.centre_distance = \"200 mm\"\n";
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
@@ -269,7 +269,7 @@ fn requested(effects: Vec<Effect>) -> Option<Box<StudyRequest>> {
 }
 
 #[test]
-fn a_study_left_by_another_tab_is_requested_again() {
+fn a_study_interrupted_by_another_tab_is_requested_again() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.keys(&["Ctrl-N"]);
     desk.act(Action::Do(Command::Tab(0)));

@@ -24,13 +24,13 @@ fn own(desk: &Desk) -> Setting {
 }
 
 #[test]
-fn nothing_is_measured_until_it_is_asked_for() {
+fn the_benchmark_runs_only_on_request() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
     assert!(desk.shows("No benchmark yet: m runs"), "{}", desk.screen());
     desk.keys(&["Right", "Enter"]);
     assert!(
-        desk.shows("nothing is measured yet: m measures"),
+        desk.shows("no benchmark yet: m runs it"),
         "{}",
         desk.screen()
     );
@@ -70,7 +70,7 @@ fn m_measures_and_the_cheapest_that_will_do_is_marked() {
 }
 
 #[test]
-fn the_method_that_the_others_are_held_against_has_no_error_of_its_own() {
+fn the_reference_has_no_error() {
     let screen = timed(LARGE).screen();
     let words: Vec<_> = screen.split_whitespace().collect();
     let text = words.join(" ");
@@ -81,7 +81,7 @@ fn the_method_that_the_others_are_held_against_has_no_error_of_its_own() {
 }
 
 #[test]
-fn arrows_walk_from_the_quickest_to_the_slowest() {
+fn arrows_select_from_the_fastest_to_the_slowest() {
     let mut desk = measured(LARGE);
     let seconds = |desk: &Desk| {
         let traded = desk.app.tab.traded.as_ref().unwrap();
@@ -109,7 +109,7 @@ fn arrows_walk_from_the_quickest_to_the_slowest() {
 }
 
 #[test]
-fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
+fn enter_uses_the_selected_setting_and_undo_reverts_it() {
     let mut desk = measured(LARGE);
     let before = own(&desk);
     let marked = desk.app.tab.traded.as_ref().unwrap().marked.unwrap();
@@ -130,7 +130,7 @@ fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
 }
 
 #[test]
-fn another_case_makes_the_measurement_one_of_before() {
+fn another_case_makes_the_benchmark_outdated() {
     let mut desk = measured(LARGE);
     desk.keys(&["z"]);
     desk.fill("operation.speed", "1500 rpm");
@@ -141,7 +141,7 @@ fn another_case_makes_the_measurement_one_of_before() {
 }
 
 #[test]
-fn esc_stops_a_measurement_and_what_was_measured_stays() {
+fn esc_stops_a_benchmark_and_keeps_its_results() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
     let effects = desk.effects("m");
@@ -168,7 +168,7 @@ fn esc_stops_a_measurement_and_what_was_measured_stays() {
             end: Some(End::Stopped),
         })),
     );
-    assert!(desk.app.progress.is_none() && desk.shows("the measurement is stopped"));
+    assert!(desk.app.progress.is_none() && desk.shows("the benchmark is stopped"));
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn a_measurement_out_of_sight_stops() {
 }
 
 #[test]
-fn what_a_later_measurement_overtook_changes_nothing() {
+fn the_results_of_a_replaced_benchmark_are_ignored() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
     let first = desk.effects("m");
@@ -221,7 +221,7 @@ fn what_a_later_measurement_overtook_changes_nothing() {
         end: Some(End::Failed("no mesh".to_owned())),
     };
     update(&mut desk.app, Action::Measured(Box::new(failed)));
-    assert!(desk.app.progress.is_none() && desk.shows("nothing is measured: no mesh"));
+    assert!(desk.app.progress.is_none() && desk.shows("no benchmark: no mesh"));
 }
 
 #[test]
@@ -340,7 +340,7 @@ fn evened(desk: &mut Desk) {
 }
 
 #[test]
-fn enter_takes_the_compliance_of_the_selected_setting_too() {
+fn enter_also_uses_the_compliance_of_the_selected_setting() {
     let mut desk = measured(LARGE);
     let traded = desk.app.tab.traded.as_ref().expect("a measurement");
     let beam = traded.trade.as_ref().expect("it is whole").settings.iter();

@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn every_setting_has_a_mark_and_the_usual_one_a_ring() {
+    fn every_setting_has_a_mark_and_the_default_one_has_a_ring() {
         let point = |seconds, error, is_usual| Point {
             seconds,
             error,
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_draw_is_no_reason_to_fail() {
+    fn an_empty_plot_is_drawn_without_a_panic() {
         assert!(!plot(Vec::new()).contains("NaN"));
     }
 }

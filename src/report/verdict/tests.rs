@@ -120,7 +120,7 @@ fn a_counterpart_with_a_limit_of_its_own_needs_no_hint() {
 }
 
 #[test]
-fn a_limit_stays_as_it_was_written_in_either_system() {
+fn a_verdict_prints_the_limit_as_written_in_both_systems() {
     let limits = [("impact_force", "500 lbf"), ("contact_ratio", "1.5")];
     assert_eq!(
         sentences(&limits, System::Metric),

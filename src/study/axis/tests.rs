@@ -42,7 +42,7 @@ fn a_range_keeps_the_unit_that_was_given_first() {
 }
 
 #[test]
-fn every_point_is_the_value_that_its_text_says() {
+fn every_point_has_the_value_of_its_text() {
     let axis = parsed(
         "operation.speed=1/3..1000 rpm"
             .replace("1/3", "0.3")
@@ -91,7 +91,7 @@ fn lists_take_units_counts_and_choices() {
 }
 
 #[test]
-fn a_list_takes_the_word_auto_where_its_field_does() {
+fn a_list_accepts_auto_if_its_field_does() {
     let axis = parsed("model.stations=auto,32", 0);
     assert_eq!(texts(&axis), ["auto", "32"]);
     let stations = |at: usize| {

@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_demand_is_read_as_it_is_written() {
+    fn a_demand_is_parsed_from_its_text() {
         assert_eq!(Demand::USUAL.text(), "25..110 %, 5 um");
         assert_eq!(Demand::parse(&Demand::USUAL.text()), Ok(Demand::USUAL));
         let own = Demand::parse("50..100%").expect("a range");

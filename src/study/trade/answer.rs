@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_is_read_linearly_and_is_nothing_before_the_first_contact() {
+    fn a_curve_is_interpolated_linearly_and_is_zero_before_the_first_contact() {
         let shared = answer(Method::Static, 4);
         let (first, second) = (shared.curve[0], shared.curve[1]);
         assert_eq!((shared.curve.len(), shared.curve[4].0), (5, 0.0));

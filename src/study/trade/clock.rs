@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_median_is_steady_where_most_batches_agree_whatever_the_others_say() {
+    fn a_median_is_steady_if_most_batches_agree() {
         let disturbed = batches(&[
             1.0, 1.001, 1.002, 1.0, 1.003, 1.001, 1.002, 1.0, 9.0, 1.001, 5.0, 1.002,
         ]);

@@ -212,7 +212,7 @@ mod tests {
     use crate::model::sample::standard_pair;
 
     #[test]
-    fn esc_ends_a_search_that_runs_and_nothing_after_its_answer() {
+    fn esc_ends_a_running_search_and_has_no_effect_after_its_result() {
         let pair = standard_pair(20, 30, 5e-3);
         let mut dialog = ReliefDialog::new("case".to_owned(), String::new(), pair);
         assert!(dialog.close().is_empty(), "nothing is searched");

@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hint_tells_the_value_in_the_usual_unit_and_the_range_in_either_system() {
+    fn a_hint_shows_the_value_in_the_usual_unit_and_the_range_in_both_systems() {
         assert_eq!(
             field("operation.power")
                 .converted("20 hp", System::Metric)

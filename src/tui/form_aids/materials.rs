@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_unique_and_groups_stand_together() {
+    fn material_names_are_unique_and_sorted_by_group() {
         let names: BTreeSet<String> = all()
             .iter()
             .map(|material| material.name.to_lowercase())
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_material_fills_three_fields_and_is_told_by_them() {
+    fn a_material_fills_three_fields_and_is_identified_by_them() {
         let mut case = Case::table_1();
         assert_eq!(name_of_gear(&case, "driver"), None);
         apply(&mut case, "driver", named("42CrMo4")).unwrap();

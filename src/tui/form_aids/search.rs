@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_meant_comes_first() {
+    fn the_intended_field_is_the_first_match() {
         for (query, key) in [
             ("alpha", "pair.pressure_angle"),
             ("α", "pair.pressure_angle"),
@@ -291,7 +291,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_query_makes_a_search_panic_and_the_best_come_first(query in ".{0,12}") {
+        fn no_query_panics_and_the_best_matches_are_first(query in ".{0,12}") {
             let found = search(&query);
             prop_assert!(found.is_sorted_by(|a, b| a.1 >= b.1));
         }

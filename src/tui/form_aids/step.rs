@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_value_stays_as_it_is() {
+    fn a_step_does_not_change_an_invalid_value() {
         for (key, text) in [
             ("pair.module", ""),
             ("pair.module", "5"),
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_left_out_steps_from_its_default() {
+    fn an_empty_field_steps_from_its_default() {
         let case = Case::empty();
         assert_eq!(
             case.stepped(field("driver.young"), 1).as_deref(),
@@ -306,7 +306,7 @@ mod tests {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
 
         #[test]
-        fn a_step_is_taken_by_the_field_and_leads_back((field, text) in typed(), by in prop_oneof![Just(1), Just(10), Just(-1), Just(-10)]) {
+        fn a_step_gives_a_valid_value_and_can_be_reversed((field, text) in typed(), by in prop_oneof![Just(1), Just(10), Just(-1), Just(-10)]) {
             let Some(next) = step(&text, field, by) else { return Ok(()) };
             prop_assert!(is_taken(field, &next), "{}: {text} became {next}", FIELDS[field].key);
             let decimals = |text: &str| text.split_once('.').map(|(_, rest)| leading_digits(rest).0.len());

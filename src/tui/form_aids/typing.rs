@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_become_a_value_is_unfinished() {
+    fn the_start_of_a_value_is_unfinished() {
         for (key, typed) in [
             ("pair.pressure_angle", "2"),
             ("driver.face_width", "8000"),
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn what_becomes_none_by_typing_on_is_wrong() {
+    fn text_that_no_typing_completes_is_invalid() {
         for (key, typed) in [
             ("pair.pressure_angle", "31 rad"),
             ("pair.pressure_angle", "2 x"),

@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_form_speaks_of_what_is_in_sight() {
+    fn a_form_names_visible_labels_instead_of_keys() {
         for (key, text, sentence) in [
             (
                 "pair.module",
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_is_called_by_its_label_and_its_gear() {
+    fn a_field_is_named_by_its_label_and_its_gear() {
         assert_eq!(called("pair.module"), "module");
         assert_eq!(
             called("driven.tip_relief_length"),
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn no_message_of_a_form_speaks_the_language_of_files() {
+    fn no_message_of_a_form_refers_to_a_file() {
         let wrong = [
             "",
             "5",

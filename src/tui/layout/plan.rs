@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_in_sight_at_the_usual_sizes() {
+    fn the_visible_panes_at_common_sizes() {
         use Pane::{Chart, Form, Results, Teeth, Trade};
         let usual = Panes::default();
         assert_eq!(seen(59, 16, usual), []);

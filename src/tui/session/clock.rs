@@ -27,7 +27,7 @@ mod tests {
     use super::age;
 
     #[test]
-    fn lengths_of_time_are_told_as_people_do() {
+    fn durations_are_rounded_to_a_readable_unit() {
         let ages = [0, 59, 60, 3599, 3600, 7260, 100_000, 172_800].map(age);
         assert_eq!(
             ages,

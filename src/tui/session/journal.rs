@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_journal_is_read_as_it_was_written() {
+    fn a_journal_is_parsed_from_its_text() {
         let other = Journal {
             case: Some(paths::from_bytes(vec![b'/', 0xff, b'a'])),
             ..journal()

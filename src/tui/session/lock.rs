@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_is_held_once_names_its_holder_and_leaves_nothing_behind() {
+    fn one_session_has_a_lock_which_names_it_and_is_deleted_at_the_end() {
         let (_folder, path) = place();
         let lock = ours(&path);
         assert!(Lock::is_held(&path));
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_dead_process_left_never_blocks() {
+    fn the_lock_file_of_an_ended_process_never_blocks() {
         let ourselves = Holder::ourselves();
         let dead = Holder {
             process: u32::MAX / 4,
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn a_session_that_begins_is_never_cleared_away_by_another() {
+    fn a_starting_session_is_never_deleted_by_another() {
         let folder = tempfile::tempdir().expect("a folder");
         let is_over = AtomicBool::new(false);
         thread::scope(|scope| {
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn the_file_of_a_killed_session_is_cleared_away() {
+    fn the_file_of_a_killed_session_is_deleted() {
         let folder = tempfile::tempdir().expect("a folder");
         let old = SystemTime::now() - 2 * STALE;
         for (name, is_old) in [("killed", false), (".killed", true), (".begins", false)] {

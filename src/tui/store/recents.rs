@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_latest_is_first_and_none_stands_twice() {
+    fn the_latest_case_is_first_and_no_case_is_listed_twice() {
         let paths = ["a", "b", "c"].map(PathBuf::from).to_vec();
         assert_eq!(
             with(paths.clone(), "c".into()),
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn every_path_comes_back() {
+    fn every_path_is_saved_and_read() {
         let odd = paths::from_bytes(vec![b'/', 0xff, b'\n', b' ']);
         let paths = vec![odd, "/plain.toml".into()];
         assert_eq!(parse(&render(&paths)), paths);

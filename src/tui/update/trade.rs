@@ -17,7 +17,7 @@ const MEASURING: &str = "measuring";
 /// Starts the benchmark of every method on the case of the form.
 pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     let Some(inputs) = app.tab.inputs().cloned() else {
-        app.complain("the form is not valid: nothing can be measured");
+        app.complain("no benchmark: fix the fields marked with ! first");
         return Vec::new();
     };
     app.last_serial += 1;
@@ -92,8 +92,8 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
     match end {
         _ if !is_shown => (),
         End::Whole => app.say(recommended.unwrap_or_default()),
-        End::Stopped => app.say("the measurement is stopped; its results stay"),
-        End::Failed(reason) => app.complain(format!("nothing is measured: {reason}")),
+        End::Stopped => app.say("the benchmark is stopped; its results stay"),
+        End::Failed(reason) => app.complain(format!("no benchmark: {reason}")),
     }
 }
 
@@ -119,7 +119,7 @@ pub(super) fn take(app: &mut App) -> Vec<Effect> {
         app.say(if app.tab.traded.is_some() {
             "no setting is selected: the arrow keys select one"
         } else {
-            "nothing is measured yet: m measures"
+            "no benchmark yet: m runs it"
         });
         return Vec::new();
     };

@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stop_ends_what_runs_and_on_demand_what_waits() {
+    fn a_stop_ends_the_running_request_and_optionally_the_waiting_one() {
         let (worker, has_begun, go, actions) = worker();
         worker.request(1);
         assert_eq!(has_begun.recv(), Ok(1));

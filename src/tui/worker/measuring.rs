@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn the_known_settings_grow_until_the_end() {
+    fn the_measured_settings_grow_until_the_end() {
         let (sender, receiver) = channel();
         let worker = start(Arc::new(move |action| sender.send(action).is_ok())).unwrap();
         worker.request(measuring(7));

@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_method_gives_way_to_a_later_request_and_shows_the_closed_form_meanwhile() {
+    fn a_later_request_interrupts_a_slow_method_which_shows_the_closed_form() {
         let (solver, replies) = started();
         let mut slow = request(1);
         (
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn the_relief_at_rest_is_known_while_that_in_motion_is_sought() {
+    fn the_relief_at_rest_is_present_during_the_search_in_motion() {
         let (solver, replies) = started();
         let mut asked = request(1);
         asked.inputs.method = Method::Dynamic;

@@ -30,7 +30,7 @@ fn keys(text: &str) -> Vec<Event> {
 }
 
 #[test]
-fn every_key_with_its_modifiers_is_known() {
+fn every_key_is_decoded_with_its_modifiers() {
     use KeyCode::{
         BackTab, Backspace, Char, Delete, Down, End, Enter, Esc, F, Home, Insert, Left, PageDown,
         PageUp, Right, Tab, Up,
@@ -108,7 +108,7 @@ fn every_key_with_its_modifiers_is_known() {
 }
 
 #[test]
-fn the_three_kinds_of_mouse_reports_are_known() {
+fn the_three_kinds_of_mouse_reports_are_decoded() {
     let mouse = |kind, column, row, modifiers| {
         Event::Mouse(MouseEvent {
             kind,
@@ -168,7 +168,7 @@ fn replies_that_nobody_asked_for_press_no_key() {
 }
 
 #[test]
-fn what_is_unfinished_keeps_no_later_key_waiting() {
+fn an_unfinished_sequence_does_not_delay_later_keys() {
     for start in [
         &b"\x1b[<"[..],
         b"\x1b[1;",

@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn hidden_points_are_left_out_except_the_next_ones() {
+    fn hidden_points_are_omitted_except_the_neighbours() {
         let points: Vec<Point> = (0..100).map(|at| (f64::from(at), 0.0)).collect();
         let kept = visible(&points, Span::new(10.5, 20.5), 50);
         assert_eq!(

@@ -135,7 +135,7 @@ fn a_list_of_fields_names_the_gear() {
 }
 
 #[test]
-fn the_whole_list_is_shown_while_nothing_is_typed() {
+fn an_empty_filter_shows_the_whole_list() {
     let all = Picker::new(List::Commands).fitting();
     let charts = GRAPHS.len() + WhineChart::ALL.len();
     assert_eq!(all.len(), commands::commands().count() + charts);
