@@ -5,7 +5,7 @@
     clippy::expect_used,
     clippy::panic,
     clippy::print_stdout,
-    reason = "a bench says what it found"
+    reason = "a benchmark prints its results"
 )]
 
 #[path = "../tests/trade/table.rs"]

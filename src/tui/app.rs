@@ -30,7 +30,7 @@ use crate::case::{Case, Document};
 
 /// The whole state of the screen.
 #[derive(Debug, Clone)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
+#[expect(clippy::struct_excessive_bools, reason = "the flags are independent")]
 pub struct App {
     /// The current case.
     pub tab: Tab,

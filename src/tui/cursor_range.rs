@@ -253,7 +253,7 @@ pub(super) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
 }
 
 #[cfg(test)]
-#[expect(clippy::float_cmp, reason = "the ends of the way are met exactly")]
+#[expect(clippy::float_cmp, reason = "the ends of the range are exact")]
 mod tests {
     use super::*;
 

@@ -2,7 +2,7 @@
 
 /// Panics or blocks forever if a test requests a fault at this place.
 #[cfg(debug_assertions)]
-#[expect(clippy::panic, reason = "a fault is what is asked for")]
+#[expect(clippy::panic, reason = "a test requests the fault")]
 pub(super) fn on_demand(place: &str) {
     match std::env::var("TIPSTRIKE_FAULT").unwrap_or_default() {
         asked if asked == place => panic!("a fault on demand"),

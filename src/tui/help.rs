@@ -38,7 +38,7 @@ const SIGNS: [&str; 6] = [
 const PLACES: [(&str, Place); 14] = [
     ("Everywhere", Place::WORK),
     ("In a field", Place::TEXT),
-    ("Outside a field (Esc leaves one)", Place::FIELD),
+    ("Outside a field (Esc leaves the field)", Place::FIELD),
     ("In a field of choices", Place::CHOICE),
     ("In the results", Place::RESULTS),
     ("In chart and teeth", Place::CURSOR),

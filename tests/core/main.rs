@@ -6,7 +6,7 @@
     clippy::unwrap_used,
     clippy::print_stdout,
     clippy::print_stderr,
-    reason = "a test that cannot go on says why, and prints its figures"
+    reason = "a failing test panics with a message and prints its figures"
 )]
 
 #[path = "../oracle/envelope.rs"]

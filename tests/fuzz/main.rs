@@ -8,7 +8,7 @@
 #![allow(
     clippy::expect_used,
     clippy::panic,
-    reason = "a test may stop at what it did not expect"
+    reason = "a failing test may panic"
 )]
 
 mod documents;

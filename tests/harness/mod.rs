@@ -49,7 +49,7 @@ pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml")
 
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "each tells what was asked of the world"
+    reason = "each flag records a requested effect"
 )]
 pub(crate) struct Desk {
     pub(crate) app: App,

@@ -1,7 +1,7 @@
 //! Numbers of 90 digits.
 #![allow(
     clippy::needless_pass_by_value,
-    reason = "sums are made where they are used"
+    reason = "the sums are written in place"
 )]
 
 use std::cell::RefCell;

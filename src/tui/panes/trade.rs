@@ -167,7 +167,7 @@ fn phrases(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> 
     let Some(measured) = marked else {
         let (measured, planned) = (trade.settings.len(), trade.planned);
         let far = if measured == planned && trade.part < 1.0 {
-            format!("all {planned} settings measured once, being repeated")
+            format!("all {planned} settings measured once; repeating")
         } else {
             format!("{measured} of {planned} settings measured")
         };

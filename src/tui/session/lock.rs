@@ -77,7 +77,7 @@ impl Lock {
         let name = name.to_string_lossy().replace(UNLOCKED, "");
         let (Taken::Ours(mut lock) | Taken::Unguarded(mut lock, _)) = Lock::take(hidden.path())?
         else {
-            return Err(io::Error::other("the name of the session is taken"));
+            return Err(io::Error::other("the name of the session is in use"));
         };
         let path = folder.join(&name);
         hidden

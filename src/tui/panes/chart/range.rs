@@ -182,7 +182,7 @@ impl Occasion {
 }
 
 #[cfg(test)]
-#[expect(clippy::float_cmp, reason = "ends are those of the axis")]
+#[expect(clippy::float_cmp, reason = "the ends are copied from the axis")]
 mod tests {
     use super::*;
 

@@ -25,7 +25,7 @@ pub struct ResultsState {
 
 /// The pane with the results that it shows.
 #[derive(Debug, Clone)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a state of its own")]
+#[expect(clippy::struct_excessive_bools, reason = "the flags are independent")]
 pub struct Results<'a> {
     /// The state of the pane.
     pub(crate) state: ResultsState,

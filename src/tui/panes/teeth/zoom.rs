@@ -181,7 +181,7 @@ pub(crate) fn round_down(value: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[expect(clippy::float_cmp, reason = "a step is one of few numbers")]
+#[expect(clippy::float_cmp, reason = "a step is an exact constant")]
 mod tests {
     use super::*;
 
