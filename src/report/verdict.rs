@@ -224,9 +224,9 @@ impl Verdict<'_> {
     /// wrote it.
     #[must_use]
     pub fn sentence(&self, system: System) -> String {
-        let said = self.said(system);
+        let statement = self.statement(system);
         let Some(beside) = self.beside else {
-            return said;
+            return statement;
         };
         let is_unlimited = beside.own.is_some() && !beside.is_limited;
         let also = match (self.is_exceeded_beside(), is_unlimited) {
@@ -235,7 +235,7 @@ impl Verdict<'_> {
             (false, true) => "; this quantity has no limit",
             (false, false) => "",
         };
-        format!("{said} for {}{also}", beside.sentence(system))
+        format!("{statement} for {}{also}", beside.sentence(system))
     }
 
     /// Whether the counterpart in the method exceeds the limit on the free impact.
@@ -246,7 +246,7 @@ impl Verdict<'_> {
             .is_some_and(|own| own > self.limit.value)
     }
 
-    fn said(&self, system: System) -> String {
+    fn statement(&self, system: System) -> String {
         let (key, limit) = (self.limit.quantity, sanitize(&self.limit.text));
         let (Some(value), Some(quantity)) = (self.value, Quantity::find(key)) else {
             return match self.absence {

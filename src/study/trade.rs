@@ -33,7 +33,7 @@ pub struct Question {
 const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
 
 /// Answers for the comparison, with their curves; only the running measurement needs them.
-struct Standards {
+struct References {
     truth: Option<Arc<Answer>>,
     /// Best settings with their answers.
     best: Vec<(Setting, Arc<Answer>)>,
@@ -56,11 +56,11 @@ pub fn trade(
         ..inputs.clone()
     };
     let settings = settings(inputs);
-    let (mut trade, standards) = Standards::find(inputs, question, settings.len(), go_on)?;
+    let (mut trade, references) = References::find(inputs, question, settings.len(), go_on)?;
     show(&trade);
     let mut rounds = Rounds::begin(inputs, question.patience, go_on);
     for setting in settings {
-        let measured = standards.measure(inputs, setting, &mut rounds)?;
+        let measured = references.measure(inputs, setting, &mut rounds)?;
         trade.settings.push(measured);
         trade.judge();
         trade.part = rounds.part(trade.planned);
@@ -108,14 +108,14 @@ fn finest(inputs: &Inputs) -> Vec<Setting> {
     settings
 }
 
-impl Standards {
+impl References {
     /// The reference, its check, and the finest setting of each method.
     fn find(
         inputs: &Inputs,
         question: &Question,
         planned: usize,
         go_on: &dyn Fn() -> bool,
-    ) -> Result<(Trade, Standards), Refusal> {
+    ) -> Result<(Trade, References), Refusal> {
         let (reference, truth) = stopped(reference(inputs, go_on))?.map_or_else(
             |refusal| (Err(refusal), None),
             |(reference, truth)| (Ok(reference), Some(Arc::new(truth))),
@@ -153,7 +153,7 @@ impl Standards {
             build: Build::measure(inputs, question.patience),
             cheapest: None,
         };
-        Ok((trade, Standards { truth, best }))
+        Ok((trade, References { truth, best }))
     }
 
     /// Errors of a setting, with a first time.
@@ -205,7 +205,8 @@ fn reference(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, An
     let answer = Answer::of(&solution);
     let second = stopped(second::second_way(&inputs, &solution, go_on))?;
     let off = |second: second::Second| {
-        Subject::ALL.map(|subject| apart(second.value(subject), answer.value(subject)))
+        Subject::ALL
+            .map(|subject| relative_difference(second.value(subject), answer.value(subject)))
     };
     let disagreement = second.map(off);
     Ok((
@@ -219,7 +220,7 @@ fn reference(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, An
 }
 
 /// Relative difference of two results; `None` if one is absent.
-fn apart(second: Option<f64>, first: Option<f64>) -> Option<f64> {
+fn relative_difference(second: Option<f64>, first: Option<f64>) -> Option<f64> {
     match (second?, first?) {
         // Also if both are 0.
         (second, first) if first.to_bits() == second.to_bits() => Some(0.0),

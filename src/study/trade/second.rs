@@ -45,7 +45,7 @@ pub(super) fn second_way(
     solution: &Solution,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Second, Refusal> {
-    const FURTHER: f64 = 16.0;
+    const GROWTH: f64 = 16.0;
     let error = solution.deviation.equivalent_error;
     let mut reach = error.abs() + 4.0 * solution.deviation.loaded_deflection();
     loop {
@@ -61,7 +61,7 @@ pub(super) fn second_way(
         if run.most_ahead + error.max(0.0) < reach || mesh.is_whole() {
             return Ok(run.found());
         }
-        reach *= FURTHER;
+        reach *= GROWTH;
     }
 }
 
@@ -77,17 +77,17 @@ struct Oscillator<'a> {
 }
 
 /// The pairs at one time.
-struct Moment {
+struct PairState {
     pairs: PairSet,
     touching: Touching,
     /// See [`PairSet::leads`].
     leads: Vec<f64>,
 }
 
-impl Moment {
+impl PairState {
     /// Margin of each pair against a change of contact, in m: approach of a touching pair, gap of a
     /// separated pair.
-    fn kept(&self) -> impl Iterator<Item = f64> {
+    fn margins(&self) -> impl Iterator<Item = f64> {
         let of = |(index, lead): (usize, &f64)| {
             if self.touching.has(index) {
                 *lead
@@ -111,7 +111,7 @@ impl Oscillator<'_> {
         t * self.mesh.speed
     }
 
-    fn moment(&self, t: f64, displacement: f64) -> Moment {
+    fn pair_state(&self, t: f64, displacement: f64) -> PairState {
         let pairs = self.mesh.pair_set(self.place(t), self.inside);
         let touches = |pair: &Pair| self.touching.contains(&pair.ahead);
         let touching = pairs
@@ -120,7 +120,7 @@ impl Oscillator<'_> {
             .enumerate()
             .filter(|(_, pair)| touches(pair));
         let touching = touching.fold(Touching::NONE, |set, (index, _)| set.with(index));
-        Moment {
+        PairState {
             leads: pairs.leads(touching, displacement),
             pairs,
             touching,
@@ -128,37 +128,39 @@ impl Oscillator<'_> {
     }
 
     /// The least margin of all pairs, in m.
-    fn kept(&self, t: f64, y: &State) -> f64 {
-        self.moment(t, y[0]).kept().fold(f64::INFINITY, f64::min)
+    fn least_margin(&self, t: f64, y: &State) -> f64 {
+        self.pair_state(t, y[0])
+            .margins()
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Changes the contact of the pair with the least margin.
-    fn turn(&mut self, t: f64, y: &State) -> Option<i32> {
-        let moment = self.moment(t, y[0]);
-        let (index, _) = moment
-            .kept()
+    fn change_contact(&mut self, t: f64, y: &State) -> Option<i32> {
+        let state = self.pair_state(t, y[0]);
+        let (index, _) = state
+            .margins()
             .enumerate()
             .min_by(|one, other| one.1.total_cmp(&other.1))?;
-        let turned = moment.pairs.pairs()[index].ahead;
-        match self.touching.iter().position(|&ahead| ahead == turned) {
+        let changed = state.pairs.pairs()[index].ahead;
+        match self.touching.iter().position(|&ahead| ahead == changed) {
             Some(at) => drop(self.touching.swap_remove(at)),
-            None => self.touching.push(turned),
+            None => self.touching.push(changed),
         }
-        Some(turned)
+        Some(changed)
     }
 
     /// Force of the incoming tooth, in N.
     fn force(&self, t: f64, y: &State) -> f64 {
-        let moment = self.moment(t, y[0]);
-        let incoming = moment.forces().find(|(pair, _)| pair.ahead == 0);
+        let state = self.pair_state(t, y[0]);
+        let incoming = state.forces().find(|(pair, _)| pair.ahead == 0);
         incoming.map_or(0.0, |(_, force)| force.max(0.0))
     }
 }
 
 impl Equation<2> for Oscillator<'_> {
     fn slope(&self, t: f64, y: &State) -> State {
-        let moment = self.moment(t, y[0]);
-        let carried: f64 = moment
+        let state = self.pair_state(t, y[0]);
+        let carried: f64 = state
             .forces()
             .map(|(pair, force)| pair.weight * force)
             .sum();
@@ -173,7 +175,7 @@ impl Equation<2> for Oscillator<'_> {
 
 /// An interval in which the same pairs touch, short compared with the period.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct Interval {
     t: f64,
     y: State,
     length: f64,
@@ -194,7 +196,7 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn begin(mesh: &'a Mesh, inputs: &Inputs, mass: f64) -> Result<Run<'a>, Refusal> {
-        const STRETCHES_OF_A_PERIOD: f64 = 16.0;
+        const INTERVALS_PER_PERIOD: f64 = 16.0;
         /// A run time of two or three seconds.
         const MOST_SWINGS: f64 = 8e3;
         let frequency = (mesh.mean_stiffness / mass).sqrt();
@@ -227,7 +229,7 @@ impl<'a> Run<'a> {
             borders,
             t: start / mesh.speed,
             y: State::new(displacement, 0.0),
-            longest: TAU / (STRETCHES_OF_A_PERIOD * frequency),
+            longest: TAU / (INTERVALS_PER_PERIOD * frequency),
             first_touch: None,
             peak_force: 0.0,
             peak_approach_force: 0.0,
@@ -254,28 +256,28 @@ impl<'a> Run<'a> {
 
     /// Integrates one interval, at most to `end` and to the next change of a contact.
     fn advance(&mut self, end: f64) {
-        let stretches = ((end - self.t) / self.longest).ceil().max(1.0);
-        let whole = Stretch {
+        let intervals = ((end - self.t) / self.longest).ceil().max(1.0);
+        let whole = Interval {
             t: self.t,
             y: self.y,
-            length: (end - self.t) / stretches,
+            length: (end - self.t) / intervals,
         };
-        let turn = self.turn_within(&whole);
-        let stretch = Stretch {
-            length: turn.unwrap_or(whole.length),
+        let change = self.next_contact_change(&whole);
+        let interval = Interval {
+            length: change.unwrap_or(whole.length),
             ..whole
         };
-        self.watch(&stretch);
-        self.y = self.after(&stretch, stretch.length);
+        self.watch(&interval);
+        self.y = self.after(&interval, interval.length);
         self.most_ahead = self.most_ahead.max(self.y[0]);
-        self.t = if turn.is_none() && stretches < 1.5 {
+        self.t = if change.is_none() && intervals < 1.5 {
             end
         } else {
-            self.t + stretch.length
+            self.t + interval.length
         };
-        if turn.is_some() {
-            let turned = self.oscillator.turn(self.t, &self.y);
-            if turned == Some(0) && self.first_touch.is_none() {
+        if change.is_some() {
+            let changed = self.oscillator.change_contact(self.t, &self.y);
+            if changed == Some(0) && self.first_touch.is_none() {
                 self.first_touch = Some(self.t);
             }
         }
@@ -283,60 +285,60 @@ impl<'a> Run<'a> {
 
     /// Time of the next contact change, as far as checks at the middle and the end of the interval
     /// find it.
-    fn turn_within(&self, stretch: &Stretch) -> Option<f64> {
+    fn next_contact_change(&self, interval: &Interval) -> Option<f64> {
         /// The margin of a pair that has just changed contact is 0 within rounding.
         const SHORTEST: f64 = 1e-9;
-        let kept = |after: f64| {
+        let margin = |after: f64| {
             self.oscillator
-                .kept(stretch.t + after, &self.after(stretch, after))
+                .least_margin(interval.t + after, &self.after(interval, after))
         };
-        let looks = [
-            SHORTEST * stretch.length,
-            0.5 * stretch.length,
-            stretch.length,
+        let checks = [
+            SHORTEST * interval.length,
+            0.5 * interval.length,
+            interval.length,
         ];
-        let at = (0..looks.len()).find(|&at| kept(looks[at]) < 0.0)?;
+        let at = (0..checks.len()).find(|&at| margin(checks[at]) < 0.0)?;
         Some(if at == 0 {
-            looks[0]
+            checks[0]
         } else {
-            root::between(looks[at - 1], looks[at], kept)
+            root::between(checks[at - 1], checks[at], margin)
         })
     }
 
-    fn after(&self, stretch: &Stretch, length: f64) -> State {
-        step(&self.oscillator, stretch.t, &stretch.y, length)
+    fn after(&self, interval: &Interval, length: f64) -> State {
+        step(&self.oscillator, interval.t, &interval.y, length)
     }
 
     /// Updates the peak forces of the incoming tooth.
-    fn watch(&mut self, stretch: &Stretch) {
+    fn watch(&mut self, interval: &Interval) {
         if !self.oscillator.touching.contains(&0) {
             return;
         }
-        let peak = self.peak(stretch);
+        let peak = self.peak(interval);
         self.peak_force = self.peak_force.max(peak);
         // E is a border, within rounding.
-        if stretch.t + 0.5 * stretch.length < 0.0 {
+        if interval.t + 0.5 * interval.length < 0.0 {
             self.peak_approach_force = self.peak_approach_force.max(peak);
         }
     }
 
     /// The greatest force in an interval. If the force rises first and falls later, the peak is
     /// found by a root of its slope.
-    fn peak(&self, stretch: &Stretch) -> f64 {
+    fn peak(&self, interval: &Interval) -> f64 {
         /// Half the step of the difference quotient, relative to the interval. A peak closer to an
         /// end of the interval is missed; its error is of second order.
-        const ASIDE: f64 = 1e-5;
+        const STEP: f64 = 1e-5;
         let force = |after: f64| {
             self.oscillator
-                .force(stretch.t + after, &self.after(stretch, after))
+                .force(interval.t + after, &self.after(interval, after))
         };
         let slope = |after: f64| {
-            let aside = ASIDE * stretch.length;
-            force((after + aside).min(stretch.length)) - force((after - aside).max(0.0))
+            let half_step = STEP * interval.length;
+            force((after + half_step).min(interval.length)) - force((after - half_step).max(0.0))
         };
-        let (start, end) = (force(0.0), force(stretch.length));
-        if slope(0.0) > 0.0 && slope(stretch.length) < 0.0 {
-            let top = root::between(0.0, stretch.length, slope);
+        let (start, end) = (force(0.0), force(interval.length));
+        if slope(0.0) > 0.0 && slope(interval.length) < 0.0 {
+            let top = root::between(0.0, interval.length, slope);
             return force(top).max(start).max(end);
         }
         start.max(end)

@@ -88,7 +88,7 @@ impl Autosave {
     /// Takes the locks of newly opened cases and passes new edits to the journal. Returns claims of
     /// the opened cases, and the reasons why edits cannot be journaled.
     pub fn follow(&mut self, cases: &[OpenCase<'_>], now: Instant) -> Vec<Result<Claim, String>> {
-        self.let_go(cases);
+        self.drop_closed(cases);
         let claims: Vec<_> = cases.iter().filter_map(|case| self.claim(case)).collect();
         let mut results: Vec<_> = claims.into_iter().map(Ok).collect();
         for case in cases {
@@ -145,13 +145,13 @@ impl Autosave {
 
     /// Ends the session and deletes its journals: unsaved edits that remain are discarded.
     pub fn end(mut self) {
-        self.let_go(&[]);
+        self.drop_closed(&[]);
         drop(self.journal_writer.write(false));
         self.journal_writer.close();
     }
 
     // Drops closed cases, and cases that were saved under another name.
-    fn let_go(&mut self, cases: &[OpenCase<'_>]) {
+    fn drop_closed(&mut self, cases: &[OpenCase<'_>]) {
         let is_open = |id: usize, case: &Tracked| {
             cases
                 .iter()

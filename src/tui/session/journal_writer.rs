@@ -17,21 +17,21 @@ pub(crate) const THREAD: &str = "journal";
 /// The requested journals, shared by the threads that may write them.
 #[derive(Debug, Default)]
 pub struct JournalWriter {
-    shelf: Mutex<Shelf>,
+    entries: Mutex<Entries>,
     bell: Condvar,
     /// Locked during a write.
-    pen: Mutex<()>,
+    write_lock: Mutex<()>,
 }
 
 #[derive(Debug, Default)]
-struct Shelf {
-    pages: BTreeMap<PathBuf, Page>,
+struct Entries {
+    by_path: BTreeMap<PathBuf, Entry>,
     is_due: bool,
     is_closed: bool,
 }
 
 #[derive(Debug, Default)]
-struct Page {
+struct Entry {
     wanted: Option<Journal>,
     written: Option<Journal>,
 }
@@ -61,8 +61,8 @@ impl JournalWriter {
 
     /// Sets the content of a journal; `None` removes it.
     pub(crate) fn put(&self, path: &Path, journal: Option<Journal>) {
-        self.shelf()
-            .pages
+        self.entries()
+            .by_path
             .entry(path.to_owned())
             .or_default()
             .wanted = journal;
@@ -70,7 +70,7 @@ impl JournalWriter {
 
     /// Wakes the thread, which writes every changed journal.
     pub(crate) fn ring(&self) {
-        self.shelf().is_due = true;
+        self.entries().is_due = true;
         self.bell.notify_all();
     }
 
@@ -80,8 +80,11 @@ impl JournalWriter {
     /// # Errors
     /// The first error; the other journals are written nevertheless.
     pub fn write(&self, lasting: bool) -> io::Result<()> {
-        let pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
-        let changed: Vec<_> = self.shelf().changed();
+        let write_lock = self
+            .write_lock
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        let changed: Vec<_> = self.entries().changed();
         let mut result = Ok(());
         for (path, wanted) in changed {
             let written = match &wanted {
@@ -102,63 +105,63 @@ impl JournalWriter {
                 }),
             };
             if written.is_ok() {
-                self.shelf().settle(&path, wanted);
+                self.entries().settle(&path, wanted);
             }
             result = result.and(written);
         }
-        drop(pen);
+        drop(write_lock);
         result
     }
 
     /// Whether any journal contains edits that no file has.
     #[must_use]
     pub fn is_needed(&self) -> bool {
-        self.shelf()
-            .pages
+        self.entries()
+            .by_path
             .values()
-            .any(|page| page.wanted.is_some())
+            .any(|entry| entry.wanted.is_some())
     }
 
     /// Ends the thread.
     pub(crate) fn close(&self) {
-        self.shelf().is_closed = true;
+        self.entries().is_closed = true;
         self.bell.notify_all();
     }
 
-    fn shelf(&self) -> MutexGuard<'_, Shelf> {
-        self.shelf.lock().unwrap_or_else(PoisonError::into_inner)
+    fn entries(&self) -> MutexGuard<'_, Entries> {
+        self.entries.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     // Returns false at the end.
     fn wait(&self) -> bool {
-        let mut shelf = self.shelf();
-        while !shelf.is_due && !shelf.is_closed {
-            shelf = self
+        let mut entries = self.entries();
+        while !entries.is_due && !entries.is_closed {
+            entries = self
                 .bell
-                .wait(shelf)
+                .wait(entries)
                 .unwrap_or_else(PoisonError::into_inner);
         }
-        shelf.is_due = false;
-        !shelf.is_closed
+        entries.is_due = false;
+        !entries.is_closed
     }
 }
 
-impl Shelf {
+impl Entries {
     fn changed(&self) -> Vec<(PathBuf, Option<Journal>)> {
-        let differs = |(_, page): &(&PathBuf, &Page)| page.wanted != page.written;
-        self.pages
+        let differs = |(_, entry): &(&PathBuf, &Entry)| entry.wanted != entry.written;
+        self.by_path
             .iter()
             .filter(differs)
-            .map(|(path, page)| (path.clone(), page.wanted.clone()))
+            .map(|(path, entry)| (path.clone(), entry.wanted.clone()))
             .collect()
     }
 
-    // If the case was closed during the write, its page is gone. The page is added again, so that
+    // If the case was closed during the write, its entry is gone. The entry is added again, so that
     // the next write deletes the file.
     fn settle(&mut self, path: &Path, written: Option<Journal>) {
-        self.pages.entry(path.to_owned()).or_default().written = written;
-        self.pages
-            .retain(|_, page| page.wanted.is_some() || page.written.is_some());
+        self.by_path.entry(path.to_owned()).or_default().written = written;
+        self.by_path
+            .retain(|_, entry| entry.wanted.is_some() || entry.written.is_some());
     }
 }
 

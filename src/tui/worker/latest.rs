@@ -73,13 +73,13 @@ impl<R: std::marker::Send + 'static> Worker<R> {
 
     /// Stops the running request. A waiting request still runs.
     pub(crate) fn stop_running(&self) {
-        self.requests.tray().is_stopped = true;
+        self.requests.state().is_stopped = true;
     }
 
     /// Stops every request so far. A waiting request still starts, but is not wanted.
     pub(crate) fn stop(&self) {
-        let mut tray = self.requests.tray();
-        (tray.is_stopped, tray.is_next_stopped) = (true, true);
+        let mut state = self.requests.state();
+        (state.is_stopped, state.is_next_stopped) = (true, true);
     }
 }
 
@@ -91,12 +91,12 @@ impl<R> Drop for Worker<R> {
 
 #[derive(Debug)]
 struct LatestRequest<R> {
-    tray: Mutex<Tray<R>>,
+    state: Mutex<RequestState<R>>,
     bell: Condvar,
 }
 
 #[derive(Debug)]
-struct Tray<R> {
+struct RequestState<R> {
     next: Option<R>,
     is_next_stopped: bool,
     /// Whether the running request is no longer wanted.
@@ -107,7 +107,7 @@ struct Tray<R> {
 impl<R> Default for LatestRequest<R> {
     fn default() -> LatestRequest<R> {
         LatestRequest {
-            tray: Mutex::new(Tray {
+            state: Mutex::new(RequestState {
                 next: None,
                 is_next_stopped: false,
                 is_stopped: false,
@@ -120,38 +120,41 @@ impl<R> Default for LatestRequest<R> {
 
 impl<R> LatestRequest<R> {
     fn put(&self, request: R) {
-        let mut tray = self.tray();
-        (tray.next, tray.is_next_stopped) = (Some(request), false);
+        let mut state = self.state();
+        (state.next, state.is_next_stopped) = (Some(request), false);
         self.bell.notify_one();
     }
 
     fn close(&self) {
-        self.tray().is_closed = true;
+        self.state().is_closed = true;
         self.bell.notify_one();
     }
 
     // Sleeps until there is a request; `None` at the end.
     fn take(&self) -> Option<R> {
-        let mut tray = self.tray();
+        let mut state = self.state();
         loop {
-            if tray.is_closed {
+            if state.is_closed {
                 return None;
             }
-            if let Some(request) = tray.next.take() {
-                tray.is_stopped = tray.is_next_stopped;
+            if let Some(request) = state.next.take() {
+                state.is_stopped = state.is_next_stopped;
                 return Some(request);
             }
-            tray = self.bell.wait(tray).unwrap_or_else(PoisonError::into_inner);
+            state = self
+                .bell
+                .wait(state)
+                .unwrap_or_else(PoisonError::into_inner);
         }
     }
 
     fn is_wanted(&self) -> bool {
-        let tray = self.tray();
-        tray.next.is_none() && !tray.is_stopped && !tray.is_closed
+        let state = self.state();
+        state.next.is_none() && !state.is_stopped && !state.is_closed
     }
 
-    fn tray(&self) -> MutexGuard<'_, Tray<R>> {
-        self.tray.lock().unwrap_or_else(PoisonError::into_inner)
+    fn state(&self) -> MutexGuard<'_, RequestState<R>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
