@@ -85,7 +85,7 @@ fn an_equivalent_error_without_the_reliefs_is_named_so() {
     );
     assert!(
         !page.contains("exact 7.6"),
-        "two definitions stand side by side: {page}"
+        "the page has two definitions: {page}"
     );
     let page = relieved("static", &["explain", "total_deviation"]);
     assert!(page.contains("Δ = Δf_0 + e_m + δ"), "{page}");
@@ -436,7 +436,7 @@ fn a_field_without_effect_has_a_reason() {
             }
         }
     }
-    assert_eq!(silent, [""; 0], "these move nothing and do not say why");
+    assert_eq!(silent, [""; 0], "these fields have no effect and no reason");
     assert!(index_of("operation.power").is_some_and(|power| {
         partial_relevance(power, &Case::table_1().inputs().unwrap())
             .is_some_and(|why| why.contains("with the deflection given"))

@@ -139,7 +139,7 @@ fn frozen_rows_cover_every_quantity_and_decade() {
             .iter()
             .filter(|row| row.answers.contains_key(key))
             .count();
-        assert!(count > 300, "{key} stands in {count} rows");
+        assert!(count > 300, "{key} is in {count} rows");
     }
     for decade in -15..=-4 {
         let count = rows

@@ -309,7 +309,7 @@ fn table_1_by_the_printed_equations() {
     assert_eq!(
         format!("{:.3}", closed * 1e6),
         "0.073",
-        "the tip has closed almost nothing of the gap"
+        "the tip has closed almost none of the gap"
     );
 }
 

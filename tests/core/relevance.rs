@@ -139,7 +139,7 @@ fn hold(
                 let given = case.text(index).is_some();
                 assert!(
                     acting == Acting::Yes || !given,
-                    "method {method}: {} is said to be {acting:?}; {text} changes something",
+                    "method {method}: {} is reported as {acting:?}; {text} changes a result",
                     field.key
                 );
             }
@@ -155,12 +155,12 @@ fn the_relevant_fields_are_those_that_change_a_result() {
         let idle: Vec<_> = said.difference(&found).collect();
         assert!(
             idle.is_empty(),
-            "method {method}: said to act, and no change of it changes anything: {idle:?}"
+            "method {method}: reported as relevant, but no change has an effect: {idle:?}"
         );
         let more: Vec<_> = found.difference(&said).collect();
         assert!(
             more.is_empty(),
-            "method {method}: said not to act, and it does: {more:?}"
+            "method {method}: reported as idle, but has an effect: {more:?}"
         );
     }
 }

@@ -173,7 +173,7 @@ fn young_poisson_and_bore_enter() {
     let before = beam(&|_| ());
     assert!(
         (beam(&|inputs| inputs.driver.young /= 2.0) / before - 2.0).abs() < 1e-12,
-        "compliance goes as 1/E"
+        "compliance is proportional to 1/E"
     );
     assert!(
         beam(&|inputs| inputs.driver.poisson = 0.0) > 1.02 * before,

@@ -370,7 +370,7 @@ fn a_trade_reports_its_progress_and_stops_on_request() {
     assert_eq!((stopped.err(), seen.get()), (Some(Refusal::Stopped), 5));
     assert!(asked.get() > 5);
     let never = trade(&table_1(), &question, &|| false, &mut |_| {
-        panic!("nothing is measured")
+        panic!("no benchmark")
     });
     assert_eq!(never.err(), Some(Refusal::Stopped));
 }
@@ -464,10 +464,7 @@ fn cost_grows_linearly_with_cycles_and_stations() {
         "a cycle costs {ratio} times as much later on: {few} {some} {many}"
     );
     let (few, many) = (evaluations(0.07, 20, 64), evaluations(0.07, 1000, 64));
-    assert!(
-        many < 1.1 * few,
-        "a cycle that repeats costs nothing: {few} {many}"
-    );
+    assert!(many < 1.1 * few, "a repeated cycle is free: {few} {many}");
     let (few, some, many) = (
         evaluations(0.07, 20, 64),
         evaluations(0.07, 20, 128),

@@ -365,7 +365,7 @@ impl Bench {
                 assert_eq!(
                     self.app.tab.case.inputs().as_ref(),
                     Ok(&request.inputs),
-                    "only what is valid reaches the model"
+                    "only valid cases reach the model"
                 );
                 self.waiting = Some(*request);
                 None
@@ -488,7 +488,7 @@ impl Bench {
         assert_eq!(app.tab.problems.is_empty(), app.tab.case.inputs().is_ok());
         assert!(
             app.tabs().all(|tab| self.on_disk.contains(&tab.saved)),
-            "the mark tells whether the file differs"
+            "the mark shows whether the file differs"
         );
         let inputs = app.tab.case.inputs().ok();
         if let (Some(inputs), Some(answer), false) = (inputs, &app.tab.answer, app.tab.is_stale()) {
@@ -499,7 +499,7 @@ impl Bench {
             let chosen = inputs.method == Method::Auto || answer.pending.is_some();
             assert!(
                 chosen || answer.active == inputs.method,
-                "the method of the form stands first"
+                "the method of the form is first"
             );
         }
         self.draw(app.layout.size());
@@ -571,6 +571,6 @@ impl Bench {
                 return;
             }
         }
-        panic!("{end:?} is never said");
+        panic!("{end:?} is never shown");
     }
 }

@@ -183,7 +183,7 @@ fn assert_json(report: &Report) {
         assert_eq!(
             back,
             Some(value.to_bits()),
-            "{} comes back as it was",
+            "{} is read unchanged",
             quantity.key
         );
     }
@@ -252,7 +252,7 @@ fn assert_page(report: &Report) {
 
 fn written(write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>) -> String {
     let mut out = Vec::new();
-    write(&mut out).expect("memory takes everything");
+    write(&mut out).expect("a write to memory succeeds");
     String::from_utf8(out).expect("a report is text")
 }
 

@@ -173,6 +173,6 @@ fn assert_nothing_left(tty: &Tty, status: &ExitStatus) {
     let case = fs::read_to_string(tty.case()).expect("the case is there");
     assert!(
         Document::parse("case.toml", &case).is_ok(),
-        "what is saved opens again: {case}"
+        "a saved case opens again: {case}"
     );
 }

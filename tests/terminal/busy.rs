@@ -94,7 +94,7 @@ fn keys_are_echoed_while_a_solve_runs() {
     );
     assert!(
         busy.shows("exact"),
-        "the closed form stands for what is not solved yet"
+        "the closed form is shown until the solve ends"
     );
     assert!(solving <= MOST_FOR_A_KEY, "{solving:.1?}");
     leave(busy);
@@ -108,7 +108,7 @@ fn a_long_solve_shows_its_progress_and_esc_stops_it() {
     tty.type_in("\x1b");
     tty.wait_for("method dynamic is stopped; the closed form is shown until the next edit");
     println!(
-        "Esc ends the solve within {:.1?}, of which 50 ms are for what an escape sequence may take",
+        "Esc ends the solve within {:.1?}, including 50 ms for the timeout of an escape sequence",
         start.elapsed()
     );
     assert!(start.elapsed() <= MOST_FOR_ESC, "{:.1?}", start.elapsed());
@@ -116,7 +116,7 @@ fn a_long_solve_shows_its_progress_and_esc_stops_it() {
     let ticks = || stat(tty.id()).map(|words| (words[11].clone(), words[12].clone()));
     let before = ticks();
     std::thread::sleep(Duration::from_millis(300));
-    assert_eq!(ticks(), before, "nothing is solved any more");
+    assert_eq!(ticks(), before, "no solve is running");
     tty.type_in("i7");
     tty.wait_for("solving dynamic; Esc cancels");
     leave(tty);

@@ -126,8 +126,8 @@ fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
     assert_eq!(mode & 0o7777, 0o640, "{fault}");
     assert_eq!(mark(path), mark_of_a_case(), "{fault}");
     match code {
-        Some(SAVED) => assert!(!is_old, "{fault}: said to be saved, and is not"),
-        Some(REFUSED) => assert!(is_old, "{fault}: said to be refused, and is saved"),
+        Some(SAVED) => assert!(!is_old, "{fault}: reported as saved, but is not"),
+        Some(REFUSED) => assert!(is_old, "{fault}: reported as refused, but is saved"),
         _ => {}
     }
 }
@@ -200,7 +200,7 @@ fn traced(options: &[&str], run: &impl Fn(&[&str]) -> Output) -> (Output, String
     .concat());
     (
         output,
-        fs::read_to_string(&log).expect("strace tells what it does"),
+        fs::read_to_string(&log).expect("strace writes its log"),
     )
 }
 
@@ -265,7 +265,7 @@ fn a_new_case_is_there_whole_or_not_at_all_at_every_fault() {
                 Ok(text) => assert_eq!(text, whole, "{fault}: half a file"),
                 Err(_) => assert!(
                     !output.status.success(),
-                    "{fault}: said to be written, and is not there"
+                    "{fault}: reported as written, but is missing"
                 ),
             }
             let left = fs::read_dir(folder.path()).expect("a folder").count();
@@ -442,7 +442,7 @@ fn a_save_keeps_access_lists_and_attributes_and_inherits_none() {
     assert_eq!(
         xattr::get(&path, LIST).expect("a list"),
         Some(list),
-        "the group may not what only the mask allows"
+        "the group gains no rights from the mask"
     );
     assert_eq!(mark(&path), mark_of_a_case());
     assert_eq!(
@@ -479,7 +479,7 @@ fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
             .status()
             .is_ok_and(|status| status.success())
     {
-        return skip("nobody cannot be made of us here");
+        return skip("this process cannot become nobody");
     }
     // In writable folders: one in which everybody may rename every file, and one in which everybody
     // may rename only his own.
@@ -500,7 +500,7 @@ fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
         );
         assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
         let left = fs::read_dir(folder.path()).expect("a folder").count();
-        assert_eq!(left, 1, "nothing is left beside it");
+        assert_eq!(left, 1, "no other file remains");
     }
     // The superuser may change the owner of files.
     let (_folder, path) = folder_with_case();

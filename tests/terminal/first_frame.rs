@@ -80,6 +80,6 @@ fn a_headless_solve_is_soon_done() {
     println!("solve: {:.1} ms, {ratio:.1} times `true`", solve * 1e3);
     assert!(
         ratio <= MOST,
-        "a solve takes {ratio:.1} times what a program takes that does nothing"
+        "a solve takes {ratio:.1} times as long as an empty program"
     );
 }

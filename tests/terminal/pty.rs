@@ -82,7 +82,7 @@ fn the_workbench_suspends_and_resumes() {
     tty.wait_until("it to stop", |tty| tty.state() == Some('T'));
     tty.assert_restored();
     tty.send_signal("CONT");
-    tty.wait_until("it to come back", |tty| {
+    tty.wait_until("the workbench to resume", |tty| {
         tty.screen().alternate_screen() && tty.shows("Corner contact")
     });
     tty.type_in("\x11");

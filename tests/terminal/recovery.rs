@@ -77,7 +77,11 @@ fn edits_are_journaled_a_second_after_the_last_and_every_two_during_typing() {
     let (mut app, mut autosave, _chest) = bench(folder.path());
     let start = Instant::now();
     assert!(autosave.follow(&app.sheets(), start).is_empty());
-    assert_eq!(autosave.deadline(), None, "nothing to keep wakes nobody");
+    assert_eq!(
+        autosave.deadline(),
+        None,
+        "without edits there is no deadline"
+    );
     write(&mut app, "pair.module", "6 mm");
     autosave.follow(&app.sheets(), start);
     assert!(
@@ -96,9 +100,17 @@ fn edits_are_journaled_a_second_after_the_last_and_every_two_during_typing() {
         );
     }
     autosave.keep_if_due(start + 2 * SECOND);
-    assert_eq!(autosave.deadline(), None, "what is kept wakes nobody");
+    assert_eq!(
+        autosave.deadline(),
+        None,
+        "journaled edits have no deadline"
+    );
     autosave.follow(&app.sheets(), start + 3 * SECOND);
-    assert_eq!(autosave.deadline(), None, "what is kept is not kept again");
+    assert_eq!(
+        autosave.deadline(),
+        None,
+        "journaled edits are not written again"
+    );
     autosave.end();
 }
 
@@ -131,7 +143,7 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     autosave.end();
     assert!(
         journals(folder.path()).is_empty(),
-        "who leaves on purpose leaves nothing"
+        "an intended end leaves no journal"
     );
     assert_eq!(
         fs::read_dir(folder.path().join("tipstrike/sessions"))
@@ -174,7 +186,7 @@ fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_saved_again() {
     fs::write(&old, "the edits of an earlier session").expect("room on the disk");
     autosave.adopt(old.clone());
     autosave.follow(&app.sheets(), Instant::now());
-    assert!(old.exists(), "nothing else holds them");
+    assert!(old.exists(), "no other file has the edits");
     fs::create_dir(&place).expect("our own folder");
     autosave.follow(&app.sheets(), Instant::now());
     assert!(!old.exists() && journals(folder.path()).len() == 1);
@@ -483,7 +495,7 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
     let before = ticks(id);
     assert!(
         journals(tty.folder.path()).is_empty(),
-        "nothing is kept yet"
+        "no journal is written yet"
     );
     let broken = Instant::now();
     tty.hang_up();
@@ -497,7 +509,7 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
     }
     let gone = broken.elapsed();
     println!(
-        "kept after {:.1?}, gone after {gone:.1?}, {} ticks of 10 ms",
+        "journal after {:.1?}, end after {gone:.1?}, {} ticks of 10 ms",
         kept.unwrap_or(gone),
         burnt - before
     );
@@ -506,7 +518,7 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
         kept.unwrap_or(gone) < SECOND / 2,
         "its edits are kept after {kept:?}"
     );
-    assert!(gone < 5 * SECOND, "it stays for {gone:.1?}");
+    assert!(gone < 5 * SECOND, "it remains for {gone:.1?}");
     assert!(
         burnt - before <= 8,
         "it burns {} ticks on its way out",

@@ -165,7 +165,7 @@ fn a_terminal_that_accepts_no_bytes_does_not_block_the_end() {
     while !tty.has_ended() {
         assert!(
             start.elapsed() < PATIENCE,
-            "it waits for a terminal that takes nothing more"
+            "it waits for a terminal that accepts no bytes"
         );
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -208,7 +208,7 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
     let start = Instant::now();
     tty.type_in("\x11");
     while !tty.has_ended() {
-        assert!(start.elapsed() < PATIENCE, "it hears nothing any more");
+        assert!(start.elapsed() < PATIENCE, "it no longer reads events");
         tty.take_output(Duration::from_millis(5));
     }
     let left = start.elapsed();
@@ -442,7 +442,7 @@ fn an_idle_workbench_sleeps_and_is_small() {
     let mut tty = opened(Launch::on_table_1());
     tty.settle(Duration::from_millis(500));
     let before = wake_ups(tty.id());
-    assert!(before > 0, "/proc tells of wake-ups");
+    assert!(before > 0, "/proc reports wake-ups");
     assert_eq!(tty.take_output(IDLE), 0, "it writes while idle");
     assert_eq!(wake_ups(tty.id()) - before, 0, "it wakes while idle");
     let resident = resident(tty.id());

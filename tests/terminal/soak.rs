@@ -121,7 +121,7 @@ impl Soak {
             tty.wake();
             tty.screen().alternate_screen()
         };
-        self.tty.wait_until("it to come back", is_back);
+        self.tty.wait_until("the workbench to resume", is_back);
     }
 
     /// Presses a key and waits for its effects.

@@ -217,7 +217,7 @@ impl Tty {
 
     pub(crate) fn type_in(&mut self, keys: impl AsRef<[u8]>) {
         self.try_to_type(keys.as_ref())
-            .expect("the terminal takes keys");
+            .expect("the terminal accepts keys");
     }
 
     /// Sends keys; fails if the program has ended.
@@ -245,7 +245,7 @@ impl Tty {
             }
             self.take_output(Duration::from_millis(5));
             self.wake();
-            assert!(Instant::now() < end, "it takes no more keys");
+            assert!(Instant::now() < end, "it accepts no more keys");
         }
         self.line().writer = pouring.join().expect("all is poured");
     }
@@ -278,7 +278,7 @@ impl Tty {
         while !is_so(self) {
             assert!(
                 Instant::now() < end,
-                "waited for {what} in vain:\n{}",
+                "timeout while waiting for {what}:\n{}",
                 self.screen().contents()
             );
             self.take_output(Duration::from_millis(5));
@@ -436,7 +436,7 @@ impl Tty {
 
     /// Checks that the terminal is restored: modes, screen, cursor, paste.
     pub(crate) fn assert_restored(&self) {
-        assert_eq!(self.modes(), self.before, "the modes are what they were");
+        assert_eq!(self.modes(), self.before, "the modes are unchanged");
         assert!(
             !self.screen().alternate_screen(),
             "the alternate screen is left"

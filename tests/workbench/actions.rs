@@ -264,7 +264,7 @@ fn every_key_has_the_effect_of_its_line() {
         let (mut with, mut without) = (bench(), bench());
         press(&mut with, before);
         covered.insert(
-            called(&with, key).unwrap_or_else(|| panic!("{key} after {before:?} calls nothing")),
+            called(&with, key).unwrap_or_else(|| panic!("{key} after {before:?} has no command")),
         );
         press(&mut with, key);
         press(&mut with, after);
@@ -282,7 +282,7 @@ fn every_key_has_the_effect_of_its_line() {
                 .map(|line| line.chars().take(90).collect::<String>())
                 .collect();
             wrong.push(format!(
-                "{key} after {before:?} is to bring {says:?}; it brings:\n{}",
+                "{key} after {before:?} must show {says:?}; the screen is:\n{}",
                 lines.join("\n")
             ));
         }

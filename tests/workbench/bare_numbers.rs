@@ -111,7 +111,7 @@ fn a_typed_unit_is_never_replaced() {
     desk.keys(&["Down"]);
     assert!(
         desk.shows("! 48 m is above the limit of"),
-        "once it is left it is wrong:\n{}",
+        "after the user leaves the field the value is invalid:\n{}",
         desk.screen()
     );
     desk.keys(&["Ctrl-S"]);

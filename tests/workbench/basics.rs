@@ -433,7 +433,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
     let late = update(&mut desk.app, Action::Insert('x'));
     assert!(
         !late.iter().any(|effect| matches!(effect, Effect::Solve(_))),
-        "what is wrong is not solved"
+        "an invalid case is not solved"
     );
     let effects = update(&mut desk.app, Action::Do(Command::Undo));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {

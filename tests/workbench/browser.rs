@@ -214,7 +214,11 @@ fn an_entry_with_the_typed_name_is_selected_before_those_that_contain_it() {
     desk.keys(&["Ctrl-O", "case.toml"]);
     assert_eq!(marked(&desk), "case.toml");
     desk.keys(&["Ctrl-U", "DEEP"]);
-    assert_eq!(marked(&desk), "sub/deep.toml", "what is below is found too");
+    assert_eq!(
+        marked(&desk),
+        "sub/deep.toml",
+        "cases below the folder are found"
+    );
     desk.write(".hidden.toml", TABLE_1);
     desk.keys(&["Esc", "Ctrl-O"]);
     assert!(!desk.shows("hidden"));
@@ -250,7 +254,7 @@ fn recent_cases_are_on_the_same_page_and_missing_files_are_marked() {
     assert_eq!(
         desk.app.tab.short_name(),
         "deep.toml",
-        "what is typed finds recent cases too"
+        "typing also finds recent cases"
     );
 }
 
@@ -425,7 +429,7 @@ fn the_threads_answer_and_the_latest_wish_counts() {
     let mut last = String::new();
     while last != "three/" {
         let Ok(Action::Listed(listing)) = replies.recv_timeout(Duration::from_secs(20)) else {
-            panic!("an answer comes")
+            panic!("an answer is expected")
         };
         assert!(listing.entries.is_ok());
         last = listing.asked.1;

@@ -923,7 +923,7 @@ fn a_key_changes_few_bytes_of_a_chart() {
 fn the_mesh_stiffness_has_a_curve_for_every_model_with_that_of_the_case_on_top() {
     let mut desk = at_method(SMALL, "exact");
     let request = |desk: &Desk| desk.app.tab.requested_stiffness;
-    assert!(!request(&desk), "a chart out of sight costs nothing");
+    assert!(!request(&desk), "a hidden chart is not requested");
     desk.keys(&["1", ":", "chart: mesh stiffness", "Enter", "3"]);
     assert!(request(&desk));
     for name in ["kuang-yang (case)", "beam", "finite-element"] {

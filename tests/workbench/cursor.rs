@@ -33,7 +33,7 @@ fn an_angle_in_any_unit_and_a_time_mean_the_same_place() {
     desk.keys(&["3", "t"]);
     assert!(
         (at(&mut desk, "-50").to_degrees() - 0.6).abs() < 1e-9,
-        "a bare number is what the axis has"
+        "a bare number is in the unit of the axis"
     );
 }
 
@@ -48,7 +48,7 @@ fn points_have_names() {
         "{d} {e} {b} {l} {peak}"
     );
     desk.keys(&["3", "End", "Home"]);
-    assert_eq!(desk.app.cursor, Some(d), "D is where Home goes");
+    assert_eq!(desk.app.cursor, Some(d), "Home moves the cursor to D");
     let screen = desk.screen();
     at(&mut desk, "peak");
     assert_ne!(screen, desk.screen());

@@ -114,7 +114,7 @@ fn the_fields_behind_a_result_lead_to_the_form() {
     assert_eq!(
         of(&desk).field(),
         Some("pair.module"),
-        "Enter marks the first one before it goes there"
+        "Enter without a selection selects the first field"
     );
 }
 

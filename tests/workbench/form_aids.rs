@@ -130,7 +130,7 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
     );
     assert!(
         line(&desk, "  ν2 ").contains("0.3"),
-        "what stayed is not marked:\n{}",
+        "unchanged values have no mark:\n{}",
         desk.screen()
     );
     desk.go_to("driven.young");

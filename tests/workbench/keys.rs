@@ -96,7 +96,7 @@ fn switching_through_methods_is_one_step_of_undo() {
     desk.keys(&["Ctrl-T", "7", "Ctrl-Z"]);
     assert!(
         desk.shows("▸static") && desk.shows("6 mm"),
-        "what is typed after it is a step of its own\n{}",
+        "later typing is a separate step\n{}",
         desk.screen()
     );
 }

@@ -29,7 +29,7 @@ fn a_click_on_the_name_of_a_hidden_pane_shows_it() {
         desk.act(Action::Click(Position::new(size.width - 5, 13)));
         assert!(
             desk.shows("Commands"),
-            "a press beside a list changes nothing"
+            "a click beside a list changes nothing"
         );
     }
 }

@@ -48,7 +48,7 @@ fn each_step_of_the_walk_shows_its_sentences() {
         for says in says {
             assert!(
                 desk.screen().replace("DIR/", "").contains(says),
-                "{keys:?} is to bring {says:?}:\n{}",
+                "{keys:?} must show {says:?}:\n{}",
                 desk.screen()
             );
         }

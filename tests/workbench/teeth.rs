@@ -201,7 +201,7 @@ fn the_cursor_turns_the_gears_and_shows_the_values_of_the_solution() {
         .zip(before.lines())
         .filter(|(one, other)| one != other)
         .count();
-    assert!(rows_that_differ > 10, "the gears stand still");
+    assert!(rows_that_differ > 10, "the gears do not move");
 }
 
 #[test]
@@ -509,7 +509,7 @@ fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
         drawn_pairs += 1;
     }
     println!(
-        "{drawn_pairs} pairs; most strokes {:.2} of what is allowed: {}",
+        "{drawn_pairs} pairs; greatest part of the allowed strokes {:.2}: {}",
         most.0, most.1
     );
     assert!(drawn_pairs > 4_000, "only {drawn_pairs}");

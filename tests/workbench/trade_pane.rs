@@ -184,7 +184,7 @@ fn a_measurement_out_of_sight_stops() {
     );
     assert!(
         matches!(desk.effects("3")[..], [Effect::CancelWork]),
-        "the chart takes its place"
+        "the chart replaces it"
     );
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
@@ -193,7 +193,7 @@ fn a_measurement_out_of_sight_stops() {
     let effects = update(&mut desk.app, Action::Resize(tiny));
     assert!(
         !matches!(effects[..], [.., Effect::CancelWork]),
-        "a window that is too small for a moment stops nothing"
+        "a briefly too small window does not stop the benchmark"
     );
 }
 
@@ -214,7 +214,7 @@ fn the_results_of_a_replaced_benchmark_are_ignored() {
         end: Some(End::Stopped),
     };
     update(&mut desk.app, Action::Measured(Box::new(late)));
-    assert!(desk.app.progress.is_some(), "the second goes on");
+    assert!(desk.app.progress.is_some(), "the second one runs");
     let failed = Measured {
         serial: serials[1],
         trade: None,
