@@ -1,8 +1,8 @@
 //! Corner contact in spur gear pairs: where, how hard and how long the tip of an incoming driven
 //! tooth strikes the driver's flank before the normal path of contact begins.
 //!
-//! The program `tipstrike` is a workbench in the terminal with the same answers from scripts. This
-//! library is its inside. A case is a TOML file; a solve turns it into a [`Solution`]:
+//! The program `tipstrike` is a terminal workbench with headless commands. This library is its
+//! computation. A case is a TOML file; a solve turns the case into a [`Solution`]:
 //!
 //! ```
 //! use tipstrike::case::Document;
@@ -19,21 +19,21 @@
 //!
 //! # Modules
 //!
-//! Data flows one way, and a module sees only those before it:
+//! Data flows one way. A module imports only the modules above it:
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
 //! | [`system`] | what differs between operating systems |
-//! | [`numeric`] | root finding, series and quadrature, without a word of gears |
+//! | [`numeric`] | root finding, series and quadrature, independent of gears |
 //! | [`model`] | the computation: one stage per file, without files, threads or printing |
 //! | [`case`](mod@case) | the case file: fields, units, reading, checking, saving |
 //! | [`study`] | many solves of one case: sweeps, crossings, tolerances, speed against accuracy |
 //! | [`report`] | results as text, JSON, CSV and explanations |
 //! | [`cli`] | the commands |
-//! | [`tui`] | the workbench; the only module that sees a terminal |
+//! | [`tui`] | the workbench; the only module that uses a terminal |
 //!
-//! The computation builds without command line and workbench (`--no-default-features`). Units are
-//! SI throughout.
+//! The computation builds without the command line and the workbench (`--no-default-features`). All
+//! units are SI.
 //!
 //! # Pages
 //!
@@ -55,7 +55,7 @@ pub mod system;
 #[cfg(all(unix, feature = "tui"))]
 pub mod tui;
 
-/// The pages of the folder `docs`, for people.
+/// The pages of the folder `docs`.
 #[cfg(all(doc, not(doctest)))]
 pub mod docs {
     #[doc = include_str!("../docs/guide.md")]

@@ -1,4 +1,4 @@
-//! Numerical methods that know no gears.
+//! Numerical methods, independent of gears.
 
 pub mod banded;
 pub mod bernstein;

@@ -1,6 +1,6 @@
-//! Symmetric positive definite matrices in which each row meets only a few before it.
+//! Symmetric positive definite band matrices.
 
-/// A matrix of the rows `[a_ii, a_(i,i−1), a_(i,i−2), ..]`, factored.
+/// The factors L and D of a matrix with the rows `[a_ii, a_(i,i−1), a_(i,i−2), ..]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Banded<const ROW: usize> {
     /// d_i, l_(i,i−1), l_(i,i−2), ..
@@ -35,7 +35,7 @@ impl<const ROW: usize> Banded<ROW> {
         Some(Banded { rows })
     }
 
-    /// The solutions of A x = `right` for several right sides, in place.
+    /// Solves A x = `right` for several right sides, in place.
     pub fn solve<const M: usize>(&self, right: &mut [[f64; M]]) {
         let rows = &self.rows;
         for (at, row) in rows.iter().enumerate().skip(1) {

@@ -1,34 +1,34 @@
-//! Where a polynomial changes its sign between 0 and 1, none missed: by Bernstein's form, whose
-//! coefficients bound it.
+//! Sign changes of a polynomial between 0 and 1. The coefficients of the Bernstein form bound the
+//! polynomial, so that no sign change is missed.
 
 use super::polynomial::Polynomial;
 use super::root;
 
-/// Coefficients that are found at once; a form has some multiple of them.
+/// Coefficients computed together; the number of terms is a multiple of it.
 const SIDE_BY_SIDE: usize = 4;
-/// A part of the way is halved no further: two changes that are nearer to each other are none.
+/// Limit of the halvings. Two sign changes within 2⁻³⁰ of each other can cancel.
 const MOST_HALVINGS: u32 = 30;
-/// Parts of the way that one search looks at: those around every root of a polynomial of 32 terms,
-/// halved as often as that. A polynomial that is nothing but rounding has changes everywhere.
+/// Limit of the parts in one search: the parts around 32 roots, each halved 30 times. A polynomial
+/// of rounding errors has sign changes everywhere.
 const MOST_PARTS: u32 = 32 * 2 * MOST_HALVINGS;
 
-/// Σ b_i C(N−1, i) t^i (1−t)^(N−1−i): on the way from 0 to 1 it lies between the least and the
-/// greatest b.
+/// A polynomial Σ b_i C(N−1, i) t^i (1−t)^(N−1−i). From 0 to 1 its values are between the least and
+/// the greatest b.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bernstein<const N: usize>([f64; N]);
 
 impl<const N: usize> Bernstein<N> {
-    /// C(i, j)/C(N−1, j), by which a coefficient of t^j counts in b_i.
+    /// C(i, j)/C(N−1, j), the weight of the coefficient of t^j in b_i.
     const WEIGHTS: &'static [[f64; N]; N] = &weights();
 
-    /// The form of a polynomial.
+    /// The Bernstein form of a polynomial.
     ///
     /// # Source
     /// Farouki & Rajan 1987, "On the numerical condition of polynomials in Bernstein form",
     /// Computer Aided Geometric Design 4, Eq. 6.
     #[must_use]
     pub fn of(polynomial: &Polynomial<N>) -> Bernstein<N> {
-        const { assert!(N.is_multiple_of(SIDE_BY_SIDE), "coefficients go by fours") };
+        const { assert!(N.is_multiple_of(SIDE_BY_SIDE), "multiple of four terms") };
         let (terms, mut form) = (polynomial.terms(), [0.0; N]);
         for (part, sums) in form
             .as_chunks_mut::<SIDE_BY_SIDE>()
@@ -50,7 +50,7 @@ impl<const N: usize> Bernstein<N> {
         Bernstein(form)
     }
 
-    /// No value is below the first and none above the second.
+    /// A lower and an upper bound of the values from 0 to 1.
     #[must_use]
     pub fn bounds(&self) -> (f64, f64) {
         self.0
@@ -60,7 +60,7 @@ impl<const N: usize> Bernstein<N> {
             })
     }
 
-    /// The form on the first and on the second half of the way, by de Casteljau's means.
+    /// The forms on the first and the second half of the interval, by de Casteljau's algorithm.
     fn halves(&self) -> (Bernstein<N>, Bernstein<N>) {
         let (mut left, mut right) = (*self, *self);
         for size in (1..N).rev() {
@@ -90,13 +90,14 @@ const fn weights<const N: usize>() -> [[f64; N]; N] {
     weights
 }
 
-/// Where a polynomial that is not below 0 at 0 first falls below it, where it does by 1; at once
-/// where it is below 0 at 0.
+/// The first place from 0 to 1 where the polynomial falls below 0. `Some(0.0)` if the polynomial
+/// begins below 0, `None` if it does not fall below 0.
 ///
 /// # Source
-/// Descartes' rule on Bernstein's form: as many changes of sign as the coefficients have, or fewer
-/// by an even number, so that none and one are certain; more of them are looked at by halves. Lane
-/// & Riesenfeld 1981, "Bounds on a polynomial", BIT 21.
+/// Descartes' rule for the Bernstein form: the coefficients change sign as often as the polynomial,
+/// or more often by an even number. No change and one change are therefore certain. With more
+/// changes the search halves the interval. Lane & Riesenfeld 1981, "Bounds on a polynomial", BIT
+/// 21.
 #[must_use]
 pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
     let form = Bernstein::of(polynomial);
@@ -115,8 +116,8 @@ pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
     first
 }
 
-/// Every place between 0 and 1 where it changes its sign, in order; what is no more than rounding
-/// has none.
+/// The places between 0 and 1 where the polynomial changes its sign, in order. Values within
+/// rounding have no sign.
 #[must_use]
 pub fn sign_changes<const N: usize>(polynomial: &Polynomial<N>) -> Vec<f64> {
     const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -143,18 +144,18 @@ pub fn sign_changes<const N: usize>(polynomial: &Polynomial<N>) -> Vec<f64> {
 /// A search for changes of sign, from left to right.
 struct Search<'a, const N: usize> {
     polynomial: &'a Polynomial<N>,
-    /// No coefficient that is nearer to 0 has a sign.
+    /// Coefficients up to this absolute value have no sign.
     floor: f64,
-    /// The last sign, 0 where there was none yet.
+    /// The last sign, or 0 before the first sign.
     sign: &'a mut i8,
-    /// Parts that it may still look at.
+    /// Parts that the search may still examine.
     rest: u32,
-    /// Says whether to go on.
+    /// Receives each sign change; returns whether the search continues.
     found: &'a mut dyn FnMut(f64) -> bool,
 }
 
 impl<const N: usize> Search<'_, N> {
-    /// Look at the part of the way; whether to go on after it.
+    /// Searches one part of the interval. Returns whether the search continues.
     fn within(&mut self, form: &Bernstein<N>, from: f64, to: f64, halvings: u32) -> bool {
         self.rest = self.rest.saturating_sub(1);
         let (at_once, inside, last) = self.changes(form);
@@ -174,8 +175,8 @@ impl<const N: usize> Search<'_, N> {
         go_on
     }
 
-    /// Whether the first coefficient with a sign has another than the last one seen, how often it
-    /// changes from there on, and the last one then.
+    /// Whether the first coefficient with a sign differs from the last sign before; the number of
+    /// sign changes after this coefficient; the last sign.
     fn changes(&self, form: &Bernstein<N>) -> (bool, usize, i8) {
         let mut signs = form
             .0
@@ -192,7 +193,8 @@ impl<const N: usize> Search<'_, N> {
     }
 }
 
-/// The values among which the greatest and the least of a polynomial from 0 to 1 are.
+/// The values at the ends and at the turning points, which include the greatest and the least value
+/// from 0 to 1.
 pub fn extremes<const N: usize>(polynomial: &Polynomial<N>) -> impl Iterator<Item = f64> {
     let turns = sign_changes(&polynomial.derivative());
     let places = turns.into_iter().chain([0.0, 1.0]);
@@ -213,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn planted_changes_are_found_and_double_roots_are_none() {
+    fn sign_changes_are_found_and_double_roots_are_ignored() {
         let cases: [(&[f64], &[f64]); 6] = [
             (&[-0.3, 1.2, 5.0], &[]),
             (&[0.25], &[0.25]),
@@ -240,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_fall_is_the_first_however_short_the_dip() {
+    fn the_first_fall_is_found_in_a_short_dip() {
         let dip = with_roots::<12>(1.0, &[0.3, 0.3 + 1e-4, 0.7, 0.8]);
         assert!((first_fall(&dip).unwrap() - 0.3).abs() < 1e-10);
         let touches = with_roots::<12>(1.0, &[0.4, 0.4]).plus(1e-9, &Polynomial([1.0]));
@@ -255,8 +257,8 @@ mod tests {
     }
 
     #[test]
-    fn a_polynomial_of_nothing_but_rounding_is_searched_in_so_many_parts() {
-        // Equal sums of terms of either sign: what is left of them at any place is rounding.
+    fn the_search_of_a_polynomial_of_rounding_errors_ends() {
+        // Terms of both signs have equal sums, so that each value is a rounding error.
         let rough = with_roots::<32>(1e-16, &[0.5; 31]);
         let parts = |polynomial: &Polynomial<32>, floor: f64| {
             let (mut sign, mut changes) = (1, 0);
@@ -279,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bounds_hold() {
+    fn the_bounds_contain_all_values() {
         let polynomial = Polynomial([0.3, -2.0, 4.0, 1.0, -3.5, 0.0, 0.0, 0.0]);
         let (low, high) = Bernstein::of(&polynomial).bounds();
         for step in 0..=100 {

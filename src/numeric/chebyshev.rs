@@ -1,5 +1,5 @@
-//! Functions of one variable as polynomials on pieces, found as Chebyshev series, cheap to evaluate
-//! and as exact as the digits allow.
+//! Functions of one variable as polynomials on pieces, computed from Chebyshev series to full f64
+//! precision and cheap to evaluate.
 
 mod terms;
 
@@ -7,12 +7,13 @@ use super::polynomial::Polynomial;
 pub use terms::TERMS;
 use terms::{Terms, about, has_settled, integral, interpolate, place, powers, terms_of, values};
 
-/// A piece is halved no further: a function that is still not smooth there has a branch point.
+/// Limit of the halvings. A function that is still not smooth has a branch point in the piece.
 const MOST_HALVINGS: u32 = 30;
-/// Nor are there more pieces: a function that rounding has made rough would take them without end.
+/// Limit of the pieces, for a function that is rough from rounding.
 const MOST_PIECES: usize = 128;
 
-/// No piece is halved that is narrower over its place: the places of its points would be rounding.
+/// Least width of a halved piece relative to its position. Points of a narrower piece round
+/// together.
 const NARROWEST: f64 = 256.0 * f64::EPSILON;
 
 /// `N` functions on one interval, each a polynomial on every piece of it.
@@ -25,14 +26,14 @@ pub struct Series<const N: usize> {
 struct Piece<const N: usize> {
     from: f64,
     to: f64,
-    /// Coefficients of the powers of the place on the piece from −1 to 1. The terms of a series
-    /// that has settled fall so fast that the powers keep its digits.
+    /// Coefficients of the powers of the place on the piece from −1 to 1. The terms of a converged
+    /// series fall so fast that the powers keep its digits.
     powers: Terms<N>,
 }
 
 impl<const N: usize> Series<N> {
-    /// The functions `f` from `from` to `to`, halved until the last terms of each series are below
-    /// what `rest` allows on the piece from one end to the other.
+    /// Samples the functions `f` from `from` to `to`. Halves the interval until the last terms of
+    /// each series are below `rest(from, to)` of the piece.
     ///
     /// # Source
     /// Trefethen 2013, "Approximation Theory and Approximation Practice", chapters 3 and 4.
@@ -50,7 +51,7 @@ impl<const N: usize> Series<N> {
         Ok(Series { pieces })
     }
 
-    /// Any number of groups of functions on the same pieces; `f` writes the values of all groups.
+    /// Samples groups of functions on common pieces. `f` writes the values of all groups.
     ///
     /// # Errors
     /// Those of `f`.
@@ -65,7 +66,7 @@ impl<const N: usize> Series<N> {
         Ok(groups)
     }
 
-    /// The values of the first `M` functions at `x`, which may be beyond the interval by rounding.
+    /// The values of the first `M` functions at `x`. `x` may be beyond the interval by rounding.
     #[must_use]
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
         self.piece(x).map_or([f64::NAN; M], |piece| {
@@ -95,9 +96,8 @@ impl<const N: usize> Series<N> {
         })
     }
 
-    /// `M` functions, from `first` on, over the way from `x` up by `length`, as polynomials of the
-    /// part of it: those of the piece that serves there by [`Series::serves_until`], about another
-    /// place.
+    /// `M` functions, starting with function `first`, from `x` to `x + length` as polynomials from
+    /// 0 to 1. The piece is the piece of [`Series::serves_until`].
     #[must_use]
     pub fn local<const M: usize>(
         &self,
@@ -116,8 +116,8 @@ impl<const N: usize> Series<N> {
             })
     }
 
-    /// Where the piece ends that serves from `x` up, of which more than `least` is left; infinite
-    /// for the last.
+    /// End of the piece used from `x` on. A piece with less than `least` left is skipped. Infinite
+    /// for the last piece.
     #[must_use]
     pub fn serves_until(&self, x: f64, least: f64) -> f64 {
         let last = self.pieces.last().map_or(f64::NAN, |piece| piece.from);
@@ -126,7 +126,7 @@ impl<const N: usize> Series<N> {
             .map_or(f64::INFINITY, |piece| piece.to)
     }
 
-    /// The functions of `about` − x, each times its sign.
+    /// The functions of `about` − x, each multiplied by its sign.
     #[must_use]
     pub fn reversed(&self, about: f64, signs: [f64; N]) -> Series<N> {
         let pieces = self.pieces.iter().rev();
@@ -135,20 +135,20 @@ impl<const N: usize> Series<N> {
         }
     }
 
-    /// Where the functions begin.
+    /// The start of the first piece.
     #[must_use]
     pub fn start(&self) -> f64 {
         self.pieces.first().map_or(f64::NAN, |piece| piece.from)
     }
 
-    /// How often the functions were computed to find the pieces.
+    /// Number of evaluations of the functions that the construction needed.
     #[must_use]
     pub fn evaluations(&self) -> usize {
-        // Whatever is halved, there is one piece less before.
+        // N pieces come from N − 1 halvings, so the construction sampled 2 N − 1 intervals.
         TERMS * (2 * self.pieces.len()).saturating_sub(1)
     }
 
-    /// What the pieces take, in bytes.
+    /// Memory of the pieces, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.pieces)
@@ -171,7 +171,7 @@ impl<const N: usize> Series<N> {
         self.pieces.get(after).or_else(|| self.pieces.last())
     }
 
-    /// The piece that holds from `x` up. One of which next to nothing is left there is done.
+    /// The piece used from `x` on. Skips a piece that ends here.
     fn piece_above(&self, x: f64, least: f64) -> Option<&Piece<N>> {
         const NOTHING: f64 = 1e-6;
         if let [only] = self.pieces.as_slice() {
@@ -200,8 +200,8 @@ impl<const N: usize> Piece<N> {
         }
     }
 
-    /// `x` on the piece, from −1 to 1. A place beyond an end is there by its rounding: on a piece
-    /// as narrow as that, the polynomial is not followed further.
+    /// Maps `x` to the piece from −1 to 1. Rounding can put `x` beyond an end of a narrow piece;
+    /// the result is clamped near the end.
     fn inner(&self, x: f64) -> f64 {
         const BEYOND: f64 = 1.0 + 1e-3;
         (((x - self.from) - (self.to - x)) / (self.to - self.from)).clamp(-BEYOND, BEYOND)
@@ -266,7 +266,7 @@ fn halve_groups<const N: usize, E>(
     halve_groups((middle, to), rest, halvings - 1, f, groups)
 }
 
-/// Whether an interval is as narrow as it may be, or there are as many pieces as there may be.
+/// Whether the interval has its least width, or the halvings or the pieces reached their limit.
 fn may_not_halve((from, to): (f64, f64), halvings: u32, pieces: usize) -> bool {
     let is_narrow = to - from <= NARROWEST * from.abs().max(to.abs());
     halvings == 0 || is_narrow || pieces >= MOST_PIECES
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn a_branch_point_at_the_end_costs_pieces_and_no_digits() {
+    fn a_branch_point_at_the_end_needs_more_pieces_but_keeps_the_digits() {
         let found = series(0.0, 1.0, |x| [x.sqrt()]);
         assert!(found.pieces.len() < 50, "{}", found.pieces.len());
         for step in 0..=1000 {
@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn about_another_place_the_pieces_are_the_same_functions() {
+    fn local_polynomials_equal_the_functions() {
         let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp(), x.abs()]);
         let mut x = -2.0;
         while x < 7.0 - 1e-9 {
@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_beside_a_piece_as_narrow_as_rounding_has_the_value_of_its_end() {
+    fn a_place_beside_a_very_narrow_piece_has_the_value_of_its_end() {
         let (from, to) = (1.0, 1.0 + 4.0 * f64::EPSILON);
         assert_eq!(series(from, to, |x| [(1e20 * x).sin()]).pieces.len(), 1);
         let found = series(from, to, |x| [x, (1e20 * x).sin()]);
@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_function_refuses_is_passed_on() {
+    fn an_error_of_the_function_is_returned() {
         let refused = Series::of(0.0, 1.0, &|_, _| [1e-14], &|x| {
             if x > 0.5 { Err("beyond") } else { Ok([x]) }
         });

@@ -1,6 +1,6 @@
-//! Numbers as a person reads them.
+//! Numbers as text.
 
-/// A number in as few digits as tell it from every other: plain from 1e-4 to 1e7, else with an
+/// The shortest text that parses to the same number: plain from 1e-4 to 1e7, otherwise with an
 /// exponent.
 #[must_use]
 pub fn shortest(value: f64) -> String {
@@ -12,8 +12,8 @@ pub fn shortest(value: f64) -> String {
     }
 }
 
-/// A number with this many significant digits: plain from 1e-3 to 1e6, else with an exponent; never
-/// NaN or minus zero.
+/// A number with `digits` significant digits: plain from 1e-3 to 1e6, otherwise with an exponent.
+/// Never NaN or minus zero.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {

@@ -1,5 +1,5 @@
-//! Steps of a differential equation by the extrapolated midpoint rule: a way of its own beside
-//! [`super::taylor`], to check it.
+//! Steps of a differential equation by the extrapolated midpoint rule, independent of
+//! [`super::taylor`] to check its results.
 
 use nalgebra::SVector;
 
@@ -9,10 +9,10 @@ pub trait Equation<const N: usize> {
     fn slope(&self, t: f64, y: &SVector<f64, N>) -> SVector<f64, N>;
 }
 
-/// Extrapolations of a step, each of which raises its order by two.
+/// Number of extrapolations in a step. Each raises the order by two.
 const COLUMNS: usize = 6;
 
-/// The state a `length` after the time `t` and the state `y`, of order 12.
+/// The state after a step of `length` from the time `t` and the state `y`, of order 12.
 ///
 /// # Formula
 /// ```text
@@ -47,7 +47,7 @@ pub fn step<const N: usize>(
     best
 }
 
-/// The midpoint rule in an even number of parts.
+/// The midpoint rule with an even number of parts.
 fn midpoint<const N: usize>(
     equation: &impl Equation<N>,
     t: f64,

@@ -1,9 +1,9 @@
-//! Logarithm and exponential of nearby numbers, which take a fraction of the time of any others.
+//! Logarithm and exponential near 1 and 0, faster than the functions of the standard library.
 
-/// The sixth power of a smaller number is rounding.
+/// The sixth power of a smaller number is below rounding.
 const SMALL: f64 = 1e-3;
 
-/// The tenth power of half of a smaller number is rounding.
+/// The tenth power of half of a smaller number is below rounding.
 const NEAR: f64 = 0.05;
 
 /// ln(1 + x).
@@ -14,7 +14,7 @@ const NEAR: f64 = 0.05;
 /// ```
 ///
 /// # Source
-/// The arrangement of `log1p` in Sun's fdlibm, with the terms of the series in place of fitted ones.
+/// The arrangement of `log1p` in Sun's fdlibm, with series terms instead of fitted coefficients.
 #[must_use]
 pub fn logarithm(x: f64) -> f64 {
     if x.abs() < SMALL {

@@ -1,5 +1,4 @@
-//! Polynomials by the coefficients of their powers, mostly of a part of a way that goes from 0 to
-//! 1.
+//! Polynomials as coefficients of powers, mostly on an interval from 0 to 1.
 
 /// Σ a_k t^k of `N` terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,7 +8,7 @@ impl<const N: usize> Polynomial<N> {
     /// The polynomial that is 0 everywhere.
     pub const ZERO: Polynomial<N> = Polynomial([0.0; N]);
 
-    /// The coefficients up to the last that is not 0.
+    /// The coefficients up to the last nonzero coefficient.
     #[must_use]
     pub fn terms(&self) -> &[f64] {
         let count = self
@@ -32,7 +31,7 @@ impl<const N: usize> Polynomial<N> {
         self.derivative().at(t)
     }
 
-    /// Its derivative; the last term is 0.
+    /// Its derivative. The last coefficient is 0.
     #[must_use]
     pub fn derivative(&self) -> Polynomial<N> {
         let mut derivative = [0.0; N];
@@ -52,14 +51,14 @@ impl<const N: usize> Polynomial<N> {
             .sum()
     }
 
-    /// The same over another measure of the way: a(`by` t).
+    /// The polynomial a(`by` t).
     #[must_use]
     pub fn stretched(mut self, by: f64) -> Polynomial<N> {
         self.stretch(by);
         self
     }
 
-    /// Puts the same over another measure of the way in its place: a(`by` t).
+    /// Replaces the polynomial a(t) by a(`by` t).
     pub fn stretch(&mut self, by: f64) {
         let square = by * by;
         let (mut factors, fourth) = ([1.0, by, square, square * by], square * square);
@@ -80,7 +79,7 @@ impl<const N: usize> Polynomial<N> {
         self
     }
 
-    /// This and `factor` times another of no more terms.
+    /// The sum of this polynomial and `factor` times `other`, which has at most as many terms.
     #[must_use]
     pub fn plus<const M: usize>(mut self, factor: f64, other: &Polynomial<M>) -> Polynomial<N> {
         self.0
@@ -90,11 +89,11 @@ impl<const N: usize> Polynomial<N> {
         self
     }
 
-    /// The product with another, but for terms beyond `P`.
+    /// The product with `other`, truncated to `P` terms.
     #[must_use]
     pub fn times<const M: usize, const P: usize>(&self, other: &Polynomial<M>) -> Polynomial<P> {
         let mut product = [0.0; P];
-        // Sums of all powers side by side: no term waits for another of the same coefficient.
+        // Each round adds to all powers, so that the sums of a round are independent of each other.
         for (power, &factor) in other.terms().iter().enumerate().take(P) {
             for (sum, coefficient) in product[power..].iter_mut().zip(&self.0) {
                 *sum += factor * coefficient;
@@ -103,7 +102,7 @@ impl<const N: usize> Polynomial<N> {
         Polynomial(product)
     }
 
-    /// a(t)/t of a polynomial that is 0 at 0.
+    /// a(t)/t for a polynomial with a(0) = 0.
     #[must_use]
     pub fn over_argument(&self) -> Polynomial<N> {
         let mut rest = [0.0; N];
@@ -112,7 +111,7 @@ impl<const N: usize> Polynomial<N> {
     }
 }
 
-/// Σ a_k t^k by Horner's rule on every fourth term, in four sums that do not wait for each other.
+/// Σ a_k t^k by Horner's rule with every fourth term, in four independent sums.
 fn horner(powers: &[f64], t: f64) -> f64 {
     let (fours, rest) = powers.as_chunks::<4>();
     let (square, mut sums) = (t * t, [0.0; 4]);
@@ -136,7 +135,7 @@ mod tests {
     const LINE: Polynomial<2> = Polynomial([1.0, -2.0]);
 
     #[test]
-    fn values_slopes_and_integrals_are_those_of_the_formula() {
+    fn values_slopes_and_integrals_agree_with_the_formula() {
         for step in -4..=4 {
             let t = 0.5 * f64::from(step);
             assert!((CUBIC.at(t) - (1.0 + t) * (2.0 - t) * (t + 3.0)).abs() < 1e-13);
@@ -154,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_product_may_be_cut_short() {
+    fn a_product_can_be_truncated() {
         let cut: Polynomial<3> = CUBIC.times(&LINE);
         let whole: Polynomial<5> = CUBIC.times(&LINE);
         assert_eq!(cut.0[..], whole.0[..3]);

@@ -1,7 +1,6 @@
 //! Gauss-Legendre quadrature on a fixed number of nodes.
 
-/// Nodes and weights of the 12-point rule on (-1, 1); the rule is symmetric, so half of it stands
-/// here.
+/// Positive nodes and their weights of the 12-point rule on (-1, 1). The rule is symmetric.
 const TWELVE: [(f64, f64); 6] = [
     (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
     (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
@@ -27,9 +26,9 @@ pub fn unit_interval(f: impl Fn(f64) -> f64) -> f64 {
         * 0.5
 }
 
-/// ∫ of `f` from `from` to `to` by the same rule on halves of halves, until both halves of a part
-/// together give what the part gave, within `tolerance` of the first estimate of the whole, or as
-/// many parts are halved as serve.
+/// ∫ of `f` from `from` to `to` by the 12-point rule with adaptive halving. Halves a part until its
+/// halves agree with it within `tolerance` times the first estimate of the integral. The number of
+/// halvings is limited.
 pub fn adaptive(from: f64, to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f64 {
     const MOST_HALVINGS: u32 = 40;
     let whole = over(from, to, &f);
@@ -41,23 +40,23 @@ pub fn adaptive(from: f64, to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f
     halving.halved((from, to), whole, MOST_HALVINGS)
 }
 
-/// Parts that one integral halves: a function that takes more is rough down to its rounding.
+/// Limit of the halved parts. A function that needs more is rough from rounding.
 const MOST_PARTS: u32 = 1000;
 
 fn over(from: f64, to: f64, f: &impl Fn(f64) -> f64) -> f64 {
     (to - from) * unit_interval(|part| f(from + part * (to - from)))
 }
 
-/// An integral on its way.
+/// The state of an adaptive integration.
 struct Halving<F> {
     f: F,
     tolerance: f64,
-    /// Parts that it may still halve.
+    /// Parts that may still be halved.
     rest: u32,
 }
 
 impl<F: Fn(f64) -> f64> Halving<F> {
-    /// The integral over a part, of which an estimate is known.
+    /// The integral over a part with the estimate `whole`.
     fn halved(&mut self, (from, to): (f64, f64), whole: f64, halvings: u32) -> f64 {
         let middle = f64::midpoint(from, to);
         let (left, right) = (over(from, middle, &self.f), over(middle, to, &self.f));
@@ -79,7 +78,7 @@ mod tests {
     use super::{MOST_PARTS, adaptive, unit_interval};
 
     #[test]
-    fn a_rough_function_is_integrated_in_so_many_parts() {
+    fn the_integration_of_a_rough_function_ends() {
         let looks = Cell::new(0);
         let rough = |x: f64| {
             looks.set(looks.get() + 1);
@@ -105,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn adaptive_meets_a_peak() {
+    fn adaptive_integration_finds_a_peak() {
         let found = adaptive(-1.0, 1.0, 1e-12, |x| 1.0 / (1e-8 + x * x));
         let exact = 2.0 * 1e4 * 1e4f64.atan();
         assert!((found / exact - 1.0).abs() < 1e-11, "{found}");

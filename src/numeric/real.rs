@@ -1,5 +1,4 @@
-//! The numbers that the model computes with: f64, and double-double where the last digit is asked
-//! for.
+//! The number types of the model: f64, and double-double to check the last digits.
 
 use std::f64::consts;
 use std::ops::Neg;
@@ -22,7 +21,7 @@ pub trait Real:
     + From<f64>
     + Into<f64>
 {
-    /// A step of this size is rounding.
+    /// Relative size of a rounding error.
     const EPSILON: f64;
     /// π.
     const PI: Self;
@@ -49,7 +48,7 @@ pub trait Real:
         self.into()
     }
 
-    /// A whole number.
+    /// Converts a whole number.
     #[must_use]
     fn count(count: u32) -> Self {
         f64::from(count).into()
@@ -77,9 +76,9 @@ impl Real for f64 {
     }
 }
 
-/// Of the crate only sums, products and roots keep their 31 digits. Its quotient of two
-/// double-doubles keeps 17, its sine, cosine and arctangent 17 to 21, so that they are corrected or
-/// built here.
+/// Only sums, products and roots of the crate `twofloat` have 31 digits. Its quotient of two
+/// double-doubles has 17 digits, its sine, cosine and arctangent 17 to 21. This implementation
+/// corrects or replaces these functions.
 impl Real for TwoFloat {
     const EPSILON: f64 = 1e-30;
     const PI: TwoFloat = twofloat::consts::PI;
@@ -93,8 +92,8 @@ impl Real for TwoFloat {
         self.sqrt()
     }
 
-    /// Taylor's series of a sixteenth of the angle, doubled four times; 1 − cos is carried, so that
-    /// small angles lose nothing.
+    /// Taylor's series of a sixteenth of the angle, doubled four times. The recurrence computes 1 −
+    /// cos, so that small angles keep their digits.
     fn sine_cosine(self) -> (TwoFloat, TwoFloat) {
         const HALVINGS: i32 = 4;
         const LAST_ORDER: u32 = 22;
@@ -114,7 +113,7 @@ impl Real for TwoFloat {
         (sine, 1.0 - versine)
     }
 
-    /// Newton's step from the f64 angle, the rest of which is so small that its tangent is itself.
+    /// One Newton step from the f64 angle. The correction is so small that it equals its tangent.
     fn angle_to(self, x: TwoFloat) -> TwoFloat {
         let near = self.hi().atan2(x.hi());
         let (sine, cosine) = TwoFloat::from(near).sine_cosine();
@@ -150,7 +149,7 @@ mod tests {
             let back = sine.angle_to(cosine) - angle;
             assert!(
                 (back.hi() / angle).abs() < 1e-29,
-                "angle of {angle} comes back off by {back:e}"
+                "error of the angle {angle}: {back:e}"
             );
         }
     }

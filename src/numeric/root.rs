@@ -1,7 +1,7 @@
-//! The root of a function in a bracket, and the place where a condition ends.
+//! Root of a function in a bracket, and the end of the range where a condition holds.
 
-/// The root of `f` between `from` and `to`, where it changes its sign, by Brent's method, to the
-/// last digits.
+/// The root of `f` between `from` and `to`, where `f` changes its sign, by Brent's method to full
+/// f64 precision.
 ///
 /// # Source
 /// Brent 1973, "Algorithms for Minimization without Derivatives", chapter 4.
@@ -45,7 +45,7 @@ pub fn between(from: f64, to: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     best
 }
 
-/// The step of inverse quadratic interpolation, or of the secant where two of the points are one.
+/// The step of inverse quadratic interpolation, or of the secant if two of the points coincide.
 fn bold_step(best: (f64, f64), other: (f64, f64), opposite: (f64, f64)) -> f64 {
     let s = best.1 / other.1;
     let is_secant = other.0.to_bits() == opposite.0.to_bits();
@@ -57,8 +57,8 @@ fn bold_step(best: (f64, f64), other: (f64, f64), opposite: (f64, f64)) -> f64 {
     -p / ((q - 1.0) * (r - 1.0) * (s - 1.0))
 }
 
-/// The greatest value at which a condition holds that holds at `from` and ends to hold once at the
-/// most, by bisection.
+/// The greatest value at which the condition holds, by bisection. The condition holds at `from` and
+/// changes at most once up to `to`.
 #[must_use]
 pub fn last_where(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
     const HALVINGS: usize = 54;

@@ -1,8 +1,9 @@
-//! Steps of a linear oscillator whose stiffness and load vary, by the power series of its motion.
+//! Steps of a linear oscillator with variable stiffness and load, by the power series of its
+//! motion.
 
 use super::polynomial::Polynomial;
 
-/// x'' = load − damping x' − stiffness x over a step that goes from 0 to 1.
+/// x'' = load − damping x' − stiffness x over a step from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Oscillator<const N: usize> {
     /// Stiffness over mass.
@@ -14,7 +15,7 @@ pub struct Oscillator<const N: usize> {
 }
 
 impl<const N: usize> Oscillator<N> {
-    /// The motion's power series from `x` and its rate `v` on.
+    /// The power series of the motion that begins with `x` and its rate `v`.
     ///
     /// # Formula
     /// ```text
@@ -43,21 +44,20 @@ impl<const N: usize> Oscillator<N> {
     }
 }
 
-/// Adds the share of one term of the series to the sums of its order and of all later ones, which
-/// do not wait for each other.
+/// Adds one term of the series to the sums of its order and of all later orders. These sums are
+/// independent of each other.
 fn add_pull(pulls: &mut [f64], stiffness: &[f64], term: f64) {
     for (pull, stiffness) in pulls.iter_mut().zip(stiffness) {
         *pull += stiffness * term;
     }
 }
 
-/// The part of a step after which the last terms of a series are no greater than `allowed`: 1 where
-/// they are so over the whole of it.
+/// The part of a step in which the last terms of a series are at most `allowed`, up to 1.
 ///
 /// # Source
 /// Jorba & Zou 2005, "A software package for the numerical integration of ODEs by means of
-/// high-order Taylor methods", Experimental Mathematics 14, section 3: the step is known before it
-/// is taken, so that none is rejected.
+/// high-order Taylor methods", Experimental Mathematics 14, section 3. The step length is known
+/// before the step, so that no step is rejected.
 #[must_use]
 pub fn convergent_part<const N: usize>(series: &Polynomial<N>, allowed: f64) -> f64 {
     const LAST: usize = 3;
@@ -69,7 +69,7 @@ pub fn convergent_part<const N: usize>(series: &Polynomial<N>, allowed: f64) -> 
             size.powf(-1.0 / order as f64)
         }
     };
-    // A term that is no number leaves nothing of the step.
+    // Keeps a NaN of the last term, which `f64::min` would drop.
     (N - LAST..N)
         .map(part)
         .fold(1.0, |least, part| if part >= least { least } else { part })
@@ -98,8 +98,8 @@ mod tests {
     }
 
     #[test]
-    fn a_linear_oscillator_swings_as_its_closed_form() {
-        // x'' + 0.6 x' + 4 x = 8: swings about 2 with the frequency √(4 − 0.09).
+    fn a_linear_oscillator_follows_its_closed_form() {
+        // x'' + 0.6 x' + 4 x = 8 oscillates about 2 with the frequency √(4 − 0.09).
         let series = oscillator::<TERMS>(&[4.0], &[8.0], 0.6).series(3.0, 0.0);
         let frequency = 3.91f64.sqrt();
         for step in 0..=10 {
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stiffness_that_varies_as_the_motion_asks_gives_the_motion_back() {
+    fn a_stiffness_made_for_a_motion_reproduces_the_motion() {
         // x = e^t: x'' + 0.5 x' + (1 + t) x = (2.5 + t) e^t.
         let load: Vec<f64> = (0..TERMS)
             .map(|order| {
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn one_term_more_is_one_order_more() {
+    fn each_term_raises_the_order_by_one() {
         for (terms, off) in [
             (8.0, off_with::<8> as fn(f64) -> f64),
             (10.0, off_with::<10>),
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn the_part_that_converges_leaves_an_error_as_small_as_allowed() {
+    fn the_error_of_the_convergent_part_is_at_most_the_allowed_error() {
         for (length, allowed) in [(1.0, 1e-9), (9.0, 1e-4), (9.0, 1e-12), (40.0, 1e-6)] {
             let series = oscillator::<TERMS>(&[length * length], &[], 0.0).series(1.0, 0.0);
             let part = convergent_part(&series, allowed);

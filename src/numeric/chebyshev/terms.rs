@@ -1,4 +1,4 @@
-//! The terms of a Chebyshev series on one piece, and the powers that they are summed by.
+//! The Chebyshev series on one piece and its conversion to powers.
 
 use std::array::from_fn;
 use std::f64::consts::PI;
@@ -6,17 +6,18 @@ use std::sync::LazyLock;
 
 use crate::numeric::polynomial::Polynomial;
 
-/// What belongs to each order, of all functions side by side, so that several are summed at once.
+/// One value of every function for each order. This layout allows sums of several functions at
+/// once.
 pub(super) type Terms<const N: usize> = [[f64; N]; TERMS];
 
 /// cos(k π/(2 TERMS)) over a whole turn.
 static COSINES: LazyLock<[f64; 4 * TERMS]> =
     LazyLock::new(|| from_fn(|k| (k as f64 * PI / (2 * TERMS) as f64).cos()));
 
-/// Terms of a piece.
+/// Number of terms of a piece.
 pub const TERMS: usize = 16;
 
-/// The last terms of a piece, in which the rest of the series shows.
+/// Number of last terms that estimate the truncation error.
 const TAIL: usize = 3;
 
 /// The Chebyshev point of the first kind.
@@ -24,8 +25,8 @@ pub(super) fn place(from: f64, to: f64, point: usize) -> f64 {
     f64::midpoint(from, to) + 0.5 * (to - from) * COSINES[2 * point + 1]
 }
 
-/// The terms of the polynomials through the function's values at the Chebyshev points of the first
-/// kind.
+/// The Chebyshev coefficients of the polynomials through the function's values at the Chebyshev
+/// points of the first kind.
 pub(super) fn interpolate<const N: usize, E>(
     from: f64,
     to: f64,
@@ -38,7 +39,7 @@ pub(super) fn interpolate<const N: usize, E>(
     Ok(terms_of(&values))
 }
 
-/// The same of the values at those points.
+/// The Chebyshev coefficients from the values at these points.
 pub(super) fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
     let cosines = &*COSINES;
     let mut terms = [[0.0; N]; TERMS];
@@ -59,8 +60,8 @@ pub(super) fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
     terms
 }
 
-/// Whether the last terms of each function are small enough, or so large that no halving would
-/// help.
+/// Whether the last terms of each function are at most `rest`, or are not finite, so that halving
+/// would not help.
 pub(super) fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> bool {
     let tail = &terms[TERMS - TAIL..];
     tail.iter()
@@ -68,7 +69,7 @@ pub(super) fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> 
         .all(|(term, rest)| !term.is_finite() || term.abs() <= *rest)
 }
 
-/// The coefficients of the powers: Σ c_n T_n(t) = Σ a_k t^k.
+/// Converts Chebyshev coefficients to powers: Σ c_n T_n(t) = Σ a_k t^k.
 pub(super) fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
     let mut powers = [[0.0; N]; TERMS];
     let (mut before, mut polynomial) = ([0.0; TERMS], [0.0; TERMS]);
@@ -92,8 +93,8 @@ pub(super) fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
     powers
 }
 
-/// Σ a_k t^k of `M` functions, from `first` on, by Estrin's scheme: pairs, pairs of pairs and so
-/// on, which do not wait for each other.
+/// Σ a_k t^k of `M` functions, starting with function `first`, by Estrin's scheme. Its partial sums
+/// are independent of each other.
 #[inline]
 pub(super) fn values<const N: usize, const M: usize>(
     powers: &Terms<N>,
@@ -107,8 +108,8 @@ pub(super) fn values<const N: usize, const M: usize>(
     from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
 }
 
-/// The coefficients of the powers of t − `at`, by Horner's rule for all of them at once: no sum
-/// waits for another of the same round.
+/// The coefficients of the powers of t − `at`, by Horner's rule for all coefficients together. The
+/// sums of one round are independent of each other.
 pub(super) fn about<const N: usize, const M: usize>(
     powers: &Terms<N>,
     first: usize,
