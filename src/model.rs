@@ -87,7 +87,7 @@ use twofloat::TwoFloat;
 use impact::Masses;
 use inputs::Method;
 
-/// Parts of a solution in more digits than it tells.
+/// Intermediate results for a later solve: masses and the unrounded deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Kept {
     masses: Masses,
@@ -99,7 +99,7 @@ struct Kept {
 pub enum Outcome {
     /// The tip touches before the normal path of contact begins.
     CornerContact,
-    /// The deviation does not bring the tooth in early.
+    /// The tooth makes no contact before E.
     NoCornerContact,
 }
 
@@ -114,19 +114,19 @@ impl Outcome {
     }
 }
 
-/// What a solve found. A stage that did not run, or that has no answer because no tooth strikes, is
-/// absent.
+/// The results of a solve. A stage is `None` if it did not run, or if it has no result because no
+/// tooth strikes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
-    /// How much of the physics was taken in.
+    /// The method.
     pub method: Method,
-    /// Why that much, where the method `auto` chose.
+    /// The choice and its reason if the method is `auto`.
     pub choice: Option<Choice>,
     /// Whether the incoming tooth strikes.
     pub outcome: Outcome,
-    /// The stages whose results are here.
+    /// The stages with results.
     pub stages: Stages,
-    /// The stages that ran for it; the others were kept from an earlier solve.
+    /// The stages that this solve ran. The other results come from an earlier solve.
     pub ran: Stages,
     /// Involute geometry of the pair.
     pub geometry: Geometry,
@@ -134,9 +134,9 @@ pub struct Solution {
     pub mesh_force: f64,
     /// Reduced mass m_red of Eq. 33, in kg.
     pub reduced_mass: f64,
-    /// What brings the tooth in early.
+    /// The deviation that makes the tooth early.
     pub deviation: Deviation,
-    /// What an edit that leaves load and deviation alone need not compute again.
+    /// Intermediate results for the next solve.
     kept: Kept,
     /// Where the tip first touches the flank.
     pub position: Option<Position>,
@@ -150,25 +150,25 @@ pub struct Solution {
     pub friction: Option<Friction>,
     /// The impact force by every stiffness model.
     pub band: Option<Band>,
-    /// From D (first) to E (last, force 0); empty unless asked for.
+    /// Stations from D (first) to E (last, force 0). Empty unless requested.
     pub stations: Vec<Station>,
     /// Gap and stiffness of every pair along the line of action.
     pub mesh: Option<Arc<Mesh>>,
-    /// The load shared by every pair.
+    /// The load sharing in static balance.
     pub static_load: Option<StaticLoad>,
-    /// The same with inertia.
+    /// The load sharing with inertia and damping.
     pub dynamic: Option<Dynamic>,
     /// Mesh frequency and natural frequency.
     pub resonance: Option<Resonance>,
-    /// The transmission error at rest of a pair without deviations, or why there is none.
+    /// The harmonics of the static transmission error without deviations, or the reason why there
+    /// are none.
     pub static_spectrum: Option<Result<StaticSpectrum, Refusal>>,
-    /// The steady motion of a pair without deviations, or why there is none.
+    /// The steady motion without deviations, or the reason why there is none.
     pub steady: Option<Result<Steady, Refusal>>,
-    /// The least tip relief with which the tooth comes in on time.
+    /// The required additional tip relief.
     pub clearing: Option<Clearing>,
-    /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is
-    /// so.
+    /// The reason why compliance, force and later results are absent although the tooth strikes.
     pub withheld: Option<Refusal>,
-    /// Why stations are missing between D and E, where some are.
+    /// The reason why stations between D and E are missing.
     pub stations_withheld: Option<Refusal>,
 }

@@ -1,5 +1,4 @@
-//! The method `auto`: the cheapest method that is good enough, by what the closed form says of
-//! itself.
+//! The method `auto`: chooses the fastest method within the tolerance from the closed-form results.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -14,77 +13,78 @@ use super::stations::MeshStation;
 use super::{Outcome, Refusal, Solution};
 use crate::numeric::decimal::significant;
 
-/// The methods among which it chooses, cheapest first.
+/// The methods to choose from, fastest first.
 pub const METHODS: [Method; 3] = [Method::Exact, Method::Static, Method::Dynamic];
 
-/// The method that was taken, and why.
+/// The chosen method and the reason.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Choice {
     /// `exact`, `static` or `dynamic`.
     pub method: Method,
-    /// Why no cheaper one serves, or why the cheapest does.
+    /// The reason for the method.
     pub reason: Reason,
-    /// What inertia adds to the shared load, where that decided.
+    /// The effect of inertia on the shared load, if it decided the choice.
     pub inertia: Option<Inertia>,
 }
 
-/// What inertia adds to the shared load, relative to it.
+/// Relative effect of inertia on the shared load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Inertia {
-    /// No more than this, and so little that it may stay out.
+    /// An upper bound that is small enough to neglect inertia.
     AtMost(f64),
-    /// At least this, and so much that it must come in.
+    /// A lower bound that is large enough to require inertia.
     AtLeast(f64),
-    /// Something between these, which takes a trial.
+    /// A lower and an upper bound that do not decide; a trial motion is needed.
     Between(f64, f64),
-    /// This much, by a trial.
+    /// The value from a trial motion.
     Tried(f64),
 }
 
-/// Why a method was taken.
+/// The reason for the choice of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reason {
-    /// The gap left at E is greater than any swing of the mesh.
+    /// The gap at E is greater than the mesh oscillation.
     NoContact,
-    /// The gap left at E is less than a swing of the mesh.
+    /// The gap at E is smaller than the mesh oscillation.
     BarelyOnTime,
-    /// The impact is over before E, and the load adds little to it.
+    /// The impact ends before E, and the load adds little to the impact force.
     FreeImpact,
-    /// The closed form has no answer.
+    /// The closed form has no result.
     Refused,
-    /// The load lifts off the pair ahead.
+    /// The pair ahead loses contact.
     ContactLost,
-    /// The impact is still under way at E: duration and way from D to E, in s.
+    /// The impact lasts longer than the time from D to E: both times, in s.
     Outlasts(f64, f64),
-    /// Force and duration contradict each other.
+    /// The impulse ratio is outside 1 to 2.
     Impulse(f64),
-    /// The load that the tooth takes over is no small part of the impact force.
+    /// The ratio of the shared load to the impact force exceeds the tolerance.
     LoadShared(f64),
-    /// A limit of the case or a selected quantity that no cheaper method computes.
+    /// A limit of the case or a selected quantity needs this method.
     Needed,
 }
 
-/// The method that the pair needs, judged by the closed form.
+/// Chooses the method of a pair from the results of the closed form.
 ///
 /// # Formula
 /// ```text
 /// exact:    T_S <= t_DE,  1 <= κ <= 2,  δ >= Δf  and  F0/F_S <= within
-/// static:   else while  most · T_n/(π t) <= within,  T_n = 2 π √(M q/b),  t = t_DE
-/// dynamic:  else where  least · T_n/(π t) >  within
+/// static:   otherwise if most · T_n/(π t) <= within,  T_n = 2 π √(M q/b),  t = t_DE
+/// dynamic:  otherwise if  least · T_n/(π t) >  within
 /// ```
-/// A load that is taken over within a time t leaves a mesh of the period T_n swinging by at most
-/// T_n/(π t) of it: the response of an oscillator to a ramp. What of it `static` leaves out depends
-/// on much else, and was measured over 300 pairs, see `Reason::part_felt`; between least and most
-/// the motion itself is the trial. Without contact `exact` stays where the gap left is greater than
-/// that part of the deflection, t being the time in which two pairs share the load.
+/// A load transferred within a time t leaves an oscillation of at most T_n/(π t) of the load in a
+/// mesh with the period T_n: the response of an oscillator to a ramp. `Reason::part_felt` gives the
+/// least and the most part of this oscillation that `static` can miss, measured over 300 pairs.
+/// Between both bounds a trial motion decides. Without contact the method is `exact` if the gap at
+/// E is greater than this part of the deflection. Then t is the time in which two pairs share the
+/// load.
 ///
-/// A dearer method is taken where a limit or a selected quantity needs it ([`Inputs::needs`]).
+/// A limit or a selected quantity can need a slower method ([`Inputs::needs`]).
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     judge(inputs, closed_form).at_least(needed(inputs))
 }
 
-/// The cheapest method that computes all that is needed; the dearest where none has all of it.
+/// The fastest method that computes all needed quantities, or `dynamic` if no method computes all.
 fn needed(inputs: &Inputs) -> Method {
     let computes = |method: &Method| inputs.needs.except(method.stages()) == Stages::NONE;
     METHODS
@@ -162,7 +162,7 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     )
 }
 
-/// `static` where inertia adds little, else `dynamic`; where that is not sure yet, as well.
+/// `static` if the effect of inertia is small. Otherwise `dynamic`, also if a trial must decide.
 fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
     let (least, most) = reason.part_felt();
     let inertia = match (least * swing, most * swing) {
@@ -183,7 +183,7 @@ fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
 }
 
 impl Choice {
-    /// This choice, or the method that is needed where that is dearer.
+    /// The slower of this choice and the needed method.
     fn at_least(self, needed: Method) -> Choice {
         let place = |method| METHODS.iter().position(|&one| one == method);
         let is_sure = place(self.method) >= place(needed) && !self.is_open();
@@ -200,16 +200,16 @@ impl Choice {
         }
     }
 
-    /// Whether it takes a trial to tell.
+    /// Whether a trial motion must decide.
     #[must_use]
     pub fn is_open(&self) -> bool {
         matches!(self.inertia, Some(Inertia::Between(..)))
     }
 
-    /// What it is after a trial that found inertia to add so much.
+    /// The choice after a trial motion, with the relative effect `adds` of inertia.
     #[must_use]
     pub fn tried(self, inputs: &Inputs, adds: f64) -> Choice {
-        /// The difference is looked at in places, and may be a little more between them.
+        /// The difference is sampled and can be slightly larger between the samples.
         const SURE: f64 = 0.9;
         let method = if adds <= SURE * inputs.within {
             Method::Static
@@ -225,13 +225,14 @@ impl Choice {
 }
 
 impl Reason {
-    /// How much of a swing the numbers of a pair feel at least and at most: over 300 pairs built at
-    /// random `static` was off by 0.04 to 3.3 times the swing where the pair ahead stays in
-    /// contact, and by 0.48 to 23.5 times where it does not.
+    /// The least and the greatest difference of `static`, as parts of the oscillation. Over 300
+    /// random pairs `static` differed by 0.04 to 3.3 times the oscillation if the pair ahead stays
+    /// in contact, and by 0.48 to 23.5 times if the pair ahead loses contact.
     fn part_felt(&self) -> (f64, f64) {
         match self {
             Reason::ContactLost => (0.4, 24.0),
-            // A tooth that strikes and one that does not have nothing in common: a trial tells.
+            // The results with and without contact cannot be compared, so that a trial motion
+            // decides.
             Reason::BarelyOnTime => (0.0, f64::INFINITY),
             Reason::Outlasts(..) => (0.2, 1.0),
             _ => (0.05, 1.0),
@@ -239,12 +240,12 @@ impl Reason {
     }
 }
 
-/// What a load taken over within `time` leaves of itself as a swing.
+/// The oscillation after a load transfer within `time`, relative to the load.
 fn swing(period: f64, time: f64) -> f64 {
     (period / (PI * time)).min(1.0)
 }
 
-/// Period of a pair at rest under its load, in s.
+/// Natural period of the loaded pair, in s.
 fn period(solution: &Solution) -> Option<f64> {
     let compliance = solution.deviation.loaded_deflection() / solution.mesh_force;
     Some(2.0 * PI * (solution.reduced_mass * compliance).sqrt()).filter(|period| *period > 0.0)
@@ -253,13 +254,12 @@ fn period(solution: &Solution) -> Option<f64> {
 /// The stages of the closed form that the choice reads.
 pub(super) const READS: Stages = Stages::of(Stage::Impact);
 
-/// The inputs of the method that was taken.
+/// The inputs for the chosen method.
 #[must_use]
 pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
-    /// The tolerance of the peak force is this part of what may be left in all.
+    /// Tolerance of the peak force relative to `model.within`.
     const NUMERICAL: f64 = 0.02;
-    /// Where the stations are left to the curve, what may lie between them is this part of it, if
-    /// the case allows no more.
+    /// Least tolerance between stations relative to `model.within`.
     const READING: f64 = 0.1;
     Inputs {
         method,
@@ -269,12 +269,12 @@ pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
     }
 }
 
-/// What inertia adds to the shared load, by the motion: the greatest difference of first contact,
-/// peaks and force from the first contact to E, relative to the motion's. Nothing where one of the
-/// two is not there.
+/// The relative difference between motion and static balance: the greatest difference of first
+/// contact, peaks and force from the first contact to E, relative to the motion. `None` if the
+/// mesh, the motion or the static balance is absent.
 pub(super) fn added_by_inertia(moved: &Solution) -> Option<f64> {
     let (mesh, motion) = (moved.mesh.as_deref()?, moved.dynamic.as_ref()?);
-    // Its numbers need no stations.
+    // These values need no stations.
     let still = static_load(mesh, Spacing::Even(1)).ok()?;
     Some(difference(mesh, &still, motion))
 }

@@ -1,57 +1,56 @@
-//! How much work a solve may take: counted and not timed, so that a case ends in the same way on
-//! every machine.
+//! Limits of the work of a solve. Work is counted, not timed, so that the result does not depend on
+//! the machine.
 //!
-//! A unit of work is a power series of the motion, or a place at which the mesh is computed: about
-//! half a microsecond. The parts of a solve have budgets of their own, so that what one part took
-//! changes nothing in the next, whether it was computed or kept from an earlier solve.
+//! A unit of work is a power series of the motion, or a place where the mesh is computed: about
+//! half a microsecond. Each part of a solve has its own budget, so that cached parts do not change
+//! the result.
 
 use std::cell::Cell;
 
-/// Work of one motion, about a second. Of the cases and reference pairs the longest takes a
-/// hundredth of it.
+/// Work of one motion, about a second. The longest motion of the cases and reference pairs needs a
+/// hundredth of this limit.
 pub const MOTION_WORK: u64 = 2_000_000;
 
-/// Work of a contact made or lost: the search for its time evaluates the series some thirty times.
+/// Work of the search for the time of a contact event: about thirty evaluations of the series.
 pub const EVENT_WORK: u64 = 8;
 
-/// Work of the compliance of a tooth: the integrals over its profile.
+/// Work of the compliance of a tooth, whose profile is integrated.
 pub const TOOTH_WORK: u64 = 8;
 
-/// Swings of the mesh while a motion lasts. Of slower motions the steps never fit into
-/// [`MOTION_BYTES`]: those of Table 1 with 71.6 N m fill them at 0.25 rpm, with 3e5 swings. The
-/// limit refuses such a motion at once.
+/// Oscillations of the mesh during a motion. The steps of slower motions exceed [`MOTION_BYTES`]:
+/// Table 1 with 71.6 N m fills them at 0.25 rpm, with 3e5 oscillations. The limit refuses such a
+/// motion before it begins.
 pub const MOTION_SWINGS: f64 = 4e5;
 
-/// Bytes in which a motion keeps its steps while the incoming tooth is near, of the 64 MiB that a
-/// solve may take. The list of steps grows by a quarter, and while it grows its old and its new
-/// room take 54 MiB. Later the rest is for the places of the curve (20 MB), the mesh and the
-/// stations.
+/// Memory for the steps of a motion near the incoming tooth, in bytes. A solve has 64 MiB. The list
+/// of steps grows by a quarter; during growth, the old and the new list use 54 MiB. Afterwards the
+/// rest is for the places of the curve (20 MB), the mesh and the stations.
 pub const MOTION_BYTES: usize = 24 << 20;
 
-/// Pairs that may touch at a time: as many as a set of them has bits. Two gears of 1000 teeth have
-/// forty where their tip circles overlap most.
+/// Greatest number of pairs in contact, one bit each in a set. Two gears of 1000 teeth have forty
+/// at the largest overlap of their tip circles.
 pub const PAIRS: usize = 64;
 
-/// Motions or balances that the search for the required tip relief tries. An ordinary search takes
-/// 15, and one in which the gears rattle 60 a round; few need a second round.
+/// Motions or balances in the search for the required tip relief. An ordinary search needs 15. If
+/// the gears rattle, a round needs 60; few searches need a second round.
 pub const SEARCH_TRIES: u32 = 400;
 
-/// Work of all of them, as much as of the longest motion.
+/// Work of all motions of this search, equal to the work of the longest motion.
 pub const SEARCH_WORK: u64 = MOTION_WORK;
 
-/// Work of the places at which a curve is computed in search of the stations that it needs, a fifth
-/// of a second. A motion of [`MOTION_SWINGS`] is computed in four places a half swing.
+/// Work of the places where a curve is computed to select its stations: a fifth of a second. A
+/// motion of [`MOTION_SWINGS`] has four places for each half oscillation.
 pub const CURVE_WORK: usize = 400_000;
 
-/// Work of such a place between D and E: the compliance of two teeth and an impact.
+/// Work of a place between D and E: the compliance of two teeth and an impact.
 pub const IMPACT_WORK: usize = 20;
 
-/// Stations before E, and as many after it: 5 MB each, beside the steps of the motion and the
-/// places of the curve.
+/// Stations before E, and the same number after E. Each list uses 5 MB besides the steps of the
+/// motion and the places of the curve.
 pub const STATIONS: usize = 50_000;
 
-/// Stations where the force turns, beside the number that the case gives: four times the greatest
-/// number that it may give.
+/// Stations at the turning points of the force, besides the number that the case gives: four times
+/// the greatest number that a case can give.
 pub const TURNS: usize = 40_000;
 
 /// Counts work against its limit.
@@ -62,7 +61,7 @@ pub struct Meter {
 }
 
 impl Meter {
-    /// Nothing is spent yet.
+    /// A meter with no work counted.
     #[must_use]
     pub fn new(limit: u64) -> Meter {
         Meter {
@@ -71,13 +70,13 @@ impl Meter {
         }
     }
 
-    /// Counts this much; whether it is within the limit.
+    /// Adds `work`. Returns whether the total is within the limit.
     pub fn spend(&self, work: u64) -> bool {
         self.spent.set(self.spent.get().saturating_add(work));
         self.spent.get() <= self.limit
     }
 
-    /// The work so far.
+    /// The total work.
     #[must_use]
     pub fn spent(&self) -> u64 {
         self.spent.get()

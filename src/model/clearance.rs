@@ -1,22 +1,22 @@
-//! By how much a tooth that comes in on time stays clear of the flank before E, by each method
-//! itself.
+//! The gap of a tooth without contact before E, by each method.
 
 use super::inputs::Method;
 use super::static_load::lead_before_start;
 use super::{Outcome, Solution};
 
 impl Solution {
-    /// The gap that is left before E where no tooth touches, in m; none where one does, or where
-    /// the method does not tell.
+    /// The least gap before E, in m. `None` if a tooth touches before E, or if the method does not
+    /// compute the gap.
     ///
     /// # Formula
     /// ```text
     /// exact, paper:  −Δ
-    /// static:        −max over s ≤ 0 of x(s) + e − S(s),  x the displacement by the other pairs at rest
-    /// dynamic:       the same of the motion
+    /// static:        −max over s ≤ 0 of x(s) + e − S(s)
+    /// dynamic:       −max over t ≤ 0 of x(t) + e − S(t)
     /// ```
-    /// The base pitch deviation moves the incoming tooth alone, so that √2 f_pb more of it closes
-    /// the gap in every method.
+    /// x is the displacement by the other pairs, in static balance or in the motion without contact
+    /// of the incoming pair. The base pitch deviation moves only the incoming tooth. In every
+    /// method an increase of f_pb by the gap/√2 closes the gap.
     #[must_use]
     pub fn margin(&self) -> Option<f64> {
         if self.outcome == Outcome::CornerContact {
@@ -30,8 +30,8 @@ impl Solution {
         (margin >= 0.0).then_some(margin)
     }
 
-    /// By how much the load at rest brings the tooth in early, in m, where the mesh is known; below
-    /// 0 is the gap that is left.
+    /// How early the static load makes the tooth, in m. A negative value is the gap that is left.
+    /// `None` if the mesh is not computed.
     #[must_use]
     pub fn lead_at_rest(&self) -> Option<f64> {
         lead_before_start(self.mesh.as_ref()?).ok()

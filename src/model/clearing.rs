@@ -1,5 +1,5 @@
-//! The least tip relief of the driven gear with which the incoming tooth does not touch before E,
-//! by each method itself.
+//! The required additional tip relief: the least relief of the driven gear with which a method
+//! finds no contact before E.
 
 use std::cell::RefCell;
 
@@ -11,55 +11,57 @@ use super::position::printed_relief_to_clear;
 use super::static_load::{lead_before_start, places_before_start};
 use super::{Outcome, Refusal, Solution};
 
-/// No relief is sought beyond so many times what the pairs yield, the gears deviate and the flank
-/// lacks already.
+/// Limit of the search, relative to the sum of deflection, deviation and given relief.
 const MOST: f64 = 8.0;
 
-/// Greater reliefs, over the one that was found, with which the tooth must not touch either;
+/// Larger reliefs, relative to the result, that the search tests for contact.
 const BEYOND: [f64; 4] = [1.05, 1.25, 1.5, 2.0];
-/// and so many evenly up to the last of these where contact is lost, since small causes then have
-/// large effects.
+/// Number of evenly spaced larger reliefs tested if contact is lost, because small changes then
+/// have large effects.
 const BEYOND_RATTLE: u32 = 50;
 
-/// What was found of the least relief.
+/// Result of the search for the required additional tip relief.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clearing {
     /// Tip relief that the driven gear has, in m.
     pub given: f64,
-    /// How much more it takes, in m; none where the tooth comes in on time anyhow, or where
-    /// `withheld` says why.
+    /// The required additional tip relief, in m. `None` without contact before E, or with the
+    /// reason `withheld`.
     pub relief: Option<f64>,
-    /// Why none is known for a tooth that touches.
+    /// The reason why the relief of a tooth with contact is unknown.
     pub withheld: Option<Refusal>,
-    /// How many balances or motions were tried.
+    /// Number of balances or motions solved.
     pub runs: u32,
-    /// What they took, in units of the [budget](super::budget).
+    /// Work of the search, in units of the [budget](super::budget).
     pub work: u64,
 }
 
-/// The least tip relief of the driven gear, beyond what it has, with which the method finds no
-/// contact before E.
+/// The least tip relief of the driven gear, in addition to the given relief, with which the method
+/// finds no contact before E.
 ///
 /// # Formula
 /// ```text
-/// exact:    Δ,  since e_m counts in full and δ does not depend on it
-/// paper:    C with u(Δf − C/√2) = 0 by Eqs. 11-20: at most √2 Δ, since Eq. 1 as printed scales e_m
-/// static:   C with max over s ≤ 0 of x(s) + e − S(s) = 0,  x the displacement by the other pairs at rest
-/// dynamic:  C with max over t ≤ 0 of x(t) + e − S(t) = 0,  x that of the motion in which the incoming tooth stands off
+/// exact:    Δ,  because e_m counts in full and δ is independent of e_m
+/// paper:    C with u(Δf − C/√2) = 0 by Eqs. 11-20;  at most √2 Δ, because Eq. 1 scales e_m
+/// static:   C with max over s ≤ 0 of x(s) + e − S(s) = 0
+/// dynamic:  C with max over t ≤ 0 of x(t) + e − S(t) = 0
 /// ```
-/// where S has the reliefs of both flanks, C among them along its whole length: what the pair ahead
-/// lacks at F lets the incoming tooth in earlier, and each base pitch shakes the mesh another way.
+/// x is the displacement by the other pairs, in static balance or in the motion without the
+/// incoming tooth. S includes the reliefs of both flanks, with C along its whole length. Relief on
+/// the pair ahead at F makes the incoming tooth earlier, and each base pitch excites the mesh
+/// differently.
 ///
 /// # Valid for
-/// With the relief rounded up the tooth comes in on time, in the method's own solve, and with one
-/// less by no more than a 20,000th of it (or 1 pm, where that is more) it touches. At rest nothing
-/// else can be, as long as the relief ends before F: more relief only delays the tooth. In motion a
-/// greater relief may bring it back: four up to twice as much were tried and did not, fifty where
-/// contact is lost; what may lie between them is not known.
+/// With the relief rounded up, the solve of the method finds no contact before E. With a relief
+/// smaller by at most a 20,000th (or by 1 pm, if that is larger), the tooth touches. In static
+/// balance this relief is unique if the relief ends before F, because more relief only delays the
+/// tooth. In motion a larger relief can cause contact again. The search tests four larger reliefs
+/// up to twice the result, and fifty if contact is lost. Reliefs between the tested reliefs can
+/// still cause contact.
 ///
 /// # Errors
-/// [`Refusal::Stopped`] where `go_on` says no. A search that exceeds its [budget](super::budget)
-/// withholds the relief.
+/// [`Refusal::Stopped`] if `go_on` returns false. A search beyond its [budget](super::budget) sets
+/// `withheld`.
 pub fn clearing(
     inputs: &Inputs,
     solution: &Solution,
@@ -107,7 +109,7 @@ pub fn clearing(
     })
 }
 
-/// The reliefs that were tried, and the work of it.
+/// The tested reliefs and the work of the search.
 struct Search {
     meter: Meter,
     tries: RefCell<Vec<Tried>>,
@@ -134,7 +136,7 @@ impl Search {
         tried
     }
 
-    /// The refusal of a search that goes no further, with the bracket that it has.
+    /// The refusal of a search beyond its budget, with the bracket found so far.
     fn ended(&self, in_motion: bool) -> Refusal {
         let tries = self.tries.borrow();
         let touching = tries.iter().filter(|tried| tried.lead > 0.0);
@@ -151,7 +153,8 @@ impl Search {
     }
 }
 
-/// The incoming tooth of the pair with so much more tip relief, in m, at rest or in motion.
+/// The lead of the incoming tooth with `relief` more tip relief, in m, in static balance or in
+/// motion.
 fn relieved(
     relief: f64,
     inputs: &Inputs,
@@ -187,20 +190,20 @@ fn relieved(
     })
 }
 
-/// A relief and what comes of it.
+/// A tested relief and its result.
 #[derive(Debug, Clone, Copy)]
 struct Tried {
-    /// In m.
+    /// Additional relief, in m.
     relief: f64,
-    /// How early the tooth is with it, in m.
+    /// How early the tooth is, in m; above 0 the tooth touches before E.
     lead: f64,
     contact_lost: bool,
 }
 
-/// How a relief is tried.
+/// Solves the pair with an additional relief in m.
 type Try<'a> = &'a dyn Fn(f64) -> Result<Tried, Refusal>;
 
-/// The least relief with which, and with greater ones, the tooth does not touch.
+/// The least relief without contact. Unless `is_monotonic`, tests larger reliefs as well.
 fn least(tried: Try<'_>, is_monotonic: bool, most: f64) -> Result<f64, Refusal> {
     let mut clear = crossing(tried, tried(0.0)?, most)?;
     while !is_monotonic && let Some(touching) = touching_beyond(tried, clear)? {
@@ -209,7 +212,7 @@ fn least(tried: Try<'_>, is_monotonic: bool, most: f64) -> Result<f64, Refusal> 
     Ok(clear.relief)
 }
 
-/// The greatest of some greater reliefs with which the tooth touches, where there is one.
+/// The greatest of the tested larger reliefs with contact.
 fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusal> {
     let [.., last] = BEYOND;
     let even = (1..=BEYOND_RATTLE)
@@ -228,12 +231,12 @@ fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusa
     Ok(None)
 }
 
-/// The first relief found beyond one that touches with which the tooth does not.
+/// A relief without contact, close to a relief with contact below it.
 fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Refusal> {
-    /// The lead mostly falls by as much as the relief grows; where it falls more slowly, so many
-    /// times as far at most.
+    /// The lead usually falls by as much as the relief grows. Limit of the stride for a lead that
+    /// falls more slowly.
     const STRIDE: f64 = 4.0;
-    /// After three strides reliefs grow by this factor at least.
+    /// Least growth factor of the relief after three strides.
     const GROWTH: f64 = 1.5;
     let mut stride = 1.0;
     let mut strides = 0;
@@ -263,18 +266,17 @@ fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Ref
     Ok(touching)
 }
 
-/// How near to the crossing is near enough, in m.
+/// Width of the final bracket, in m.
 fn closeness(relief: f64) -> f64 {
     (5e-5 * relief).max(1e-12)
 }
 
-/// A try is made so much of the closeness beyond the crossing, so that the last two stand on both
-/// its sides.
+/// Offset of a test from the expected crossing, relative to the final width. The last two tests are
+/// then on both sides of the crossing.
 const ASIDE: f64 = 0.4;
 
-/// The clear one of two reliefs, one that touches and one that does not, as near to each other as
-/// is near enough: by secants, aiming a little to that side of the crossing on which the further
-/// one is, and by halves where these do not close in.
+/// The relief without contact at the end of the search in a bracket. Uses secants that aim slightly
+/// beyond the crossing, towards the farther end, and halves the bracket if the secants are slow.
 fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tried, Refusal> {
     const PATIENCE: usize = 3;
     let mut widths = [f64::INFINITY; PATIENCE];
@@ -309,7 +311,7 @@ mod tests {
 
     use super::*;
 
-    /// The least relief for a lead that is known, and how many tries it took.
+    /// The least relief for a given lead, and the number of tests.
     fn found(lead: impl Fn(f64) -> f64, contact_lost: bool) -> (Result<f64, Refusal>, u32) {
         let tries = Cell::new(0);
         let tried = |relief: f64| {
@@ -324,11 +326,11 @@ mod tests {
     }
 
     #[test]
-    fn a_lead_that_falls_is_followed_to_its_end_in_few_tries() {
+    fn the_crossing_of_a_falling_lead_is_found_with_few_tests() {
         type Lead = Box<dyn Fn(f64) -> f64>;
         let leads: [(&str, f64, Lead); 5] = [
             (
-                "as the relief grows",
+                "as fast as the relief grows",
                 20e-6,
                 Box::new(|relief| 20e-6 - relief),
             ),
@@ -339,12 +341,12 @@ mod tests {
             ),
             ("faster", 20e-6, Box::new(|relief| 3.0 * (20e-6 - relief))),
             (
-                "at last not at all",
+                "constant at the end",
                 20e-6,
                 Box::new(|relief| (20e-6 - relief).max(-1e-9)),
             ),
             (
-                "in bends",
+                "with oscillations",
                 20e-6,
                 Box::new(|relief| {
                     20e-6 - relief + 4e-6 * (relief * 1e6 * std::f64::consts::PI / 20.0).sin()
@@ -363,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn a_touch_with_more_relief_is_not_overlooked_where_it_is_looked_for() {
+    fn contact_at_a_larger_tested_relief_is_found() {
         let lead = |back: std::ops::Range<f64>| {
             move |relief: f64| {
                 if back.contains(&relief) {
@@ -384,7 +386,7 @@ mod tests {
     }
 
     #[test]
-    fn where_no_relief_stops_it_that_is_said() {
+    fn a_lead_that_no_relief_removes_is_refused() {
         let (none, tries) = found(|_| 1e-6, false);
         assert_eq!(none.unwrap_err().code(), "no-clearing-relief");
         assert!(tries < 30, "{tries}");

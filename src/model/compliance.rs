@@ -1,4 +1,4 @@
-//! Compliance of the teeth and of the contact between them, per unit width.
+//! Compliance of the teeth and of their contact, per unit width.
 //!
 //! [`tooth::MODELS`] and [`contact::MODELS`] list the models.
 
@@ -17,7 +17,7 @@ use tooth::Tooth;
 
 pub use tooth::{contact_of, model_of, without_field};
 
-/// Elasticity of a pair: all that its compliances read beside its geometry.
+/// Elasticity of a pair: the inputs of its compliances besides the geometry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elasticity {
     /// Model of the teeth.
@@ -53,7 +53,8 @@ impl ElasticGear {
     pub fn of(inputs: &Inputs, gear: &Gear) -> ElasticGear {
         ElasticGear {
             rack: Rack::of(inputs, gear),
-            // The rounding of the tip moves the load, not the stiffness of the tooth.
+            // The rounding of the tip moves the load but does not change the stiffness of the
+            // tooth.
             shape: GearShape {
                 tip_radius: None,
                 ..gear.shape(inputs.module)
@@ -89,7 +90,7 @@ impl Inputs {
 /// Compliance of the two teeth at D, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TeethCompliance {
-    /// The model that was used.
+    /// The model.
     pub model: ToothCompliance,
     /// Driver's tooth q₁, loaded at O₁D.
     pub driver: f64,
@@ -129,7 +130,7 @@ impl ContactPlace {
         }
     }
 
-    /// The same place with the gears swapped.
+    /// The place with the gears swapped.
     #[must_use]
     pub fn swapped(self) -> ContactPlace {
         ContactPlace {
@@ -150,7 +151,7 @@ impl ContactPlace {
     }
 }
 
-/// Both teeth of a pair, ready for any place of contact.
+/// Both teeth of a pair, prepared for any place of contact.
 #[derive(Debug, Clone)]
 pub struct Teeth {
     elasticity: Elasticity,
@@ -160,7 +161,7 @@ pub struct Teeth {
     contact: PairContact,
 }
 
-/// Compliance of a pair at a place, ready for any force.
+/// Compliance of a pair at a place, prepared for any force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairCompliance {
     /// Of the two teeth, in m²/N.
@@ -179,10 +180,10 @@ impl PairCompliance {
 }
 
 impl Teeth {
-    /// The teeth of a pair by the model of the case.
+    /// Prepares the teeth of a pair by the model of the case.
     ///
     /// # Errors
-    /// Those of a model that builds an object for each gear.
+    /// Those of a model that builds an object per gear.
     pub fn of(elasticity: &Elasticity, geometry: &Geometry) -> Result<Teeth, Refusal> {
         Ok(Teeth {
             elasticity: *elasticity,
@@ -215,8 +216,7 @@ impl Teeth {
         })
     }
 
-    /// The contact's parts of driver and driven gear at a place; `None` for a model without
-    /// contact.
+    /// The contact laws of driver and driven gear at a place. `None` for a model without contact.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
@@ -229,8 +229,8 @@ impl Teeth {
         ])
     }
 
-    /// The contact at a place: that of the teeth's model if it includes the contact, else that of
-    /// the case's contact model.
+    /// The contact at a place: by the tooth model if it includes the contact, otherwise by the
+    /// contact model of the case.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the models.
@@ -244,8 +244,8 @@ impl Teeth {
         }
     }
 
-    /// Where the load of a place acts on both teeth under a force, in N: if the pressure would extend
-    /// beyond the corner of a tip, the place from which it ends at the corner.
+    /// The place where the load acts on both teeth under a force, in N. If the pressure would
+    /// extend beyond the corner of a tip, the load moves until the pressure ends at the corner.
     #[must_use]
     pub fn under(&self, place: &ContactPlace, force: f64) -> ContactPlace {
         if !self.driver.has_corner() && !self.driven.has_corner() {
@@ -260,8 +260,9 @@ impl Teeth {
         }
     }
 
-    /// Displacement of a pair by the force on the pair `pitches` later in time, or of that one by
-    /// the force on this one, in m²/N: `later` and `earlier` are where they touch.
+    /// Displacement of a pair by a unit force on the pair `pitches` later, in m²/N. Equal to the
+    /// displacement of the later pair by a force on this pair. `later` and `earlier` are the
+    /// contact places.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
@@ -271,8 +272,8 @@ impl Teeth {
         earlier: &ContactPlace,
         pitches: i32,
     ) -> Result<f64, Refusal> {
-        // The force pushes a tooth of the driver back towards the later pairs, one of the driven
-        // gear on towards the earlier ones.
+        // The force pushes a driver's tooth back towards the later pairs, and a driven tooth
+        // towards the earlier pairs.
         let driver = self
             .driver
             .neighbour(earlier.radius_driver, later.radius_driver, pitches)?;

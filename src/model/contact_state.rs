@@ -1,4 +1,5 @@
-//! The incoming pair at one roll angle: where tip and flank face each other, and every value there.
+//! The state of the incoming pair at a roll angle: place of tip and flank, gap, velocities and
+//! load.
 
 #[cfg(test)]
 mod tests;
@@ -13,20 +14,20 @@ use super::tip_gap::{TipContact, gap_without, tip_at};
 use super::velocity::velocity;
 use super::{Geometry, Solution};
 
-/// No tip is followed further from its end of the path of contact, in rad of its gear.
+/// Greatest angle of a tip beyond its end of the path of contact, in rad of its gear.
 pub const MOST_ANGLE: f64 = 1.0;
 
-/// The gap in closed form may lose this factor of its digits before the quadrature serves: four of
-/// a double are kept.
+/// Greatest loss of precision of the closed-form gap, as a factor. Four digits of an f64 remain.
+/// Beyond it the quadrature computes the gap.
 const LOSS: f64 = 1e12;
 
-/// A gap below this share of what is closed at the first contact is none.
+/// A gap below this part of the gap closed at the first contact counts as 0.
 const ROUNDING: f64 = 1e-9;
 
-/// The incoming pair at a roll angle.
+/// The state of the incoming pair at a roll angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactState {
-    /// Where in its course it is.
+    /// The phase of the engagement.
     pub phase: Phase,
     /// Driver's angle before E, in rad; below 0 after E.
     pub roll_angle_driver: f64,
@@ -34,34 +35,34 @@ pub struct ContactState {
     pub roll_angle_driven: f64,
     /// The tip, or the contact on the line of action, in m; O₁ at the origin, O₂ at (a, 0).
     pub point: Point2<f64>,
-    /// Its distance from O₁, O₁J, in m.
+    /// Distance O₁J of the point from O₁, in m.
     pub radius_driver: f64,
-    /// Gap S that the involutes without deviation leave between tip and flank, in m; 0 on the line
-    /// of action.
+    /// Gap S between tip and flank of the involutes without deviation, in m; 0 on the line of
+    /// action.
     pub gap: f64,
-    /// What is left of it until the first contact, in m; 0 from there on.
+    /// The part of the gap that is still open, in m; 0 from the first contact on.
     pub opening: f64,
-    /// Approach velocity ΔV_n, in m/s; below 0 where tip and flank part.
+    /// Approach velocity ΔV_n, in m/s; below 0 when tip and flank separate.
     pub normal_velocity: f64,
     /// Sliding velocity ΔV_τ, in m/s.
     pub sliding_velocity: f64,
-    /// What the method tells of the tooth here, where it is in contact.
+    /// The interpolated results of the method if the tooth is in contact.
     pub interpolated: Option<Interpolated>,
 }
 
-/// Where in its course the incoming pair is.
+/// The phase of the engagement of the incoming pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
     /// Before E: the driven tip faces the driver's flank.
     RunIn,
-    /// From E to B: flank on flank on the line of action.
+    /// From E to B: both flanks touch on the line of action.
     Line,
     /// After B: the driver's tip faces the driven flank.
     RunOut,
 }
 
-/// The driven gear's angle before E at the first contact, in rad, by the solution's method; `None`
-/// where no tooth strikes.
+/// The driven gear's angle before E at the first contact, in rad, by the solution's method. `None`
+/// if no tooth strikes.
 #[must_use]
 pub fn first_contact(solution: &Solution) -> Option<f64> {
     let at_rest = solution
@@ -79,21 +80,21 @@ pub fn first_contact(solution: &Solution) -> Option<f64> {
     )
 }
 
-/// The driver's angle before E at the first contact, in rad, by the solution's method; `None` where
-/// no tooth strikes.
+/// The driver's angle before E at the first contact, in rad, by the solution's method. `None` if no
+/// tooth strikes.
 #[must_use]
 pub fn first_contact_of_driver(solution: &Solution) -> Option<f64> {
     let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
     first_contact(solution).map(|angle| angle * ratio)
 }
 
-/// Whether the solution tells how the pairs share the load.
+/// Whether the solution includes load sharing.
 #[must_use]
 pub fn shares_load(solution: &Solution) -> bool {
     solution.static_load.is_some() || solution.dynamic.is_some()
 }
 
-/// Where the driven tip is at the first contact, D, in m.
+/// Point D of the driven tip at the first contact, in m.
 #[must_use]
 pub fn first_contact_point(solution: &Solution) -> Option<Point2<f64>> {
     let tip = tip_at(&solution.geometry, first_contact(solution)?);
@@ -101,21 +102,21 @@ pub fn first_contact_point(solution: &Solution) -> Option<Point2<f64>> {
 }
 
 impl ContactState {
-    /// The incoming pair where the driver stands `roll_angle` before E, in rad, or at the nearest
-    /// angle at which a tip is followed. `None` where that tip would be inside the other gear's
-    /// base circle.
+    /// The state at the driver's `roll_angle` before E, in rad. The angle is limited to
+    /// [`MOST_ANGLE`] beyond the ends of the path of contact. `None` if the tip would be inside the
+    /// other gear's base circle.
     ///
     /// # Formula
     /// ```text
     /// u = θ/i,   opening = max(0, S(u) − S₀),   S = 0 on the line of action
     /// ```
-    /// where S₀ is the gap that is closed at the first contact: Δ in the methods `paper` and
-    /// `exact`, S at the first contact in `static` and `dynamic`. After B the same values are those
-    /// of the driver's tip, by swapped gears, and S₀ is 0.
+    /// S₀ is the gap that is closed at the first contact: Δ in `paper` and `exact`, S at the first
+    /// contact in `static` and `dynamic`. After B the values describe the driver's tip, computed
+    /// with swapped gears, and S₀ is 0.
     ///
     /// # Source
-    /// Gap, velocities and force of the method `exact` stand in `paper` too, so that what is seen
-    /// is what the involutes do.
+    /// `paper` uses gap, velocities and force of the method `exact`, so that the picture shows the
+    /// involutes.
     #[must_use]
     pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<ContactState> {
         let last =
@@ -133,16 +134,15 @@ impl ContactState {
         moment.is_sound().then_some(moment)
     }
 
-    /// How far the struck flank is ahead of its nominal place along the line of action when the
-    /// opening is shown `factor` times as wide, in m.
+    /// Distance of the driver's flank ahead of its nominal place along the line of action, in m, if
+    /// the opening is drawn enlarged by `factor`.
     ///
     /// # Formula
     /// ```text
     /// S(u) − factor · opening,   0 after B
     /// ```
-    /// An involute turned about its gear moves by the same length along each of its normals, so
-    /// that the gap drawn is the factor times the opening, exactly, and in contact the two touch
-    /// whatever the factor.
+    /// A turned involute moves by the same length along each of its normals. The drawn gap is
+    /// therefore exactly `factor` times the opening, and flanks in contact touch at every factor.
     #[must_use]
     pub fn lead(&self, factor: f64) -> f64 {
         if self.phase == Phase::RunOut {
@@ -178,7 +178,7 @@ impl ContactState {
     }
 }
 
-/// The driven tip in front of the driver's flank.
+/// The driven tip before the driver's flank.
 fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState {
     let geometry = &solution.geometry;
     let angle = roll_angle / inputs.ratio();
@@ -199,7 +199,7 @@ fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState
     }
 }
 
-/// Flank on flank on the line of action.
+/// Both flanks in contact on the line of action.
 fn line(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState {
     let geometry = &solution.geometry;
     let curvature = geometry.start - roll_angle * geometry.driver.base;
@@ -218,8 +218,8 @@ fn line(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState {
     }
 }
 
-/// The driver's tip leaving the driven flank: the run-in of the swapped gears, backwards and seen
-/// from the other side.
+/// The driver's tip after the driven flank: the reversed run-in of the swapped gears, rotated by
+/// half a turn.
 fn run_out(
     inputs: &Inputs,
     solution: &Solution,
@@ -258,7 +258,7 @@ fn gap_of(geometry: &Geometry, tip: &TipContact) -> f64 {
     gap_without(LOSS, geometry, tip).max(0.0)
 }
 
-/// What is left of a gap until the first contact.
+/// The part of a gap that is still open before the first contact.
 fn opening(solution: &Solution, gap: f64) -> f64 {
     let total = solution.deviation.total;
     let closed = match first_contact(solution) {

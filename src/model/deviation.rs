@@ -1,4 +1,4 @@
-//! What brings the tooth in early: equivalent error and combined deflection.
+//! The deviation that makes the tooth early: equivalent error and combined deflection.
 
 use smallvec::SmallVec;
 use twofloat::TwoFloat;
@@ -10,19 +10,20 @@ use super::inputs::{Inputs, Method};
 use super::pair_forces::{PITCHES, Pair, PairSet, Place};
 use crate::numeric::Real;
 
-/// What the deviation depends on, apart from geometry and mesh force.
+/// Inputs of the deviation, besides geometry and mesh force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeviationInputs {
     /// Deviations and reliefs.
     pub errors: Errors,
-    /// Where the combined deflection comes from.
+    /// Source of the combined deflection.
     pub deflection: Deflection,
 }
 
 /// Deviations and reliefs of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
-    /// `paper` scales the reliefs as printed; `static` and `dynamic` leave them to the flanks.
+    /// `paper` scales the reliefs as printed. `static` and `dynamic` apply the reliefs to the
+    /// flanks.
     pub method: Method,
     /// Base pitch deviations f_pb of driver and driven gear, in m.
     pub base_pitches: [f64; 2],
@@ -34,21 +35,21 @@ pub struct Errors {
     pub driver_root_relief: f64,
 }
 
-/// Where the combined deflection comes from.
+/// Source of the combined deflection.
 #[expect(
     clippy::large_enum_variant,
     reason = "a box would allocate in every closed-form solve"
 )]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Deflection {
-    /// The case gives it, in m.
+    /// Given by the case, in m.
     Given(f64),
-    /// The load causes it.
+    /// Computed from the load.
     ByLoad(Elasticity),
 }
 
 impl Inputs {
-    /// What the deviation depends on.
+    /// Inputs of the deviation.
     #[must_use]
     pub fn deviation(&self) -> DeviationInputs {
         DeviationInputs {
@@ -76,23 +77,22 @@ impl Inputs {
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation<T = f64> {
-    /// Equivalent error Δf, Eqs. 1 and 2; in the methods `static` and `dynamic` without the
-    /// reliefs, which act on the flanks.
+    /// Equivalent error Δf, Eqs. 1 and 2. `static` and `dynamic` exclude the reliefs, which act on
+    /// the flanks.
     pub equivalent_error: T,
-    /// Modification e_m at the run-in contact, Eq. 1: below 0 where material is taken off.
+    /// Modification e_m at the run-in contact, Eq. 1; negative if material is removed.
     pub modification: T,
-    /// Combined deflection δ: how far the pairs that carry the load deflect, Eqs. 3 and 4, less
-    /// what the incoming pair is displaced by them.
+    /// Combined deflection δ: the deflection of the pairs that carry the load, Eqs. 3 and 4, minus
+    /// the displacement of the incoming pair by their forces.
     pub combined_deflection: T,
-    /// Displacement of the incoming pair by the forces on the pairs ahead; 0 in the method `paper`
-    /// and where teeth deflect alone.
+    /// Displacement of the incoming pair by the forces on the pairs ahead. 0 in the method `paper`
+    /// and for tooth models without coupling.
     pub neighbour_deflection: T,
-    /// Δ = Δf + δ, Eq. 5, reliefs counted in every method. Without Δ > 0 no tooth strikes.
+    /// Δ = Δf + δ, Eq. 5, with reliefs in every method. A tooth strikes only if Δ > 0.
     pub total: T,
 }
 
-/// What brings the incoming tooth in early, in double-double arithmetic: a relief may take back all
-/// but a small rest.
+/// The deviation in double-double arithmetic, because a relief can cancel all but a small part.
 pub(super) fn deviation(errors: &Errors, deflected: Deflected) -> Deviation<TwoFloat> {
     let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
     let with_reliefs = equivalent_error(errors);
@@ -118,13 +118,13 @@ pub(super) fn deviation(errors: &Errors, deflected: Deflected) -> Deviation<TwoF
 /// paper:  Δf = (2 f_pb + e_m − j_bn)/√2
 /// others: Δf = (2 f_pb − j_bn)/√2 + e_m,   e_m = −(driven tip relief + driver root relief)
 /// ```
-/// where 1/√2 stands for the sum of independent random errors: the deviations of two gears add as
-/// √(f_pb1² + f_pb2²), which is 2 f_pb/√2 where both are f_pb, and in general takes its place.
+/// The factor 1/√2 adds independent random errors. Different deviations of the two gears add as
+/// √(f_pb1² + f_pb2²), which is 2 f_pb/√2 for equal deviations.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random
-/// errors, as printed; the others count it in full, since a relief that was ground is there in
-/// full.
+/// errors, as printed. The other methods count e_m in full, because a ground relief is no random
+/// error.
 fn equivalent_error(inputs: &Errors) -> TwoFloat {
     match inputs.method {
         Method::Paper => {
@@ -144,7 +144,7 @@ fn random_error(inputs: &Errors) -> TwoFloat {
     random_deviation(inputs) * twofloat::consts::FRAC_1_SQRT_2
 }
 
-/// √(2 (f_pb1² + f_pb2²)) − j_bn, in m, which is 2 f_pb − j_bn for equal deviations; a negative
+/// √(2 (f_pb1² + f_pb2²)) − j_bn, in m, which is 2 f_pb − j_bn for equal deviations. A negative
 /// deviation subtracts its square.
 fn random_deviation(inputs: &Errors) -> TwoFloat {
     let [driver, driven] = inputs.base_pitches;
@@ -164,9 +164,9 @@ fn random_deviation(inputs: &Errors) -> TwoFloat {
 /// Displacements along the line of action under the load with the incoming pair at E, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Deflected {
-    /// Of the pairs that carry the load, by their own deflection and each other's.
+    /// Displacement of the pairs that carry the load, coupling included.
     pairs_ahead: f64,
-    /// Of the incoming pair, by their forces.
+    /// Displacement of the incoming pair by the forces on these pairs.
     incoming_pair: f64,
 }
 
@@ -179,36 +179,38 @@ impl Deflected {
     }
 }
 
-/// The pairs that carry the load when the incoming pair is at E, ready for any force.
+/// The pairs that carry the load with the incoming pair at E, prepared for any force.
 #[derive(Debug, Clone)]
 pub(super) struct LoadedPairs {
     /// Common face width b, in m.
     width: f64,
-    /// The incoming pair and those that carry, under a force that moves no load off a tip.
+    /// The places of the incoming pair and of the loaded pairs. The load is at the contact, not
+    /// moved off a tip.
     places: Places,
     pairs: Carriers,
 }
 
 type Places = SmallVec<[ContactPlace; USUAL_PAIRS + 1]>;
 
-/// More pairs than most gears have in contact.
+/// Number of loaded pairs stored without allocation.
 const USUAL_PAIRS: usize = 2;
 
 #[derive(Debug, Clone)]
 enum Carriers {
-    /// Springs of their own, and the displacement of the incoming pair by a unit force on the first
-    /// of them, in m²/N.
+    /// Independent springs, and the displacement of the incoming pair by a unit force on the first
+    /// spring, in m²/N.
     Apart(Springs, f64),
-    /// Several pairs that displace each other.
+    /// Several coupled pairs.
     Coupled,
 }
 
 impl LoadedPairs {
-    /// The pairs of a geometry, whose teeth are built if any pair is in contact at F.
+    /// Finds the loaded pairs of a geometry. Builds the teeth only if a pair is in contact at F.
     ///
     /// # Errors
-    /// [`Refusal::ContactRatioBelowOne`] where none is, [`Refusal::InterferenceAtEnd`] where the
-    /// only one touches the driven gear inside its base circle, or the compliance's own.
+    /// [`Refusal::ContactRatioBelowOne`] if no pair is in contact at F,
+    /// [`Refusal::InterferenceAtEnd`] if the only pair touches the driven gear inside its base
+    /// circle, or the errors of the compliance.
     pub(super) fn of<'t>(
         method: Method,
         geometry: &Geometry,
@@ -259,18 +261,18 @@ impl LoadedPairs {
     /// # Formula
     /// ```text
     /// δ = x − Σ_k Q_0k F_k/b,   x = Σ_j Q_kj F_j/b,   Σ F_k = F0,   F_k >= 0
-    /// Q_kk = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. while it lies before B
+    /// Q_kk = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. before B
     /// ```
-    /// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load:
-    /// δ = (Q_11 − Q_01) F0/b. With more, the pairs share it. Teeth that deflect alone (Q_kj = 0),
-    /// and the method `paper`, have δ = F0/(b Σ 1/Q_kk).
+    /// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load: δ
+    /// = (Q_11 − Q_01) F0/b. With a higher contact ratio several pairs share the load. Without
+    /// coupling (Q_kj = 0), and in the method `paper`, δ = F0/(b Σ 1/Q_kk).
     ///
     /// # Source
-    /// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in
-    /// its Fig. 3. The displacement of neighbours is not in the paper.
+    /// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of the curve in
+    /// Fig. 3. The paper has no displacement of neighbours.
     ///
     /// # Errors
-    /// A [`Refusal`] where a contact has no compliance under the load.
+    /// A [`Refusal`] if a contact has no compliance under the load.
     pub(super) fn deflected(&self, teeth: &Teeth, mesh_force: f64) -> Result<Deflected, Refusal> {
         let under = |place: &ContactPlace| teeth.under(place, mesh_force);
         let is_moved = |place: &ContactPlace| under(place) != *place;
@@ -311,12 +313,12 @@ impl LoadedPairs {
 
 type Springs = SmallVec<[PairCompliance; USUAL_PAIRS]>;
 
-/// The compliances of all but the first of these pairs.
+/// The compliances of all places except the first.
 fn springs(teeth: &Teeth, places: &[ContactPlace]) -> Result<Springs, Refusal> {
     places[1..].iter().map(|place| teeth.pair(place)).collect()
 }
 
-/// The displacements where several coupled pairs, all but the first of these, carry the force.
+/// The displacements if several coupled pairs, all places except the first, carry the force.
 fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Deflected, Refusal> {
     let (mut pairs, mut couplings) = (Vec::new(), Vec::new());
     for (ahead, place) in (0..).zip(places) {
@@ -349,8 +351,8 @@ fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Def
 }
 
 impl Deviation {
-    /// The equivalent error as another method defines it, in m: `static` and `dynamic` without the
-    /// reliefs, the others with them. The difference of two methods then says something.
+    /// The equivalent error by the definition of another method, in m, for the comparison of two
+    /// methods: `static` and `dynamic` exclude the reliefs, the other methods include them.
     #[must_use]
     pub fn equivalent_error_as_in(&self, own: Method, other: Method) -> f64 {
         match (own.shares_load(), other.shares_load()) {
@@ -365,7 +367,7 @@ impl Deviation {
 }
 
 impl Deviation {
-    /// How far the pairs that carry the load deflect, in m.
+    /// Deflection of the pairs that carry the load, in m.
     #[must_use]
     pub fn loaded_deflection(&self) -> f64 {
         self.combined_deflection + self.neighbour_deflection

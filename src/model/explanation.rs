@@ -1,8 +1,8 @@
-//! The types in which quantities, steps and compliance models describe themselves.
+//! The types that describe quantities, steps and compliance models on the pages of `explain`.
 
 use super::{Inputs, Solution};
 
-/// A solved case as formulas and checks see it.
+/// A solved case, the argument of formulas and checks.
 #[derive(Debug, Clone, Copy)]
 pub struct Context<'a> {
     /// The inputs with the settings that the method `auto` chose.
@@ -24,7 +24,7 @@ pub enum Formula {
     /// An explicit right-hand side that subtracts close numbers: a page shows its terms with more
     /// digits.
     Difference(&'static str),
-    /// An explicit right-hand side with as many terms as the case has.
+    /// An explicit right-hand side whose number of terms depends on the case.
     Made(fn(&Context) -> String),
     /// The first formula whose condition is true.
     Cases(&'static [(When, Formula)]),
@@ -41,7 +41,7 @@ pub enum Formula {
 /// An equation that a solver solves.
 #[derive(Debug, Clone, Copy)]
 pub struct Equation {
-    /// The equation as print shows it.
+    /// The equation as text.
     pub text: &'static str,
     /// The left side.
     pub left: Formula,
@@ -53,18 +53,18 @@ pub struct Equation {
     pub sides: fn(&Context) -> Option<[f64; 2]>,
 }
 
-/// A value between the fields and a quantity.
+/// An intermediate value between the fields and a quantity.
 #[derive(Debug, Clone, Copy)]
 pub struct Step {
     /// The symbol in formulas.
     pub symbol: &'static str,
-    /// A few words for a person.
+    /// A short description.
     pub meaning: &'static str,
     /// The unit in which a page shows the value.
     pub unit: &'static str,
     /// How the value is computed.
     pub formula: Formula,
-    /// The value in SI; `None` where the case has no such value.
+    /// The value in SI. `None` if the case has no such value.
     pub value: fn(&Context) -> Option<f64>,
 }
 
@@ -85,22 +85,22 @@ pub(super) const fn step(
     }
 }
 
-/// A range of validity and the values of a case in it.
+/// A range of validity and the values of a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
     /// The range.
     pub range: String,
-    /// The values of the case.
+    /// The values of the case as text.
     pub here: String,
     /// Whether the case is inside.
     pub inside: bool,
 }
 
-/// Compares a case with a range of validity; `None` where the case has no value to compare.
+/// Compares a case with a range of validity. `None` if the case has no value to compare.
 pub type Check = fn(&Context) -> Option<Finding>;
 
 impl Finding {
-    /// A finding, in the shape that a [`Check`] returns.
+    /// A finding, as the result of a [`Check`].
     #[must_use]
     pub fn new(range: impl Into<String>, here: impl Into<String>, inside: bool) -> Option<Finding> {
         Some(Finding {
@@ -124,7 +124,7 @@ impl Formula {
         }
     }
 
-    /// The right-hand side, where the formula is explicit.
+    /// The right-hand side if the formula is explicit.
     #[must_use]
     pub fn explicit(self, context: &Context) -> Option<String> {
         match self.resolved(context.inputs) {
@@ -135,8 +135,8 @@ impl Formula {
     }
 }
 
-/// A number with that many significant digits, without trailing zeros where it has no further
-/// digits.
+/// A number with `digits` significant digits. Removes trailing zeros if the shorter number is
+/// exact.
 #[must_use]
 pub fn tidy(value: f64, digits: usize) -> String {
     const EXACT: f64 = 4.0 * f64::EPSILON;

@@ -1,5 +1,5 @@
-//! Compliance of the contact between two flanks, and the list of its models: a new model is one
-//! file in this folder and one entry of [`MODELS`].
+//! Compliance of the contact between two flanks, and the list of its models. A new model needs one
+//! file in this folder and one entry in [`MODELS`].
 
 mod constant;
 mod logarithmic;
@@ -26,22 +26,22 @@ pub struct ContactModel {
     pub name: &'static str,
     /// The index in a symbol such as F_fit,log.
     pub index: &'static str,
-    /// What the form says of the model, without a full stop.
+    /// Help text in the form, without a full stop.
     pub help: &'static str,
     /// Whether the compliance depends on the half-width, and so on load and curvature.
     pub reads_half_width: bool,
     /// Whether the compliance depends on the root of the tooth, and so on the dedendum.
     pub reads_root: bool,
-    /// q_H at the impact force and the steps before it.
+    /// The steps of q_H at the impact force.
     pub steps: &'static [Step],
-    /// How q_H depends on the half-width.
+    /// Dependence of q_H on the half-width.
     pub law: Law,
 }
 
 /// Computes the [`ContactLaw`] of a pair.
 #[derive(Debug, Clone, Copy)]
 pub enum Law {
-    /// The same at every place.
+    /// Independent of the place.
     Everywhere(fn(&Elasticity) -> ContactLaw),
     /// Computed at each place.
     AtPlace(LawAtPlace),
@@ -49,11 +49,11 @@ pub enum Law {
 
 type LawAtPlace = fn(&Elasticity, &Geometry, &ContactPlace) -> Result<ContactLaw, Refusal>;
 
-/// The compliance of a contact as its half-width grows with the force.
+/// The compliance of a contact as a function of the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSpring {
     law: ContactLaw,
-    /// What q_H must exceed.
+    /// Lower limit of q_H, which q_H must exceed.
     least: f64,
     width_per_root_force: f64,
 }
@@ -64,7 +64,7 @@ pub struct ContactSpring {
 pub struct ContactLaw {
     /// q_H at a half-width of 1 m.
     pub offset: f64,
-    /// What q_H loses for each unit of ln a.
+    /// Decrease of q_H per unit of ln a.
     pub slope: f64,
 }
 
@@ -88,7 +88,7 @@ impl ContactSpring {
     /// ```
     ///
     /// # Source
-    /// Hertz 1882; the paper leaves a in its Eq. 55 undefined.
+    /// Hertz 1882. The paper does not define a in its Eq. 55.
     #[must_use]
     pub fn half_width(&self, force: f64) -> f64 {
         self.width_per_root_force * force.sqrt()
@@ -97,8 +97,8 @@ impl ContactSpring {
     /// Contact compliance q_H at a force, in m²/N.
     ///
     /// # Errors
-    /// [`Refusal::HertzWidthTooLarge`] where the formula gives none above 0; where the model of the
-    /// teeth includes the contact, where the pair's compliance is not above 0.
+    /// [`Refusal::HertzWidthTooLarge`] if q_H is not above 0. If the tooth model includes the
+    /// contact, the compliance of the pair must be above 0 instead.
     pub fn compliance(&self, force: f64) -> Result<f64, Refusal> {
         let half_width = self.half_width(force);
         let ContactLaw { offset, slope } = self.law;
@@ -114,25 +114,24 @@ impl ContactSpring {
         }
     }
 
-    /// The force F of an impact for which `F = momentum/√q` with `q = teeth + qH(F)`, in N, and
-    /// that q in m²/N.
+    /// The force F of an impact with `F = momentum/√q` and `q = teeth + qH(F)`, in N, and q in
+    /// m²/N.
     ///
-    /// Newton's method on y = ln F/F₀ where F₀ is the force without contact compliance, `y +
-    /// ln(q/teeth)/2 = 0`; q falls slowly with y, so that a few steps reach the last digit. The
-    /// logarithms of F and q themselves may be so large that their rounding would keep the steps
-    /// from settling.
+    /// Newton's method on y = ln F/F₀ with `y + ln(q/teeth)/2 = 0`, where F₀ is the force without
+    /// contact compliance. q falls slowly with y, so that few steps give all digits. ln F and ln q
+    /// themselves can be so large that their rounding prevents convergence.
     ///
     /// # Errors
-    /// [`Refusal::HertzWidthTooLarge`] where the half-width outgrows the formula before they agree.
+    /// [`Refusal::HertzWidthTooLarge`] if the half-width leaves the range of the formula.
     pub fn impact(&self, teeth: f64, momentum: f64) -> Result<(f64, f64), Refusal> {
         const STEPS: usize = 50;
-        /// After a step the error of y is a sixteenth of the square of `step · slope/q`.
+        /// After a step the error of y is the square of `step · slope/q`, divided by 16.
         const SETTLED: f64 = 1e-8;
         let stiffest = momentum / teeth.sqrt();
         let ContactLaw { offset, slope } = self.law;
         let at_stiffest = teeth + offset - slope * self.half_width(stiffest).ln();
         let (mut force_logarithm, mut compliance) = (0.0, at_stiffest);
-        // ln(q/teeth), which follows q without another logarithm of a large number.
+        // ln(q/teeth), updated without the logarithm of a large number.
         let mut compliance_logarithm = (compliance / teeth).ln();
         for _ in 0..STEPS {
             if compliance <= 0.5 * slope {
@@ -156,7 +155,7 @@ impl ContactSpring {
         Err(self.too_wide(self.half_width(stiffest)))
     }
 
-    /// The refusal, with the half-width at which the formula gives no compliance any more.
+    /// The refusal, with the half-width at which q_H reaches its lower limit.
     fn too_wide(&self, half_width: f64) -> Refusal {
         Refusal::HertzWidthTooLarge {
             half_width,
@@ -165,7 +164,7 @@ impl ContactSpring {
     }
 }
 
-/// The contact between the flanks of a pair by the model of the case, ready for any place.
+/// The contact of a pair by the model of the case, prepared for any place.
 #[derive(Debug, Clone, Copy)]
 pub struct PairContact {
     law: PairLaw,
@@ -191,10 +190,10 @@ impl PairContact {
         }
     }
 
-    /// The contact at a place of the same pair.
+    /// The contact at a place.
     ///
     /// # Errors
-    /// Those of the tooth's profile, whose thickness `weber` reads.
+    /// Those of the tooth profile, because `weber` needs the thickness.
     pub fn spring(
         &self,
         elasticity: &Elasticity,
@@ -209,7 +208,7 @@ impl PairContact {
     }
 }
 
-/// Hertz half-width of the contact of a pair; no model of the compliance enters it.
+/// Hertz half-width of the contact of a pair, independent of the compliance model.
 #[derive(Debug, Clone, Copy)]
 pub struct HalfWidth {
     /// 1/E', in 1/Pa.
@@ -234,8 +233,8 @@ impl HalfWidth {
         self.per_root_force(place) * force.sqrt()
     }
 
-    /// The contact by a law at a place; `teeth` is the compliance without contact, in m²/N, of
-    /// teeth whose model includes the contact, else 0.
+    /// The contact with a given law at a place. `teeth` is the compliance without contact, in m²/N,
+    /// if the tooth model includes the contact, otherwise 0.
     #[must_use]
     pub fn spring(&self, place: &ContactPlace, teeth: f64, law: ContactLaw) -> ContactSpring {
         ContactSpring {
@@ -290,7 +289,7 @@ mod tests {
     use crate::model::sample::standard_pair;
 
     #[test]
-    fn force_settles_whatever_its_size() {
+    fn the_force_converges_at_every_magnitude() {
         let (offset, slope) = (1e-11, 3e-12);
         let spring = ContactSpring {
             law: ContactLaw { offset, slope },
@@ -312,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn no_depth_is_left_on_a_pointed_tooth() {
+    fn a_pointed_tooth_has_no_depth() {
         let mut inputs = standard_pair(8, 60, 5e-3);
         inputs.contact_compliance = ContactCompliance::WEBER;
         inputs.driver.profile_shift = 0.6;

@@ -1,5 +1,5 @@
-//! Compliance of the teeth along the flanks that the path of contact uses, computed once and then
-//! cheap.
+//! Compliance of the teeth along the flanks of the path of contact, as series that are cheap to
+//! evaluate.
 
 use super::contact::{ContactLaw, HalfWidth, PairContact};
 use super::tooth::Tooth;
@@ -9,43 +9,43 @@ use crate::model::geometry::{Circles, Geometry};
 use crate::numeric::chebyshev::Series;
 use crate::numeric::root;
 
-/// What the last terms of a series may be, over the compliance at the tip: less than what those who
-/// use it allow.
+/// Tolerance of the last terms of a series, relative to the compliance at the tip. Smaller than the
+/// tolerances of the callers.
 const REST: f64 = 3e-14;
 
-/// Tooth compliances q₁ and q₂ and the contact's parts of both gears over the distance of the load
-/// point from N₁ and N₂.
+/// Tooth compliances q₁ and q₂ and the contact offsets of both gears as functions of the distance
+/// of the load point from N₁ and N₂.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flanks {
     driver: Flank,
     driven: Flank,
-    /// What q_H loses for each unit of ln a, if the model of the teeth includes the contact.
+    /// Decrease of q_H per unit of ln a if the tooth model includes the contact.
     slope: Option<f64>,
 }
 
 const TOOTH: usize = 0;
 const OFFSET: usize = 1;
 
-/// One flank: its tooth compliance, and the offset of its contact.
+/// One flank: tooth compliance and contact offset.
 #[derive(Debug, Clone, PartialEq)]
 struct Flank {
     series: Series<2>,
-    /// Distances between which the compliance is known, in m.
+    /// Range of distances with a known compliance, in m.
     ends: (f64, f64),
-    /// Square of the distance of the tip's corner; infinite if the model knows no corner.
+    /// Square of the distance of the tip corner; infinite if the model has no corner.
     corner: f64,
     /// r_b, in m.
     base: f64,
 }
 
-/// What the place of a load on a flank depends on.
+/// The limit that determines the place of a load on a flank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Limit {
-    /// The contact alone.
+    /// No limit: the load is at the contact.
     Contact,
-    /// The half-width of the pressure, which ends at the corner of the tip.
+    /// The pressure ends at the corner of the tip.
     Corner,
-    /// The load next to the tip.
+    /// Greatest distance with a known compliance.
     Last,
 }
 
@@ -73,7 +73,7 @@ impl Flank {
         })
     }
 
-    /// The values for a load that touches at this distance, moved off the corner of the tip if its
+    /// The values for a contact at this distance. The load moves off the corner of the tip if its
     /// pressure would extend beyond the corner.
     fn at(&self, curvature: f64, half_width: f64) -> [f64; 2] {
         let place = curvature.min(self.ends.1).min(self.at_corner(half_width));
@@ -86,7 +86,7 @@ impl Flank {
         square.max(0.0).sqrt().max(self.ends.0)
     }
 
-    /// What the place of such a load depends on, and the place by each.
+    /// The limit that determines the place of a load, and the place by each limit.
     fn limit(&self, (curvature, half_width): (f64, f64)) -> (Limit, [f64; 3]) {
         let places = [curvature, self.at_corner(half_width), self.ends.1];
         let limits = [Limit::Contact, Limit::Corner, Limit::Last];
@@ -99,7 +99,7 @@ impl Flank {
         )
     }
 
-    /// Places between the ends at which the place of the load begins to depend on something else.
+    /// Places between the ends at which another limit begins to determine the load.
     fn bends(&self, (from, to): (f64, f64), load: impl Fn(f64) -> (f64, f64)) -> Vec<f64> {
         const LOOKS: u32 = 8;
         if self.corner.is_infinite() || from >= to {
@@ -157,15 +157,15 @@ impl Flanks {
         })
     }
 
-    /// How often the compliance of a tooth was computed.
+    /// Number of evaluations of tooth compliances.
     #[must_use]
     pub fn evaluations(&self) -> usize {
         self.driver.series.evaluations() + self.driven.series.evaluations()
     }
 
-    /// Places between the ends at which a load begins or ends to be moved off the corner of a tip,
-    /// by what touches at a place: the distances of the load points from N₁ and N₂, and the
-    /// half-width of the contact.
+    /// Places between the ends at which a load begins or stops to move off the corner of a tip.
+    /// `load` gives the distances of the load points from N₁ and N₂ and the half-width of the
+    /// contact.
     #[must_use]
     pub fn bends(&self, ends: (f64, f64), load: impl Fn(f64) -> ((f64, f64), f64)) -> Vec<f64> {
         let mut bends = self.driver.bends(ends, |at| {
@@ -179,7 +179,7 @@ impl Flanks {
         bends
     }
 
-    /// The same flanks with the gears swapped.
+    /// The flanks with the gears swapped.
     #[must_use]
     pub fn swapped(&self) -> Flanks {
         Flanks {
@@ -189,8 +189,8 @@ impl Flanks {
         }
     }
 
-    /// Compliance of a pair under a given force, in m²/N, where its load points lie `driver` from
-    /// N₁ and `driven` from N₂.
+    /// Compliance of a pair under a given force, in m²/N. The load points are at the distances
+    /// `driver` from N₁ and `driven` from N₂.
     ///
     /// # Errors
     /// Those of the contact.
@@ -226,7 +226,7 @@ mod tests {
     use crate::model::sample::standard_pair;
 
     #[test]
-    fn every_place_of_the_line_of_action_has_the_compliance_of_its_teeth() {
+    fn the_series_agree_with_the_teeth_on_the_line_of_action() {
         for model in ToothCompliance::ALL {
             let inputs = Inputs {
                 tooth_compliance: Some(model),
@@ -270,7 +270,7 @@ mod tests {
             let half_width = HalfWidth::of(&elasticity).at(&at_tip, force);
             let moved = teeth.under(&at_tip, force);
             let off = arc(&moved) / half_width - 1.0;
-            assert!(off.abs() < 1e-9, "under {force} N off by {off:e}");
+            assert!(off.abs() < 1e-9, "error under {force} N: {off:e}");
             assert_eq!(
                 moved.radius_driven.to_bits(),
                 at_tip.radius_driven.to_bits()

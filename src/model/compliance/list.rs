@@ -1,7 +1,7 @@
-//! The choices of a list of models, with their names and help texts.
+//! Names and help texts of a list of models.
 
-/// Gives a choice of models, such as `ToothCompliance`, its names, help and entries from the list
-/// `MODELS` beside the call.
+/// Implements names, help and entries of a choice of models, such as `ToothCompliance`, from the
+/// list `MODELS` of the calling file.
 macro_rules! listed {
     ($choice:ident, $model:ident) => {
         impl $choice {
@@ -27,7 +27,7 @@ macro_rules! listed {
                 names
             };
 
-            /// One sentence on each model, for the form.
+            /// One sentence for each model, for the form.
             pub const HELP: &'static str = {
                 const HELPS: [&str; MODELS.len()] = {
                     let mut helps = [""; MODELS.len()];
@@ -45,7 +45,7 @@ macro_rules! listed {
                 $crate::model::compliance::list::text(&BYTES)
             };
 
-            /// The model of that name.
+            /// The entry of the list.
             #[must_use]
             pub fn model(self) -> &'static $model {
                 let named = |model: &&'static $model| model.name == self.name();

@@ -1,11 +1,12 @@
-//! The states of whole courses against the solutions.
+//! Compares the states over the whole engagement with the solutions.
 
 use super::*;
 use crate::model::inputs::Method;
 use crate::model::sample::standard_pair;
 use crate::model::{Stages, solve};
 
-/// Pairs with a deviation of 30 µm, up and down in ratio, shifted, and without a deviation.
+/// Pairs with a deviation of 30 µm: speed reducing, speed increasing, with profile shift, and
+/// without deviation.
 fn solved() -> Vec<(Inputs, Solution)> {
     let mut found = Vec::new();
     for (driver, driven, shift, deflection) in [
@@ -29,14 +30,14 @@ fn force(moment: &ContactState) -> Option<f64> {
 }
 
 #[test]
-fn values_at_d_and_at_the_stations_are_the_solutions() {
+fn values_at_d_and_at_the_stations_agree_with_the_solution() {
     for (inputs, solution) in solved() {
         let Some(position) = solution.position else {
             continue;
         };
         let moment = ContactState::at(&inputs, &solution, position.approach_angle_driver).unwrap();
         assert!(moment.opening.abs() < f64::MIN_POSITIVE);
-        // The angle of the driven gear comes back from that of the driver within rounding.
+        // The conversion of the angle to the driver and back is exact within rounding.
         let same = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
         assert!(same(moment.radius_driver, position.contact.radius_driver));
         let expected = solution.impact.map(|impact| impact.force);
@@ -94,7 +95,7 @@ fn the_opening_closes_at_d_and_stays_closed() {
 }
 
 #[test]
-fn without_contact_the_flanks_stay_apart_by_what_lacks() {
+fn without_contact_the_flanks_keep_the_missing_gap() {
     let (inputs, solution) = solved().pop().unwrap();
     assert_eq!(solution.position, None);
     for angle in [0.0, -0.05] {
@@ -106,7 +107,7 @@ fn without_contact_the_flanks_stay_apart_by_what_lacks() {
     }
 }
 
-/// The methods that share the load, of an ordinary pair.
+/// An ordinary pair by the methods with load sharing.
 fn shared() -> Vec<(Inputs, Solution)> {
     [Method::Static, Method::Dynamic]
         .map(|method| {
@@ -119,7 +120,7 @@ fn shared() -> Vec<(Inputs, Solution)> {
 }
 
 #[test]
-fn the_load_at_an_angle_is_that_of_the_stations() {
+fn the_load_at_an_angle_agrees_with_the_stations() {
     for (inputs, solution) in shared() {
         let first = first_contact(&solution).unwrap() * inputs.ratio();
         let before = ContactState::at(&inputs, &solution, 1.001 * first).unwrap();
@@ -154,7 +155,7 @@ fn the_load_at_an_angle_is_that_of_the_stations() {
     }
 }
 
-/// The contact point and the sliding velocity are the same on both sides.
+/// Asserts that the contact point and the sliding velocity agree on both sides.
 fn assert_same_contact(inputs: &Inputs, before: &ContactState, after: &ContactState) {
     let way = (before.point - after.point).norm();
     let change = (before.sliding_velocity - after.sliding_velocity).abs();
@@ -165,7 +166,7 @@ fn assert_same_contact(inputs: &Inputs, before: &ContactState, after: &ContactSt
 }
 
 #[test]
-fn nothing_jumps_at_b_and_the_tip_leaves_the_flank_after_it() {
+fn values_are_continuous_at_b_and_the_tip_leaves_the_flank_afterwards() {
     for (inputs, solution) in solved() {
         let last =
             (solution.geometry.start - solution.geometry.end) / solution.geometry.driver.base;
@@ -182,7 +183,7 @@ fn nothing_jumps_at_b_and_the_tip_leaves_the_flank_after_it() {
 }
 
 #[test]
-fn nothing_jumps_at_e() {
+fn values_are_continuous_at_e() {
     for (inputs, solution) in solved() {
         let (before, after) = (
             ContactState::at(&inputs, &solution, 1e-9),
@@ -194,7 +195,7 @@ fn nothing_jumps_at_e() {
 }
 
 #[test]
-fn angles_beyond_what_can_be_are_held_at_its_ends() {
+fn angles_beyond_the_range_are_limited_to_its_ends() {
     let (mut inputs, solution) = solved().remove(0);
     inputs.method = Method::Paper;
     for angle in [1e300, -1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {

@@ -8,7 +8,7 @@ use crate::model::explanation::Formula::Text;
 use crate::model::explanation::Step;
 use crate::model::inputs::ContactCompliance;
 
-/// The row of the list.
+/// The entry of the list.
 pub(super) const MODEL: ContactModel = ContactModel {
     name: "constant",
     index: "const",
@@ -34,7 +34,7 @@ impl ContactCompliance {
 ///
 /// # Source
 /// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the
-/// mean of both.
+/// mean.
 fn constant(elasticity: &Elasticity) -> ContactLaw {
     ContactLaw {
         offset: 2.0 * plane_strain_compliance(elasticity) / PI,

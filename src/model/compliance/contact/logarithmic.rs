@@ -8,7 +8,7 @@ use crate::model::explanation::Formula::Text;
 use crate::model::explanation::Step;
 use crate::model::inputs::ContactCompliance;
 
-/// The row of the list.
+/// The entry of the list.
 pub(super) const MODEL: ContactModel = ContactModel {
     name: "logarithmic",
     index: "log",
@@ -36,13 +36,13 @@ impl ContactCompliance {
 /// ```text
 /// qH = 2 (1 − ν²)/(π E) (1.27 + 0.781 ln(m/a))
 /// ```
-/// where for two materials (1 − ν²)/E is the mean of both.
+/// For two materials (1 − ν²)/E is the mean.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eq. 55 (from Xiao & Tang 1995).
 ///
 /// # Valid for
-/// A half-width small against the module: q_H is negative from a = 5.08 m on.
+/// A half-width small against the module. q_H is negative for a above 5.08 m.
 fn logarithmic(elasticity: &Elasticity) -> ContactLaw {
     const CONSTANT: f64 = 1.27;
     const FACTOR: f64 = 0.781;

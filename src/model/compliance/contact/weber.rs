@@ -11,7 +11,7 @@ use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
 use crate::model::profile::{Profile, Rack};
 
-/// The row of the list.
+/// The entry of the list.
 #[rustfmt::skip]
 pub(super) const MODEL: ContactModel = ContactModel {
     name: "weber",
@@ -64,7 +64,7 @@ impl ContactCompliance {
 /// ```text
 /// qH = Σ (1 − ν_i²)/(π E_i) (2 ln(2 h_i/a) − ν_i/(1 − ν_i))
 /// ```
-/// where h_i is the depth from the contact to the tooth's centre line along the line of force.
+/// h_i is the depth from the contact to the centre line of the tooth along the line of force.
 ///
 /// # Source
 /// Weber & Banaschek 1953, "Formänderung und Profilrücknahme bei gerad- und schrägverzahnten
@@ -74,7 +74,7 @@ impl ContactCompliance {
 /// A half-width small against the depth h.
 ///
 /// # Errors
-/// [`Refusal::PointedTip`] where no tooth is left at the load point.
+/// [`Refusal::PointedTip`] if the tooth has no thickness at the load point.
 fn weber(
     elasticity: &Elasticity,
     geometry: &Geometry,
@@ -99,7 +99,7 @@ fn weber(
     Ok(of(&elasticity.driver, driver) + of(&elasticity.driven, driven))
 }
 
-/// Depth from the flank to the tooth's centre line at a radius, where there is a tooth.
+/// Depth from the flank to the centre line of the tooth at a radius.
 fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
     let depth = profile.depth_along_force(radius);
     if depth > 0.0 {
