@@ -1,4 +1,4 @@
-//! Notes beside the results, each with its value and its limit.
+//! What a reader must know beside a result: each note with its value and its limit.
 
 mod compliance;
 mod gear;
@@ -9,7 +9,7 @@ mod pair;
 use super::{Inputs, Solution};
 use crate::numeric::decimal::significant;
 
-/// A note beside the results.
+/// Something a reader must know beside a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Note {
     /// A short name for scripts.
@@ -29,10 +29,10 @@ fn four(value: f64) -> String {
     significant(value, 4)
 }
 
-/// Returns a note if its condition is true.
+/// A condition to look for.
 type Look = fn(&Inputs, &Solution) -> Option<Note>;
 
-/// All conditions, in the order of the notes.
+/// Every condition, in the order in which a reader meets them.
 const LOOKS: &[Look] = &[
     load::method_taken,
     load::deflection_ignored,
@@ -72,7 +72,7 @@ const LOOKS: &[Look] = &[
     pair::form_circle,
 ];
 
-/// The notes on the results.
+/// What a reader must know beside the result.
 #[must_use]
 pub fn notes(inputs: &Inputs, solution: &Solution) -> Vec<Note> {
     LOOKS

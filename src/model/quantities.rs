@@ -1,10 +1,11 @@
-//! The table of quantities: each row has the name, the value, the explanation and the inputs of a
+//! The one table of quantities: a row has the name, the value, the explanation and the inputs of a
 //! quantity.
 //!
-//! Results pane, text, JSON, CSV, limits, `--only`, the explanation and the dependencies use these
-//! rows. A new quantity needs a stage that computes it and a row here. The rows are Rust constants,
-//! not a data file: the compiler checks the names of checks and conditions, and the program starts
-//! without a parser.
+//! Results pane, text, JSON, CSV, limits, `--only`, the explanation and the dependencies derive
+//! from the rows. A new quantity is a stage that computes it and a row here. The rows are Rust
+//! constants and no data file: whoever corrects a sentence or a formula finds it as a string in
+//! the row, the compiler checks the names of checks and conditions beside it, and the first frame
+//! does not wait for a parser.
 
 mod at_rest;
 mod checks;
@@ -33,13 +34,13 @@ pub struct Quantity {
     pub key: &'static str,
     /// The symbol in formulas.
     pub symbol: &'static str,
-    /// A short description.
+    /// A few words for a person.
     pub label: &'static str,
     /// The SI unit, "1" for a number.
     pub unit: &'static str,
-    /// The unit of the shown value.
+    /// The unit in which a person reads the value.
     pub shown: &'static str,
-    /// Significant digits of the shown value.
+    /// Significant digits that a person reads.
     pub digits: usize,
     /// The equation or standard that defines the value. A numbered equation, such as `Eq. 57`, must
     /// also be in the source. Other words need their first word in the source, the meaning or the
@@ -47,35 +48,35 @@ pub struct Quantity {
     pub equation: &'static str,
     /// The last stage that the value needs.
     pub stage: Stage,
-    /// The value in SI. `None` if the solution has no value.
+    /// The value in SI; `None` where the solution has none.
     pub value: fn(&Solution) -> Option<f64>,
     /// What the quantity is and what it is used for.
     pub meaning: &'static str,
-    /// How the value is computed.
+    /// How it is computed.
     pub formula: Formula,
     /// Author, year, equation.
     pub source: &'static str,
-    /// The equations with printing errors that the quantity uses.
+    /// The errors in print that it rests on, by their equations.
     pub corrections: &'static [&'static str],
     /// What the formula assumes.
     pub assumptions: &'static str,
     /// Ranges of validity.
     pub checks: &'static [Check],
-    /// Replacements of texts in some cases. The first variant whose condition is true is used.
+    /// Other words in some cases; the first variant whose condition is true is used.
     pub variants: &'static [Variant],
-    /// Whether the value can be negative.
+    /// Whether it may be negative.
     pub is_signed: bool,
-    /// Whether the quantity needs a friction coefficient.
+    /// Whether there is nothing of it without a friction coefficient.
     pub needs_friction: bool,
-    /// Whether the quantity needs a backlash.
+    /// Whether there is nothing of it without a backlash.
     pub needs_backlash: bool,
-    /// The key of the result of `static` that corresponds to a quantity of the free impact.
+    /// The key of what `static` itself finds in place of a quantity of the free impact.
     pub by_static: Option<&'static str>,
-    /// The corresponding key for `dynamic`.
+    /// The same for `dynamic`.
     pub by_dynamic: Option<&'static str>,
 }
 
-/// Default members of a row. A test requires all other members in each row.
+/// The members that most rows leave as they are; a test demands all others of each row.
 const PLAIN: Quantity = Quantity {
     key: "",
     symbol: "",
@@ -100,7 +101,7 @@ const PLAIN: Quantity = Quantity {
     by_dynamic: None,
 };
 
-/// Replacements of texts of a quantity in some cases.
+/// Other words on a quantity in some cases.
 #[derive(Debug, Clone, Copy)]
 pub struct Variant {
     when: When,
@@ -127,7 +128,7 @@ impl Variant {
 }
 
 impl Quantity {
-    /// The value in SI if it is finite. Zero has no sign.
+    /// The value in SI where there is one: finite, and zero without a sign.
     #[must_use]
     pub fn finite_value(&self, solution: &Solution) -> Option<f64> {
         (self.value)(solution)
@@ -135,13 +136,14 @@ impl Quantity {
             .map(|value| value + 0.0)
     }
 
-    /// Whether the value is true (1) or false (0).
+    /// Whether it is true (1) or false (0).
     #[must_use]
     pub fn is_flag(&self) -> bool {
         self.shown == "yes/no"
     }
 
-    /// The symbol in a method. It differs from the closed form if the definition differs.
+    /// The symbol in a method. It differs from the symbol of the closed form where the definition
+    /// differs.
     #[must_use]
     pub fn symbol_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) {
@@ -151,7 +153,7 @@ impl Quantity {
         }
     }
 
-    /// The label in a method.
+    /// A few words for a person, as the method defines the quantity.
     #[must_use]
     pub fn label_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) {
@@ -161,7 +163,7 @@ impl Quantity {
         }
     }
 
-    // `static` and `dynamic` apply the reliefs to the flanks and exclude them from Δf.
+    // In `static` and `dynamic` the reliefs act on the flanks, and are no part of Δf.
     fn leaves_reliefs_out(&self, method: Method) -> bool {
         self.key == "equivalent_error" && method.shares_load()
     }
@@ -185,15 +187,15 @@ impl Quantity {
         self.variants.iter().find(|variant| (variant.when)(inputs))
     }
 
-    /// Whether the quantity belongs to the free impact at D. Every method computes this closed form
-    /// besides its own results.
+    /// Whether it is of the free impact at D: the closed form, which every method has beside its
+    /// own results.
     #[must_use]
     pub fn is_of_free_impact(&self) -> bool {
         FREE_IMPACT.contains(&self.stage)
     }
 
-    /// The corresponding quantity of a method for a quantity of the free impact. For a closed-form
-    /// method, the quantity itself.
+    /// What a method itself finds in place of a quantity of the free impact; the quantity where the
+    /// method is the closed form.
     #[must_use]
     pub fn by(&'static self, method: Method) -> Option<&'static Quantity> {
         match method {
@@ -204,13 +206,13 @@ impl Quantity {
         }
     }
 
-    /// The quantity of a key.
+    /// The quantity of that name.
     #[must_use]
     pub fn find(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
-    /// The quantity of a key or of its symbol in any method.
+    /// The quantity of that key, or of that symbol in some method.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Quantity> {
         let has_symbol = |quantity: &&Quantity| {
@@ -234,7 +236,7 @@ const FREE_IMPACT: [Stage; 7] = [
     Stage::Stations,
 ];
 
-/// The rows by groups, in the order of the results.
+/// The rows by groups, in the order in which a person reads them.
 const GROUPS: [&[Quantity]; 10] = [
     geometry::TABLE,
     deviation::TABLE,
@@ -257,7 +259,7 @@ const COUNT: usize = {
     count
 };
 
-/// Every quantity, in the order of the results.
+/// Every quantity, in the order in which a person reads them.
 pub static QUANTITIES: &[Quantity] = &{
     let mut all = [GROUPS[0][0]; COUNT];
     let (mut at, mut group) = (0, 0);
@@ -272,7 +274,7 @@ pub static QUANTITIES: &[Quantity] = &{
     all
 };
 
-/// Every step between the fields and the quantities, except the steps of the compliance models.
+/// Every value between the fields and the quantities, but for those of the compliance models.
 pub fn steps() -> impl Iterator<Item = &'static Step> {
     [
         geometry::STEPS,
@@ -299,7 +301,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_row_is_complete_and_names_only_rows_of_the_table() {
+    fn every_row_names_what_a_reader_needs_and_only_rows_of_the_table() {
         for row in QUANTITIES {
             let words = [
                 row.key,

@@ -7,9 +7,9 @@ use super::mesh::Mesh;
 /// Frequencies of a pair, in Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resonance {
-    /// Tooth engagements per second, f_z = z₁ n₁.
+    /// Tooth pairs that come into contact per second f_z = z₁ n₁.
     pub mesh_frequency: f64,
-    /// Natural frequency f_n of the pair with the mean mesh stiffness.
+    /// Natural frequency f_n of the pair at the mean stiffness of the mesh.
     pub natural_frequency: f64,
 }
 
@@ -25,7 +25,7 @@ impl Resonance {
     /// ISO 6336-1:2019, 6.5: N = n1/n_E1, n_E1 = 30 000 √(c_γ/m_red)/(π z1).
     ///
     /// # Valid for
-    /// Rigid shafts: one mass on the mesh stiffness.
+    /// Rigid shafts: one mass on the mesh.
     #[must_use]
     pub fn of(mesh: &Mesh, mass: f64) -> Resonance {
         Resonance {

@@ -1,4 +1,4 @@
-//! A standard pair for tests.
+//! A pair to start tests from.
 
 use super::geometry::Circles;
 use super::inputs::{Drive, Gear, Inputs};

@@ -1,4 +1,4 @@
-//! The stages of a solve in the order of the data flow, and sets of stages.
+//! The stages of a solve, in the order the data flows, and sets of them.
 
 /// A stage of a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -10,9 +10,9 @@ pub enum Stage {
     Load,
     /// Masses of the gears at their base circles.
     Masses,
-    /// Deviation and deflection that make the tooth early.
+    /// Deviation and deflection that bring the tooth in early.
     Deviation,
-    /// First contact D of the tip on the flank.
+    /// Where the tip first touches the flank: D.
     Position,
     /// Approach and sliding velocity at D.
     Velocity,
@@ -30,15 +30,15 @@ pub enum Stage {
     Mesh,
     /// Mesh frequency and natural frequency.
     Resonance,
-    /// Load sharing in static balance.
+    /// The load shared by every pair.
     Static,
-    /// Load sharing with inertia and damping.
+    /// The same with inertia.
     Dynamic,
-    /// Harmonics of the static transmission error.
+    /// Harmonics of the transmission error at rest.
     StaticSpectrum,
-    /// Steady motion, which repeats with every base pitch.
+    /// The motion that every base pitch repeats.
     SteadyMotion,
-    /// Required additional tip relief.
+    /// The least tip relief with which the tooth comes in on time.
     Clearing,
 }
 
@@ -106,14 +106,14 @@ impl Stage {
                 .with(Stage::Masses)
                 .with(Stage::Resonance),
             Stage::Resonance => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
-            // A quantity divides by the static force.
+            // A quantity divides by the force at rest.
             Stage::SteadyMotion => Stages::NONE
                 .with(Stage::Mesh)
                 .with(Stage::Masses)
                 .with(Stage::Resonance)
                 .with(Stage::StaticSpectrum),
             Stage::Position => geometry.with(Stage::Deviation),
-            // Stages that the method does not have are ignored.
+            // Stages that the method does not have are left out.
             Stage::Clearing => pair
                 .with(Stage::Load)
                 .with(Stage::Deviation)
@@ -133,8 +133,8 @@ impl Stage {
         }
     }
 
-    /// The stages whose results this stage needs. The search for the required relief computes its
-    /// own mesh and motion without stations, so it does not need `static` and `dynamic`.
+    /// The stages on whose results this stage depends. The relief search computes its own mesh and
+    /// motion, without stations, and so does not depend on `static` and `dynamic`.
     pub(super) const fn depends_on(self) -> Stages {
         match self {
             Stage::Clearing => self.reads().without(Stage::Static).without(Stage::Dynamic),
@@ -150,26 +150,26 @@ pub struct Stages(u32);
 impl Stages {
     /// No stage.
     pub const NONE: Stages = Stages(0);
-    /// From geometry to friction: all results of one impact model at D.
+    /// From geometry to friction: all that one impact model says of D.
     pub const CLOSED_FORM: Stages = Stages::of(Stage::Friction);
-    /// Every stage of the methods `paper` and `exact` except the required relief.
+    /// Every stage of the methods `paper` and `exact`, but for the least relief.
     pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
-    /// The stages that compute stations, in their methods.
+    /// The stages that give stations, each in its methods.
     pub const STATIONS: Stages = Stages::of(Stage::Stations)
         .and(Stages::of(Stage::Static))
         .with(Stage::Dynamic);
-    /// Every stage.
+    /// Every stage there is.
     pub const EVERY: Stages = Stages::ALL
         .and(Stages::of(Stage::Resonance))
         .and(Stages::of(Stage::SteadyMotion))
         .and(Stages::of(Stage::Clearing));
-    /// The stages that neither the outcome nor a note needs.
+    /// The stages that neither the outcome nor a note waits for.
     pub const LATE: Stages = Stages::NONE
         .with(Stage::StaticSpectrum)
         .with(Stage::SteadyMotion)
         .with(Stage::Clearing);
 
-    /// The stage and all stages that it needs.
+    /// The stage and all that it needs.
     #[must_use]
     pub const fn of(stage: Stage) -> Stages {
         let mut set = Stages::NONE.with(stage);
@@ -183,7 +183,7 @@ impl Stages {
         set
     }
 
-    /// This set with another stage.
+    /// This set and one stage more.
     #[must_use]
     pub const fn with(self, stage: Stage) -> Stages {
         Stages(self.0 | 1 << stage as u8)
@@ -207,7 +207,7 @@ impl Stages {
         Stages(self.0 | other.0)
     }
 
-    /// The stages in both sets.
+    /// What is in both sets.
     #[must_use]
     pub const fn within(self, other: Stages) -> Stages {
         Stages(self.0 & other.0)

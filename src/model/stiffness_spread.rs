@@ -1,4 +1,4 @@
-//! Spread of the impact force over the stiffness models.
+//! How far the impact force depends on the choice of stiffness models.
 
 use super::compliance::contact::{self, ContactModel};
 use super::compliance::model_of;
@@ -8,13 +8,13 @@ use super::inputs::{ContactCompliance, Inputs, ToothCompliance};
 /// Least and greatest impact force over the stiffness models that cover the pair, in N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
-    /// By the most compliant models.
+    /// By the most compliant model.
     pub low: f64,
-    /// By the stiffest models.
+    /// By the stiffest model.
     pub high: f64,
 }
 
-/// A tooth model with a contact model.
+/// A model of the teeth with a model of the contact.
 #[derive(Debug, Clone, Copy)]
 pub struct StiffnessModels {
     /// Model of the teeth.
@@ -31,7 +31,7 @@ impl PartialEq for StiffnessModels {
 }
 
 impl StiffnessModels {
-    /// The models of a pair: given by the case, otherwise by range and method.
+    /// The models of a pair: those of the case, else by range and method.
     #[must_use]
     pub fn of(inputs: &Inputs) -> StiffnessModels {
         let tooth = model_of(inputs).model();
@@ -41,7 +41,7 @@ impl StiffnessModels {
         }
     }
 
-    /// The models that cover the pair, without the models of the case.
+    /// The models in range other than those of the case.
     pub fn others(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
         let own = StiffnessModels::of(inputs);
         StiffnessModels::covering(inputs).filter(move |models| *models != own)
@@ -56,7 +56,7 @@ impl StiffnessModels {
         })
     }
 
-    /// Every tooth model with every contact model that it needs.
+    /// Every model of the teeth with every model of the contact that it needs.
     pub fn all() -> impl Iterator<Item = StiffnessModels> {
         tooth::MODELS.into_iter().flat_map(|tooth| {
             let own = tooth.has_contact.then_some(None);
@@ -68,7 +68,7 @@ impl StiffnessModels {
         })
     }
 
-    /// The models whose tooth model covers the pair.
+    /// Those whose model of the teeth covers the pair.
     pub fn covering(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
         let covers = tooth::MODELS.map(|model| (model.covers)(inputs));
         let covering = move |models: &StiffnessModels| {
@@ -111,10 +111,9 @@ impl StiffnessModels {
     }
 }
 
-/// The range of the impact force over every pair of stiffness models that covers the pair, and the
-/// models of the case. Each force uses its own deflection unless the case gives the deflection.
-/// `force` is the result of the case's models. `solved` computes the others, or `None` if a model
-/// has no result.
+/// The band of the impact force over every tooth and contact compliance that covers the pair, and
+/// the case's own, with the deflection of each where the case does not give one: `force` by the
+/// case's own, the others by `solved`, which has none where a model gives no answer.
 #[must_use]
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
     StiffnessModels::others(inputs)

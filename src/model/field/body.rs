@@ -1,4 +1,4 @@
-//! Displacements of the gear body in a field: twist about the bore, and shift.
+//! The part of a field that belongs to the gear's body: twist about the bore, and shift.
 
 use std::f64::consts::PI;
 

@@ -1,15 +1,15 @@
-//! The shape of a pair: the inputs of its geometry.
+//! The shape of a pair: what its geometry reads of a case.
 
 use crate::model::inputs::{Gear, Inputs, Method};
 
-/// Shape of the pair: all inputs of its geometry.
+/// Shape of the pair: all that its geometry depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairShape {
     /// Module m, in m.
     pub module: f64,
     /// Pressure angle α, in rad.
     pub pressure_angle: f64,
-    /// Centre distance a, in m; `None` for a mesh without backlash.
+    /// Centre distance a, in m; without it the mesh has no backlash.
     pub centre_distance: Option<f64>,
     /// Shape of the driver.
     pub driver: GearShape,
@@ -26,21 +26,21 @@ pub struct GearShape {
     pub profile_shift: f64,
     /// Addendum coefficient h_a*.
     pub addendum: f64,
-    /// Tip diameter before the chamfer, in m, which replaces the coefficient.
+    /// Tip diameter before the chamfer, in m, where it gives the coefficient.
     pub tip_diameter: Option<f64>,
     /// Dedendum coefficient h_fP*.
     pub dedendum: f64,
-    /// Root diameter, in m, which replaces the coefficient.
+    /// Root diameter, in m, where it gives the coefficient.
     pub root_diameter: Option<f64>,
     /// Radial tip chamfer, in m.
     pub tip_chamfer: f64,
-    /// Radius of the rounding of the tip's edge, in m; `None` for a sharp tip.
+    /// Radius of the rounding of the tip's edge, in m; a sharp tip has none.
     pub tip_radius: Option<f64>,
 }
 
 impl Gear {
-    /// Addendum coefficient: h_a* = d_a/(2 m) − z/2 − x if the tip diameter is given, otherwise the
-    /// given coefficient. The module is in m.
+    /// Addendum coefficient h_a* = d_a/(2 m) − z/2 − x where the tip diameter is given, else the
+    /// given one; the module is in m.
     #[must_use]
     pub fn addendum_coefficient(&self, module: f64) -> f64 {
         self.tip_diameter.map_or(self.addendum, |diameter| {
@@ -48,8 +48,8 @@ impl Gear {
         })
     }
 
-    /// Dedendum coefficient: h_fP* = z/2 + x − d_f/(2 m) if the root diameter is given, otherwise
-    /// the given coefficient. The module is in m.
+    /// Dedendum coefficient h_fP* = z/2 + x − d_f/(2 m) where the root diameter is given, else the
+    /// given one; the module is in m.
     #[must_use]
     pub fn dedendum_coefficient(&self, module: f64) -> f64 {
         self.root_diameter.map_or(self.dedendum, |diameter| {
@@ -79,7 +79,7 @@ impl Gear {
 }
 
 impl Inputs {
-    /// Shape of the pair. The method `paper` has only sharp tips.
+    /// Shape of the pair. The method `paper` knows sharp tips alone.
     #[must_use]
     pub fn shape(&self) -> PairShape {
         let shape = |gear: &Gear| {

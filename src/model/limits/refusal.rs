@@ -1,4 +1,4 @@
-//! All refusals with their values and messages.
+//! Every refusal, with its values and its message.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::numeric::decimal::significant;
 const MILLIMETRE: f64 = 1e-3;
 const MICROMETRE: f64 = 1e-6;
 
-/// The reason why a pair, or some of its quantities, cannot be computed.
+/// Why a pair cannot be solved, or why some of its quantities cannot.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Refusal {
     /// The driven tip would touch the driver below its base circle.
@@ -29,7 +29,7 @@ pub enum Refusal {
         /// Whether the case gives the centre distance.
         is_distance_given: bool,
     },
-    /// The tip has no involute.
+    /// No involute is left at the tip.
     #[error("the tip is inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
     TipInsideBase {
         /// The key of the field where the fix begins.
@@ -71,12 +71,12 @@ pub enum Refusal {
         /// x₁ + x₂.
         sum: f64,
     },
-    /// No pair is in contact when the next pair starts contact.
+    /// No pair is in contact while the next one comes in.
     #[error("the contact ratio is {ratio:.4} and must be above 1 to compute the deflection at F")]
     ContactRatioBelowOne {
         /// ε.
         ratio: f64,
-        /// Whether the method accepts a given deflection.
+        /// Whether the method takes a deflection that is given, in place of computing it.
         is_deflection_taken: bool,
     },
     /// The bore leaves no gear body.
@@ -86,7 +86,7 @@ pub enum Refusal {
         field: &'static str,
         /// r_h, in m.
         bore: f64,
-        /// The circle that limits the bore.
+        /// The circle that it must not reach.
         circle: &'static str,
         /// The radius of that circle, in m.
         limit: f64,
@@ -116,7 +116,7 @@ pub enum Refusal {
         field: &'static str,
         /// r_e, in m.
         radius: f64,
-        /// Missing half thickness of the tooth, on the base circle, in m.
+        /// What half of the tooth lacks, on the base circle, in m.
         lack: f64,
     },
     /// Rounded tips leave a path of contact shorter than a base pitch.
@@ -157,7 +157,7 @@ pub enum Refusal {
         /// Greatest |x| of the fit.
         limit: f64,
     },
-    /// Eq. 56 gives no positive stiffness at this height of the tooth.
+    /// Eq. 56 gives no stiffness so far out on the tooth.
     #[error(
         "load point outside the Kuang-Yang fit: (r_x - r)/((1+x) m) is {height:.4}, where the \
             fit's stiffness is not above 0"
@@ -166,7 +166,7 @@ pub enum Refusal {
         /// (r_x − r)/((1 + x) m).
         height: f64,
     },
-    /// The tooth has no thickness at the load point.
+    /// No tooth is left at the load point.
     #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
     PointedTip {
         /// The key of the field where the fix begins.
@@ -185,7 +185,7 @@ pub enum Refusal {
         /// x.
         shift: f64,
     },
-    /// The load point is on the fillet, outside the involute.
+    /// The load point is on the fillet, which is no involute.
     #[error("the flank ends above the contact: the contact is at the radius {:.4} mm and the form circle at {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
     BelowFormCircle {
         /// The key of the field where the fix begins.
@@ -200,7 +200,7 @@ pub enum Refusal {
     NoField {
         /// z.
         teeth: u32,
-        /// The reason.
+        /// Why.
         reason: FieldRefusal,
     },
     /// The driver's tip would touch the driven gear below its base circle.
@@ -209,10 +209,10 @@ pub enum Refusal {
         /// N₂B, in m.
         start: f64,
     },
-    /// The deflection of the pairs is so large that a tip would leave the other flank.
+    /// The pairs yield so far that a tip would leave the other flank.
     #[error("the teeth cannot carry the load: the pairs deflect further than their flanks reach")]
     BeyondReach,
-    /// The compliances of neighbouring pairs are inconsistent.
+    /// The compliances of neighbouring pairs contradict each other.
     #[error(
         "no load sharing: the compliance matrix is not positive definite (a force displaces a \
             neighbouring tooth more than the loaded tooth)"
@@ -226,21 +226,21 @@ pub enum Refusal {
     FrictionLocks {
         /// μ.
         friction: f64,
-        /// The least coefficient that locks the gears.
+        /// The least coefficient that locks.
         limit: f64,
     },
-    /// The mesh oscillates too often while a tooth passes.
+    /// The mesh swings too often while a tooth passes.
     #[error(
         "too slow for method dynamic: the mesh oscillates {swings:.2e} times while a tooth passes, \
             and the limit is {limit:.0e}"
     )]
     TooSlow {
-        /// Oscillations of the mesh.
+        /// Swings of the mesh on the way.
         swings: f64,
-        /// Greatest number of oscillations.
+        /// The most that are followed.
         limit: f64,
     },
-    /// The series of the motion is not finite.
+    /// The series of the motion has no numbers.
     #[error("the motion does not settle: the teeth touch and separate without end")]
     Unsettled,
     /// The motion exceeds its budget of work.
@@ -250,13 +250,13 @@ pub enum Refusal {
     MotionTooLong {
         /// Steps.
         steps: u64,
-        /// The computed part of the motion, from 0 to 1.
+        /// How much of the way they are, from 0 to 1.
         done: f64,
     },
     /// The motion does not become periodic.
     #[error("no steady motion: after {pitches} base pitches the motion does not repeat")]
     NoSteadyMotion {
-        /// Number of computed base pitches.
+        /// Base pitches that were followed.
         pitches: u32,
     },
     /// The steps of the motion exceed the memory of a solve.
@@ -270,24 +270,24 @@ pub enum Refusal {
         /// The computed part of the motion, from 0 to 1.
         done: f64,
     },
-    /// The number of pairs that may touch exceeds the limit of a set.
+    /// A set of pairs has no room for all that may touch.
     #[error("{pairs} tooth pairs may touch at a time, and the limit is {limit}")]
     TooManyPairs {
         /// Pairs.
         pairs: usize,
-        /// Greatest number of pairs.
+        /// The most that are followed.
         limit: usize,
     },
     /// The search for the required tip relief exceeds its budget of work.
     #[error("the search stopped after {tries} {}: {}", if *.in_motion { "motions" } else { "balances" }, Bracket(*.touching, *.clear))]
     SearchTooLong {
-        /// Number of tested motions or balances.
+        /// Motions or balances tried.
         tries: u32,
-        /// Whether motions were tested.
+        /// Whether they are motions.
         in_motion: bool,
-        /// The greatest tested additional tip relief with contact, in m.
+        /// The greatest additional tip relief with which the tooth touches, in m.
         touching: Option<f64>,
-        /// The least greater relief without contact, in m.
+        /// The least greater one with which it does not, in m.
         clear: Option<f64>,
     },
     /// The force curve needs more stations than are computed.
@@ -296,13 +296,13 @@ pub enum Refusal {
             more"
     )]
     CurveTooRough {
-        /// Number of places.
+        /// Places.
         limit: usize,
     },
     /// No relief keeps the incoming tooth from touching before E.
     #[error("the tooth touches before E even with {:.4} um more tip relief of the driven gear", .most / MICROMETRE)]
     NoClearing {
-        /// The greatest tested relief, in m.
+        /// The most that was tried, in m.
         most: f64,
     },
     /// The user stopped the solve.
@@ -315,13 +315,13 @@ pub enum Refusal {
     HertzWidthTooLarge {
         /// Half-width, in m.
         half_width: f64,
-        /// Half-width at which q_H is 0, in m.
+        /// Where q_H vanishes, in m.
         limit: f64,
     },
 }
 
 impl Refusal {
-    /// The refusal for the driven gear. A refusal of one gear names the field of the driver.
+    /// The same refusal of the driven gear: a refusal of one gear names the field of the driver.
     pub(in crate::model) fn at_driven(mut self) -> Refusal {
         match &mut self {
             Refusal::RoundingInsideBase { field, .. } | Refusal::RoundingTooWide { field, .. } => {
@@ -339,11 +339,11 @@ impl Refusal {
     }
 }
 
-/// Digits that distinguish any two numbers.
+/// Digits that tell any two numbers apart.
 const MOST_DIGITS: usize = 17;
 
-/// Bracket of the additional tip relief, in m: the greatest value with contact and the least value
-/// without.
+/// What a search knows of the additional tip reliefs, in m: the greatest that touches and the least
+/// that does not.
 struct Bracket(Option<f64>, Option<f64>);
 
 impl fmt::Display for Bracket {
@@ -356,7 +356,7 @@ impl fmt::Display for Bracket {
             let shown = |relief: f64| significant(relief / MICROMETRE, digits);
             (shown(touching), self.1.map(shown))
         };
-        // Uses enough digits to distinguish the ends of a narrow bracket.
+        // So many digits that the ends of a narrow bracket differ.
         let (touching_shown, clear) = (4..MOST_DIGITS)
             .map(shown)
             .find(|(touching, clear)| clear.as_ref() != Some(touching))
@@ -371,7 +371,7 @@ impl fmt::Display for Bracket {
     }
 }
 
-/// A part of an unfinished motion in percent, always below 100 %.
+/// A part of a motion that is not over: never 100 %.
 fn percent(done: f64) -> String {
     format!("{:.2} %", (1e4 * done).floor().min(9999.0) / 100.0)
 }

@@ -1,8 +1,8 @@
-//! Code, field and fix of each refusal.
+//! How to fix what is refused: a code for scripts, the field, and the fix.
 
 use super::refusal::Refusal;
 
-/// The code of a refusal, the field where its fix begins, and the fix.
+/// A refusal's name, the field where its fix begins, and the fix.
 struct Remedy {
     code: &'static str,
     field: &'static str,
@@ -22,7 +22,7 @@ impl Refusal {
         self.remedy().field
     }
 
-    /// How to fix the input.
+    /// How to fix it.
     #[must_use]
     pub fn fix(&self) -> &'static str {
         self.remedy().fix

@@ -1,6 +1,6 @@
-//! Subsets of the pairs of a set.
+//! Some pairs of a set.
 
-/// A subset of pairs, one bit per pair, usually the pairs in contact.
+/// Some pairs of a set, a bit each: mostly those in contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Touching(u64);
 
@@ -8,43 +8,43 @@ impl Touching {
     /// No pair.
     pub const NONE: Touching = Touching(0);
 
-    /// Whether the subset includes the pair.
+    /// Whether the pair is one of them.
     #[must_use]
     pub fn has(self, pair: usize) -> bool {
         self.0 & 1 << pair != 0
     }
 
-    /// Whether the subset is empty.
+    /// Whether there is none.
     #[must_use]
     pub fn is_none(self) -> bool {
         self.0 == 0
     }
 
-    /// The subset with the membership of the pair inverted.
+    /// The set with the pair touching where it did not, and the other way round.
     #[must_use]
     pub fn toggled(self, pair: usize) -> Touching {
         Touching(self.0 ^ 1 << pair)
     }
 
-    /// The subset with the pair added.
+    /// The set with the pair.
     #[must_use]
     pub fn with(self, pair: usize) -> Touching {
         Touching(self.0 | 1 << pair)
     }
 
-    /// The members before a pair.
+    /// Those before a pair.
     #[must_use]
     pub fn before(self, pair: usize) -> Touching {
         Touching(self.0 & !u64::MAX.checked_shl(pair as u32).unwrap_or(0))
     }
 
-    /// The members from a pair on, renumbered from that pair.
+    /// Those from a pair on, counted from it.
     #[must_use]
     pub fn since(self, pair: usize) -> Touching {
         Touching(self.0.checked_shr(pair as u32).unwrap_or(0))
     }
 
-    /// The members, the rearmost first.
+    /// The pairs, the rearmost first.
     pub fn pairs(self) -> impl Iterator<Item = usize> {
         let mut rest = self.0;
         std::iter::from_fn(move || {

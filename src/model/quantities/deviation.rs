@@ -1,4 +1,4 @@
-//! Rows of the deviations that make a tooth early.
+//! Rows of the deviations that bring a tooth into contact early.
 
 use super::conditions::{
     always, at_rest, deflection_used, driven_graded, driven_pitch_given, driver_graded,
