@@ -66,18 +66,15 @@ impl Design {
     /// The values of a point in SI, in the order of the distributions.
     #[must_use]
     pub fn values(&self, index: usize) -> Vec<f64> {
-        self.numbers().values(index).collect()
+        self.numbers().values(index).to_vec()
     }
 
     fn numbers(&self) -> Numbers<'_> {
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&self.seed.to_le_bytes());
         Numbers {
             design: self,
-            stream: ChaCha8Rng::from_seed(key),
-            next: 0,
-            last: None,
-            parts: vec![[0.0; 2]; self.distributions.len()],
+            first: Stream::of(self, 0),
+            second: Stream::of(self, 1),
+            mixed: vec![0.0; self.distributions.len()],
         }
     }
 
@@ -113,7 +110,7 @@ impl Points for Design {
             .collect();
         Box::new(move |index, inputs| {
             let values = numbers.values(index);
-            for ((distribution, &(from, to)), value) in
+            for ((distribution, &(from, to)), &value) in
                 self.distributions.iter().zip(&ranges).zip(values)
             {
                 if value < from || value > to {
@@ -144,57 +141,90 @@ fn outside(field: usize) -> Problem {
     }
 }
 
-/// The random numbers of a design. Each sample has its own position in one stream, so that its
-/// numbers do not depend on the order of reading. Samples in order are read without a seek.
+/// The values of a design: from a stream of the samples, and from a stream of the second samples,
+/// which only the ranking reads.
 struct Numbers<'a> {
     design: &'a Design,
-    stream: ChaCha8Rng,
-    /// The sample at the position of the stream.
-    next: usize,
-    /// The sample of `parts`.
-    last: Option<usize>,
-    /// For each field the random numbers of the sample and of the second sample.
-    parts: Vec<[f64; 2]>,
+    first: Stream<'a>,
+    second: Stream<'a>,
+    /// The values of a swapped point.
+    mixed: Vec<f64>,
 }
 
 impl Numbers<'_> {
     /// The values of a point in SI, in the order of the distributions.
-    fn values(&mut self, index: usize) -> impl Iterator<Item = f64> {
-        let member = self.design.member(index);
-        let (number, swapped) = match member {
-            Member::Sample(number) | Member::Second(number) => (number, None),
-            Member::Swapped(number, field) => (number, Some(field)),
-        };
-        self.read(number);
-        let is_second = matches!(member, Member::Second(_));
-        let fields = self.design.distributions.iter().zip(&self.parts);
-        fields
-            .enumerate()
-            .map(move |(field, (distribution, parts))| {
-                let second = is_second || swapped == Some(field);
-                distribution.quantile(parts[usize::from(second)])
-            })
+    fn values(&mut self, index: usize) -> &[f64] {
+        match self.design.member(index) {
+            Member::Sample(number) => self.first.sample(number),
+            Member::Second(number) => self.second.sample(number),
+            Member::Swapped(number, field) => {
+                self.mixed.copy_from_slice(self.first.sample(number));
+                self.mixed[field] = self.second.sample(number)[field];
+                &self.mixed
+            }
+        }
+    }
+}
+
+/// Samples in which each has its own position in a stream of random numbers, so that its values do
+/// not depend on the order of reading. They are computed in blocks, since a processor computes
+/// independent values side by side.
+struct Stream<'a> {
+    distributions: &'a [Distribution],
+    generator: ChaCha8Rng,
+    /// The first sample of the block.
+    first: usize,
+    /// The values of the block, sample by sample; empty before the first read.
+    values: Vec<f64>,
+}
+
+impl Stream<'_> {
+    /// Samples of a block.
+    const BLOCK: usize = 32;
+
+    fn of(design: &Design, stream: u64) -> Stream<'_> {
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&design.seed.to_le_bytes());
+        let mut generator = ChaCha8Rng::from_seed(key);
+        generator.set_stream(stream);
+        Stream {
+            distributions: &design.distributions,
+            generator,
+            first: 0,
+            values: Vec::new(),
+        }
     }
 
-    fn read(&mut self, number: usize) {
-        /// Words of 32 bits that a field reads from the stream.
-        const WORDS: u128 = 4;
-        if self.last == Some(number) {
-            return;
+    /// The values of a sample in SI, in the order of the distributions.
+    fn sample(&mut self, number: usize) -> &[f64] {
+        let first = number / Self::BLOCK * Self::BLOCK;
+        if self.values.is_empty() || self.first != first {
+            self.read(first);
         }
-        if self.next != number {
-            let words = WORDS * self.parts.len() as u128;
-            self.stream.set_word_pos(number as u128 * words);
+        let width = self.distributions.len();
+        &self.values[(number - first) * width..][..width]
+    }
+
+    fn read(&mut self, first: usize) {
+        /// Words of 32 bits that a value reads.
+        const WORDS: u128 = 2;
+        let width = self.distributions.len();
+        self.generator
+            .set_word_pos(WORDS * first as u128 * width as u128);
+        self.first = first;
+        self.values.clear();
+        let numbers = (0..Self::BLOCK * width).map(|_| random_part(&mut self.generator));
+        self.values.extend(numbers);
+        for (field, distribution) in self.distributions.iter().enumerate() {
+            for value in self.values.iter_mut().skip(field).step_by(width) {
+                *value = distribution.quantile(*value);
+            }
         }
-        for parts in &mut self.parts {
-            *parts = [part(&mut self.stream), part(&mut self.stream)];
-        }
-        (self.last, self.next) = (Some(number), number + 1);
     }
 }
 
 /// A number above 0 and below 1, from 53 random bits.
-fn part(stream: &mut ChaCha8Rng) -> f64 {
+fn random_part(stream: &mut ChaCha8Rng) -> f64 {
     const STEPS: f64 = (1_u64 << 53) as f64;
     ((stream.next_u64() >> 11) as f64 + 0.5) / STEPS
 }
