@@ -1,5 +1,7 @@
 //! Tolerance studies: the results of a case with distributed fields.
 
+use std::borrow::Cow;
+
 use super::batch::{Batch, Control, PointOutcome, Points, Rows, Stopped, solve_all};
 use super::condition::State;
 use super::design::{Design, Member};
@@ -179,11 +181,20 @@ impl Tolerance {
 
     fn quantity(&self, at: usize, samples: &Samples) -> OfQuantity {
         let column = &samples.columns[at][..self.design.samples];
-        let values = column.iter().copied().filter(|value| !value.is_nan());
+        let is_absent = |value: &f64| value.is_nan();
+        let values: Cow<[f64]> = if column.iter().any(is_absent) {
+            column
+                .iter()
+                .copied()
+                .filter(|value| !is_absent(value))
+                .collect()
+        } else {
+            column.into()
+        };
         let ranked = self.ranked(at, samples);
         OfQuantity {
             quantity: self.quantities[at],
-            figures: figures(values, BINS),
+            figures: figures(&values, BINS),
             ranked: ranked.len(),
             indices: indices(&ranked),
         }
