@@ -55,8 +55,7 @@ macro_rules! graph {
     };
 }
 
-/// The tip touches where the curve reaches the gap Δ; a pair carries load if its approach exceeds
-/// the gap.
+/// The tip touches where the gap is Δ; a pair carries load if its approach x + Δf_0 exceeds the gap.
 const CLOSED: Bound = Bound {
     symbols: ["Δ", "x+Δf_0"],
     value: |solution, row| match row {
