@@ -55,7 +55,8 @@ macro_rules! graph {
     };
 }
 
-/// The tip touches where the gap is Δ; a pair carries load if its approach x + Δf_0 exceeds the gap.
+/// The tip touches where the gap is Δ. A pair carries load if x + Δf_0, its approach, exceeds the
+/// gap.
 const CLOSED: Bound = Bound {
     symbols: ["Δ", "x+Δf_0"],
     value: |solution, row| match row {
