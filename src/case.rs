@@ -1,4 +1,4 @@
-//! The document: a case as the user wrote it, checked against the one table of fields.
+//! A case as the user wrote it, checked against the table of fields.
 
 pub mod changes;
 mod check;
@@ -33,11 +33,11 @@ pub use relevance::{Acting, partial_relevance, relevance};
 pub use spread::Spread;
 pub use variant::{Override, Variant};
 
-/// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held
-/// to.
+/// A case: the text of each field, in the order of [`FIELDS`], with limits, distributions and
+/// variants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
-    /// Shared by the states of a case until one of them is written to: many are kept.
+    /// Copied on the first write, because many states of a case exist at a time.
     texts: Arc<Vec<Option<Box<str>>>>,
     /// Limits by quantity, greatest value in SI.
     pub limits: Vec<Limit>,
@@ -47,14 +47,14 @@ pub struct Case {
     pub variants: Vec<Variant>,
 }
 
-/// The greatest value that a quantity may take.
+/// The greatest allowed value of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limit {
     /// The quantity's key.
     pub quantity: &'static str,
-    /// As the user wrote it.
+    /// The text as the user wrote it.
     pub text: String,
-    /// In SI; infinite while the text is no value, as it may be in a form.
+    /// The value in SI; infinite while the text in a form is invalid.
     pub value: f64,
 }
 
@@ -62,7 +62,7 @@ impl Limit {
     /// A limit from the quantity's key and a text such as "2500 N".
     ///
     /// # Errors
-    /// Where there is no such quantity, or the text is no value of it.
+    /// If the quantity does not exist, or the text is not a value of the quantity.
     pub fn new(quantity: &str, text: &str) -> Result<Limit, Problem> {
         let field = format!("limits.{quantity}");
         let Some(known) = Quantity::find(quantity) else {
@@ -81,7 +81,7 @@ impl Limit {
 }
 
 impl Case {
-    /// A case in which nothing is written yet.
+    /// A case without any text.
     #[must_use]
     pub fn empty() -> Case {
         Case {
@@ -92,13 +92,13 @@ impl Case {
         }
     }
 
-    /// Table 1 of Zhou & Chen 2014: the same text as `cases/zhou-chen-2014.toml`.
+    /// Table 1 of Zhou & Chen 2014, from `cases/zhou-chen-2014.toml`.
     #[must_use]
     pub fn table_1() -> Case {
         Document::table_1().case
     }
 
-    /// A new case: only the method is chosen, and the required values are missing.
+    /// A new case: only the method is set, and the required values are missing.
     #[must_use]
     pub fn fresh() -> Case {
         let mut case = Case::empty();
@@ -108,8 +108,8 @@ impl Case {
         case
     }
 
-    /// Whether the field is required and its value is missing. Of two fields that exclude each
-    /// other, both are required while neither has a value.
+    /// Whether the field is required and has no value. If two fields exclude each other, both are
+    /// required while neither has a value.
     #[must_use]
     pub fn lacks(&self, field: usize) -> bool {
         let is_empty = |field: usize| self.text(field).is_none();
@@ -122,7 +122,7 @@ impl Case {
         }
     }
 
-    /// Whether the case has the alternative of the field, given or by its default, in place of it.
+    /// Whether the alternative of the field replaces it, by its given or its default value.
     #[must_use]
     pub fn is_replaced(&self, field: usize) -> bool {
         let has_default = |other: usize| matches!(FIELDS[other].absent, fields::Absent::Default(_));
@@ -130,7 +130,7 @@ impl Case {
         self.text(field).is_none() && FIELDS[field].partner().is_some_and(stands)
     }
 
-    /// The value, in SI, that follows from other fields where the case leaves the field out.
+    /// The value, in SI, that follows from other fields if the case does not give it.
     #[must_use]
     pub fn derived(&self, field: usize, inputs: &Inputs) -> Option<f64> {
         let derived = FIELDS[field]
@@ -139,26 +139,26 @@ impl Case {
         derived(inputs).filter(|value| value.is_finite())
     }
 
-    /// What stands in the field, as written; `None` where the case leaves it out.
+    /// The text of the field. `None` if the case does not give it.
     #[must_use]
     pub fn text(&self, field: usize) -> Option<&str> {
         self.texts[field].as_deref()
     }
 
-    /// The title, as written; empty without one.
+    /// The title, or an empty text.
     #[must_use]
     pub fn title(&self) -> &str {
         let title = fields::index_of("title").and_then(|field| self.text(field));
         title.unwrap_or_default()
     }
 
-    /// Write a field (empty text takes it out), whether or not the text is valid.
+    /// Writes a field, with a valid or an invalid text. An empty text removes the field.
     pub fn write(&mut self, field: usize, text: &str) {
         Arc::make_mut(&mut self.texts)[field] = (!text.is_empty()).then(|| text.into());
     }
 
-    /// What holds in the field: its text, else its default, else the words for doing without.
-    /// `None` where the field must be given and is not, and where its alternative replaces it.
+    /// The text of the field, or its default, or the words for a missing value. `None` if a
+    /// required value is missing, or if the alternative replaces the field.
     #[must_use]
     pub fn effective(&self, field: usize) -> Option<&str> {
         match FIELDS[field].absent {
@@ -170,8 +170,8 @@ impl Case {
         }
     }
 
-    /// The value in SI that holds in a field of numbers; `None` where the model does without or the
-    /// text is no value.
+    /// The value in SI of a number field, given or by default. `None` if the model needs no value,
+    /// or if the text is invalid.
     #[must_use]
     pub fn value(&self, field: usize) -> Option<f64> {
         let text = self.effective(field)?;
@@ -184,8 +184,8 @@ impl Case {
         }
     }
 
-    /// Write the limit of a quantity, whether or not the text is valid. An empty text leaves a
-    /// limit that holds nothing, until [`Case::drop_empty_limits`].
+    /// Writes the limit of a quantity, with a valid or an invalid text. An empty text leaves an
+    /// empty limit until [`Case::drop_empty_limits`].
     pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
         let unread = Limit {
             quantity,
@@ -203,16 +203,16 @@ impl Case {
         }
     }
 
-    /// Take out the limits that hold nothing, but that of the named quantity.
+    /// Removes the empty limits except the limit of the named quantity.
     pub fn drop_empty_limits(&mut self, but: Option<&str>) {
         self.limits
             .retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
     }
 
-    /// What is wrong with the text of one field, on its own.
+    /// Checks the text of one field alone.
     ///
     /// # Errors
-    /// The cause and the fix, in the same words as for a file.
+    /// The cause and the fix, in the words used for a file.
     pub fn check_field(&self, field: usize) -> Result<(), Problem> {
         check::put(self, field, &mut Inputs::default())
     }
@@ -220,17 +220,17 @@ impl Case {
     /// The model's inputs.
     ///
     /// # Errors
-    /// Everything that is wrong with the case, in the order of the fields.
+    /// All problems of the case, in the order of the fields.
     pub fn inputs(&self) -> Result<Inputs, Vec<Problem>> {
         check::inputs(self)
     }
 
-    /// Write a field or a limit by its key, as the command line's `--set KEY=VALUE` does; quotes
-    /// around the value may be left out, and an empty value takes the field out. Of two fields that
-    /// exclude each other, the other goes.
+    /// Writes a field or a limit by its key, as `--set KEY=VALUE` does. Quotes around the value are
+    /// optional. An empty value removes the field. If two fields exclude each other, writing one
+    /// removes the other.
     ///
     /// # Errors
-    /// Where no such key exists or the value does not fit; the case then stays as it was.
+    /// If the key does not exist or the value does not fit. The case is then unchanged.
     pub fn set(&mut self, key: &str, value: &str) -> Result<(), Problem> {
         let value = unquoted(value.trim());
         if let Some(quantity) = key.strip_prefix("limits.") {
@@ -249,7 +249,7 @@ impl Case {
         Ok(())
     }
 
-    /// Whether of two keys a case gives one alone.
+    /// Whether two keys exclude each other.
     #[must_use]
     pub fn are_exclusive(key: &str, other: &str) -> bool {
         fields::index_of(key).is_some_and(|field| {
@@ -258,10 +258,10 @@ impl Case {
         })
     }
 
-    /// Set the limit of a quantity; an empty text takes it out.
+    /// Sets the limit of a quantity. An empty text removes the limit.
     ///
     /// # Errors
-    /// Where there is no such quantity, or the text is no value of it.
+    /// If the quantity does not exist, or the text is not a value of the quantity.
     pub fn set_limit(&mut self, quantity: &str, text: &str) -> Result<(), Problem> {
         if text.is_empty() && QUANTITIES.iter().any(|known| known.key == quantity) {
             self.limits.retain(|limit| limit.quantity != quantity);

@@ -1,4 +1,4 @@
-//! The differences between two cases, field by field, and how to put them into a case.
+//! Differences between two cases, field by field, and their application to a case.
 
 use super::fields::{self, FIELDS};
 use super::{Case, Override, Problem, Spread, Variant, spread, variant};
@@ -9,13 +9,14 @@ use crate::model::Quantity;
 pub struct Change {
     /// The field's key, or `limits.…`, `spread."…"` or `variants.…`.
     pub key: String,
-    /// As the one case has it; `None` where it leaves it out.
+    /// The text in the first case. `None` if the first case does not have it.
     pub from: Option<String>,
-    /// As the other case has it.
+    /// The text in the second case.
     pub to: Option<String>,
 }
 
-/// What turns one case into another, in the order of the fields, the limits and the distributions.
+/// The changes from one case to another, in the order of the fields, the limits and the
+/// distributions.
 #[must_use]
 pub fn between(from: &Case, to: &Case) -> Vec<Change> {
     let (old, new) = (texts(from), texts(to));
@@ -50,7 +51,7 @@ pub fn between(from: &Case, to: &Case) -> Vec<Change> {
         .collect()
 }
 
-/// The text that a case has under a key, `None` where it leaves it out.
+/// The text of a case under a key. `None` if the case does not have it.
 #[must_use]
 pub fn text_of(case: &Case, key: &str) -> Option<String> {
     texts(case)
@@ -59,8 +60,8 @@ pub fn text_of(case: &Case, key: &str) -> Option<String> {
         .map(|(_, text)| text)
 }
 
-/// A key as a person reads it: the label of the field, and its table where other tables have a
-/// field of that name; a limit with its quantity, a distribution with its field.
+/// The label of a key: the label of the field, with its gear if both gears have the field. A limit
+/// includes its quantity, a distribution its field.
 #[must_use]
 pub fn label(key: &str) -> String {
     let of_field = |key: &str| fields::index_of(key).map(|field| FIELDS[field].full_label());
@@ -79,11 +80,11 @@ pub fn label(key: &str) -> String {
 }
 
 impl Case {
-    /// Write the text that a change leads to, valid or not; `None` takes it out.
+    /// Writes the new text of a change, valid or invalid. `None` removes the entry.
     ///
     /// # Errors
-    /// Where there is no such key, or a limit or a distribution is no valid one; the case then
-    /// stays as it was.
+    /// If the key does not exist, or a limit or a distribution is invalid. The case is then
+    /// unchanged.
     pub fn apply(&mut self, key: &str, text: Option<&str>) -> Result<(), Problem> {
         if let Some(path) = key.strip_prefix(variant::PREFIX) {
             return self.apply_override(path, text);
@@ -116,7 +117,7 @@ impl Case {
 }
 
 impl Variant {
-    /// The variant that turns one case into another. Of two fields that exclude each other, the
+    /// The variant with the changes from one case to another. If two fields exclude each other, the
     /// override of one replaces the other.
     #[must_use]
     pub fn between(name: &str, from: &Case, to: &Case) -> Variant {
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn the_changes_between_two_cases_turn_the_one_into_the_other() {
+    fn the_changes_between_two_cases_convert_one_into_the_other() {
         let pairs = [
             (Case::table_1(), varied()),
             (varied(), Case::table_1()),

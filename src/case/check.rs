@@ -1,4 +1,4 @@
-//! From texts to the model's inputs: every field on its own, then the fields together.
+//! Converts texts to the inputs of the model: each field alone, then rules between fields.
 
 mod circles;
 mod problem;
@@ -14,7 +14,7 @@ pub use together::misfit_between;
 use together::together;
 pub use value::{field_range, field_value};
 
-/// What every field puts into the model's inputs, or everything that is wrong with the case.
+/// The inputs of the model, or all problems of the case.
 pub(super) fn inputs(case: &Case) -> Result<Inputs, Vec<Problem>> {
     let (inputs, problems) = read(case, &[]);
     if problems.is_empty() {
@@ -24,8 +24,7 @@ pub(super) fn inputs(case: &Case) -> Result<Inputs, Vec<Problem>> {
     }
 }
 
-/// The inputs as far as they can be read, and everything that is wrong with the case, passing over
-/// the fields that are known to be wrong.
+/// The inputs that can be read, and all problems of the case. Skips the fields in `wrong`.
 pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     let mut inputs = Inputs::default();
     let mut problems: Vec<Problem> = Vec::new();
@@ -47,7 +46,7 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     problems.extend(together);
     problems.sort_by_key(|problem| index_of(&problem.field));
     problems.extend(limits(case));
-    // No other method reads what is needed: a limit changes no other result.
+    // Other methods do not use the needs: a limit does not change their results.
     if inputs.method == Method::Auto {
         let limited = case.limits.iter();
         let limited = limited.filter_map(|limit| Quantity::find(limit.quantity));
@@ -56,7 +55,7 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     (inputs, problems)
 }
 
-/// What is wrong with the limits that hold something; those that could be read are not read again.
+/// Problems of the limits with a text. Valid limits are not read again.
 fn limits(case: &Case) -> impl Iterator<Item = Problem> {
     let unread = case
         .limits
@@ -83,7 +82,7 @@ pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem
     }
 }
 
-/// How the field stands in a file, by example.
+/// The field as a line of a file, with an example value.
 pub(super) fn assignment(field: &Field) -> String {
     let example = field.example();
     let value = if field.is_bare() {
@@ -94,7 +93,7 @@ pub(super) fn assignment(field: &Field) -> String {
     format!("{} = {value}", field.name())
 }
 
-/// The assignment and the table to which it belongs.
+/// The assignment with its table.
 fn addition(field: &Field) -> String {
     match field.table() {
         "" => assignment(field),
@@ -102,8 +101,8 @@ fn addition(field: &Field) -> String {
     }
 }
 
-/// What is wrong with a field and its alternative: at the first of them where one is required and
-/// neither is given, at the second where both are.
+/// The problem of a field and its alternative. It is reported at the first field if a required
+/// value is missing, and at the second field if both are given.
 fn misfit(case: &Case, field: usize) -> Option<Problem> {
     let other = FIELDS[field].partner()?;
     let (known, named) = (&FIELDS[field], &FIELDS[other]);
@@ -121,7 +120,7 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
     }
 }
 
-/// Both of two fields that exclude each other are given: reported at the second one.
+/// Two fields that exclude each other are both given. Reported at the second field.
 pub(super) fn given_twice(case: &Case, field: usize) -> Option<Problem> {
     let other = FIELDS[field].partner().filter(|&other| field > other)?;
     let (known, named) = (&FIELDS[field], &FIELDS[other]);

@@ -1,5 +1,5 @@
-//! Which stages read a field, and which fields a quantity depends on: both follow from changes of
-//! the field.
+//! The stages that read a field, and the fields that a quantity depends on, found by changes of the
+//! fields.
 
 #[cfg(test)]
 mod tests;
@@ -13,9 +13,9 @@ use crate::model::{self, Inputs, Quantity, Stage, Stages};
 /// A field that a quantity depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dependence {
-    /// The place of the field in [`FIELDS`].
+    /// The index of the field in [`FIELDS`].
     pub field: usize,
-    /// A small step of the field, if it has a number.
+    /// A small step of a number field.
     pub step: Option<Step>,
 }
 
@@ -24,14 +24,13 @@ pub struct Dependence {
 pub struct Step {
     /// The step, such as `+1 um`.
     pub text: &'static str,
-    /// The quantity after the step, in SI, if it has a value there.
+    /// The quantity after the step, in SI, if it has a value.
     pub value: Option<f64>,
 }
 
-/// The fields that a quantity depends on, in the order of the form: those that a stage behind the
-/// quantity reads and whose change moves `own`, the value of the quantity with these inputs. A
-/// quantity without a value, and one that is true or false, depends on every field that those
-/// stages read.
+/// The fields that a quantity depends on, in the order of the form: fields that a stage of the
+/// quantity reads and whose change alters `own`, the value of the quantity with these inputs. A
+/// flag, and a quantity without a value, depend on every field that these stages read.
 #[must_use]
 pub fn fields_of(
     quantity: &Quantity,
@@ -66,10 +65,11 @@ pub fn fields_of(
         .collect()
 }
 
-/// The inputs without an elastic field, if the quantity does not depend on the tooth compliance;
-/// else the same inputs. The field of every changed gear would take longer than all other stages.
+/// The inputs with a quick tooth compliance if the quantity does not depend on the tooth
+/// compliance, otherwise the same inputs. An elastic field for every changed gear takes longer than
+/// all other stages.
 fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs {
-    // A value of 0, and a flag, may be that of any compliance until a field changes.
+    // A flag or a value of 0 can agree by chance.
     let is_telling = !quantity.is_flag() && own.is_some_and(|own| own != 0.0);
     let quick = without_field(inputs)
         .filter(|_| is_telling)
@@ -81,18 +81,18 @@ fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs
     quick.filter(is_same).unwrap_or_else(|| inputs.clone())
 }
 
-/// The value of a quantity with these inputs, in SI, if it has one.
+/// The value of a quantity with these inputs, in SI.
 #[must_use]
 pub fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
     Outcome::of(quantity, inputs).value()
 }
 
-/// A quantity with other inputs.
+/// The result for a quantity with changed inputs.
 #[derive(Clone, Copy)]
 enum Outcome {
     /// The pair cannot be solved.
     Refused,
-    /// The value, if there is one.
+    /// The value, if the quantity has one.
     Solved(Option<f64>),
 }
 
@@ -111,7 +111,8 @@ impl Outcome {
         }
     }
 
-    /// Whether the value differs in any bit, if the pair can be solved; a zero has no sign.
+    /// Whether the value differs in any bit, ignoring the sign of zero. `None` if the pair cannot
+    /// be solved.
     fn differs(self, own: Option<f64>) -> Option<bool> {
         let bits = |value: Option<f64>| value.map(|value| (value + 0.0).to_bits());
         match self {
@@ -145,7 +146,7 @@ fn small_step(field: usize, case: &Case, inputs: &Inputs) -> Option<(&'static st
     Some((text, inputs))
 }
 
-/// Whether a larger change of a field moves a quantity; `None` where no change can be solved.
+/// Whether a larger change of a field alters a quantity. `None` if no changed pair can be solved.
 fn is_moved(
     quantity: &Quantity,
     own: Option<f64>,
@@ -173,7 +174,7 @@ fn is_moved(
     }
 }
 
-/// Whether any answer is yes; `None` where there is none.
+/// Whether any answer is true. `None` without answers.
 fn any(answers: impl Iterator<Item = Option<bool>>) -> Option<bool> {
     let mut known = None;
     for answer in answers.flatten() {
@@ -185,7 +186,7 @@ fn any(answers: impl Iterator<Item = Option<bool>>) -> Option<bool> {
     known
 }
 
-/// The same without the centre distance that the case gives: it fits the present gears alone.
+/// [`is_moved`] without the given centre distance, which fits only the present gears.
 fn is_moved_freely(
     quantity: &Quantity,
     field: usize,
@@ -202,19 +203,19 @@ fn is_moved_freely(
     is_moved(quantity, value_of(quantity, &free), field, case, &free)
 }
 
-/// Numbers, in SI, to try in a field: about its value; if it has none, about the quantity of the
-/// same name, and an example.
+/// Numbers, in SI, to try in a field: near its value, otherwise near the quantity of the same name,
+/// and an example.
 fn other_numbers(
     field: usize,
     (dimension, range): (Dimension, Range),
     case: &Case,
     inputs: &Inputs,
 ) -> Vec<f64> {
-    /// Changes that a pair survives, of a centre distance and of any other number.
+    /// Factors for a centre distance and for other numbers that usually leave a valid pair.
     const FACTORS: [f64; 4] = [1.0002, 1.02, 0.8, 1.25];
     /// Multiples of an example.
     const EXAMPLES: [f64; 4] = [1.0, 0.2, 1.5, 30.0];
-    /// A number in the lower part of a range, for a field that is zero.
+    /// Part of the range for a field with the value 0.
     const SHARE: f64 = 1e-3;
     let known = &FIELDS[field];
     let now = case.value(field).or_else(|| {
@@ -231,14 +232,14 @@ fn other_numbers(
     numbers
 }
 
-/// The number, in SI, at a share of a range.
+/// The number, in SI, at a part of a range.
 fn within(range: Range, share: f64) -> f64 {
     let factor = units::factor(range.unit).unwrap_or(1.0);
     factor * (range.from + share * (range.to - range.from))
 }
 
-/// The stages that read a field in a case with these inputs: those that receive other inputs, or no
-/// longer run, if the field has another value.
+/// The stages that read a field in a case with these inputs: the stages whose inputs change, or
+/// that no longer run, if the field has another value.
 #[must_use]
 pub fn stages_of(field: usize, inputs: &Inputs) -> Stages {
     let others = with_other_values(field, inputs);
@@ -258,12 +259,12 @@ pub fn is_read(field: usize, inputs: &Inputs) -> bool {
     stages_of(field, inputs) != Stages::NONE
 }
 
-/// The inputs with other values in a field, at least one of which differs from the present value.
+/// The inputs with other values in a field. At least one value differs from the present value.
 fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
-    /// Shares of the range: the least value, since the smaller of two may count, and two unlike
-    /// any that a person types.
+    /// Parts of the range: the least value, because the smaller of two values can decide, and two
+    /// unusual values.
     const SHARES: [f64; 3] = [0.0, 0.381_966, 0.618_034];
-    // Every stage that reads the model of the teeth reads what decides its range as well.
+    // Every stage that reads the tooth model also reads the fields that decide its range.
     let held = Inputs {
         tooth_compliance: Some(model_of(inputs)),
         ..inputs.clone()

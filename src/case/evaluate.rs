@@ -1,4 +1,4 @@
-//! Pairs solved one after the other, each from the results that it shares with the one before.
+//! Solves pairs one after the other and reuses the results of the previous pair.
 
 use crate::model::inputs::Method;
 use crate::model::request::Earlier;
@@ -15,7 +15,7 @@ pub struct Evaluator {
 struct Solved {
     inputs: Inputs,
     solution: Solution,
-    /// What repeats of this solve share.
+    /// Precomputed values for solves that differ only in load and deviations.
     setup: Option<Setup>,
 }
 
@@ -26,16 +26,17 @@ pub struct Point<'a> {
     pub inputs: &'a Inputs,
     /// The wanted stages, the same at every point.
     pub wanted: Stages,
-    /// Whether all points of the study are known to differ in nothing but load and deviations.
+    /// Whether all points of the study differ only in load and deviations.
     pub differs_in_load_alone: bool,
 }
 
 impl Evaluator {
-    /// Solves a pair by a method, whichever the inputs name. Only the wanted stages run whose
-    /// inputs differ from those of the last solve by this method; [`Solution::ran`] lists them.
+    /// Solves a pair by the given method, whatever the inputs name. Runs only the wanted stages
+    /// whose inputs differ from the last solve by this method; [`Solution::ran`] lists these
+    /// stages.
     ///
     /// # Errors
-    /// Those of [`solve_after`]; the last results then stay.
+    /// Those of [`solve_after`]. The last results then stay.
     pub fn solve(
         &mut self,
         inputs: &Inputs,
@@ -46,10 +47,10 @@ impl Evaluator {
         self.solve_kept(inputs, method, wanted, go_on).cloned()
     }
 
-    /// As [`Evaluator::solve`], without a copy of the solution.
+    /// Like [`Evaluator::solve`], without a copy of the solution.
     ///
     /// # Errors
-    /// Those of [`solve_after`]; the last results then stay.
+    /// Those of [`solve_after`]. The last results then stay.
     pub fn solve_kept(
         &mut self,
         inputs: &Inputs,
@@ -92,8 +93,8 @@ impl Evaluator {
     }
 
     /// Solves the next point of a study. If only load and deviations differ from the last point and
-    /// the wanted stages have a closed form, all of them run in place, whichever would be kept.
-    /// Otherwise `check` first checks what such points have in common with the last one.
+    /// the wanted stages have a closed form, all stages run in place. Otherwise `check` first
+    /// checks the values that such points share with the last point.
     ///
     /// # Errors
     /// Those of [`solve_after`] and of `check`.
@@ -147,7 +148,7 @@ mod tests {
         case
     }
 
-    /// The stages that run when this field is edited after a whole solve of Table 1.
+    /// The stages that run after an edit of this field in a solved case of Table 1.
     fn ran(method: Method, key: &str, text: &str) -> Stages {
         let mut evaluator = Evaluator::default();
         let (before, after) = (Case::table_1(), edited(key, text));
@@ -182,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_runs_only_the_stages_that_it_reaches() {
+    fn an_edit_runs_only_the_stages_that_depend_on_it() {
         for method in [
             Method::Paper,
             Method::Exact,
@@ -222,9 +223,9 @@ mod tests {
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));
     }
 
-    /// The first speed leaves on the mesh how its pairs share a displacement.
+    /// The first solve stores the load sharing of the pairs in the mesh.
     #[test]
-    fn a_mesh_of_coupled_pairs_serves_another_speed_to_the_last_bit() {
+    fn a_reused_mesh_of_coupled_pairs_gives_the_bits_of_a_fresh_one() {
         let at = |speed: &str| {
             let mut case = Case::table_1();
             for (key, text) in [
@@ -233,7 +234,7 @@ mod tests {
             ] {
                 case.write(index_of(key).unwrap(), text);
             }
-            // One torque, and so one mesh.
+            // The same torque gives the same mesh.
             Inputs {
                 drive: Drive::Torque(71.6),
                 method: Method::Dynamic,
@@ -258,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn stages_that_were_not_wanted_before_are_all_that_run() {
+    fn only_newly_wanted_stages_run() {
         let (mut evaluator, case) = (Evaluator::default(), Case::table_1());
         let inputs = case.inputs().unwrap();
         let mut ran = |wanted| {

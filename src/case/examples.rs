@@ -1,12 +1,12 @@
-//! The cases that come with the program, each with its source: the texts of the folder `cases`.
+//! The example cases of the program, from the folder `cases`, each with its source.
 
 use super::Document;
 use super::suggest::fix;
 
-/// A case to start from.
+/// An example case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Example {
-    /// The name of its file, without the ending.
+    /// The file name without its extension.
     pub name: &'static str,
     /// The text of its file.
     pub text: &'static str,
@@ -18,7 +18,7 @@ macro_rules! examples {
     };
 }
 
-/// Every example, the one on which the workbench opens first.
+/// Every example. The workbench opens the first one by default.
 pub static EXAMPLES: &[Example] = examples![
     "zhou-chen-2014",
     "fzg-type-c",
@@ -31,10 +31,10 @@ pub static EXAMPLES: &[Example] = examples![
 ];
 
 impl Example {
-    /// The example of that name, with or without the ending of its file.
+    /// The example with this name, with or without the file extension.
     ///
     /// # Errors
-    /// Where there is none: what to write instead.
+    /// If no example has this name. The message suggests a name.
     pub fn find(name: &str) -> Result<&'static Example, String> {
         let name = name.strip_suffix(".toml").unwrap_or(name);
         let found = EXAMPLES.iter().find(|example| example.name == name);
@@ -64,7 +64,7 @@ mod tests {
         let names = std::fs::read_dir(folder)
             .unwrap()
             .map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        // A workbench that has one open keeps its lock beside it.
+        // The workbench keeps the lock file of an open case beside it.
         let kept: BTreeSet<String> = names.filter(|name| !name.starts_with('.')).collect();
         let known: BTreeSet<String> = EXAMPLES
             .iter()
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slip_in_a_name_finds_it() {
+    fn a_misspelled_name_suggests_the_example() {
         assert_eq!(
             Example::find("fzg-type-c.toml").map(|example| example.name),
             Ok("fzg-type-c")

@@ -1,4 +1,4 @@
-//! The one table of fields, from which the form, the TOML keys, `--set` and the help are derived.
+//! The table of fields. The form, the TOML keys, `--set` and the help use it.
 
 mod derived;
 pub mod reasons;
@@ -11,76 +11,78 @@ use crate::numeric::decimal::shortest;
 use reasons::{Reason, When};
 pub use table::FIELDS;
 
-/// One line of the form, one key of the case file.
+/// A line of the form and a key of the case file.
 #[derive(Debug, Clone, Copy)]
 pub struct Field {
     /// The dotted key in the case file, such as `pair.module`.
     pub key: &'static str,
-    /// The symbol in the field's writing.
+    /// The symbol in formulas.
     pub symbol: &'static str,
-    /// A few words for a person.
+    /// A short description.
     pub label: &'static str,
     /// One sentence of help.
     pub help: &'static str,
-    /// What it holds.
+    /// The kind of value.
     pub kind: Kind,
-    /// Whether a case may leave it out, and the value it has then.
+    /// Whether a case can omit the field, and the default.
     pub absent: Absent,
-    /// A text that shows how to write a value; empty where the default or a choice shows it.
+    /// An example value. Empty if the default or a choice shows how to write a value.
     pub example: &'static str,
-    /// The key of the field that gives the same measure in another way; a case has one of them.
+    /// The key of the field that gives the same value in another way. A case gives only one of
+    /// them.
     pub alternative: Option<&'static str>,
-    /// Its value, in SI, from other fields where the case leaves it out.
+    /// The value, in SI, computed from other fields if the case does not give it.
     pub derived: Option<Derive>,
-    /// Why it makes no difference in some cases, or less than expected; the first that fits counts.
+    /// Reasons why the field has less effect than expected. The first reason whose condition is
+    /// true is used.
     pub reasons: &'static [Reason],
-    /// Whether a case reads it, where the inputs of the stages do not decide.
+    /// Whether a case reads the field, if the inputs of the stages do not decide this.
     pub read_when: Option<When>,
 }
 
-/// A value in SI that follows from the inputs; `None` where they are not enough.
+/// A value in SI computed from the inputs. `None` if inputs are missing.
 pub type Derive = fn(&Inputs) -> Option<f64>;
 
-/// What a field holds.
+/// The kind of value of a field.
 #[derive(Debug, Clone, Copy)]
 pub enum Kind {
-    /// Words.
+    /// Free text.
     Text,
-    /// A value of a dimension, or a bare number where the dimension is [`Dimension::Number`].
+    /// A value of a dimension, or a bare number for [`Dimension::Number`].
     Number(Dimension, Range, fn(&mut Inputs, f64)),
-    /// A whole number; 0 stands for "auto" where the field takes it.
+    /// A whole number. 0 means "auto" if the field accepts it.
     Count(u32, u32, fn(&mut Inputs, u32)),
-    /// One of a few names.
+    /// One of several names.
     Choice(&'static [&'static str], fn(&mut Inputs, usize)),
 }
 
 /// A value of a field, in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
-    /// Of a field of words, which no model reads.
+    /// Free text, which no model reads.
     Text,
-    /// Of a number.
+    /// A number.
     Number(f64),
-    /// Of a whole number.
+    /// A whole number.
     Count(u32),
-    /// Of a choice, by its place in the list.
+    /// The index of a choice.
     Choice(usize),
 }
 
-/// What stands in place of a number that the program finds itself.
+/// Replaces a number that the program computes.
 pub const AUTO: &str = "auto";
 
-/// The names of a choice that TOML writes as a bare truth value.
+/// The names of a choice that TOML writes as a boolean.
 pub const FLAG: &[&str] = &["false", "true"];
 
-/// The values that a field takes, in SI, both ends included unless said.
+/// The range of a field, both ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// Least value, in the unit `unit`.
     pub from: f64,
     /// Greatest value, in the unit `unit`.
     pub to: f64,
-    /// The unit in which a person reads the range and in which a new value starts.
+    /// The unit of the shown range, and of a new value.
     pub unit: &'static str,
 }
 
@@ -91,22 +93,21 @@ impl Range {
     }
 }
 
-/// What holds when a case leaves a field out.
+/// The meaning of a field that a case does not give.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Absent {
-    /// It may not be left out.
+    /// The field is required.
     Refused,
-    /// This text stands for it.
+    /// The default text.
     Default(&'static str),
-    /// The model does without; a person reads these words instead of a value.
+    /// The model does not need a value. The form shows these words instead.
     Without(&'static str),
     /// Exactly one of this field and its alternative is given.
     Either,
 }
 
 impl Field {
-    /// The unit in which values of the field are mostly written; empty for a number, a count, a
-    /// choice and words.
+    /// The usual unit of the field. Empty for a bare number, a count, a choice and text.
     #[must_use]
     pub fn usual_unit(&self) -> &'static str {
         match self.kind {
@@ -115,25 +116,25 @@ impl Field {
         }
     }
 
-    /// The place in [`FIELDS`] of its alternative, if it has one.
+    /// The index of its alternative in [`FIELDS`].
     #[must_use]
     pub fn partner(&self) -> Option<usize> {
         self.alternative.and_then(index_of)
     }
 
-    /// The table of the case file in which the field stands; empty for the top level.
+    /// The table of the case file with this field. Empty for the top level.
     #[must_use]
     pub fn table(&self) -> &'static str {
         self.key.split_once('.').map_or("", |(table, _)| table)
     }
 
-    /// Whether it describes one of the gears.
+    /// Whether the field describes one of the gears.
     #[must_use]
     pub fn is_of_gear(&self) -> bool {
         matches!(self.table(), "driver" | "driven")
     }
 
-    /// The label, with the gear where both gears have such a field: `driven tip relief`.
+    /// The label, with the gear if both gears have the field: `driven tip relief`.
     #[must_use]
     pub fn full_label(&self) -> String {
         if self.is_of_gear() {
@@ -151,7 +152,7 @@ impl Field {
 }
 
 impl Field {
-    /// A field of text, from which rows start.
+    /// Default values of a row.
     const PLAIN: Field = Field {
         key: "",
         symbol: "",
@@ -191,7 +192,7 @@ impl Field {
         Field { read_when, ..self }
     }
 
-    /// Puts a value of this field into a model's inputs.
+    /// Writes a value of this field into the inputs of a model.
     pub fn put(&self, value: Value, inputs: &mut Inputs) {
         match (self.kind, value) {
             (Kind::Number(_, _, put), Value::Number(value)) => put(inputs, value),
@@ -201,19 +202,19 @@ impl Field {
         }
     }
 
-    /// Whether it takes true or false.
+    /// Whether the value is true or false.
     #[must_use]
     pub fn is_flag(&self) -> bool {
         matches!(self.kind, Kind::Choice(names, _) if names == FLAG)
     }
 
-    /// Whether the word "auto" may stand in place of the number.
+    /// Whether the word "auto" can replace the number.
     #[must_use]
     pub fn takes_auto(&self) -> bool {
         self.key == "model.stations"
     }
 
-    /// Whether its value stands in a file without quotes.
+    /// Whether a file contains the value without quotes.
     #[must_use]
     pub fn is_bare(&self) -> bool {
         self.is_flag()
@@ -223,7 +224,7 @@ impl Field {
             )
     }
 
-    /// A text that the field takes, to show how one is written.
+    /// A valid text of the field, as an example.
     #[must_use]
     pub fn example(&self) -> &'static str {
         match (self.absent, self.kind) {
@@ -234,7 +235,7 @@ impl Field {
         }
     }
 
-    /// The least and the greatest value as a person reads them; empty for words and choices.
+    /// The range as text. Empty for free text and choices.
     #[must_use]
     pub fn range_text(&self) -> String {
         match self.kind {
@@ -255,13 +256,13 @@ impl Field {
     }
 }
 
-/// The place of a key in [`FIELDS`].
+/// The index of a key in [`FIELDS`].
 #[must_use]
 pub fn index_of(key: &str) -> Option<usize> {
     FIELDS.iter().position(|field| field.key == key)
 }
 
-/// The groups of the form: the table's name in the file and its title.
+/// The groups of the form: the name of the table in the file and the title.
 pub const GROUPS: [(&str, &str); 7] = [
     ("", "Case"),
     ("pair", "Pair"),

@@ -1,5 +1,5 @@
-//! The circles of a gear must fit each other: tip and root diameters the coefficients of a rack,
-//! the bore the root.
+//! Checks the circles of a gear: the diameters of tip and root must give valid coefficients, and
+//! the bore must be smaller than the root.
 
 use super::problem::Problem;
 use super::value::field_range;
@@ -11,12 +11,12 @@ use crate::numeric::decimal::significant;
 /// Digits of a coefficient in a message.
 const COEFFICIENT_DIGITS: usize = 4;
 
-/// The keys of the fields that decide the circles of one gear.
+/// The keys of the fields that determine the circles of one gear.
 pub(super) struct CircleFields {
     gear: fn(&Inputs) -> &Gear,
     bore_radius: &'static str,
     dedendum: &'static str,
-    /// Those on which the reference circle depends.
+    /// Keys of the fields that determine the reference circle.
     reference: &'static [&'static str],
     heights: [Height; 2],
 }
@@ -29,7 +29,7 @@ struct Height {
     diameter: fn(&Gear) -> Option<f64>,
     /// The coefficient for a module in m.
     coefficient: fn(&Gear, f64) -> f64,
-    /// 1 where the diameter grows with the coefficient, -1 where it shrinks.
+    /// 1 if the diameter grows with the coefficient, otherwise -1.
     sign: f64,
 }
 

@@ -4,17 +4,16 @@ use super::circles;
 use super::problem::Problem;
 use crate::model::Inputs;
 
-/// The greatest ratio of tooth numbers, either way.
+/// Limit of the ratio of tooth numbers and of its reciprocal.
 const MOST_RATIO: f64 = 50.0;
 
-/// The first rule between fields that these inputs break.
+/// The first rule between fields that these inputs violate.
 #[must_use]
 pub fn misfit_between(inputs: &Inputs) -> Option<Problem> {
     together(inputs, |_| true).into_iter().next()
 }
 
-/// What one field alone cannot show. A rule is left out while a field that it reads is itself not
-/// sound.
+/// Checks the rules between fields. Skips a rule if one of its fields is invalid.
 pub(super) fn together(inputs: &Inputs, sound: impl Fn(&[&str]) -> bool) -> Vec<Problem> {
     let mut found = Vec::new();
     for circles in &circles::OF_GEARS {
@@ -47,7 +46,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
 
-    /// Points of a study that differ in nothing else from a checked one are not checked.
+    /// A study does not check points that differ from a checked point only in these fields.
     #[test]
     fn no_rule_between_fields_reads_load_or_deviations() {
         for (key, value) in [

@@ -1,4 +1,4 @@
-//! The value of one field from its text, checked against its own range.
+//! The value of one field from its text, checked against the range of the field.
 
 use std::sync::LazyLock;
 
@@ -9,10 +9,10 @@ use crate::case::suggest;
 use crate::case::units::{self, Dimension};
 use crate::numeric::decimal::shortest;
 
-/// The value of a field from its text, checked against the field's own range.
+/// The value of a field from its text, checked against the range of the field.
 ///
 /// # Errors
-/// Where the text is no value of the field, or is outside its range.
+/// If the text is not a value of the field, or the value is outside the range.
 pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
     read_value(&FIELDS[field], field, text)
 }
@@ -34,7 +34,7 @@ pub fn field_range(field: usize) -> (f64, f64) {
     ENDS[field]
 }
 
-/// The ends of every range in SI, read like a value so that the ends themselves are inside.
+/// The ends of every range in SI, converted like a value, so that the ends themselves are inside.
 static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     let end = |value: f64, dimension, unit| {
         units::parse(&format!("{value} {unit}"), dimension, unit).unwrap_or(f64::NAN)
@@ -63,7 +63,7 @@ fn number(
     let value = units::parse(text, dimension, known.usual_unit())
         .or_else(|_| units::parse(text, dimension, likely()))
         .map_err(|misread| Problem::of(known.key, misread))?;
-    // The same end may be written in another unit, and be off by its rounding there.
+    // The same end in another unit can differ by rounding.
     let slack = 4.0 * f64::EPSILON;
     if value < from - slack * from.abs() {
         return Err(outside(
@@ -86,8 +86,8 @@ fn number(
     Ok(value)
 }
 
-/// The unit that is most likely meant behind a bare number: the usual one, or where that is out of
-/// range another that is not.
+/// The unit that the user most likely meant for a bare number: the usual unit, or another unit with
+/// a value inside the range.
 fn likely_unit(
     text: &str,
     known: &Field,

@@ -1,4 +1,4 @@
-//! Every field is changed in every case, and the bits of the results are compared.
+//! Changes every field in every case and compares the bits of the results.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::model::request::Earlier;
 use crate::model::solve::solve_after;
 use crate::model::{self, Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 
-/// A case and what became of it.
+/// A case and its solution.
 struct Solved {
     name: String,
     variant: &'static str,
@@ -21,7 +21,7 @@ struct Solved {
 
 type Change = fn(&mut Inputs);
 
-/// What turns a case into one that reads other fields.
+/// Changes of a case that make other fields relevant.
 const VARIANTS: &[(&str, Change)] = &[
     ("as it is", |_| {}),
     ("paper", |inputs| inputs.method = Method::Paper),
@@ -80,7 +80,7 @@ const VARIANTS: &[(&str, Change)] = &[
     }),
 ];
 
-/// The variants in which other methods are tried.
+/// The variants that are also solved by other methods.
 const AS_IT_IS: [&str; 2] = ["as it is", "static, relieved, with friction"];
 
 fn relieved(inputs: &mut Inputs, method: Method) {
@@ -94,7 +94,7 @@ fn relieved(inputs: &mut Inputs, method: Method) {
     }
 }
 
-/// Where contact begins and ends, a pair two base pitches on stands just off the line of action.
+/// At the ends of contact, a pair two base pitches ahead is just outside the line of action.
 fn nearly_double_contact(inputs: &mut Inputs, addendum: f64) {
     relieved(inputs, Method::Static);
     inputs.centre_distance = None;
@@ -103,7 +103,7 @@ fn nearly_double_contact(inputs: &mut Inputs, addendum: f64) {
     }
 }
 
-/// Every stage; not with inertia where the pair is so slow that it swings for long.
+/// Every stage. Excludes inertia for very slow pairs, whose motion has too many oscillations.
 fn wanted(inputs: &Inputs) -> Stages {
     const SLOW: f64 = 500.0;
     if inputs.speed < SLOW {
@@ -124,7 +124,7 @@ fn solve(inputs: &Inputs) -> Result<Solution, Refusal> {
     model::solve(&few_stations(inputs), wanted(inputs))
 }
 
-/// The same after another solve, whose results are reused.
+/// The solution after another solve, with reuse of its results.
 fn resolved(before: &Solved, inputs: &Inputs) -> Solution {
     let earlier = Earlier {
         inputs: &few_stations(&before.inputs),
@@ -147,8 +147,7 @@ fn solved_cases() -> Vec<Solved> {
 }
 
 fn variants(case: &Case, name: &str) -> Vec<Solved> {
-    /// The load that every pair shares takes a thousand times as long to find: three kinds of pair
-    /// stand for all.
+    /// Three kinds of pairs are enough for load sharing, which takes a thousand times as long.
     const SHARING: [&str; 3] = ["zhou", "turbo", "high-contact"];
     let shares = SHARING.iter().any(|kind| name.contains(kind));
     let of = |(variant, change): (&'static str, Change)| {
@@ -171,7 +170,7 @@ fn variants(case: &Case, name: &str) -> Vec<Solved> {
     VARIANTS.iter().copied().filter_map(of).collect()
 }
 
-/// The inputs with the field changed a little, and much, and given or taken away.
+/// The inputs with a small and a large change of the field, and with the field given or removed.
 fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
     let with = |put: &dyn Fn(&mut Inputs)| {
         let mut inputs = solved.inputs.clone();
@@ -180,7 +179,7 @@ fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
     };
     match FIELDS[field].kind {
         Kind::Text => Vec::new(),
-        // Another method is another case.
+        // A change of the method is tested as another case.
         Kind::Choice(..)
             if FIELDS[field].key == "model.method" && !AS_IT_IS.contains(&solved.variant) =>
         {
@@ -208,7 +207,7 @@ fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
     }
 }
 
-/// Values for a field that is zero or left out.
+/// Values for a field that is zero or not given.
 fn offered(solved: &Solved, key: &str, unit: &str) -> Vec<f64> {
     match (key, unit) {
         ("pair.centre_distance", _) => [1.0002, 1.003]
@@ -249,8 +248,8 @@ fn same(stage: Stage, one: &Solution, other: &Solution) -> bool {
     }
 }
 
-/// Every stage, in every case, under every change of every field: a solve that reuses the results
-/// before the change gives the bits of a fresh one.
+/// For every stage, case and change of a field, a solve that reuses earlier results has the bits of
+/// a fresh solve.
 #[test]
 fn results_are_reused_only_where_a_change_leaves_them_alone() {
     let mut wrong: BTreeSet<String> = BTreeSet::new();
@@ -267,7 +266,7 @@ fn results_are_reused_only_where_a_change_leaves_them_alone() {
                 for stage in Stage::ALL {
                     if !same(stage, &reused, &found) {
                         wrong.insert(format!(
-                            "{} after {} is not that of a fresh solve, {}",
+                            "{} after {} differs from a fresh solve, {}",
                             stage.name(),
                             known.key,
                             solved.name
@@ -280,10 +279,10 @@ fn results_are_reused_only_where_a_change_leaves_them_alone() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Changes below this share of a value may be rounding.
+/// Relative changes below this value can be rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The cases in which every quantity is compared with the list of its fields.
+/// The variants in which every quantity is compared with the list of its fields.
 const LISTED: [&str; 4] = [
     "as it is",
     "static, relieved, with friction",
@@ -292,7 +291,7 @@ const LISTED: [&str; 4] = [
 ];
 
 #[test]
-fn a_quantity_lists_every_field_whose_change_moves_it() {
+fn a_quantity_lists_every_field_whose_change_alters_it() {
     let mut missing: BTreeSet<String> = BTreeSet::new();
     let is_listed =
         |solved: &Solved| LISTED.contains(&solved.variant) && solved.name.contains("zhou");
@@ -306,7 +305,8 @@ fn a_quantity_lists_every_field_whose_change_moves_it() {
                 .into_iter()
                 .map(|dependence| dependence.field)
                 .collect();
-            // A field in place of one that the case gives, such as torque for power, is not listed.
+            // The list excludes a field whose alternative the case gives, such as torque instead of
+            // power.
             let is_missing =
                 |field: &usize| !listed.contains(field) && !solved.case.is_replaced(*field);
             for field in (0..FIELDS.len()).filter(is_missing) {
@@ -327,7 +327,7 @@ fn a_quantity_lists_every_field_whose_change_moves_it() {
 }
 
 #[test]
-fn a_quantity_lists_no_field_that_cannot_move_it() {
+fn a_quantity_lists_no_field_without_effect() {
     let listed = |key: &str, case: &Case| {
         let quantity = Quantity::find(key).unwrap();
         let inputs = case.inputs().unwrap();
@@ -338,7 +338,7 @@ fn a_quantity_lists_no_field_that_cannot_move_it() {
     let mut case = Case::table_1();
     let base_pitch = ["pair.module", "pair.pressure_angle", "model.accurate"];
     assert_eq!(listed("base_pitch", &case), base_pitch);
-    // The deflection of Table 1 is given, and so needs no load and no stiffness.
+    // The case of Table 1 gives the deflection, which then needs no load and no stiffness.
     for key in ["operation.power", "driver.young", "model.tooth_compliance"] {
         assert!(
             !listed("approach_angle_driven", &case).contains(&key),
@@ -352,16 +352,17 @@ fn a_quantity_lists_no_field_that_cannot_move_it() {
             "{key}"
         );
     }
-    // Other gears do not fit a given centre distance, but the contact ratio depends on them.
+    // Other gears do not fit a given centre distance, but the contact ratio depends on their
+    // fields.
     let mut fixed = Case::table_1();
     fixed.set("pair.centre_distance", "100.2 mm").unwrap();
     assert!(listed("contact_ratio", &fixed).contains(&"driver.teeth"));
     assert!(!listed("centre_distance", &fixed).contains(&"driver.teeth"));
-    // A field that is left out.
+    // A field that the case does not give.
     assert!(listed("contact_ratio", &case).contains(&"pair.centre_distance"));
 }
 
-/// The note beside the dedendum says which models read it.
+/// The note beside the dedendum names the models that read it.
 #[test]
 fn a_stiffness_model_says_whether_it_reads_the_root() {
     let force = |tooth, contact, dedendum| {
@@ -385,7 +386,7 @@ fn a_stage_reads_only_its_own_fields() {
     let inputs = Case::table_1().inputs().unwrap();
     let stages = |key: &str| stages_of(index_of(key).unwrap(), &inputs);
     assert_eq!(stages("driver.density"), Stages::NONE.with(Stage::Masses));
-    // The deflection of Table 1 is given, so that no load and no stiffness moves D.
+    // The case of Table 1 gives the deflection, so that load and stiffness do not change D.
     assert_eq!(stages("operation.power"), Stages::NONE.with(Stage::Load));
     assert!(!stages("driver.young").has(Stage::Deviation));
     let computed = Inputs {

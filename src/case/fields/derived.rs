@@ -1,9 +1,9 @@
-//! Circles of a gear that follow from its coefficients.
+//! Circles of a gear computed from its coefficients.
 
 use crate::model::Inputs;
 use crate::model::inputs::Gear;
 
-/// Whether module and number of teeth are known, from which every circle follows.
+/// Whether module and number of teeth, which determine every circle, are known.
 pub(super) fn has_size(inputs: &Inputs, gear: &Gear) -> bool {
     inputs.module > 0.0 && gear.teeth > 0
 }

@@ -1,4 +1,4 @@
-//! Why a field makes no difference in a case, or less than expected: the vocabulary of the rows.
+//! Reasons why a field has no effect in a case, or less effect than expected.
 
 use crate::model::Inputs;
 use crate::model::compliance::{contact_of, model_of};
@@ -9,14 +9,14 @@ use Reason::{Idle, Partly};
 /// A condition on the inputs.
 pub type When = fn(&Inputs) -> bool;
 
-/// Why a field makes no difference in a case, or less than expected.
+/// The reason why a field has no effect in a case, or less effect than expected.
 #[derive(Debug, Clone, Copy)]
 pub enum Reason {
     /// No stage reads the field.
     Idle(When, &'static str),
-    /// No stage reads the field, and reports show it beside the results.
+    /// No stage reads the field. Reports show it beside the results.
     Beside(&'static str),
-    /// A stage reads the field, and less depends on it than expected.
+    /// A stage reads the field, but the results depend less on it than expected.
     Partly(When, &'static str),
 }
 
@@ -27,26 +27,26 @@ pub(super) const TIP_OF_DRIVER: &str = "the driver's tip ends contact at B; at r
 pub(super) const IN_TIME: &str = "only the method dynamic follows the motion in time";
 pub(super) const CURVE: &str = "changes only how closely the curve is sampled";
 
-/// Of the root of a gear.
+/// Reasons for the root of a gear.
 pub(super) const ROOT: [Reason; 1] = [Partly(
     |inputs| !root_is_read(inputs),
     "the tooth compliance ignores the root; only the stiffness spread changes, because the spread \
         includes the other models",
 )];
 
-/// Of relief lengths and shapes.
+/// Reasons for relief lengths and shapes.
 pub(super) const WHOLE_RELIEF: [Reason; 1] = [Idle(
     by_impact,
     "this method applies the full relief at the first contact and ignores length and shape",
 )];
 
-/// Of the load.
+/// Reasons for the load.
 pub(super) const LOAD: [Reason; 1] = [Partly(
     |inputs| inputs.method != Method::Auto && inputs.deflection_taken().is_some(),
     "with the deflection given, the load changes F_0, not the impact",
 )];
 
-/// Of the masses.
+/// Reasons for the masses.
 pub(super) const MASS: [Reason; 1] = [Partly(
     |inputs| inputs.method == Method::Static,
     "the static load does not depend on mass; only the free impact changes, and with `beam` the \
@@ -66,13 +66,13 @@ pub(super) fn is_driver(index: &str) -> bool {
     index == "1"
 }
 
-/// Whether no gear is wider than this face width, at rest.
+/// Whether this face width is at least that of both gears, in method `static`.
 pub(super) fn is_wider(inputs: &Inputs, width: f64) -> bool {
     let widest = inputs.driver.face_width.max(inputs.driven.face_width);
     inputs.method == Method::Static && width >= widest
 }
 
-/// Whether a compliance of the case reads the root of the teeth.
+/// Whether a compliance of the case depends on the root of the teeth.
 fn root_is_read(inputs: &Inputs) -> bool {
     model_of(inputs).model().reads_root
         || contact_of(inputs).is_some_and(|contact| contact.model().reads_root)

@@ -1,4 +1,4 @@
-//! The table of fields itself: every line of the form, in order.
+//! The table of fields: every line of the form, in order.
 
 macro_rules! number {
     ($key:expr, $symbol:expr, $label:expr, $dimension:ident, $from:expr, $to:expr, $unit:expr, $absent:expr, $put:expr, $help:expr) => {

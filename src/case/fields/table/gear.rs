@@ -1,4 +1,4 @@
-//! The rows of one gear, which both gears have.
+//! The rows of one gear, used for both gears.
 
 use crate::case::fields::Absent::{Default, Refused, Without};
 use crate::case::fields::derived::{has_size, root_diameter, tip_diameter};
