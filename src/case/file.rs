@@ -1,4 +1,4 @@
-//! Reading and saving case files: a case together with the text it was read from.
+//! Reads and saves case files: a case together with its source text.
 
 mod comments;
 mod disk;
@@ -29,19 +29,19 @@ pub use target::{Draft, followed, write};
 /// The format of case files that this version reads and writes.
 pub const FORMAT: u32 = 1;
 
-/// The longest file that is read, in bytes.
+/// Greatest size of a case file, in bytes.
 pub const MOST_BYTES: usize = 1 << 20;
 
-/// The longest model of another program that is read, packed or unpacked, in bytes.
+/// Greatest size of a model of another program, packed or unpacked, in bytes.
 pub const MOST_MODEL_BYTES: usize = 16 << 20;
 
 const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// A case and the text of its file, so that saving keeps comments, order, spacing and line ends.
+/// A case and the text of its file. Saving keeps comments, order, spacing and line ends.
 #[derive(Debug, Clone)]
 pub struct Document {
-    /// The case, free to change.
+    /// The case. Edits change it directly.
     pub case: Case,
     name: String,
     /// The text of the file without its byte order mark.
@@ -49,30 +49,30 @@ pub struct Document {
     marked: bool,
     /// The stamp of the whole text of the file.
     stamp: Stamp,
-    /// What the text says.
+    /// The case of the text.
     loaded: Case,
     places: Places,
-    /// Whether the text is of a newer format, so that the case is only what is understood of it.
+    /// Whether the text has a newer format, which this version reads only in part.
     is_newer: bool,
-    /// The file that holds the text, links followed.
+    /// The path of the file after resolution of links.
     origin: Option<PathBuf>,
-    /// Its mode when it was read or saved, for the case that it is deleted meanwhile.
+    /// The mode of the file when it was read or saved, in case it is deleted.
     mode: Option<u32>,
 }
 
 impl Document {
-    /// Read a complete case from its text; each fault begins with `name`.
+    /// Reads a complete case from its text. Each fault begins with `name`.
     ///
     /// # Errors
-    /// Every fault of the text, and every required value that is missing, sorted by place.
+    /// All faults of the text and all missing required values, sorted by place.
     pub fn parse(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
         Document::parse_draft(name, text).and_then(Document::complete)
     }
 
-    /// Read a case in which required values may be missing: [`Case::inputs`] then names them.
+    /// Reads a case that can lack required values. [`Case::inputs`] names the missing values.
     ///
     /// # Errors
-    /// Every fault of the text, sorted by place.
+    /// All faults of the text, sorted by place.
     pub fn parse_draft(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
         if text.len() > MOST_BYTES {
             return Err(vec![fault::too_large(name)]);
@@ -99,7 +99,7 @@ impl Document {
         })
     }
 
-    /// Read a complete case from bytes that may not be text.
+    /// Reads a complete case from bytes that may not be text.
     ///
     /// # Errors
     /// As [`Document::parse`], and at the first byte that is not UTF-8.
@@ -124,7 +124,7 @@ impl Document {
         }
     }
 
-    /// What is understood of a text of a newer format.
+    /// The part of a text of a newer format that this version can read.
     fn parse_newer(name: &str, text: &str) -> Document {
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = tree::read_newer(unmarked);
@@ -148,19 +148,19 @@ impl Document {
         }
     }
 
-    /// Whether the text is of a newer format, of which this version may not understand everything.
+    /// Whether the text has a newer format, which this version reads only in part.
     #[must_use]
     pub fn is_newer(&self) -> bool {
         self.is_newer
     }
 
-    /// A document without a file: the case in a commented text with every field.
+    /// A document without a file: the case as commented text with every field.
     #[must_use]
     pub fn new(case: Case) -> Document {
         Document::commented("new case".to_owned(), case, &[])
     }
 
-    /// A document without a file whose text has a comment of its own at the named fields.
+    /// A document without a file, with additional comments at the named fields.
     #[must_use]
     pub fn commented(name: String, case: Case, comments: &[(&str, String)]) -> Document {
         let text = template::text(&case, comments);
@@ -180,26 +180,26 @@ impl Document {
         }
     }
 
-    /// Table 1 of the paper, as its file in `cases/` says it.
+    /// Table 1 of the paper, from its file in `cases/`.
     #[must_use]
     pub fn table_1() -> Document {
         Document::parse("zhou-chen-2014.toml", TABLE_1)
             .unwrap_or_else(|_| Document::new(Case::empty()))
     }
 
-    /// The name under which it was read.
+    /// The file name of the document.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Whether the case says something else than the text that was read or saved last.
+    /// Whether the case differs from the text that was read or saved last.
     #[must_use]
     pub fn is_changed(&self) -> bool {
         self.case != self.loaded
     }
 
-    /// The text to save: what was read, with only the changed values changed.
+    /// The text to save: the original text with only the changed values replaced.
     #[must_use]
     pub fn render(&self) -> String {
         let text = if self.is_changed() {
@@ -214,20 +214,20 @@ impl Document {
         }
     }
 
-    /// Line and column, from 1, of a field's value; of its table, or of the end, where the text
-    /// leaves it out.
+    /// Line and column, from 1, of a field's value. If the text does not have the field, the place
+    /// of its table or the end.
     #[must_use]
     pub fn place(&self, key: &str) -> (usize, usize) {
         Lines::of(&self.text).place(self.places.offset(key))
     }
 
-    /// A problem found later, such as a refusal of the model, at its place in the file.
+    /// A later problem, such as a refusal of the model, at its place in the file.
     #[must_use]
     pub fn fault(&self, problem: Problem) -> Fault {
         Fault::new(&self.name, self.place(&problem.field), problem)
     }
 
-    /// Such problems at their places in the file, sorted by place.
+    /// Later problems at their places in the file, sorted by place.
     #[must_use]
     pub(crate) fn faults(&self, problems: Vec<Problem>) -> Vec<Fault> {
         let mut faults: Vec<Fault> = problems
@@ -238,8 +238,8 @@ impl Document {
         faults
     }
 
-    /// Take the text that was saved for the one that was read, and the case as it says it: a number
-    /// may have been typed with spaces around it, which no file keeps.
+    /// Replaces the source by the saved text and the case by its content. The file does not keep
+    /// spaces around a number.
     fn settle(&mut self, text: &str, name: String, origin: PathBuf) {
         text.strip_prefix(BYTE_ORDER_MARK)
             .unwrap_or(text)

@@ -1,4 +1,4 @@
-//! Whether a field makes a difference in a case, and why it does not.
+//! Whether a field has an effect in a case, and the reason if it has none.
 
 use std::borrow::Cow;
 
@@ -9,30 +9,30 @@ use super::{Case, Problem, check};
 use crate::model::Inputs;
 use crate::model::inputs::Method;
 
-/// Whether what stands in a field makes a difference to the results.
+/// Whether a field has an effect on the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Acting {
-    /// Some quantity or station depends on it.
+    /// A quantity or a station depends on the field.
     Yes,
-    /// It is printed beside the results or in a note, and no quantity depends on it.
+    /// The field is printed beside the results or in a note, and no quantity depends on it.
     Beside(&'static str),
-    /// The case does without it.
+    /// The case does not use the field.
     No(&'static str),
 }
 
-/// Why a field is idle that gives no reason of its own.
+/// The reason for an unused field without its own reason.
 const NO_REASON: &str = "nothing that this case computes depends on it";
 
 impl Case {
-    /// The inputs as far as the case can be read, which is enough for the relevance of its fields,
-    /// and everything that is wrong with the case, in the order of the fields.
+    /// The inputs that can be read, enough for the relevance of fields, and all problems of the
+    /// case, in the order of the fields.
     #[must_use]
     pub fn read(&self) -> (Inputs, Vec<Problem>) {
         check::read(self, &[])
     }
 }
 
-/// Whether the field makes a difference in a case with these inputs.
+/// Whether the field has an effect in a case with these inputs.
 #[must_use]
 pub fn relevance(field: usize, inputs: &Inputs) -> Acting {
     if acts(field, inputs) {
@@ -47,7 +47,7 @@ pub fn relevance(field: usize, inputs: &Inputs) -> Acting {
     reasons.find_map(reason).unwrap_or(Acting::No(NO_REASON))
 }
 
-/// Why less depends on a field than expected, in a case with these inputs.
+/// The reason why results depend less on a field than expected, in a case with these inputs.
 #[must_use]
 pub fn partial_relevance(field: usize, inputs: &Inputs) -> Option<&'static str> {
     let reason = |reason: &Reason| match *reason {
@@ -58,7 +58,7 @@ pub fn partial_relevance(field: usize, inputs: &Inputs) -> Option<&'static str> 
     acts(field, inputs).then_some(why)
 }
 
-/// The inputs with a speed: while the form lacks one, every power gives the same infinite torque.
+/// The inputs with a speed. Without a speed every power gives the same infinite torque.
 fn with_speed(inputs: &Inputs) -> Cow<'_, Inputs> {
     if inputs.speed > 0.0 {
         return Cow::Borrowed(inputs);
@@ -69,8 +69,8 @@ fn with_speed(inputs: &Inputs) -> Cow<'_, Inputs> {
     })
 }
 
-/// Whether any stage reads the field; of the method `auto`, any stage of the methods that it
-/// chooses from.
+/// Whether any stage reads the field. For the method `auto`, any stage of the methods to choose
+/// from.
 fn acts(field: usize, inputs: &Inputs) -> bool {
     let inputs = &*with_speed(inputs);
     let by = |method| {

@@ -23,7 +23,7 @@ use source::{Found, Values};
 use stage::Kind;
 pub use stage::Stage;
 
-/// A stage of a model as a case.
+/// A stage of a model, converted to a case.
 #[derive(Debug)]
 pub struct Imported {
     /// The case, without a file, with the source of each value.
@@ -32,13 +32,13 @@ pub struct Imported {
     pub stages: Vec<Stage>,
     /// The id of the imported stage.
     pub stage: String,
-    /// What the case leaves empty, and why: the key of the field, then the reason.
+    /// The empty fields: the key of each field and the reason.
     pub absent: Vec<(&'static str, String)>,
-    /// What the case takes for granted, a sentence each.
+    /// The assumptions of the case, one sentence each.
     pub remarks: Vec<String>,
 }
 
-/// Whether the name of a file is that of a REXS model.
+/// Whether the file name belongs to a REXS model.
 #[must_use]
 pub fn is_model(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -48,7 +48,7 @@ pub fn is_model(path: &Path) -> bool {
         .any(|ending| name.ends_with(ending))
 }
 
-/// The file that the case of a model is saved to, beside the model; the path itself of a case.
+/// The path of the case file beside a model. For a case, the path itself.
 #[must_use]
 pub fn case_path(path: &Path) -> PathBuf {
     if is_model(path) {
@@ -61,7 +61,7 @@ pub fn case_path(path: &Path) -> PathBuf {
 /// Reads the only spur stage of a REXS model as a case.
 ///
 /// # Errors
-/// Where the file cannot be read, or no stage of it can become a case.
+/// If the file cannot be read, or no stage can become a case.
 pub fn read_document(path: &Path) -> Result<Document, ReadError> {
     let bytes = read_bytes(path, MOST_MODEL_BYTES)?;
     import(path, &bytes, None)
@@ -69,10 +69,10 @@ pub fn read_document(path: &Path) -> Result<Document, ReadError> {
         .map_err(|refusal| ReadError::Model(refusal.to_string()))
 }
 
-/// Reads a stage of a REXS model as a case; without an id the only spur stage.
+/// Reads a stage of a REXS model as a case. Without an id, the only spur stage.
 ///
 /// # Errors
-/// Where the bytes are no REXS model, or the stage is none of a spur gear pair.
+/// If the bytes are not a REXS model, or the stage is not a spur gear pair.
 pub fn import(path: &Path, bytes: &[u8], stage: Option<&str>) -> Result<Imported, Refusal> {
     let name = path.display().to_string();
     let model = archive::text(bytes).and_then(|text| parse(&text));
@@ -94,7 +94,7 @@ pub fn import(path: &Path, bytes: &[u8], stage: Option<&str>) -> Result<Imported
     })
 }
 
-/// What the model gives for the fields of the case.
+/// The values of the model for the fields of the case.
 fn read(model: &Model, stage: &Stage) -> Result<Values, Refusal> {
     let mut values = Values::default();
     let component = |id: &str| model.component(id);
@@ -184,7 +184,7 @@ fn choose<'a>(stages: &'a [Stage], wanted: Option<&str>) -> Result<&'a Stage, Re
     }
 }
 
-/// The case of the values, each with its source, and the fields that stay empty.
+/// The case with these values, the source of each value, and the empty fields.
 fn document(
     name: &str,
     model: &Model,
@@ -215,7 +215,7 @@ fn document(
         model.version,
         model.application
     );
-    // Both are words, which no check refuses.
+    // Both are text fields, which accept any text.
     let _ = case.set("title", &stage.title());
     let _ = case.set("notes", &notes);
     let document = Document::commented(format!("{name} (as a case)"), case, &sources);

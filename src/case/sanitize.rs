@@ -1,9 +1,9 @@
-//! Text from outside, made safe to show: no byte of it reaches a terminal as a control.
+//! Makes foreign text safe to show: removes terminal control characters.
 
-/// The most characters of a foreign text that a message repeats.
+/// Greatest number of characters of a foreign text in a message.
 const MOST: usize = 60;
 
-/// The text with control, direction and zero-width characters written out, such as `\u{1b}`.
+/// The text with control, direction and zero-width characters escaped, such as `\u{1b}`.
 #[must_use]
 pub fn sanitize(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
@@ -17,14 +17,14 @@ pub fn sanitize(text: &str) -> String {
     shown
 }
 
-/// The same with a space in place of each line break and the spaces around it.
+/// The sanitized text on one line: a space replaces each line break and the spaces around it.
 #[must_use]
 pub fn one_line(text: &str) -> String {
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     sanitize(&lines.collect::<Vec<_>>().join(" "))
 }
 
-/// The text for a message: visible, cut where it is long.
+/// The sanitized text for a message, cut if it is long.
 #[must_use]
 pub fn cut(text: &str) -> String {
     let mut shown: String = text.chars().take(MOST).collect();
@@ -34,13 +34,13 @@ pub fn cut(text: &str) -> String {
     sanitize(&shown)
 }
 
-/// The text as [`cut`] leaves it, between backquotes.
+/// The text from [`cut`] in backquotes.
 #[must_use]
 pub fn quoted(text: &str) -> String {
     format!("`{}`", cut(text))
 }
 
-/// Whether a character acts on the screen, or is none to the eye.
+/// Whether a character controls the screen or is invisible.
 #[must_use]
 pub fn is_hidden(c: char) -> bool {
     c.is_control() || HIDDEN.iter().any(|&(from, to)| (from..=to).contains(&c))
@@ -72,7 +72,7 @@ mod tests {
     use super::{quoted, sanitize};
 
     #[test]
-    fn nothing_that_acts_on_a_screen_passes() {
+    fn no_control_character_passes() {
         assert_eq!(sanitize("a\u{1b}[2Jb\u{9b}c\n"), r"a\u{1b}[2Jb\u{9b}c\n");
         assert_eq!(
             sanitize("\u{202e}abc\u{200b}\u{feff}"),

@@ -1,4 +1,4 @@
-//! How a field is spread around its value, for tolerances.
+//! Distributions of fields around their values, for tolerances.
 
 use super::Problem;
 use super::fields::{FIELDS, Field, Kind, index_of};
@@ -10,16 +10,16 @@ use crate::model::iso_1328;
 /// The shape of a distribution around the value of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// Gaussian; the width is the standard deviation.
+    /// Gaussian. The width is the standard deviation.
     Normal,
-    /// Equally likely everywhere; the width is half the span.
+    /// Uniform. The width is half the span.
     Uniform,
-    /// Most likely at the value, falling to 0 in straight lines; the width is half the span.
+    /// Triangular around the value. The width is half the span.
     Triangular,
-    /// Gaussian, cut off at three standard deviations; the width is half the span.
+    /// Gaussian, truncated at three standard deviations. The width is half the span.
     Truncated,
-    /// The base pitch deviation that a flank tolerance class of ISO 1328-1 allows, truncated as
-    /// above; the width is the class.
+    /// The base pitch deviation of a flank tolerance class of ISO 1328-1, with the truncated
+    /// distribution. The width is the class.
     Grade,
 }
 
@@ -55,7 +55,7 @@ pub struct Spread {
     pub shape: Shape,
     /// Its width as the user wrote it.
     pub text: String,
-    /// Its width in SI; the class of a grade.
+    /// Its width in SI, or the flank tolerance class.
     pub width: f64,
 }
 
@@ -63,8 +63,8 @@ impl Spread {
     /// A distribution from the field's key, the shape's name and the width as written.
     ///
     /// # Errors
-    /// Where the field cannot be spread, the shape is unknown or the width is no value of the
-    /// field's dimension.
+    /// If the field cannot have a distribution, the shape is unknown, or the width is not a value
+    /// of the field's dimension.
     pub fn new(key: &str, shape: &str, text: &str) -> Result<Spread, Problem> {
         let place = place(key);
         let (field, dimension) = spreadable(&place, key)?;
@@ -82,8 +82,8 @@ impl Spread {
         })
     }
 
-    /// The problem of an entry that does not consist of a shape and a width. `shape` is the name
-    /// of its only member, if it has a single one.
+    /// The problem of an entry without exactly one shape and one width. `shape` is the name of its
+    /// only member.
     #[must_use]
     pub fn malformed(key: &str, shape: Option<&str>) -> Problem {
         let place = place(key);
@@ -103,14 +103,14 @@ impl Spread {
         )
     }
 
-    /// The distribution as a person reads it, such as "normal 4 um".
+    /// The distribution as text, such as "normal 4 um".
     #[must_use]
     pub fn in_words(&self) -> String {
         format!("{} {}", self.shape.name(), self.text)
     }
 }
 
-/// A field that a distribution can spread, and its dimension.
+/// A field that can have a distribution, and its dimension.
 fn spreadable(place: &str, key: &str) -> Result<(&'static Field, Dimension), Problem> {
     let Some(field) = index_of(key).map(|index| &FIELDS[index]) else {
         return Err(Problem {
@@ -132,7 +132,7 @@ fn spreadable(place: &str, key: &str) -> Result<(&'static Field, Dimension), Pro
     Err(Problem::new(place, cause, fix))
 }
 
-/// How a distribution of a field is written.
+/// An example of a distribution of a field.
 fn by_example(shape: Shape, field: &Field) -> String {
     let width = match (shape, field.usual_unit()) {
         (Shape::Grade, _) => "7".to_owned(),
@@ -155,7 +155,7 @@ fn width(place: &str, dimension: Dimension, field: &Field, text: &str) -> Result
     ))
 }
 
-/// The class of a grade, for a base pitch deviation alone.
+/// The flank tolerance class, for a base pitch deviation only.
 fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
     if field.name() != "base_pitch" {
         return Err(Problem::new(
@@ -181,7 +181,7 @@ fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
         })
 }
 
-/// The name under which problems of a field's spread stand.
+/// The key of a distribution in messages.
 pub(super) fn place(key: &str) -> String {
     format!("spread.\"{key}\"")
 }

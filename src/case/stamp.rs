@@ -1,13 +1,13 @@
-//! Stamps of texts: whether a file is still the one that was edited.
+//! Stamps of texts, to detect changes of an edited file.
 
 use std::hash::Hasher;
 
 use siphasher::sip::SipHasher24;
 
-/// What tells one text from another.
+/// Length and hash of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stamp {
-    /// In bytes.
+    /// Length in bytes.
     pub length: u64,
     /// SipHash-2-4 of the bytes.
     pub hash: u64,
@@ -37,8 +37,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_hash_is_the_same_for_ever() {
-        // SipHash-2-4 (Aumasson & Bernstein 2012) of nothing, under the key of zeros.
+    fn the_hash_never_changes() {
+        // SipHash-2-4 (Aumasson & Bernstein 2012) of an empty text with a key of zeros.
         assert_eq!(hash(b""), 0x1e92_4b9d_7377_00d7);
     }
 }

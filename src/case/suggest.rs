@@ -1,9 +1,9 @@
-//! Did you mean: the known name nearest to a mistyped one.
+//! Suggestions of the known name nearest to a mistyped one.
 
-/// A longer text is no mistyped name, and comparing it would take long.
+/// Length limit of a mistyped name, because a comparison of long texts is slow.
 const LONGEST: usize = 64;
 
-/// The nearest of the known names, where one is near enough to be meant.
+/// The nearest known name if it is near enough.
 pub(crate) fn nearest<'n>(typed: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     if typed.len() > LONGEST {
         return None;
@@ -19,7 +19,8 @@ pub(crate) fn nearest<'n>(typed: &str, known: impl Iterator<Item = &'n str>) -> 
         }
     };
     let letters = sorted(typed);
-    // Of two that are as near, the one with the same letters: "mu" is a turned "um" and no "m".
+    // With equal distances, prefers the name with the same letters: "mu" is a transposed "um", not
+    // "m".
     let is_nearer =
         |a: (f64, &str), b: (f64, &str)| a.0 > b.0 || a.0 >= b.0 && sorted(a.1) == letters;
     known
@@ -35,7 +36,7 @@ fn sorted(name: &str) -> Vec<char> {
     letters
 }
 
-/// "did you mean X?" in front of what fits, or what fits alone.
+/// "did you mean X?" if a name is near enough, otherwise the fallback.
 pub(crate) fn fix<'n>(
     typed: &str,
     known: impl Iterator<Item = &'n str>,
@@ -49,7 +50,7 @@ mod tests {
     use super::nearest;
 
     #[test]
-    fn a_slip_finds_its_name_and_another_word_finds_none() {
+    fn a_misspelling_finds_its_name_and_another_word_finds_none() {
         let known = ["module", "pressure_angle", "centre_distance"];
         assert_eq!(nearest("modul", known.into_iter()), Some("module"));
         assert_eq!(

@@ -1,4 +1,4 @@
-//! What a case promises on its own, without a file.
+//! Tests of a case without a file.
 #![expect(clippy::float_cmp, reason = "a value is read to the last bit")]
 
 use super::fields::{FIELDS, index_of};
@@ -37,7 +37,7 @@ fn table_1_is_valid_and_in_si() {
 }
 
 #[test]
-fn defaults_fill_what_is_left_out() {
+fn defaults_replace_missing_values() {
     let mut case = Case::empty();
     for (key, text) in [
         ("pair.module", "5 mm"),
@@ -138,7 +138,7 @@ fn exactly_one_of_power_and_torque_is_given() {
 }
 
 #[test]
-fn a_bore_ends_below_the_root_circle() {
+fn a_bore_is_smaller_than_the_root_circle() {
     let problem = only_problem(&with(&[("driven.bore_radius", "43.76 mm")]));
     assert_eq!(problem.field, "driven.bore_radius");
     assert!(
@@ -166,7 +166,7 @@ fn a_ratio_beyond_fifty_is_refused() {
 }
 
 #[test]
-fn all_problems_come_at_once_in_the_order_of_the_fields() {
+fn all_problems_are_reported_in_the_order_of_the_fields() {
     let case = with(&[
         ("model.method", "exat"),
         ("pair.module", "5"),
@@ -191,7 +191,7 @@ fn all_problems_come_at_once_in_the_order_of_the_fields() {
 }
 
 #[test]
-fn set_takes_keys_as_the_command_line_gives_them() {
+fn set_accepts_the_keys_of_the_command_line() {
     let mut case = Case::table_1();
     case.set("pair.module", "4 mm").unwrap();
     case.set("driver.profile_shift", "0.3").unwrap();
@@ -213,7 +213,7 @@ fn set_takes_keys_as_the_command_line_gives_them() {
 }
 
 #[test]
-fn set_refuses_and_leaves_the_case_as_it_was() {
+fn a_refused_set_leaves_the_case_unchanged() {
     for (key, value, cause, fix) in [
         ("pair.modul", "4 mm", "unknown key", "pair.module"),
         ("module", "4 mm", "unknown key", "did you mean pair.module?"),
@@ -246,13 +246,13 @@ fn set_refuses_and_leaves_the_case_as_it_was() {
 }
 
 #[test]
-fn an_empty_text_takes_a_field_out() {
+fn an_empty_text_removes_a_field() {
     let case = with(&[("model.deflection", "")]);
     assert_eq!(case.text(field("model.deflection")), None);
 }
 
 #[test]
-fn a_limit_may_be_half_typed_in_a_form() {
+fn a_form_accepts_an_incomplete_limit() {
     let mut case = Case::table_1();
     case.write_limit("impact_force", "2600");
     assert_eq!(case.limits[0].value, f64::INFINITY);

@@ -1,4 +1,4 @@
-//! Units at the door: text with a unit becomes SI, and back.
+//! Conversion between text with a unit and SI.
 
 mod converted;
 mod number;
@@ -13,7 +13,7 @@ pub use system::System;
 use table::{FAMILIES, Scale, Unit, name_of, units_of};
 pub use typing::{Open, ending, open, written_unit};
 
-/// A physical dimension that a field or a quantity has.
+/// The physical dimension of a field or a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// A bare number.
@@ -55,7 +55,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// The dimension of which this is a unit; "1" and "" are the bare number.
+    /// The dimension of a unit. "1" and "" are the bare number.
     #[must_use]
     pub fn of_unit(unit: &str) -> Option<Dimension> {
         if matches!(unit, "" | "1") {
@@ -67,7 +67,7 @@ impl Dimension {
             .map(|family| family.dimension)
     }
 
-    /// What a person calls a value of it, such as "a length".
+    /// The name of a value with its article, such as "a length".
     #[must_use]
     pub fn name(self) -> &'static str {
         name_of(self)
@@ -82,13 +82,13 @@ impl Dimension {
             .map_or("", |unit| unit.symbol)
     }
 
-    /// The symbols of its units, those in common use first.
+    /// The symbols of its units, common units first.
     pub fn symbols(self) -> impl Iterator<Item = &'static str> {
         units_of(self).iter().map(|unit| unit.symbol)
     }
 }
 
-/// Why a text is no value of the wanted dimension: the cause and the fix.
+/// The reason why a text is not a value of the wanted dimension: the cause and the fix.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ParseError {
     /// What is wrong.
@@ -106,7 +106,7 @@ impl ParseError {
     }
 }
 
-/// What one of the unit is in SI; `None` for an unknown unit. "1" and "" are the number one.
+/// The SI value of one unit. `None` for an unknown unit. "1" and "" have the factor 1.
 #[must_use]
 pub fn factor(unit: &str) -> Option<f64> {
     if matches!(unit, "" | "1") {
@@ -122,13 +122,13 @@ pub fn factor(unit: &str) -> Option<f64> {
     })
 }
 
-/// A value in SI from a text such as "16 um": the f64 nearest to what is written where the unit is
-/// a power of ten of SI, else within one unit in the last place.
+/// The value in SI of a text such as "16 um": the nearest f64 if the unit is a power of ten of SI,
+/// otherwise within one unit in the last place.
 ///
-/// `usual` is the unit in which an example is shown.
+/// `usual` is the unit of the examples in errors.
 ///
 /// # Errors
-/// Where the text is not one finite number with a unit of the dimension.
+/// If the text is not one finite number with a unit of the dimension.
 pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, ParseError> {
     let (number, unit) = number::split(text.trim(), usual)?;
     let scale = match (dimension, unit) {
@@ -148,16 +148,17 @@ pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Parse
     number::held(number, value)
 }
 
-/// The number and the unit of a text such as "16 um", as written; an empty unit for a bare number.
+/// The number and the unit of a text such as "16 um", as written. The unit is empty for a bare
+/// number.
 ///
 /// # Errors
-/// Where the text is not one number with at most one unit.
+/// If the text is not one number with at most one unit.
 pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), ParseError> {
     number::split(text.trim(), usual)
 }
 
-/// The shortest text in that unit which [`parse`] reads back as the same value, or as near as the
-/// unit allows.
+/// The shortest text in the unit that [`parse`] converts to the same value, or to the nearest value
+/// possible in this unit.
 #[must_use]
 pub fn text(value: f64, unit: &str) -> String {
     let number = match FAMILIES
@@ -184,14 +185,14 @@ pub fn text(value: f64, unit: &str) -> String {
     }
 }
 
-/// The product with a factor held in two parts, rounded once.
+/// The product with a factor in two parts, rounded once.
 fn times(number: f64, factor: f64, rest: f64) -> f64 {
     let high = number * factor;
     let low = number.mul_add(factor, -high) + number * rest;
     if high.is_finite() { high + low } else { high }
 }
 
-/// A longer text is no unit, however it is spelled.
+/// Length limit of a unit.
 const LONGEST: usize = 64;
 
 fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
@@ -206,7 +207,7 @@ fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
     spelled(unit).or_else(|| spelled(&plain_spelling(unit)))
 }
 
-/// One spelling for `N·m`, `N*m`, `N-m`; `kg/m³`, `kg / m^3`; `µm`, `μm`.
+/// Normalizes spellings such as `N·m`, `N*m`, `N-m`; `kg/m³`, `kg / m^3`; `µm`, `μm`.
 fn plain_spelling(unit: &str) -> String {
     let mut plain = String::with_capacity(unit.len());
     for c in unit.chars() {

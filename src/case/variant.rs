@@ -4,7 +4,7 @@ use super::fields::{FIELDS, index_of};
 use super::sanitize::quoted;
 use super::{Case, Problem, suggest};
 
-/// The longest name of a variant, in characters.
+/// Greatest length of the name of a variant, in characters.
 const LONGEST_NAME: usize = 40;
 
 /// A named set of overrides.
@@ -16,12 +16,12 @@ pub struct Variant {
     pub overrides: Vec<Override>,
 }
 
-/// One value that a variant has in place of the case's.
+/// A value that replaces the case's value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Override {
     /// The field's key, or `limits.…` or `spread."…"`.
     pub key: String,
-    /// The text in place of the case's; an empty text leaves the key out.
+    /// The new text. An empty text removes the key.
     pub text: String,
 }
 
@@ -42,7 +42,7 @@ impl Variant {
     /// Checks the name of a variant.
     ///
     /// # Errors
-    /// Where the name is empty, too long, or has a character that is not allowed.
+    /// If the name is empty, too long, or has an invalid character.
     pub fn check_name(name: &str) -> Result<(), Problem> {
         let is_allowed = |letter: char| letter.is_alphanumeric() || "-_".contains(letter);
         let count = name.chars().count();
@@ -74,10 +74,10 @@ impl Variant {
 pub(super) const PREFIX: &str = "variants.";
 
 impl Case {
-    /// The variant of that name.
+    /// The variant with this name.
     ///
     /// # Errors
-    /// Where the case has no such variant.
+    /// If the case has no such variant.
     pub fn variant(&self, name: &str) -> Result<&Variant, Problem> {
         let found = self.variants.iter().find(|variant| variant.name == name);
         found.ok_or_else(|| {
@@ -96,7 +96,7 @@ impl Case {
         })
     }
 
-    /// The case with the overrides of a variant in place of its own values.
+    /// The case with the overrides of a variant.
     #[must_use]
     pub fn with(&self, variant: &Variant) -> Case {
         let mut case = self.clone();
@@ -106,13 +106,13 @@ impl Case {
             {
                 case.write(other, "");
             }
-            // Reading checked every override already.
+            // Reading checked every override.
             drop(case.apply(&change.key, Some(&change.text)));
         }
         case
     }
 
-    /// Puts a variant into the case, in place of one of the same name.
+    /// Adds a variant to the case, or replaces the variant with the same name.
     pub fn keep_variant(&mut self, variant: Variant) {
         let same = self
             .variants
@@ -124,8 +124,8 @@ impl Case {
         }
     }
 
-    /// Writes or takes out an override by its key behind `variants.`, such as
-    /// `relieved.driven.tip_relief`; a variant without overrides goes.
+    /// Writes or removes an override by its key after `variants.`, such as
+    /// `relieved.driven.tip_relief`. Removes a variant without overrides.
     pub(super) fn apply_override(&mut self, path: &str, text: Option<&str>) -> Result<(), Problem> {
         let unknown = || super::check::unknown_key(&format!("{PREFIX}{path}"));
         let (name, key) = path.split_once('.').ok_or_else(unknown)?;
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variant_of_the_edits_leads_to_the_edited_case() {
+    fn a_variant_of_the_edits_gives_the_edited_case() {
         for edits in [
             &[("driven.tip_relief", "48 um"), ("pair.module", "6 mm")][..],
             &[("operation.torque", "80 N m")],
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_variant_is_refused_with_the_name_that_is_most_likely_meant() {
+    fn an_unknown_variant_is_refused_with_a_suggestion() {
         let mut case = Case::table_1();
         let variant =
             Variant::between("relieved", &case, &edited(&[("driven.tip_relief", "1 um")]));

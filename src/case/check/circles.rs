@@ -71,8 +71,7 @@ macro_rules! circle_fields {
 pub(super) static OF_GEARS: [CircleFields; 2] = [circle_fields!(driver), circle_fields!(driven)];
 
 impl Problem {
-    /// The same problem at the diameter that replaces the coefficient in its field, where the
-    /// inputs have that diameter.
+    /// The problem at the diameter if the inputs give the diameter instead of the coefficient.
     #[must_use]
     pub fn at_given_diameter(mut self, inputs: &Inputs) -> Problem {
         let heights = OF_GEARS.iter().flat_map(|fields| {
@@ -90,7 +89,7 @@ impl Problem {
 }
 
 impl CircleFields {
-    /// What is wrong with the circles, as far as the fields are sound.
+    /// The problems of the circles. Skips rules with invalid fields.
     pub(super) fn misfits(
         &self,
         inputs: &Inputs,
@@ -119,7 +118,7 @@ impl CircleFields {
 impl Height {
     /// A diameter whose coefficient is outside the range of the field that it replaces.
     fn outside_range(&self, gear: &Gear, module: f64) -> Option<Problem> {
-        /// The diameter at an end of the range has the end as its coefficient up to rounding.
+        /// A diameter at an end of the range has the end as its coefficient except for rounding.
         const SLACK: f64 = 1e-9;
         let diameter = (self.diameter)(gear)?;
         let coefficient = (self.coefficient)(gear, module);
@@ -161,7 +160,7 @@ fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
     })
 }
 
-/// A length in mm as a message shows it.
+/// A length in mm for a message.
 fn in_mm(metres: f64) -> f64 {
     (metres * 1e7).round() / 1e4
 }

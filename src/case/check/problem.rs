@@ -1,4 +1,4 @@
-//! What is wrong at one place of a case: the cause and the fix.
+//! A problem at one place of a case: the cause and the fix.
 
 use crate::case::Case;
 use crate::case::fields::{FIELDS, index_of};
@@ -7,10 +7,10 @@ use crate::case::suggest;
 use crate::case::units::ParseError;
 use crate::model::{QUANTITIES, Quantity, Refusal};
 
-/// What is wrong at one place: the cause and the fix.
+/// A problem at one place: the cause and the fix.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// The field's key, or the key as written where it is unknown.
+    /// The field's key, or an unknown key as written.
     pub field: String,
     /// What is wrong.
     pub cause: String,
@@ -32,7 +32,7 @@ impl Problem {
         }
     }
 
-    /// A misread value, as a problem of its field.
+    /// An invalid value, as a problem of its field.
     pub(in crate::case) fn of(field: &str, misread: ParseError) -> Problem {
         Problem::new(field, misread.cause, misread.fix)
     }
@@ -54,7 +54,7 @@ impl std::fmt::Display for Problem {
 impl std::error::Error for Problem {}
 
 impl Problem {
-    /// The same problem at the alternative of its field, where the case gives that one.
+    /// The problem at the alternative of its field if the case gives the alternative.
     #[must_use]
     pub fn at_given(mut self, case: &Case) -> Problem {
         let field = index_of(&self.field).filter(|&field| case.is_replaced(field));
@@ -72,7 +72,7 @@ impl From<&Refusal> for Problem {
     }
 }
 
-/// The refusal of a key that no field has.
+/// The refusal of an unknown key.
 #[must_use]
 pub fn unknown_key(key: &str) -> Problem {
     let known = FIELDS.iter().map(|field| field.key);

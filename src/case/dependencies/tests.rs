@@ -305,8 +305,7 @@ fn a_quantity_lists_every_field_whose_change_alters_it() {
                 .into_iter()
                 .map(|dependence| dependence.field)
                 .collect();
-            // The list excludes a field whose alternative the case gives, such as torque instead of
-            // power.
+            // The list excludes fields replaced by their alternative, such as torque by power.
             let is_missing =
                 |field: &usize| !listed.contains(field) && !solved.case.is_replaced(*field);
             for field in (0..FIELDS.len()).filter(is_missing) {

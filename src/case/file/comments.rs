@@ -1,4 +1,4 @@
-//! The lines of a case file that a reader of a report needs.
+//! Removes comments from a case file for a report.
 
 use std::ops::Range;
 
@@ -6,8 +6,8 @@ use toml::de::{DeTable, DeValue};
 
 use crate::case::sanitize::sanitize;
 
-/// The file without comment lines, empty lines, and headers of tables without a line. The lines
-/// of a string over several lines are all kept.
+/// The file without comment lines, empty lines, and headers of empty tables. Keeps all lines of a
+/// multi-line string.
 #[must_use]
 pub fn without_comments(text: &str) -> String {
     let strings = strings(text);
@@ -30,7 +30,7 @@ pub fn without_comments(text: &str) -> String {
     lines.join("\n")
 }
 
-/// The places of the strings over several lines.
+/// The places of the multi-line strings.
 fn strings(text: &str) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let (table, _) = DeTable::parse_recoverable(text);
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn comments_go_and_strings_over_several_lines_stay() {
+    fn comments_are_removed_and_multi_line_strings_are_kept() {
         let text = "# a\nformat = 1\nnotes = \"\"\"one\n# two\n\n[three]\n\"\"\"\n\n[pair]\n# m\n\
                     [driver]\r\nteeth = 20 # z1\n[driven]\n";
         assert_eq!(

@@ -1,5 +1,5 @@
-//! Case files on disk: reading refuses anything but a regular file, and a save leaves the old file
-//! or the new one.
+//! Case files on disk. Reading accepts only a regular file, and a save leaves the old or the new
+//! file complete.
 
 use std::borrow::Cow;
 use std::fs::{self, File};
@@ -13,7 +13,7 @@ use crate::case::Case;
 use crate::case::stamp::Stamp;
 use crate::system::files;
 
-/// What a save did to the file.
+/// The effect of a save on the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Saved {
     /// The file has the new text.
@@ -23,19 +23,19 @@ pub enum Saved {
 }
 
 impl Document {
-    /// Read a complete case from a file, or from standard input where the path is `-`.
+    /// Reads a complete case from a file, or from standard input if the path is `-`.
     ///
     /// # Errors
-    /// Where the file cannot be read, or is no valid case.
+    /// If the file cannot be read, or is not a valid case.
     pub fn read(path: &Path) -> Result<Document, ReadError> {
         Document::read_draft(path)?.complete().map_err(refused)
     }
 
-    /// Read a case in which required values may be missing from a file, or from standard input
-    /// where the path is `-`.
+    /// Reads a case that can lack required values from a file, or from standard input if the path
+    /// is `-`.
     ///
     /// # Errors
-    /// Where the file cannot be read, or has other faults.
+    /// If the file cannot be read, or has other faults.
     pub fn read_draft(path: &Path) -> Result<Document, ReadError> {
         let name = shown(path);
         if path == Path::new("-") {
@@ -51,11 +51,10 @@ impl Document {
         Ok(document)
     }
 
-    /// Read what this version understands of a file of a newer format, to be looked at and not to
-    /// be saved.
+    /// Reads the known part of a file of a newer format, for viewing only.
     ///
     /// # Errors
-    /// Where the file cannot be read, or is no text.
+    /// If the file cannot be read, or is not text.
     pub fn read_newer(path: &Path) -> Result<Document, ReadError> {
         let name = shown(path);
         let bytes = capped(open(path, &name)?, &name)?;
@@ -72,19 +71,19 @@ impl Document {
         Ok(document)
     }
 
-    /// The file that the document was read from or saved to, links followed.
+    /// The file that the document was read from or saved to, after resolution of links.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
         self.origin.as_deref()
     }
 
-    /// What tells the text that was read or saved last from another one.
+    /// The stamp of the text that was read or saved last.
     #[must_use]
     pub fn stamp(&self) -> Stamp {
         self.stamp
     }
 
-    /// The case as the text that was read or saved last has it.
+    /// The case of the text that was read or saved last.
     #[must_use]
     pub fn loaded(&self) -> &Case {
         &self.loaded
@@ -98,18 +97,18 @@ impl Document {
         }
     }
 
-    /// Save to a file, unless it is not the one that was read or has been changed since.
+    /// Saves to a file. Fails if another file exists there or the file changed since it was read.
     ///
     /// # Errors
-    /// Where nothing was saved; the file is then as it was.
+    /// If nothing was saved. The file is then unchanged.
     pub fn save(&mut self, path: &Path) -> Result<Saved, SaveError> {
         self.write(path, false)
     }
 
-    /// Save to a file, whatever its content.
+    /// Saves to a file and replaces any content.
     ///
     /// # Errors
-    /// Where nothing was saved; the file is then as it was.
+    /// If nothing was saved. The file is then unchanged.
     pub fn save_over(&mut self, path: &Path) -> Result<Saved, SaveError> {
         self.write(path, true)
     }
@@ -141,7 +140,7 @@ impl Document {
         })
     }
 
-    /// The content decides, not the time stamp: a mere touch is no change.
+    /// Compares the content, not the time stamp, because a touched file is unchanged.
     fn same_as_read(&self, target: &Path, name: &str) -> Result<(), SaveError> {
         if self.origin.as_deref() != Some(target) {
             return Err(SaveError::AlreadyThere(name.to_owned()));
@@ -164,8 +163,7 @@ fn refused(mut faults: Vec<Fault>) -> ReadError {
     }
 }
 
-/// Open a regular file. Anything else is refused before it is opened, since opening a pipe waits
-/// for a writer.
+/// Opens a regular file. Checks the type before opening, because opening a pipe waits for a writer.
 fn open(path: &Path, name: &str) -> Result<File, ReadError> {
     let failed = |error: io::Error| match error.kind() {
         ErrorKind::NotFound => ReadError::NotFound(name.to_owned()),
@@ -177,10 +175,10 @@ fn open(path: &Path, name: &str) -> Result<File, ReadError> {
     File::open(path).map_err(failed)
 }
 
-/// The bytes of a regular file of at most so many, or of standard input where the path is `-`.
+/// The bytes of a regular file of at most `most` bytes, or of standard input if the path is `-`.
 ///
 /// # Errors
-/// Where the file cannot be read, or is longer.
+/// If the file cannot be read, or is too long.
 pub fn read_bytes(path: &Path, most: usize) -> Result<Vec<u8>, ReadError> {
     let name = shown(path);
     if path == Path::new("-") {

@@ -1,4 +1,4 @@
-//! Changed values put into the text that was read; comments, order and spacing stay.
+//! Writes changed values into the original text and keeps comments, order and spacing.
 
 mod variants;
 
@@ -23,7 +23,7 @@ pub(super) fn render(document: &Document) -> String {
     }
 }
 
-/// What a case says, in whatever order.
+/// The content of a case, in sorted order.
 fn content(case: &Case) -> (Vec<Entry>, Vec<Overrides<'_>>) {
     let mut entries = entries(case);
     entries.sort();
@@ -36,7 +36,7 @@ fn content(case: &Case) -> (Vec<Entry>, Vec<Overrides<'_>>) {
     (entries, variants)
 }
 
-/// The name of a variant, and its overrides as a file has them.
+/// The name of a variant and its overrides as written in a file.
 type Overrides<'v> = (&'v str, Vec<(String, String)>);
 
 fn edited(document: &Document) -> Option<String> {
@@ -44,7 +44,7 @@ fn edited(document: &Document) -> Option<String> {
     let (before, after) = (entries(&document.loaded), entries(&document.case));
     for entry in &before {
         if !after.iter().any(|kept| kept.key() == entry.key()) {
-            // In braces a comment ends with a line of its own.
+            // Inside braces a comment ends with its line.
             let end = if toml.get(entry.table).is_some_and(Item::is_inline_table) {
                 "\n"
             } else {
@@ -66,7 +66,7 @@ fn edited(document: &Document) -> Option<String> {
     Some(with_line_ends_of(&document.text, toml.to_string()))
 }
 
-/// The table of that name, made at the end where the text has none.
+/// The table with this name. Added at the end if the text has none.
 fn table<'t>(toml: &'t mut DocumentMut, name: &str) -> Option<&'t mut dyn TableLike> {
     if name.is_empty() {
         return Some(toml.as_table_mut());
@@ -76,12 +76,12 @@ fn table<'t>(toml: &'t mut DocumentMut, name: &str) -> Option<&'t mut dyn TableL
         .as_table_like_mut()
 }
 
-/// Write an entry, in its place where it has one.
+/// Writes an entry, at its old place if it exists.
 fn write(table: &mut dyn TableLike, entry: &Entry) -> Option<()> {
     put(table, entry.bare_name(), &entry.name, &entry.value)
 }
 
-/// Write a value under a key, given as it is and as TOML writes it.
+/// Writes a value under a key, which is given plain and as TOML.
 fn put(table: &mut dyn TableLike, name: &str, key: &str, value: &str) -> Option<()> {
     let mut value: Value = value.parse().ok()?;
     if let Some(old) = table.get_mut(name).and_then(Item::as_value_mut) {
@@ -95,8 +95,8 @@ fn put(table: &mut dyn TableLike, name: &str, key: &str, value: &str) -> Option<
     Some(())
 }
 
-/// Take an entry out, with its own trailing comment; the comments above it go above what comes
-/// next, else below what comes before. Those that have no neighbour are given back.
+/// Removes an entry with its trailing comment. The comments above it move above the next entry, or
+/// below the previous one. Returns the comments if the entry has no neighbour.
 fn take_out(table: &mut dyn TableLike, name: &str, end: &str) -> String {
     let above = table
         .key(name)
@@ -132,7 +132,7 @@ fn words(decor: Option<&RawString>) -> String {
         .to_owned()
 }
 
-/// The text with the line ends of another, which the editor of TOML makes its own.
+/// The text with the line ends of `model`, because the TOML editor changes line ends.
 fn with_line_ends_of(model: &str, text: String) -> String {
     if model
         .find('\n')

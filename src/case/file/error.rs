@@ -1,4 +1,4 @@
-//! Why a file cannot be read as a case, and why a save fails.
+//! Errors of reading and of saving a case file.
 
 use std::io::{self, ErrorKind};
 use std::path::Path;
@@ -8,78 +8,78 @@ use thiserror::Error;
 use super::Fault;
 use crate::case::sanitize::sanitize;
 
-/// Why a file cannot be opened as a case.
+/// The reason why a file cannot be opened as a case.
 #[derive(Debug, Error)]
 pub enum ReadError {
-    /// There is no such file.
+    /// The file does not exist.
     #[error("{0}: file not found: check the path, or `tipstrike new` writes a case")]
     NotFound(String),
-    /// It is a folder, a pipe or a device.
+    /// The path is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
     NotAFile(String),
-    /// It is longer than so many KiB.
+    /// The file is longer than the limit in KiB.
     #[error("{0}: the file is longer than {1} KiB, the limit for a case")]
     TooLarge(String, usize),
-    /// The system refuses to read it.
+    /// The system refuses to read the file.
     #[error("{0}: cannot be read: {1}")]
     Unreadable(String, io::Error),
-    /// Its text is no valid case.
+    /// The text is not a valid case.
     #[error("{}", one_a_line(.0))]
     Bad(Vec<Fault>),
-    /// It is a model of another program that cannot become a case.
+    /// A model of another program cannot be converted to a case.
     #[error("{0}")]
     Model(String),
-    /// It is of a newer format.
+    /// The file has a newer format.
     #[error("{0}")]
     NewerFormat(Fault),
 }
 
-/// Why a document was not saved. The file on disk is then as it was.
+/// The reason why a document was not saved. The file on disk is unchanged.
 #[derive(Debug, Error)]
 pub enum SaveError {
-    /// Someone else changed the file after it was read.
+    /// Another program changed the file after it was read.
     #[error("{0}: the file has changed on disk since it was read")]
     ChangedOnDisk(String),
-    /// The system refuses to read the file, so that a change by someone else would go unseen.
+    /// The system refuses to read the file, so that a change by another program cannot be excluded.
     #[error(
         "{0}: cannot be read to check for changes by others: {1}: try again, or save under another \
             name"
     )]
     Unreadable(String, io::Error),
-    /// Another file is there already.
+    /// Another file exists with this name.
     #[error("{0}: the file exists already")]
     AlreadyThere(String),
-    /// It is of a newer format, of which not everything is understood.
+    /// The file has a newer format, which this version reads only in part.
     #[error(
         "{0}: the case has a newer format; saving it would lose fields that this version does not \
             know"
     )]
     NewerFormat(String),
-    /// It is a folder, a pipe or a device.
+    /// The path is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
     NotAFile(String),
-    /// It is a folder; the second text is a file in it, by example.
+    /// The path is a folder. The second text is an example of a file in the folder.
     #[error("{0}: this is a folder: add the name of a file to it, such as {1}")]
     IsAFolder(String, String),
-    /// The folder of the file is missing; the third text is its name as a shell reads it.
+    /// The folder of the file is missing. The third text is its name quoted for a shell.
     #[error(
         "{0}: the folder {1} does not exist: create the folder (mkdir -p {2}), or choose \
         another name"
     )]
     NoFolder(String, String, String),
-    /// The path leads through a file as if it were a folder.
+    /// A part of the path is a file instead of a folder.
     #[error("{0}: {1} is not a folder: choose another name")]
     NotAFolder(String, String),
-    /// The file may not be written.
+    /// The file is read-only.
     #[error("{0}: the file is read-only: save under another name, or make it writable (chmod u+w)")]
     ReadOnly(String),
-    /// The file has other names, which a save would separate from it.
+    /// The file has other hard links, which a save would separate from it.
     #[error(
         "{0}: the file has {1} names (hard links), which a save would separate: save under another \
             name"
     )]
     HardLinked(String, u64),
-    /// The system refuses to write it.
+    /// The system refuses to write the file.
     #[error("{0}: cannot be written: {1}: {fix}", fix = fix(.1))]
     Unwritable(String, io::Error),
 }
@@ -97,7 +97,7 @@ fn one_a_line(faults: &[Fault]) -> String {
         .join("\n")
 }
 
-/// What to do about a file that the system does not let us write.
+/// The fix for a file that the system refuses to write.
 fn fix(error: &io::Error) -> &'static str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {

@@ -1,20 +1,20 @@
-//! The part of a text that is parsed: a text with more lines than any case is not read to its end.
+//! The part of a text to parse. Limits the number of lines with content.
 
-/// Lines with keys, values or tables; every field, limit and distribution together need fewer, even
-/// with each brace on a line of its own.
+/// Limit of the lines with keys, values or tables. All fields, limits and distributions together
+/// need fewer lines, even with each brace on its own line.
 const MOST_LINES: usize = 4000;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     Plain,
     Comment,
-    /// In a string on one line with this quote.
+    /// In a single-line string with this quote.
     String(u8),
-    /// In a string on several lines with this quote.
+    /// In a multi-line string with this quote.
     Block(u8),
 }
 
-/// The text up to the limit, and how many lines with keys, values or tables follow.
+/// The text up to the limit, and the number of following lines with keys, values or tables.
 pub(super) fn excerpt(text: &str) -> (&str, usize) {
     let bytes = text.as_bytes();
     let (mut state, mut at) = (State::Plain, 0);
@@ -39,7 +39,8 @@ pub(super) fn excerpt(text: &str) -> (&str, usize) {
     (&text[..end], count.saturating_sub(MOST_LINES))
 }
 
-/// The state after the first bytes, and how many they are. A line end is always a step of its own.
+/// The state after the next step, and the length of the step in bytes. A line end is always its own
+/// step.
 fn next(state: State, rest: &[u8]) -> (State, usize) {
     let byte = rest.first().copied().unwrap_or_default();
     let is_triple = rest.starts_with(&[byte; 3]);

@@ -1,24 +1,24 @@
-//! What is wrong with a file, each fault at its place and on one line.
+//! Faults of a file, each with its place and on one line.
 
 use std::fmt;
 
 use crate::case::Problem;
 use crate::case::sanitize::{cut, sanitize};
 
-/// The most faults that are shown of one file.
+/// Greatest number of faults shown for one file.
 const MOST: usize = 100;
 
-/// Why a file is refused.
+/// The reason why a file is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FaultKind {
-    /// The text is no valid case.
+    /// The text is not a valid case.
     Bad,
-    /// The file is of a newer format than this version knows.
+    /// The file has a newer format.
     NewerFormat,
 }
 
-/// What is wrong at one place of a file. It prints as `file:line:column: field: cause: fix`, on
-/// one line and without control characters.
+/// A fault at one place of a file. Prints as `file:line:column: field: cause: fix`, on one line and
+/// without control characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
     /// The file's name.
@@ -27,14 +27,13 @@ pub struct Fault {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// The field's key, the key as written where it is unknown, or `toml` where the text is not
-    /// TOML.
+    /// The field's key, an unknown key as written, or `toml` if the text is not TOML.
     pub field: String,
     /// What is wrong.
     pub cause: String,
     /// How to fix it.
     pub fix: String,
-    /// Why the file is refused.
+    /// The reason why the file is refused.
     pub kind: FaultKind,
 }
 
@@ -83,7 +82,7 @@ pub(super) struct Found {
     pub(super) at: usize,
     pub(super) problem: Problem,
     pub(super) kind: FaultKind,
-    /// Whether it is a required value that is missing.
+    /// Whether the problem is a missing required value.
     pub(super) is_missing: bool,
 }
 
@@ -98,8 +97,8 @@ impl Found {
     }
 }
 
-/// The first faults with line and column, in the order of their places, and the number of the
-/// others, of which `more` are not in the list.
+/// The first faults with line and column, in the order of their places, and the number of the other
+/// faults. `more` of these are not in the list.
 pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>, more: usize) -> Vec<Fault> {
     found.sort_by_key(|found| found.at);
     let more = more + found.len().saturating_sub(MOST);
@@ -147,7 +146,7 @@ pub(super) fn not_text(file: &str, bytes: &[u8], at: usize) -> Fault {
     )
 }
 
-/// Where the lines of a text begin.
+/// The starts of the lines of a text.
 pub(super) struct Lines<'t> {
     text: &'t str,
     starts: Vec<usize>,
@@ -172,7 +171,7 @@ impl<'t> Lines<'t> {
         (line, column + 1)
     }
 
-    /// The bytes of the line in which a byte stands, without its end.
+    /// The bytes of the line with the byte `at`, without the line end.
     pub(super) fn around(&self, at: usize) -> std::ops::Range<usize> {
         let line = self.starts.partition_point(|&start| start <= at).max(1);
         let end = self

@@ -1,8 +1,8 @@
-//! Where keys, values and tables stand in the text of a case file.
+//! Places of keys, values and tables in the text of a case file.
 
 use std::ops::Range;
 
-/// Where a key and its value stand in the text.
+/// Place of a key and its value in the text.
 #[derive(Debug, Clone)]
 pub(super) struct Place {
     /// The field's key, or `limits.…`, `spread."…"` or `variants.…`.
@@ -11,11 +11,11 @@ pub(super) struct Place {
     pub(super) value: Range<usize>,
 }
 
-/// Where everything stands in the text.
+/// Places of all keys and tables in the text.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Places {
     pub(super) entries: Vec<Place>,
-    /// Tables by name, with the header or, where there is none, the first mention.
+    /// Tables by name, with the place of the header or of the first mention.
     pub(super) tables: Vec<(String, Range<usize>)>,
     pub(super) end: usize,
 }
@@ -32,7 +32,7 @@ impl Places {
             .map(|(_, span)| span)
     }
 
-    /// Where to point for a key: its value, its table, the end.
+    /// The place to report for a key: its value, its table, or the end.
     pub(super) fn offset(&self, key: &str) -> usize {
         let table = || {
             self.table(key.split('.').next().unwrap_or_default())

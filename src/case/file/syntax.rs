@@ -1,4 +1,4 @@
-//! Errors of TOML itself: names each in the terms of a case, and recovers the lines around it.
+//! Syntax errors of TOML: describes each error in terms of a case and recovers the valid lines.
 
 use toml::de::{DeTable, Error};
 
@@ -8,28 +8,27 @@ use crate::case::sanitize::{cut, quoted};
 use crate::case::units::{self, Dimension};
 use crate::case::{Problem, check};
 
-/// Rounds of blanking lines before the rest is given up.
+/// Limit of the rounds in which broken lines are blanked.
 const ROUNDS: usize = 8;
 
-/// Errors that are named; with more of them the text is hardly a case.
+/// Limit of the described errors.
 const MOST: usize = 200;
 
-/// A text without its broken lines.
+/// A text after removal of its broken lines.
 pub(super) struct Recovered {
-    /// The text, broken lines blanked, every other byte in its place.
+    /// The text with broken lines blanked. All other bytes keep their places.
     pub(super) text: String,
-    /// What is wrong with the broken lines.
+    /// The faults of the broken lines.
     pub(super) faults: Vec<Found>,
-    /// How many errors there are besides.
+    /// Number of further errors.
     pub(super) more: usize,
     /// The broken lines.
     pub(super) broken: String,
-    /// Whether every table's header could be read, so that each key is known to stand where it
-    /// does.
+    /// Whether every table header is readable, so that the table of each key is known.
     pub(super) tables_known: bool,
 }
 
-/// Find what is not TOML, and blank it.
+/// Finds and blanks the lines that are not TOML.
 pub(super) fn recover(source: &str) -> Recovered {
     let mut recovered = Recovered {
         text: source.to_owned(),
@@ -46,7 +45,7 @@ pub(super) fn recover(source: &str) -> Recovered {
             .map(|error| (start(&error, source), error))
             .collect();
         errors.sort_by_key(|(at, _)| *at);
-        // One broken line may have several errors, and a broken key may be there twice.
+        // One broken line can have several errors, and a broken key can occur twice.
         errors.dedup_by(|(at, error), (before, other)| {
             let is_same = lines.around(*at).start == lines.around(*before).start
                 && !(is_double(error) && is_double(other));
@@ -115,7 +114,7 @@ fn first_of_each_line(errors: &[(usize, Error)], lines: &Lines<'_>, source: &str
     found
 }
 
-/// The error in a case's terms where the line is a field's, else in TOML's.
+/// The error in terms of a case if the line belongs to a field, otherwise in terms of TOML.
 fn fault(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -> Found {
     if let Some(control) = source[at..]
         .chars()
@@ -158,7 +157,7 @@ fn field_name(source: &str, line: &std::ops::Range<usize>) -> String {
         .map_or_else(|| "toml".to_owned(), |field| field.key.to_owned())
 }
 
-/// The key and the value of a line, a comment after it left out.
+/// The key and the value of a line without its comment.
 fn key_and_value(line: &str) -> Option<(&str, &str)> {
     let (key, value) = line.split_once('=')?;
     let comment = value.find(" #").unwrap_or(value.len());
@@ -184,7 +183,7 @@ fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
     index_of(&path).map(|index| &FIELDS[index])
 }
 
-/// What the writer of a field's value most likely missed: the quotes, the point, the value itself.
+/// The most likely mistake in a field's value: missing quotes, a missing point, or a missing value.
 fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     let inner = value.trim_matches(['"', '\'']);
     let problem = |cause: String, fix: String| Some(Problem::new(field.key, cause, fix));
@@ -231,7 +230,7 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     }
 }
 
-/// How to fix what TOML refuses, by a part of its message.
+/// Fixes of TOML errors, by a part of the error message.
 const FIXES: [(&str, &str); 16] = [
     ("unclosed table", "close the table's name with ]"),
     ("unclosed array", "close it with ]; a case has no arrays"),
@@ -286,7 +285,7 @@ fn is_double(error: &Error) -> bool {
     error.message() == "duplicate key"
 }
 
-/// The same key or table twice.
+/// A key or table that occurs twice.
 fn double(at: usize, error: &Error, lines: &Lines<'_>, source: &str) -> Found {
     let name = error
         .span()

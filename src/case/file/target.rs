@@ -1,4 +1,4 @@
-//! The file that a save writes: links followed, its folder checked, replaced in one step.
+//! The target file of a save: resolves links, checks the folder, and replaces the file in one step.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
@@ -10,19 +10,18 @@ use tempfile::NamedTempFile;
 use super::error::{SaveError, shown};
 use crate::system::files;
 
-/// Symbolic links that are followed, one after the other.
+/// Greatest number of symbolic links in a path.
 const MOST_LINKS: usize = 40;
-/// How the name of a file begins that is not yet in its place; the number of the process follows.
+/// Prefix of temporary files. The process id follows.
 const TEMPORARY: &str = ".tipstrike-";
-/// No save takes so long.
+/// Age of a temporary file that no save can still use.
 const STALE: Duration = Duration::from_secs(60);
 
-/// Write a file that is no case, such as a report or the settings, as a save does: links are
-/// followed, and whatever fails, the old file stays or the new one is complete. `over` allows
-/// replacing a file of that name.
+/// Writes a file that is not a case, such as a report or the settings. Resolves links. On failure
+/// the old file stays. `over` allows replacing an existing file.
 ///
 /// # Errors
-/// Where nothing was written.
+/// If nothing was written.
 pub fn write(path: &Path, bytes: &[u8], over: bool) -> Result<(), SaveError> {
     let target = target_of(path)?;
     if target.old.is_some() && !over {
@@ -31,15 +30,15 @@ pub fn write(path: &Path, bytes: &[u8], over: bool) -> Result<(), SaveError> {
     target.replace(bytes, None, path)
 }
 
-/// The path behind every symbolic link, whether or not a file is there.
+/// The path after resolution of all symbolic links, for an existing or a new file.
 ///
 /// # Errors
-/// When a folder on the way is missing or cannot be read, or the links form a circle.
+/// If a folder of the path is missing or cannot be read, or the links form a circle.
 pub fn followed(path: &Path) -> io::Result<PathBuf> {
     resolve(path).map_err(|(_, error)| error)
 }
 
-/// As [`followed`]; the error comes with the path whose folder it concerns.
+/// Like [`followed`]. The error includes the path whose folder it concerns.
 fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -54,7 +53,7 @@ fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
     Err((path, io::Error::other("too many symbolic links")))
 }
 
-// Systems differ in the error for a file that is no link.
+// The error for a file that is not a link depends on the system.
 fn is_no_link(path: &Path, error: &io::Error) -> bool {
     matches!(
         error.kind(),
@@ -62,7 +61,7 @@ fn is_no_link(path: &Path, error: &io::Error) -> bool {
     ) || fs::symlink_metadata(path).is_ok_and(|about| !about.is_symlink())
 }
 
-/// The path with its folder in full. The root, `.` and `..` are folders themselves.
+/// The absolute path. The root, `.` and `..` are folders themselves.
 fn place_of(path: &Path) -> io::Result<PathBuf> {
     match path.file_name() {
         Some(name) => Ok(fs::canonicalize(folder_of(path))?.join(name)),
@@ -76,7 +75,7 @@ fn folder_of(path: &Path) -> &Path {
         .unwrap_or(Path::new("."))
 }
 
-/// A file to be written, links followed, and what is there now.
+/// A file to write, after resolution of links, and its present state.
 pub(super) struct Target {
     pub(super) path: PathBuf,
     pub(super) old: Option<fs::Metadata>,
@@ -104,7 +103,7 @@ pub(super) fn target_of(path: &Path) -> Result<Target, SaveError> {
     }
 }
 
-/// Why `last`, to which the links of `path` lead, has no folder.
+/// The error if the folder of `last` does not exist. The links of `path` lead to `last`.
 fn no_folder(path: &Path, last: &Path, error: io::Error) -> SaveError {
     let (name, folder) = (shown(path), folder_of(last));
     if !matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) {
@@ -117,7 +116,7 @@ fn no_folder(path: &Path, last: &Path, error: io::Error) -> SaveError {
     }
 }
 
-/// The path as one word of a shell's command.
+/// The path quoted as one word of a shell command.
 fn for_a_shell(path: &Path) -> String {
     let name = shown(path);
     let is_plain = |c: char| c.is_alphanumeric() || "/._+-,=@%".contains(c);
@@ -151,7 +150,7 @@ fn replaceable(target: &Path, old: &fs::Metadata, path: &Path) -> Result<(), Sav
 }
 
 impl Target {
-    /// `mode` is for a file that is not there.
+    /// `mode` is the mode of a new file.
     pub(super) fn replace(
         &self,
         bytes: &[u8],
@@ -164,16 +163,18 @@ impl Target {
         })
     }
 
-    /// Write beside the target, then rename over it; each step is on disk before the next one.
+    /// Writes a temporary file beside the target, then renames it. Each step is on disk before the
+    /// next step.
     fn write(&self, bytes: &[u8], mode: Option<u32>) -> io::Result<()> {
         let mut file = self.begin(mode)?;
         file.write_all(bytes)?;
         self.finish(file, mode)
     }
 
-    /// A file beside the target.
+    /// Creates a temporary file beside the target.
     fn begin(&self, mode: Option<u32>) -> io::Result<NamedTempFile> {
-        // Others cannot read it before its own mode is set; the umask cuts that of a new file.
+        // Others cannot read the file before its mode is set. The umask limits the mode of a new
+        // file.
         let is_new = self.old.is_none() && mode.is_none();
         let first = if is_new { 0o666 } else { 0o600 };
         let prefix = format!("{TEMPORARY}{}-", std::process::id());
@@ -181,7 +182,7 @@ impl Target {
         files::with_mode(builder.prefix(&prefix), first).tempfile_in(folder_of(&self.path))
     }
 
-    /// Put the complete file into the place of the target.
+    /// Moves the complete file to the target.
     fn finish(&self, file: NamedTempFile, mode: Option<u32>) -> io::Result<()> {
         let folder = folder_of(&self.path);
         if let Some(old) = &self.old {
@@ -192,20 +193,19 @@ impl Target {
         file.as_file().sync_all()?;
         match self.old {
             Some(_) => file.persist(&self.path).map_err(|error| error.error)?,
-            // A file that someone else made meanwhile is not ours to replace.
+            // Does not replace a file that another program created meanwhile.
             None => file
                 .persist_noclobber(&self.path)
                 .map_err(|error| error.error)?,
         };
-        // The new file is in place, whether or not the folder can be flushed.
+        // The new file is in place even if flushing the folder fails.
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
         clear(folder);
         Ok(())
     }
 }
 
-/// A file that takes its place, or that of an older one, only once it is complete. Dropped before,
-/// it leaves nothing behind.
+/// A file that replaces the target only after it is complete. If dropped before, it leaves no file.
 pub struct Draft {
     target: Target,
     file: NamedTempFile,
@@ -213,10 +213,10 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Begins a file.
+    /// Creates the file.
     ///
     /// # Errors
-    /// Where a file cannot be written there.
+    /// If the file cannot be created.
     pub fn create(path: &Path) -> Result<Draft, SaveError> {
         let (target, name) = (target_of(path)?, shown(path));
         match target.begin(None) {
@@ -225,10 +225,10 @@ impl Draft {
         }
     }
 
-    /// Puts the complete file into its place.
+    /// Moves the complete file to the target.
     ///
     /// # Errors
-    /// Where the system refuses; the older file then stays as it was.
+    /// If the system refuses. The old file then stays.
     pub fn finish(self) -> Result<(), SaveError> {
         let Draft { target, file, name } = self;
         target
@@ -236,7 +236,7 @@ impl Draft {
             .map_err(|error| SaveError::Unwritable(name, error))
     }
 
-    /// The error of a write that failed, with the name of the file.
+    /// The error of a failed write, with the name of the file.
     #[must_use]
     pub fn unwritable(&self, error: io::Error) -> SaveError {
         SaveError::Unwritable(self.name.clone(), error)
@@ -253,8 +253,7 @@ impl Write for Draft {
     }
 }
 
-/// Take away what saves that were killed have left in a folder. That one cannot be taken away is no
-/// reason to fail.
+/// Removes temporary files of killed saves in a folder. Ignores files that cannot be removed.
 fn clear(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(is_left_over)) {
@@ -270,7 +269,8 @@ fn clear(folder: &Path) {
     }
 }
 
-// Of a process that is gone. On a shared disk it may live on another machine: hence the age.
+// The process of the file has ended. On a shared disk the process can run on another machine, hence
+// the age.
 fn is_left_over(name: &str) -> bool {
     let process = name
         .strip_prefix(TEMPORARY)

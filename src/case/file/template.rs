@@ -1,5 +1,4 @@
-//! The text of a case that has no file yet: every field with its help, what is left out as a
-//! comment.
+//! The text of a new case: every field with its help. Optional fields are comments.
 
 use std::fmt::Write;
 
@@ -9,7 +8,7 @@ use crate::case::sanitize::sanitize;
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, Override, Variant, check};
 
-/// A key and its value as they stand in a file.
+/// A key and its value as written in a file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Entry {
     /// The table, empty for the top level.
@@ -21,7 +20,7 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// The key from the top of the file.
+    /// The full dotted key.
     pub(super) fn key(&self) -> String {
         if self.table.is_empty() {
             self.name.clone()
@@ -30,7 +29,7 @@ impl Entry {
         }
     }
 
-    /// The key within the table, without the quotes that it may need in a file.
+    /// The key within the table, without quotes.
     pub(super) fn bare_name(&self) -> &str {
         self.name.trim_matches('"')
     }
@@ -41,7 +40,7 @@ impl Entry {
     }
 }
 
-/// All that a case says, in the order of a new file.
+/// All entries of a case, in the order of a new file.
 pub(super) fn entries(case: &Case) -> Vec<Entry> {
     let fields = FIELDS.iter().enumerate().filter_map(|(index, field)| {
         let value = value(field, case.text(index)?);
@@ -68,7 +67,7 @@ pub(super) fn entries(case: &Case) -> Vec<Entry> {
     fields.chain(limits).chain(spread).collect()
 }
 
-/// An override of a variant as it stands in its table: the key in quotes, and the value.
+/// An override of a variant as written in its table: the quoted key and the value.
 pub(super) fn override_entry(change: &Override) -> (String, String) {
     let (key, text) = (&change.key, &change.text);
     let field = index_of(key).map(|field| &FIELDS[field]);
@@ -98,7 +97,7 @@ fn distribution(shape: &str, width: &str) -> String {
     format!("{{ {shape} = {} }}", limit(width))
 }
 
-/// A commented case; valid where the case is. The comments are for single fields, by their keys.
+/// A commented case, valid if the case is valid. `comments` are additional comments by key.
 pub(super) fn text(case: &Case, comments: &[(&str, String)]) -> String {
     let entries = entries(case);
     let mut text = format!(
@@ -154,7 +153,7 @@ fn variants(variants: &[Variant]) -> String {
     text
 }
 
-/// A name as a key: in quotes where TOML needs them.
+/// A name as a key, with quotes if TOML needs them.
 pub(super) fn key_of(name: &str) -> String {
     let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || b"-_".contains(&byte);
     if name.bytes().all(is_bare) {
@@ -190,7 +189,7 @@ fn described<'a>(field: &Field, line: &str, comments: impl Iterator<Item = &'a s
     )
 }
 
-/// A field without a value: an empty one where it is required, else an example as a comment.
+/// A field without a value: an empty text if required, otherwise an example as a comment.
 fn unwritten(case: &Case, index: usize) -> String {
     let field = &FIELDS[index];
     let (name, assignment) = (field.name(), check::assignment(field));
@@ -221,7 +220,7 @@ fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
     text
 }
 
-/// A field's text as a TOML value.
+/// The text of a field as a TOML value.
 fn value(field: &Field, text: &str) -> String {
     if field.is_flag() && FLAG.contains(&text) {
         text.to_owned()
@@ -232,7 +231,7 @@ fn value(field: &Field, text: &str) -> String {
     }
 }
 
-/// A bare number where the text is one, else the text in quotes so that nothing typed is lost.
+/// A bare number if the text is a number, otherwise the text in quotes.
 fn number(text: &str) -> String {
     let bare = text.trim();
     if is_toml_number(bare) {
@@ -260,7 +259,8 @@ fn is_toml_number(text: &str) -> bool {
         && exponent.is_none_or(digits)
 }
 
-/// A TOML string on one line: a line end inside it would be taken for one of the file's.
+/// A TOML string on one line, because a line end in a string would look like a line end of the
+/// file.
 fn string(text: &str) -> String {
     let quoted = toml_edit::Value::from(text).to_string();
     let on_one_line = || {

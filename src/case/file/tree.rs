@@ -1,4 +1,4 @@
-//! Reads a case from TOML: looks every key up in the table of fields and records its place in the
+//! Reads a case from TOML: finds every key in the table of fields and records its place in the
 //! text.
 
 mod variants;
@@ -20,27 +20,26 @@ use crate::model::Quantity;
 type Key<'k, 'i> = &'k toml::Spanned<toml::de::DeString<'i>>;
 type Value<'k, 'i> = &'k toml::Spanned<DeValue<'i>>;
 
-/// Faults after which unknown keys are only counted.
+/// Number of faults after which unknown keys are only counted.
 const ENOUGH: usize = 200;
 
-/// What a text says, and everything that is wrong with it.
+/// The case of a text and its faults.
 pub(super) struct Reading {
     pub(super) case: Case,
     pub(super) places: Places,
     pub(super) faults: Vec<Found>,
-    /// How many faults there are besides.
+    /// Number of further faults.
     pub(super) more: usize,
 }
 
 impl Reading {
-    /// Whether the text is a case in which nothing but required values may be missing.
+    /// Whether the text is a case that lacks only required values.
     pub(super) fn is_draft(&self) -> bool {
         self.faults.iter().all(|found| found.is_missing)
     }
 }
 
-/// Read what is understood of a text of a newer format. What is wrong with it is for a newer
-/// version to say.
+/// Reads the known part of a text of a newer format and ignores its faults.
 pub(super) fn read_newer(text: &str) -> Reading {
     let mut reader = Reader::of(text);
     let recovered = syntax::recover(text);
@@ -56,7 +55,7 @@ pub(super) fn read_newer(text: &str) -> Reading {
     }
 }
 
-/// Read a text, past errors of syntax as far as the rest of it can be understood.
+/// Reads a text. Recovers from syntax errors if possible.
 pub(super) fn read(text: &str) -> Reading {
     let mut reader = Reader::of(text);
     let (text, unread) = excerpt(text);
@@ -67,7 +66,7 @@ pub(super) fn read(text: &str) -> Reading {
     }
     let is_newer = |found: &Found| found.kind == FaultKind::NewerFormat;
     if !reader.faults.iter().any(is_newer) {
-        // What seems to be missing may be in the rest.
+        // The unread rest may contain values that seem to be missing.
         if recovered.tables_known && unread == 0 {
             if recovered.faults.is_empty() {
                 reader.empty_variants();
@@ -89,9 +88,9 @@ struct Reader {
     case: Case,
     places: Places,
     faults: Vec<Found>,
-    /// Unknown keys that were only counted.
+    /// Number of unknown keys that were only counted.
     more: usize,
-    /// Fields whose value could not be taken at all.
+    /// Fields with invalid values.
     wrong: Vec<usize>,
 }
 
@@ -285,7 +284,7 @@ impl Reader {
         }
     }
 
-    /// A field's spread, under its dotted key in quotes or, just as well, without.
+    /// The distribution of a field, under its dotted key with or without quotes.
     fn spread(&mut self, above: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
         let path = joined(above, key.get_ref());
         let table = value.get_ref().as_table();
@@ -320,8 +319,7 @@ impl Reader {
         }
     }
 
-    /// Hold the fields against the table of fields and against each other. What stands on a broken
-    /// line is not missing.
+    /// Checks the fields together. A value on a broken line is not missing.
     fn fields_together(&mut self, broken: &str) {
         let on_broken_line = |field: &usize| {
             self.case.text(*field).is_none() && syntax::names(broken, FIELDS[*field].name())
@@ -346,7 +344,7 @@ impl Reader {
         });
     }
 
-    /// Naming the key that is meant takes its time, so that is done for the first ones alone.
+    /// Suggests a known key for the first faults only, because the search is slow.
     fn unknown(&mut self, key: Key<'_, '_>, problem: impl FnOnce() -> Problem) {
         if self.faults.len() < ENOUGH {
             self.fault(key.span().start, problem());
@@ -360,19 +358,19 @@ impl Reader {
     }
 }
 
-/// Whether an empty string is a value that is still missing.
+/// Whether an empty string is a missing required value.
 fn is_required(field: &Field) -> bool {
     matches!(field.absent, Absent::Refused | Absent::Either)
 }
 
-/// A table's keys and values in the order of the text.
+/// The keys and values of a table in the order of the text.
 fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>, Value<'k, 'i>)> {
     let mut members: Vec<_> = table.iter().collect();
     members.sort_by_key(|(key, _)| key.span().start);
     members.into_iter()
 }
 
-/// A key behind that of its table.
+/// A key with the name of its table.
 fn joined(table: &str, name: &str) -> String {
     if table.is_empty() {
         name.to_owned()
@@ -388,7 +386,7 @@ fn is_table(name: &str) -> bool {
             .any(|(group, _)| *group == name && !name.is_empty())
 }
 
-/// How a limit of the quantity is written.
+/// An example of a limit of the quantity.
 fn limit_by_example(quantity: &Quantity) -> String {
     match quantity.shown {
         _ if quantity.is_flag() => "0".to_owned(),

@@ -1,15 +1,15 @@
-//! Refusals of keys and tables that no case has, each with the name that is most likely meant.
+//! Refusals of unknown keys and tables, each with the most likely name.
 
 use crate::case::fields::{FIELDS, Field, GROUPS};
 use crate::case::sanitize::quoted;
 use crate::case::{Problem, suggest};
 
-/// What others call the two gears.
+/// Common names of the two gears.
 const GEARS: [&str; 8] = [
     "pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2",
 ];
 
-/// The refusal of a name at the top of the file.
+/// The refusal of an unknown name at the top of the file.
 pub(super) fn unknown_at_top(name: &str) -> Problem {
     if GEARS.contains(&name.to_lowercase().as_str()) {
         let cause = format!("unknown key or table {}", quoted(name));
@@ -35,7 +35,7 @@ pub(super) fn unknown_at_top(name: &str) -> Problem {
     Problem::new(name, format!("unknown key or table {}", quoted(name)), fix)
 }
 
-/// The refusal of a name in a table.
+/// The refusal of an unknown name in a table.
 pub(super) fn unknown_in_table(table: &str, name: &str) -> Problem {
     let here = FIELDS
         .iter()

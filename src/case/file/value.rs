@@ -1,4 +1,4 @@
-//! A TOML value as the text of a field.
+//! Converts a TOML value to the text of a field.
 
 use toml::de::DeValue;
 
@@ -6,12 +6,12 @@ use crate::case::fields::Kind;
 use crate::case::sanitize::quoted;
 use crate::case::units::ParseError;
 
-/// The text of words; `None` for the cause where the value is of another kind.
+/// The text of a string. `Err(None)` for a value of another kind.
 pub(super) fn words(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     value.as_str().map(str::to_owned).ok_or(None)
 }
 
-/// The text of a truth value.
+/// The text of a boolean.
 pub(super) fn flag(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     match value {
         DeValue::Boolean(value) => Ok(value.to_string()),
@@ -22,13 +22,13 @@ pub(super) fn flag(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     }
 }
 
-/// The text of a value with its unit; a number's digits too, since the reader of units says what
-/// they lack.
+/// The text of a value with its unit. A bare number is accepted here, because the unit parser
+/// reports the missing unit.
 pub(super) fn measure(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     scalar(value).ok_or(None)
 }
 
-/// The text of a number without quotes; `example` shows how one is written.
+/// The text of a number without quotes. `example` shows the notation.
 pub(super) fn bare_number(
     value: &DeValue<'_>,
     example: &str,

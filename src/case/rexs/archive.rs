@@ -1,4 +1,5 @@
-//! The text of a model from its bytes: plain, or the one model in a zip archive, of bounded size.
+//! The text of a model from its bytes: plain, or from a zip archive with one model, of limited
+//! size.
 
 use std::borrow::Cow;
 use std::io::{Cursor, Read};
@@ -10,7 +11,7 @@ use super::refusal::Refusal;
 use crate::case::file::MOST_MODEL_BYTES;
 
 const ZIP: &[u8] = b"PK";
-/// A model archive has one file; a central directory with more than this is something else.
+/// Limit of the number of files in an archive.
 const MOST_FILES: usize = 1000;
 
 /// The text of a model.
@@ -58,7 +59,7 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
     };
     let file = archive.by_name(model).map_err(|error| damaged(&error))?;
     let mut text = Vec::new();
-    // What the directory says of the size may be a lie, so the bytes are counted.
+    // The size in the directory can be wrong, so the bytes are counted.
     let read = file
         .take(MOST_MODEL_BYTES as u64 + 1)
         .read_to_end(&mut text);

@@ -1,4 +1,4 @@
-//! The fields of pair, gears and deviations from the components of a spur stage.
+//! Converts the components of a spur stage to the fields of pair, gears and deviations.
 
 use super::gear::{DRIVEN, DRIVER, Gear, Keys};
 use super::model::{Component, Model};
@@ -7,7 +7,7 @@ use super::source::{Problem, Reading, Values, Wanted, agreed, found};
 use super::stage::TEETH;
 use crate::case::units::{self, Dimension};
 
-/// Reads every field but those of the operation.
+/// Reads every field except the fields of the operation.
 pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], values: &mut Values) {
     let [driver, driven] = gears.map(|gear| Gear::new(model, gear));
     let module = Wanted::length("normal_module");
@@ -35,7 +35,7 @@ pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], val
 }
 
 impl Values {
-    /// A value that both gears must share, in SI. Gears with different values are no pair.
+    /// A value that both gears must share, in SI. Different values are no valid pair.
     fn shared(
         &mut self,
         key: &'static str,
@@ -51,7 +51,7 @@ impl Values {
         value
     }
 
-    /// Puts a value that must be one; where the model gives two, the stage is refused.
+    /// Writes a value that must be unique. Refuses the stage if the model gives two values.
     fn put_equal(
         &mut self,
         key: &'static str,
@@ -104,7 +104,7 @@ fn none(attribute: &str) -> String {
     format!("the model gives no {attribute}")
 }
 
-/// The reading times a factor, in a unit.
+/// The reading multiplied by a factor, in a unit.
 fn derived(reading: &Reading, factor: f64, unit: &str, words: &str) -> Reading {
     let value = reading.value * factor;
     Reading {
@@ -114,7 +114,7 @@ fn derived(reading: &Reading, factor: f64, unit: &str, words: &str) -> Reading {
     }
 }
 
-/// The nominal coefficient, else that of the nominal shift, else that of the finished gear.
+/// The nominal coefficient, or that of the nominal shift, or that of the finished gear.
 fn profile_shift(gear: &Gear, module: Option<f64>) -> Result<Option<Reading>, Problem> {
     let coefficient = |id| gear.of_flanks(Wanted::number(id));
     if let Some(reading) = coefficient("addendum_modification_coefficient")? {
@@ -133,7 +133,7 @@ fn base_diameter(gear: &Gear, module: f64, angle: f64) -> Option<f64> {
     Some(module * teeth.value * angle.cos())
 }
 
-/// Tip and root diameters, else addendum and dedendum of the basic profile.
+/// Tip and root diameters, or addendum and dedendum of the basic profile.
 fn heights(values: &mut Values, keys: &Keys, gear: &Gear) {
     let diameter = |id| Wanted::length(id).read(gear.component);
     match diameter("tip_diameter") {

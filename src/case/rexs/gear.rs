@@ -3,10 +3,10 @@
 use super::model::{Component, Model};
 use super::source::{Problem, Reading, Wanted, agreed};
 
-/// A gear of the stage with what belongs to it.
+/// A gear of the stage with its components.
 pub(super) struct Gear<'a> {
     pub(super) component: &'a Component,
-    /// The components of the left flank and of the right one.
+    /// The components of the left and of the right flank.
     pub(super) flanks: [Vec<&'a Component>; 2],
     pub(super) materials: Vec<&'a Component>,
     /// Racks that cut the gear.
@@ -27,7 +27,7 @@ impl<'a> Gear<'a> {
         }
     }
 
-    /// A value that both flanks must share; the gear itself may have it instead.
+    /// A value that both flanks must share, or the value of the gear itself.
     pub(super) fn of_flanks(&self, wanted: Wanted) -> Result<Option<Reading>, Problem> {
         let [left, right] = &self.flanks;
         let reading = agreed(

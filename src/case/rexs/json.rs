@@ -53,7 +53,7 @@ struct RawComponent {
     attributes: Vec<RawAttribute>,
 }
 
-/// The scalar kinds of value; the name of the key is the kind.
+/// The scalar values. The name of the key is the kind.
 #[derive(Deserialize)]
 struct RawAttribute {
     id: String,

@@ -1,4 +1,4 @@
-//! A REXS model as a list of components and of relations between them, whatever its file format.
+//! A REXS model as a list of components and relations, independent of its file format.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use std::collections::HashSet;
 pub(super) struct Model {
     /// The REXS version, such as "1.4".
     pub(super) version: String,
-    /// The program that wrote it, with its version.
+    /// The program and its version.
     pub(super) application: String,
     pub(super) components: Vec<Component>,
     pub(super) relations: Vec<Relation>,
@@ -24,11 +24,11 @@ pub(super) struct Component {
     pub(super) attributes: Vec<Attribute>,
 }
 
-/// A value of a component; arrays are left out.
+/// A scalar value of a component.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Attribute {
     pub(super) id: String,
-    /// Empty where none is given.
+    /// Empty if no unit is given.
     pub(super) unit: String,
     pub(super) value: String,
 }
@@ -51,7 +51,7 @@ pub(super) struct LoadCase {
 }
 
 impl Model {
-    /// An id that two components have.
+    /// An id of two components.
     pub(super) fn repeated_id(&self) -> Option<&str> {
         let mut known = HashSet::new();
         let mut ids = self
@@ -65,8 +65,8 @@ impl Model {
         self.components.iter().find(|component| component.id == id)
     }
 
-    /// The components that a relation of this type connects, each in the named role, with one that
-    /// is in the other role.
+    /// The components with the role `other` in the relations of this type in which the component
+    /// `id` has the role `role`.
     pub(super) fn related<'a>(
         &'a self,
         kind: &'a str,
@@ -79,7 +79,7 @@ impl Model {
             .filter_map(move |relation| self.component(relation.role(other)?))
     }
 
-    /// The components of a type that share a relation with this one, whatever the relation.
+    /// The components of a type that share any relation with this component.
     pub(super) fn linked<'a>(
         &'a self,
         id: &'a str,
@@ -108,20 +108,20 @@ impl Component {
         find(&self.attributes, id)
     }
 
-    /// Every attribute of this id with a value; a sound model has one.
+    /// Every attribute of this id with a value. A valid model has one.
     pub(super) fn given<'a>(&'a self, id: &'a str) -> impl Iterator<Item = &'a Attribute> {
         self.attributes
             .iter()
             .filter(move |attribute| attribute.id == id && !attribute.value.is_empty())
     }
 
-    /// Whether a truth value is given and true.
+    /// Whether a boolean is given and true.
     pub(super) fn is_true(&self, id: &str) -> bool {
         let value = self.attribute(id).map(|attribute| attribute.value.as_str());
         matches!(value, Some("true" | "1"))
     }
 
-    /// As a message names it, such as `cylindrical_gear 23 "pinion"`.
+    /// The label in messages, such as `cylindrical_gear 23 "pinion"`.
     pub(super) fn label(&self) -> String {
         if self.name.is_empty() {
             format!("{} {}", self.kind, self.id)

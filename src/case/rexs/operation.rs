@@ -10,7 +10,7 @@ const TORQUE: Wanted = Wanted::new("torque_around_u_axis", Dimension::Torque, "N
 const TORQUE_OF_GEAR: Wanted = Wanted::new("torque", Dimension::Torque, "N m");
 const POWER: Wanted = Wanted::new("power", Dimension::Power, "kW");
 
-/// The driver and the driven gear. A model may leave open which of the two drives.
+/// The driver and the driven gear. A model may not name the driving gear.
 pub(super) fn ordered<'a>(
     model: &'a Model,
     stage: &str,
@@ -35,7 +35,7 @@ pub(super) fn ordered<'a>(
     }
 }
 
-/// What the model has of a gear in this stage alone.
+/// The data of a gear for this stage only.
 fn gear_data<'a>(
     model: &'a Model,
     stage: &'a str,
@@ -76,7 +76,7 @@ pub(super) fn read(model: &Model, stage: &str, gears: [&Component; 2], values: &
     }
 }
 
-/// The speed of the driver or of its shaft, else of the driven gear times the ratio.
+/// The speed of the driver or of its shaft, or the speed of the driven gear times the ratio.
 fn speed(model: &Model, gears: [&Component; 2], ratio: f64) -> Result<Option<Reading>, String> {
     for (gear, factor) in gears.into_iter().zip([1.0, ratio]) {
         for part in std::iter::once(gear).chain(shafts(model, gear)) {
@@ -88,7 +88,7 @@ fn speed(model: &Model, gears: [&Component; 2], ratio: f64) -> Result<Option<Rea
     Ok(None)
 }
 
-/// The torque or power that the driver transmits, and the field for it.
+/// The torque or power of the driver, and its field.
 fn load(
     model: &Model,
     stage: &str,
@@ -124,7 +124,7 @@ fn carries_one_gear(model: &Model, shaft: &Component) -> bool {
     parts.filter(|part| part.kind.ends_with("gear")).count() == 1
 }
 
-/// The load on a shaft, where it has exactly one.
+/// The load on a shaft if the shaft has exactly one load.
 fn load_on(
     model: &Model,
     shaft: &Component,
@@ -151,7 +151,7 @@ fn is_acting(reading: &Reading) -> bool {
     reading.value != 0.0
 }
 
-/// A value without its sign, which is a direction, at the driver.
+/// A value at the driver without its sign, which gives the direction.
 fn transferred(reading: Reading, factor: f64, unit: &str) -> Reading {
     if (factor - 1.0).abs() < f64::EPSILON {
         let text = reading.text.trim_start_matches(['-', '+']).to_owned();
@@ -169,7 +169,7 @@ fn transferred(reading: Reading, factor: f64, unit: &str) -> Reading {
     }
 }
 
-/// A value of a component, which a load case may give instead; several load cases must agree.
+/// A value of a component or of its load case. Several load cases must agree.
 fn value(model: &Model, part: &Component, wanted: Wanted) -> Result<Option<Reading>, String> {
     let label = part.label();
     let mut cases: Vec<(&str, Reading)> = Vec::new();

@@ -1,12 +1,12 @@
-//! Why a model cannot become a case: place, cause and fix on one line.
+//! Reasons why a model cannot become a case: place, cause and fix on one line.
 
 use crate::case::sanitize::sanitize;
 
-/// Why a model of another program cannot become a case.
+/// The reason why a model of another program cannot become a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
     file: String,
-    /// Line and column, from 1, where the text itself is at fault.
+    /// Line and column, from 1, for an error in the text.
     place: Option<(usize, usize)>,
     cause: String,
     fix: String,

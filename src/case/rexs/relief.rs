@@ -1,4 +1,4 @@
-//! Tip and root relief of a gear from the components that are linked to its flanks.
+//! Tip and root relief of a gear from the components of its flanks.
 
 use super::gear::{Gear, Keys};
 use super::model::{Component, Model};
@@ -49,7 +49,7 @@ pub(super) fn read(
     }
 }
 
-/// The reliefs of a type on the left and on the right flank; those of the gear are on both.
+/// The reliefs of a type on the left and on the right flank. A relief of the gear applies to both.
 fn of_flanks<'a>(model: &'a Model, gear: &Gear<'a>, kind: &'a str) -> [Vec<&'a Component>; 2] {
     let of_gear: Vec<&Component> = model.linked(&gear.component.id, kind).collect();
     let [left, right] = &gear.flanks;
@@ -62,7 +62,7 @@ fn of_flanks<'a>(model: &'a Model, gear: &Gear<'a>, kind: &'a str) -> [Vec<&'a C
     })
 }
 
-/// The value of both flanks. One flank without the relief has it with the value 0.
+/// The common value of both flanks. A flank without the relief has the value 0.
 fn both<E: Into<String>>(
     reliefs: &[Vec<&Component>; 2],
     read: impl Fn(&Component) -> Result<Option<Reading>, E>,
@@ -82,7 +82,8 @@ fn both<E: Into<String>>(
     }
 }
 
-/// The length along the path of contact: as given, else from the diameter where the relief starts.
+/// The length along the path of contact: the given length, or from the start diameter of the
+/// relief.
 fn tip_length(
     relief: &Component,
     tip: Option<f64>,

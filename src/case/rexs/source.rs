@@ -5,25 +5,25 @@ use super::units;
 use crate::case::sanitize::quoted;
 use crate::case::units::Dimension;
 
-/// What the model gives for a field.
+/// The value of the model for a field, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Found {
-    /// A value as the case file writes it, and where it comes from.
+    /// A value as written in the case file, and its source.
     Value {
         /// The value with its unit.
         text: String,
-        /// Such as `normal_module of cylindrical_gear 23`.
+        /// The source, such as `normal_module of cylindrical_gear 23`.
         source: String,
     },
-    /// Why the field stays empty.
+    /// The reason why the field stays empty.
     Absent(String),
 }
 
-/// Why an attribute gives no value.
+/// The reason why an attribute gives no value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Problem {
     pub(super) words: String,
-    /// Two readings of what must be one value differ.
+    /// Two readings of the same value differ.
     pub(super) is_unequal: bool,
 }
 
@@ -42,13 +42,13 @@ impl Problem {
     }
 }
 
-/// What the model gives for every field that was looked for.
+/// The values of the model for the fields.
 #[derive(Debug, Default)]
 pub(super) struct Values {
     fields: Vec<(&'static str, Found)>,
-    /// Why the stage cannot become a case at all.
+    /// Reasons why the stage cannot become a case.
     pub(super) refusals: Vec<String>,
-    /// What a reader of the case should know beside its values.
+    /// Assumptions and hints for the reader of the case.
     pub(super) remarks: Vec<String>,
 }
 
@@ -57,7 +57,7 @@ impl Values {
         self.fields.push((key, found));
     }
 
-    /// Puts a value that several components may give; the first counts.
+    /// Writes the value of the first of several components that give it.
     pub(super) fn put_once(&mut self, key: &'static str, found: Found) {
         if self.fields.iter().all(|(known, _)| *known != key) {
             self.put(key, found);
@@ -72,16 +72,16 @@ impl Values {
 /// One attribute of one component, read in its unit.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reading {
-    /// The value with its unit, as a case file writes it.
+    /// The value with its unit, as written in a case file.
     pub(super) text: String,
-    /// In SI.
+    /// The value in SI.
     pub(super) value: f64,
-    /// Such as `normal_module of cylindrical_gear 23`.
+    /// The source, such as `normal_module of cylindrical_gear 23`.
     pub(super) source: String,
 }
 
 impl Reading {
-    /// As the case file takes it.
+    /// The reading as a value of a field.
     pub(super) fn found(self) -> Found {
         Found::Value {
             text: self.text,
@@ -90,7 +90,7 @@ impl Reading {
     }
 }
 
-/// An attribute to look for: its id, its dimension, and its unit where the model gives none.
+/// An attribute to find: its id, its dimension, and its default unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) id: &'static str,
@@ -115,10 +115,10 @@ impl Wanted {
         Wanted::new(id, Dimension::Length, "mm")
     }
 
-    /// The value in a component; none where the component lacks it.
+    /// The value in a component. `None` if the component does not have it.
     ///
     /// # Errors
-    /// Where it is there and cannot be read.
+    /// If the value cannot be read.
     pub(super) fn read(self, component: &Component) -> Result<Option<Reading>, Problem> {
         let mut given = component.given(self.id);
         let first = given.next();
@@ -139,7 +139,7 @@ impl Wanted {
     /// The value of an attribute of the labelled component.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// If the value cannot be read.
     pub(super) fn reading(self, attribute: &Attribute, label: &str) -> Result<Reading, Problem> {
         let source = format!("{} of {label}", self.id);
         let (text, value) = units::read(attribute, self.dimension, self.unit)
@@ -151,10 +151,10 @@ impl Wanted {
         })
     }
 
-    /// The first component that has the value.
+    /// The value of the first component that has it.
     ///
     /// # Errors
-    /// Where it is there and cannot be read.
+    /// If the value cannot be read.
     pub(super) fn first<'a>(
         self,
         components: impl IntoIterator<Item = &'a Component>,
@@ -168,7 +168,7 @@ impl Wanted {
     }
 }
 
-/// A reading as what a field takes; `missing` is the reason where there is none.
+/// A reading as the value of a field. `missing` is the reason if there is none.
 pub(super) fn found(reading: Result<Option<Reading>, impl Into<String>>, missing: &str) -> Found {
     match reading {
         Ok(Some(reading)) => reading.found(),
@@ -177,10 +177,10 @@ pub(super) fn found(reading: Result<Option<Reading>, impl Into<String>>, missing
     }
 }
 
-/// Two readings of what must be one value: the first, where they agree or one is missing.
+/// The first of two readings that must agree. One of them can be missing.
 ///
 /// # Errors
-/// Where they differ: both, in words.
+/// If the readings differ. The error names both.
 pub(super) fn agreed(
     first: Option<Reading>,
     second: Option<Reading>,
@@ -197,7 +197,7 @@ pub(super) fn agreed(
     }
 }
 
-/// Equal but for the rounding of a printed value.
+/// Whether two values are equal within the rounding of a printed value.
 fn are_equal(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
 }

@@ -1,4 +1,4 @@
-//! The gear stages of a model, and which of them are spur gear pairs.
+//! The gear stages of a model and their kinds.
 
 use std::fmt;
 
@@ -13,33 +13,33 @@ pub struct Stage {
     pub id: String,
     /// Its name, which may be empty.
     pub name: String,
-    /// What sort of stage it is.
+    /// The kind of the stage.
     pub kind: Kind,
 }
 
-/// What sort of stage it is.
+/// The kind of a stage.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Kind {
     /// Two external spur gears: gear 1 and gear 2 by their ids.
     Spur {
         /// The ids of gear 1 and gear 2.
         gears: [String; 2],
-        /// The teeth of both as the model gives them, such as `20/40`.
+        /// The numbers of teeth as text, such as `20/40`.
         teeth: String,
     },
-    /// A helix angle, as the model gives it.
+    /// A stage with a helix angle, as written in the model.
     Helical(String),
     /// The mesh of a planetary stage, by the id of that stage.
     InPlanetary(String),
     /// A planetary stage.
     Planetary,
-    /// A ring gear is one of the two.
+    /// A stage with a ring gear.
     Internal,
-    /// A gear of another type, by its type.
+    /// A stage with a gear of another type.
     Gear(String),
-    /// Some other type of stage, by its type.
+    /// A stage of another type.
     Other(String),
-    /// The model gives no two gears for it.
+    /// A stage without two gears.
     Incomplete,
 }
 
@@ -62,7 +62,7 @@ impl fmt::Display for Kind {
 }
 
 impl Stage {
-    /// Its id and its name.
+    /// The id and the name of the stage.
     #[must_use]
     pub fn label(&self) -> String {
         if self.name.is_empty() {
@@ -72,7 +72,7 @@ impl Stage {
         }
     }
 
-    /// A title for its case.
+    /// A title for the case of the stage.
     #[must_use]
     pub fn title(&self) -> String {
         if self.name.is_empty() {
@@ -83,7 +83,7 @@ impl Stage {
     }
 }
 
-/// One line for all stages.
+/// All stages on one line.
 #[must_use]
 pub(super) fn listed(stages: &[Stage]) -> String {
     let line = |stage: &Stage| format!("stage {} is {}", stage.label(), stage.kind);
@@ -151,7 +151,7 @@ const HELIX: [&str; 3] = [
     "helix_angle_base_circle",
 ];
 
-/// The helix angle, where it is not zero or cannot be read. A model may have rounded a zero.
+/// The helix angle if it is not zero or cannot be read. A model can have a rounded zero.
 fn helix(gear: &Component) -> Option<String> {
     const NONE: f64 = 1e-8;
     HELIX.iter().find_map(

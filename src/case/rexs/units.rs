@@ -1,9 +1,9 @@
-//! Units as REXS spells them.
+//! Unit names of REXS.
 
 use super::model::Attribute;
 use crate::case::units::{self, Dimension};
 
-/// The spelling in a case file; none for an unknown unit.
+/// The name in a case file. `None` for an unknown unit.
 fn spelled(unit: &str) -> Option<&'static str> {
     Some(match unit {
         "mm" => "mm",
@@ -24,7 +24,8 @@ fn spelled(unit: &str) -> Option<&'static str> {
     })
 }
 
-/// The value with its unit as a case file writes it, and in SI. A missing unit is the schema's.
+/// The value with its unit as written in a case file, and in SI. The default unit is that of the
+/// schema.
 pub(super) fn read(
     attribute: &Attribute,
     dimension: Dimension,

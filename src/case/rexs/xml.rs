@@ -1,11 +1,11 @@
-//! A model from XML. A document type, and with it every entity of its own, is refused.
+//! Reads a model from XML. Refuses a document type, which could define entities.
 
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::model::{Attribute, Component, LoadCase, Model, Relation};
 use super::refusal::Refusal;
 
-/// No model of the size that is read has more nodes.
+/// Limit of the number of nodes.
 const MOST_NODES: u32 = 4_000_000;
 
 pub(super) fn parse(text: &str) -> Result<Model, Refusal> {

@@ -1,25 +1,23 @@
-//! A typed value in the units that its reader has in mind, for the hint under a field.
+//! Converts a typed value to the units of its reader, for the hint under a field.
 
 use super::{Dimension, System, find, number, parse, text, units_of};
 use crate::numeric::decimal::significant;
 
-/// The least digits of a hint: as many as results have, so that "20 hp" becomes 14.914 kW and
-/// not 15.
+/// Least number of digits of a hint, as in the results: "20 hp" gives 14.914 kW, not 15 kW.
 const LEAST_DIGITS: usize = 5;
 
-/// The most digits that a double carries.
+/// Greatest number of decimal digits of an f64.
 const MOST_DIGITS: usize = 15;
 
-/// Units that are no decimal multiple of SI and no inch unit: their hint also gives the SI value.
+/// Units that are neither decimal multiples of SI nor inch units. Their hint includes the SI value.
 const BESIDE: [(&str, &str); 2] = [("rpm", "rad/s"), ("deg", "rad")];
 
-/// What a typed value is in the field's usual unit, such as `= 14.914 kW` for "20 hp" where kW is
-/// usual, and in SI where the usual unit is rpm or deg: `= 209.44 rad/s`. `None` where there is
-/// nothing to add, or the text is no value.
+/// The typed value in the field's usual unit, such as `= 14.914 kW` for "20 hp" and kW. If the
+/// usual unit is rpm or deg, also in SI: `= 209.44 rad/s`. `None` if no conversion is needed or the
+/// text is invalid.
 ///
-/// Digits: one more than were typed, but at least five and at most fifteen; rounded to the nearest,
-/// and zeros at the end left out. A number typed is meant exactly, so that a nominal "20 hp" gets
-/// the digits of a result.
+/// Shows one digit more than typed, at least five and at most fifteen, rounded and without trailing
+/// zeros. A typed number is exact, so that "20 hp" has the digits of a result.
 #[must_use]
 pub fn converted(
     typed: &str,
@@ -44,14 +42,14 @@ pub fn converted(
     (!text.is_empty()).then(|| text.join(" "))
 }
 
-/// Significant digits of a number as it was typed: 3 in "0.0250", 2 in "20", 1 in "0".
+/// Significant digits of a number as typed: 3 in "0.0250", 2 in "20", 1 in "0".
 fn typed_digits(number: &str) -> usize {
     let mantissa = number.split(['e', 'E']).next().unwrap_or_default();
     let digits = mantissa.bytes().filter(u8::is_ascii_digit);
     digits.skip_while(|&digit| digit == b'0').count().max(1)
 }
 
-/// A value in SI counted in a unit, rounded, without zeros at the end.
+/// A value in SI converted to a unit, rounded, without trailing zeros.
 fn rounded(value: f64, unit: &str, digits: usize) -> String {
     let exact = text(value, unit);
     let number = exact.split(' ').next().unwrap_or_default();
@@ -144,7 +142,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_hint_is_the_value(number in -1e6f64..1e6, decimals in 0usize..9) {
+        fn the_hint_equals_the_value(number in -1e6f64..1e6, decimals in 0usize..9) {
             let typed = format!("{number:.decimals$} in");
             let value = parse(&typed, Dimension::Length, "mm").unwrap();
             let text = metric(&typed, Dimension::Length, "mm").unwrap();

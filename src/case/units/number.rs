@@ -1,5 +1,4 @@
-//! The number before a unit: found, shifted by powers of ten, and held within what an f64 can
-//! carry.
+//! The number before a unit: parsed, scaled by powers of ten, and checked against the range of f64.
 
 use super::ParseError;
 use crate::case::sanitize::{cut, quoted};
@@ -26,13 +25,13 @@ pub(super) fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str)
     Ok((number, unit))
 }
 
-/// One over something: 1/min, 1 / min.
+/// Whether the unit is a reciprocal: 1/min, 1 / min.
 fn is_reciprocal(unit: &str) -> bool {
     unit.strip_prefix('1')
         .is_some_and(|rest| rest.trim_start().starts_with('/'))
 }
 
-/// Length in bytes of the number at the start; 0 where there is none.
+/// Length in bytes of the number at the start. 0 without a number.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| {
@@ -65,7 +64,7 @@ fn number_length(text: &str) -> usize {
     at
 }
 
-/// Quotes as a word processor sets them.
+/// Quotes of a word processor.
 const CURLY: [char; 7] = ['“', '”', '„', '‘', '’', '«', '»'];
 
 fn no_number(text: &str, usual: &str) -> ParseError {
@@ -167,7 +166,7 @@ pub(super) fn shifted(number: &str, exponent: i32) -> f64 {
     parsed.unwrap_or(f64::NAN)
 }
 
-/// The value, where an f64 can carry it in full precision.
+/// The value if an f64 can represent it with full precision.
 pub(super) fn held(number: &str, value: f64) -> Result<f64, ParseError> {
     let digits = number.split(['e', 'E']).next().unwrap_or_default();
     let nonzero = digits.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
@@ -189,7 +188,7 @@ pub(super) fn held(number: &str, value: f64) -> Result<f64, ParseError> {
     }
 }
 
-/// The shortest decimal of the value times a power of ten, without an exponent while that is
+/// The shortest decimal of the value times a power of ten, without an exponent if the number stays
 /// readable.
 pub(super) fn plain(value: f64, exponent: i32) -> String {
     let scientific = format!("{value:e}");

@@ -1,9 +1,9 @@
-//! Metric or inch: the units in which results and hints are shown. Files stay as they are written.
+//! Metric or inch units of shown results and hints. Files keep their units.
 
 use super::factor;
 use crate::numeric::decimal::significant;
 
-/// The units in which a person reads values.
+/// The units of shown values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum System {
     /// mm, um, N, kW, N m, GPa.
@@ -13,8 +13,8 @@ pub enum System {
     Inch,
 }
 
-/// Each metric unit in which something is shown, and the inch unit that stands for it. A unit that
-/// is not here, such as deg, rpm or us, serves both.
+/// Each shown metric unit and its inch unit. Both systems use units that are not in this list, such
+/// as deg, rpm or us.
 const PAIRS: [(&str, &str); 20] = [
     ("m", "ft"),
     ("mm", "in"),
@@ -39,7 +39,7 @@ const PAIRS: [(&str, &str); 20] = [
 ];
 
 impl System {
-    /// Both, in the order in which a key goes through them.
+    /// Both systems, in the order of the key that switches between them.
     pub const ALL: [System; 2] = [System::Metric, System::Inch];
 
     /// The name in settings and messages.
@@ -51,13 +51,13 @@ impl System {
         }
     }
 
-    /// The system of that name.
+    /// The system with this name.
     #[must_use]
     pub fn find(name: &str) -> Option<System> {
         System::ALL.into_iter().find(|system| system.name() == name)
     }
 
-    /// The other one.
+    /// The other system.
     #[must_use]
     pub fn other(self) -> System {
         match self {
@@ -66,14 +66,13 @@ impl System {
         }
     }
 
-    /// The unit of this system that stands for a metric one.
+    /// The unit of this system that corresponds to a metric unit.
     #[must_use]
     pub fn unit(self, metric: &'static str) -> &'static str {
         self.unit_of(metric)
     }
 
-    /// The unit of this system that stands for a unit as a user writes it; that unit itself where
-    /// it is no metric one of these.
+    /// The unit of this system that corresponds to a written unit. Other units stay unchanged.
     #[must_use]
     pub fn unit_of(self, written: &str) -> &str {
         let inch = PAIRS.iter().find(|(from, _)| *from == written);
@@ -84,7 +83,7 @@ impl System {
     }
 }
 
-/// The unit into which a number goes up that has more places than digits.
+/// The next larger unit for a number with more integer places than digits.
 const NEXT: [(&str, &str); 14] = [
     ("N", "kN"),
     ("kN", "MN"),
@@ -102,8 +101,8 @@ const NEXT: [(&str, &str); 14] = [
     ("psi", "ksi"),
 ];
 
-/// The unit in which this system shows a value in SI: the one that stands for the metric one, or a
-/// greater one where its number would have more places than these digits.
+/// The unit in which this system shows a value in SI: the corresponding unit, or a larger unit if
+/// the number would have more integer places than digits.
 #[must_use]
 pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System) -> &'static str {
     let mut unit = system.unit(metric);
@@ -116,8 +115,8 @@ pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System)
     unit
 }
 
-/// The characters of the widest unit in which values stand that a person reads in this unit: a
-/// greater value takes a greater unit.
+/// Greatest number of characters of the units that can appear in a column of this unit, because
+/// large values use a larger unit.
 #[must_use]
 pub fn widest_beside(unit: &str) -> usize {
     let is_beside = |(less, more): &&(&str, &str)| *less == unit || *more == unit;
@@ -127,8 +126,8 @@ pub fn widest_beside(unit: &str) -> usize {
     })
 }
 
-/// A value in SI counted in a unit, with that many significant digits and no more, in an exponent's
-/// place if need be.
+/// A value in SI converted to a unit, with exactly this many significant digits, with an exponent
+/// if needed.
 #[must_use]
 pub fn counted(value: f64, unit: &str, digits: usize) -> String {
     let number = value / factor(unit).unwrap_or(1.0);
@@ -139,15 +138,15 @@ pub fn counted(value: f64, unit: &str, digits: usize) -> String {
     }
 }
 
-// Whether the number, rounded, has more places before its point than digits.
+// Whether the rounded number has more places before its point than digits.
 fn has_more_places(value: f64, unit: &str, digits: usize) -> bool {
     let number = (value / factor(unit).unwrap_or(1.0)).abs();
     let end = 10f64.powi(i32::try_from(digits).unwrap_or(i32::MAX));
     number.is_finite() && number.round() >= end
 }
 
-/// A value in SI as this system shows it: the number with that many significant digits, and its
-/// unit, empty for a number.
+/// A value in SI as this system shows it: the number with this many significant digits, and its
+/// unit, empty for a bare number.
 #[must_use]
 pub fn shown(
     value: f64,
@@ -159,7 +158,7 @@ pub fn shown(
     (counted(value, unit, digits), named(unit))
 }
 
-/// A unit as it stands behind a number: none for a number alone.
+/// A unit after a number. Empty for a bare number.
 #[must_use]
 pub fn named(unit: &'static str) -> &'static str {
     if unit == "1" { "" } else { unit }
@@ -248,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn metric_stays_as_it_is() {
+    fn metric_units_stay_unchanged() {
         assert_eq!(
             shown(47.327e-6, "um", 5, System::Metric),
             ("47.327".to_owned(), "um")
@@ -261,7 +260,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_shown_is_the_value_to_its_digits(value in 1e-9f64..1e12, pair in 0..PAIRS.len(), inch: bool) {
+        fn a_shown_number_equals_the_value_within_its_digits(value in 1e-9f64..1e12, pair in 0..PAIRS.len(), inch: bool) {
             let system = if inch { System::Inch } else { System::Metric };
             let metric = PAIRS[pair].0;
             let dimension = Dimension::of_unit(metric).unwrap();

@@ -1,15 +1,15 @@
-//! The table of units: symbol, other spellings, and what one of it is in SI.
+//! The table of units: symbol, other spellings, and SI value.
 
 use std::f64::consts::TAU;
 
 use super::Dimension;
 
-/// What one of a unit is in SI.
+/// The SI value of one unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Scale {
-    /// A power of ten, applied to the digits themselves and therefore exact.
+    /// A power of ten, applied to the decimal digits and therefore exact.
     Ten(i32),
-    /// Any other factor, as the nearest f64 and what that leaves over.
+    /// Another factor: the nearest f64 and the remainder.
     Times(f64, f64),
 }
 
@@ -24,11 +24,11 @@ pub(super) struct Unit {
     pub(super) scale: Scale,
 }
 
-/// All units of a dimension, those that messages name first.
+/// All units of a dimension, in the order of messages.
 pub(super) struct Family {
     /// The dimension.
     pub(super) dimension: Dimension,
-    /// What a person calls a value of it.
+    /// The name of a value with its article.
     pub(super) name: &'static str,
     /// Its units.
     pub(super) units: &'static [Unit],
@@ -63,7 +63,7 @@ const fn family(dimension: Dimension, name: &'static str, units: &'static [Unit]
     }
 }
 
-/// The units of a dimension; none for a bare number.
+/// The units of a dimension. Empty for a bare number.
 pub(super) fn units_of(dimension: Dimension) -> &'static [Unit] {
     FAMILIES
         .iter()
@@ -71,7 +71,7 @@ pub(super) fn units_of(dimension: Dimension) -> &'static [Unit] {
         .map_or(&[], |family| family.units)
 }
 
-/// What a person calls a value of the dimension.
+/// The name of a value of the dimension with its article.
 pub(super) fn name_of(dimension: Dimension) -> &'static str {
     FAMILIES
         .iter()
@@ -82,7 +82,7 @@ pub(super) fn name_of(dimension: Dimension) -> &'static str {
 // Exact by definition: in = 25.4 mm, lb = 0.45359237 kg, standard gravity 9.80665 m/s2, hp = 550 ft
 // lbf/s, PS = 75 kgf m/s. Both parts of each factor come from rational arithmetic, with pi to 80
 // digits.
-/// Every dimension but the bare number.
+/// Every dimension except the bare number.
 #[rustfmt::skip]
 pub(super) static FAMILIES: [Family; 17] = [
     family(Dimension::Length, "a length", &[

@@ -1,4 +1,4 @@
-//! What is read of a text with a unit, and what is not.
+//! Tests of reading texts with units.
 #![expect(
     clippy::approx_constant,
     reason = "a value is read to the last bit, whatever it is"
@@ -150,7 +150,7 @@ fn a_shown_value_is_short() {
 }
 
 #[test]
-fn factors_serve_those_who_show_results() {
+fn factors_convert_results_to_shown_units() {
     assert_eq!(factor("um mm/N"), Some(1e-9));
     assert_eq!(factor("mm"), Some(1e-3));
     assert_eq!(factor("1"), Some(1.0));
@@ -161,7 +161,7 @@ fn factors_serve_those_who_show_results() {
 
 proptest! {
     #[test]
-    fn shown_and_read_again_is_the_same(value in prop::num::f64::NORMAL, exponent in -9i32..9) {
+    fn a_shown_value_parses_to_the_same_value(value in prop::num::f64::NORMAL, exponent in -9i32..9) {
         let value = value.clamp(-1e200, 1e200) * 10f64.powi(exponent);
         prop_assume!(value.abs() > 1e-200);
         for (dimension, unit) in [(Dimension::Length, "um"), (Dimension::Pressure, "GPa"), (Dimension::Length, "m")] {

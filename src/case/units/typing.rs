@@ -1,12 +1,12 @@
-//! A value that is still being typed: the unit that completes it, and whether it may become a value
-//! by typing on.
+//! Completion of a value during typing: the missing unit, and whether further typing can make the
+//! text valid.
 
 use super::{Dimension, Unit, number, parse, plain_spelling, units_of};
 
-/// What is to be typed after a text so that it is a value: the unit after a bare number, the rest
-/// of a unit that is begun. `usual` is the unit that a bare number takes; a unit begun is taken for
-/// it where it may be it, else for the only one that begins so. `None` where the text is a value as
-/// it stands, or no number with such a beginning.
+/// The rest of a text that makes it a value: the unit after a bare number, or the rest of an
+/// incomplete unit. `usual` is the unit of a bare number, and has priority for an incomplete unit;
+/// otherwise only one unit may fit. `None` if the text is a value already, or cannot become one in
+/// this way.
 #[must_use]
 pub fn ending(typed: &str, dimension: Dimension, usual: &str) -> Option<String> {
     let begun = begun_unit(typed, dimension)?;
@@ -30,17 +30,16 @@ pub fn ending(typed: &str, dimension: Dimension, usual: &str) -> Option<String> 
         .map(str::to_owned)
 }
 
-/// How a text may go on so that it becomes another value.
+/// How further typing can change a text into another value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Open {
-    /// By more digits, or a unit: it is a number or the beginning of one.
+    /// By more digits or a unit: the text is a number or the beginning of one.
     Number,
     /// By more letters of its unit.
     Unit,
 }
 
-/// How more may be typed after a text so that it becomes a value, or another one; `None` where
-/// nothing may.
+/// How further typing can change a text into a value or another value. `None` if it cannot.
 #[must_use]
 pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
     let is_begun = |begun: &&str| {
@@ -57,7 +56,7 @@ pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
         .map(|_| Open::Unit)
 }
 
-/// The unit of a value as it is written; `None` where the text is no value.
+/// The unit of a value as written. `None` if the text is not a value.
 #[must_use]
 pub fn written_unit(text: &str, dimension: Dimension) -> Option<&str> {
     parse(text, dimension, "").ok()?;
@@ -67,8 +66,8 @@ pub fn written_unit(text: &str, dimension: Dimension) -> Option<&str> {
         .filter(|unit| !unit.is_empty())
 }
 
-/// What stands after the number, with the blanks at its end; `None` where no unit is due or no
-/// number stands.
+/// The text after the number, with blanks at its end. `None` if there is no number or no unit is
+/// needed.
 fn begun_unit(typed: &str, dimension: Dimension) -> Option<&str> {
     let (_, unit) = number::split(typed.trim_start(), "")
         .ok()
@@ -76,7 +75,7 @@ fn begun_unit(typed: &str, dimension: Dimension) -> Option<&str> {
     Some(unit)
 }
 
-/// What is missing of the unit: of its symbol, else of the first of its other spellings.
+/// The missing rest of the unit: of its symbol, or of the first matching spelling.
 fn rest(unit: &Unit, begun: &str) -> Option<&'static str> {
     let mut spellings = std::iter::once(unit.symbol).chain(unit.aliases.iter().copied());
     spellings.find_map(|spelling| {
@@ -88,8 +87,7 @@ fn rest_of<'u>(spelling: &'u str, begun: &str) -> Option<&'u str> {
     spelling.strip_prefix(begun).filter(|rest| !rest.is_empty())
 }
 
-/// Whether the text is a number or the beginning of one, such as `-`, `0.` or `1e`, and nothing
-/// else.
+/// Whether the text is only a number or the beginning of one, such as `-`, `0.` or `1e`.
 fn is_number_begun(text: &str) -> bool {
     let digits = |text: &'_ str| text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
@@ -149,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_be_several_units_or_is_no_number_is_left_as_it_is() {
+    fn an_ambiguous_unit_or_an_invalid_number_is_not_completed() {
         for (typed, dimension, usual) in [
             ("48 M", Dimension::Pressure, "GPa"),
             ("48 x", Dimension::Length, "um"),
@@ -164,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn on_the_way_to_any_value_nothing_is_wrong_but_unfinished() {
+    fn every_beginning_of_a_value_is_incomplete_not_invalid() {
         for family in &FAMILIES {
             let spellings = family
                 .units
@@ -190,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn an_ending_makes_a_value() {
+    fn the_completed_text_is_a_value() {
         for family in &FAMILIES {
             for unit in family.units {
                 for end in 1..=unit.symbol.len() {

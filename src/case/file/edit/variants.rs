@@ -1,4 +1,4 @@
-//! Changed variants put into the text that was read, whichever way it writes their keys.
+//! Writes changed variants into the original text, in any notation of their keys.
 
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
@@ -9,7 +9,7 @@ use crate::case::{Override, Variant};
 /// The table of all variants.
 const VARIANTS: &str = "variants";
 
-/// Puts the variants into the text that has those of `before`.
+/// Writes the variants into the text with the variants `before`.
 pub(super) fn edit(toml: &mut DocumentMut, before: &[Variant], after: &[Variant]) -> Option<()> {
     let named = |variants: &[Variant], name: &str| {
         variants
@@ -67,7 +67,7 @@ fn write(table: &mut dyn TableLike, change: &Override) -> Option<()> {
     put(table, key.trim_matches('"'), &key, &value)
 }
 
-/// Changes the overrides that differ, each in its place.
+/// Writes the changed overrides at their places.
 fn change(table: &mut dyn TableLike, old: &Variant, new: &Variant) -> Option<()> {
     for gone in &old.overrides {
         if !new.overrides(&gone.key) {
@@ -99,7 +99,7 @@ fn inner<'t>(table: &'t mut dyn TableLike, names: &[String]) -> Option<&'t mut d
     })
 }
 
-/// The keys that lead to an override, dotted, quoted or nested.
+/// The keys of the path to an override, dotted, quoted or nested.
 fn path_of(table: &dyn TableLike, above: &str, wanted: &str) -> Option<Vec<String>> {
     let wanted = wanted.replace('"', "");
     table.iter().find_map(|(name, item)| {

@@ -57,7 +57,7 @@ impl Reader {
         }
     }
 
-    /// Takes over what another reader found in the table of that name.
+    /// Adds the results of another reader for the table of this name.
     fn adopt(&mut self, table: &str, other: Reader) {
         let of_table = |key: &str| format!("{table}.{key}");
         for place in other.places.entries {
@@ -76,7 +76,7 @@ impl Reader {
     }
 }
 
-/// Reads the overrides of a variant as the values of a case of their own.
+/// Reads the overrides of a variant as a separate case.
 struct Overrides {
     reader: Reader,
     taken: Vec<Override>,
@@ -132,7 +132,7 @@ impl Overrides {
         }
     }
 
-    /// A distribution; its field may be quoted, dotted or nested.
+    /// A distribution. Its field can be quoted, dotted or nested.
     fn spread(&mut self, field: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
         let path = field.trim_matches('"');
         if let Some(table) = value.get_ref().as_table()
@@ -173,8 +173,8 @@ impl Overrides {
         });
     }
 
-    /// Checks every value against its field, and that of two fields that exclude each other the
-    /// variant gives one.
+    /// Checks every value, and that the variant gives only one of two fields that exclude each
+    /// other.
     fn check(&mut self) {
         let case = &self.reader.case;
         let problems: Vec<Problem> = (0..FIELDS.len())
