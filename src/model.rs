@@ -25,7 +25,9 @@ pub mod inputs;
 pub mod interpolate;
 pub mod iso_1328;
 pub mod limits;
+pub mod load;
 pub mod load_sharing;
+pub mod masses;
 pub mod mesh;
 pub mod notes;
 pub mod outline;
@@ -73,7 +75,6 @@ pub use request::Earlier;
 pub use resonance::Resonance;
 pub use solve::{solve, solve_after, solve_while};
 pub use stage::{Stage, Stages};
-pub use stage_inputs::StageInputs;
 pub use static_load::StaticLoad;
 pub use static_spectrum::StaticSpectrum;
 pub use stations::{MeshStation, Station};
@@ -84,8 +85,8 @@ use std::sync::Arc;
 
 use twofloat::TwoFloat;
 
-use impact::Masses;
 use inputs::Method;
+use masses::Masses;
 
 /// Intermediate results for a later solve: masses and the unrounded deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -244,10 +244,9 @@ fn within(range: Range, share: f64) -> f64 {
 pub fn stages_of(field: usize, inputs: &Inputs) -> Stages {
     let others = with_other_values(field, inputs);
     let reads = |stage: &Stage| {
-        let own = stage.inputs(inputs);
-        others
-            .iter()
-            .any(|other| stage.inputs(other) != own || !other.method.stages().has(*stage))
+        others.iter().any(|other| {
+            !stage.has_equal_inputs(inputs, other) || !other.method.stages().has(*stage)
+        })
     };
     let stages = inputs.method.stages().iter().filter(reads);
     stages.fold(Stages::NONE, Stages::with)

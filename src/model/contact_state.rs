@@ -11,7 +11,7 @@ use super::geometry::geometry;
 use super::inputs::Inputs;
 use super::interpolate::Interpolated;
 use super::tip_gap::{TipContact, gap_without, tip_at};
-use super::velocity::velocity;
+use super::velocity::{VelocityInputs, velocity};
 use super::{Geometry, Solution};
 
 /// Greatest angle of a tip beyond its end of the path of contact, in rad of its gear.
@@ -184,7 +184,7 @@ fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState
     let angle = roll_angle / inputs.ratio();
     let tip = tip_at(geometry, angle);
     let gap = gap_of(geometry, &tip);
-    let velocity = velocity(inputs.driven_speed(), &tip);
+    let velocity = velocity(&VelocityInputs::of(inputs), &tip);
     ContactState {
         phase: Phase::RunIn,
         roll_angle_driver: roll_angle,
@@ -236,7 +236,7 @@ fn run_out(
     let tip = tip_at(&geometry, last - roll_angle);
     let (gap, velocity, interpolated) = (
         gap_of(&geometry, &tip),
-        velocity(swapped.driven_speed(), &tip),
+        velocity(&VelocityInputs::of(&swapped), &tip),
         Interpolated::at(inputs, solution, roll_angle),
     );
     let point = tip_point(&geometry, &tip);

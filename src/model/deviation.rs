@@ -13,15 +13,16 @@ use crate::numeric::Real;
 /// Inputs of the deviation, besides geometry and mesh force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeviationInputs {
-    /// Deviations and reliefs.
-    pub errors: Errors,
-    /// Source of the combined deflection.
-    pub deflection: Deflection,
+    /// Deviations, reliefs and deflection that the case gives.
+    pub given: GivenDeviations,
+    /// Elasticity of the pair, if the load causes the deflection.
+    pub elasticity: Option<Elasticity>,
 }
 
-/// Deviations and reliefs of a pair.
+/// Deviations, reliefs and deflection that the case gives. The samples of a study differ in these
+/// values and share the elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Errors {
+pub struct GivenDeviations {
     /// `paper` scales the reliefs as printed. `static` and `dynamic` apply the reliefs to the
     /// flanks.
     pub method: Method,
@@ -33,43 +34,34 @@ pub struct Errors {
     pub driven_tip_relief: f64,
     /// Root relief of the driver, in m.
     pub driver_root_relief: f64,
+    /// Combined deflection δ, in m; `None` if the load causes it.
+    pub deflection: Option<f64>,
 }
 
-/// Source of the combined deflection.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a box would allocate in every closed-form solve"
-)]
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Deflection {
-    /// Given by the case, in m.
-    Given(f64),
-    /// Computed from the load.
-    ByLoad(Elasticity),
-}
-
-impl Inputs {
-    /// Inputs of the deviation.
+impl DeviationInputs {
+    /// Selects them from the inputs of a solve.
     #[must_use]
-    pub fn deviation(&self) -> DeviationInputs {
+    pub fn of(inputs: &Inputs) -> DeviationInputs {
+        let given = GivenDeviations::of(inputs);
+        let is_by_load = given.deflection.is_none();
         DeviationInputs {
-            errors: self.errors(),
-            deflection: match self.deflection_taken() {
-                Some(given) => Deflection::Given(given),
-                None => Deflection::ByLoad(self.elasticity()),
-            },
+            given,
+            elasticity: is_by_load.then(|| inputs.elasticity()),
         }
     }
+}
 
-    /// Deviations and reliefs.
+impl GivenDeviations {
+    /// Selects them from the inputs of a solve.
     #[must_use]
-    pub fn errors(&self) -> Errors {
-        Errors {
-            method: self.method,
-            base_pitches: self.base_pitches(),
-            backlash: self.backlash,
-            driven_tip_relief: self.driven.tip_relief,
-            driver_root_relief: self.driver.root_relief,
+    pub fn of(inputs: &Inputs) -> GivenDeviations {
+        GivenDeviations {
+            method: inputs.method,
+            base_pitches: inputs.base_pitches(),
+            backlash: inputs.backlash,
+            driven_tip_relief: inputs.driven.tip_relief,
+            driver_root_relief: inputs.driver.root_relief,
+            deflection: inputs.deflection_taken(),
         }
     }
 }
@@ -93,22 +85,32 @@ pub struct Deviation<T = f64> {
 }
 
 /// The deviation in double-double arithmetic, because a relief can cancel all but a small part.
-pub(super) fn deviation(errors: &Errors, deflected: Deflected) -> Deviation<TwoFloat> {
+/// `by_load` computes the deflection if the case does not give it.
+///
+/// # Errors
+/// Those of `by_load`.
+pub(super) fn deviation(
+    given: &GivenDeviations,
+    by_load: impl FnOnce() -> Result<Deflected, Refusal>,
+) -> Result<Deviation<TwoFloat>, Refusal> {
+    let deflected = given
+        .deflection
+        .map_or_else(by_load, |deflection| Ok(Deflected::alone(deflection)))?;
     let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
-    let with_reliefs = equivalent_error(errors);
-    let equivalent_error = if errors.method.shares_load() {
-        random_error(errors)
+    let with_reliefs = equivalent_error(given);
+    let equivalent_error = if given.method.shares_load() {
+        random_error(given)
     } else {
         with_reliefs
     };
-    let modification = modification(errors);
-    Deviation {
+    let modification = modification(given);
+    Ok(Deviation {
         equivalent_error,
         modification,
         combined_deflection,
         neighbour_deflection: deflected.incoming_pair.into(),
         total: with_reliefs + combined_deflection,
-    }
+    })
 }
 
 /// Equivalent error Δf, in m.
@@ -125,7 +127,7 @@ pub(super) fn deviation(errors: &Errors, deflected: Deflected) -> Deviation<TwoF
 /// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random
 /// errors, as printed. The other methods count e_m in full, because a ground relief is no random
 /// error.
-fn equivalent_error(inputs: &Errors) -> TwoFloat {
+fn equivalent_error(inputs: &GivenDeviations) -> TwoFloat {
     match inputs.method {
         Method::Paper => {
             (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2
@@ -135,18 +137,18 @@ fn equivalent_error(inputs: &Errors) -> TwoFloat {
 }
 
 /// Modification e_m = −(driven tip relief + driver root relief), in m.
-fn modification(inputs: &Errors) -> TwoFloat {
+fn modification(inputs: &GivenDeviations) -> TwoFloat {
     -TwoFloat::new_add(inputs.driven_tip_relief, inputs.driver_root_relief)
 }
 
 /// Equivalent error without reliefs, √(f_pb1² + f_pb2²) − j_bn/√2, in m.
-fn random_error(inputs: &Errors) -> TwoFloat {
+fn random_error(inputs: &GivenDeviations) -> TwoFloat {
     random_deviation(inputs) * twofloat::consts::FRAC_1_SQRT_2
 }
 
 /// √(2 (f_pb1² + f_pb2²)) − j_bn, in m, which is 2 f_pb − j_bn for equal deviations. A negative
 /// deviation subtracts its square.
-fn random_deviation(inputs: &Errors) -> TwoFloat {
+fn random_deviation(inputs: &GivenDeviations) -> TwoFloat {
     let [driver, driven] = inputs.base_pitches;
     if driver.to_bits() == driven.to_bits() {
         return TwoFloat::new_sub(2.0 * driver, inputs.backlash);
@@ -171,7 +173,7 @@ pub(super) struct Deflected {
 }
 
 impl Deflected {
-    pub(super) fn alone(pairs_ahead: f64) -> Deflected {
+    fn alone(pairs_ahead: f64) -> Deflected {
         Deflected {
             pairs_ahead,
             incoming_pair: 0.0,

@@ -31,7 +31,7 @@ use lead::TERMS;
 use motion::{Motion, State, Window};
 use pair::PairName;
 pub use rattle::Rattle;
-pub use settings::Settings;
+pub use settings::{MotionInputs, Settings};
 use step::{Course, Step};
 use watch::Watch;
 

@@ -1,10 +1,29 @@
 //! The paper's friction coefficient: a ratio of velocity changes over the impact.
 
 use super::geometry::Geometry;
-use super::impact::ImpactInputs;
-use super::inputs::Method;
+use super::inputs::{Inputs, Method};
 use super::tip_gap::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
+
+/// Inputs of the friction ratio, besides geometry, masses and the impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionInputs {
+    /// `paper` takes Eq. 34 as printed.
+    pub method: Method,
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+}
+
+impl FrictionInputs {
+    /// Selects them from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> FrictionInputs {
+        FrictionInputs {
+            method: inputs.method,
+            speed: inputs.speed,
+        }
+    }
+}
 
 /// Change of the velocities between D and D'.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +49,7 @@ pub struct Friction {
 /// A kinematic ratio: it is not bounded by Coulomb's coefficient.
 #[must_use]
 pub fn friction(
-    inputs: &ImpactInputs,
+    inputs: &FrictionInputs,
     geometry: &Geometry,
     tip: &TipContact,
     velocity: &Velocity,

@@ -4,11 +4,12 @@ mod circles;
 mod shape;
 
 use nalgebra::{Matrix2, Rotation2, Vector2};
+use twofloat::TwoFloat;
 
 use super::Refusal;
 use crate::numeric::Real;
 pub use circles::{Circles, circles};
-pub use shape::{GearShape, PairShape};
+pub use shape::{GearShape, GeometryInputs, PairShape};
 
 /// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose
 /// two digits and more.
@@ -129,6 +130,21 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     })
 }
 
+/// Geometry of the pair in double-double arithmetic, where the case calls for it, or where the
+/// small differences of `plain` do; `None` stands for a geometry that f64 cannot compute.
+///
+/// # Errors
+/// Those of [`geometry`].
+pub(super) fn precise(
+    inputs: &GeometryInputs,
+    plain: Option<&Geometry>,
+) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
+    let close_call = plain.is_none_or(|geometry| geometry.is_close_call(inputs.bores));
+    (inputs.is_accurate || close_call)
+        .then(|| geometry(&inputs.shape))
+        .transpose()
+}
+
 /// tan t.
 fn tangent_of<T: Real>(angle: T) -> T {
     let (sine, cosine) = angle.sine_cosine();
@@ -207,12 +223,6 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
 }
 
 impl Geometry {
-    /// Mesh force F₀ at a torque on the driver in N m: T₁/r_b1, in N.
-    #[must_use]
-    pub fn mesh_force(&self, torque: f64) -> f64 {
-        torque / self.driver.base
-    }
-
     /// Length of the path of contact on which one pair more is in contact, (ε − ⌈ε⌉ + 1) p_b, in m:
     /// for 1 < ε < 2 the length of double contact at either end.
     #[must_use]

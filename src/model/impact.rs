@@ -2,15 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::compliance::Elasticity;
+use super::compliance::ComplianceInputs;
 use super::compliance::contact::{ContactSpring, plane_strain_compliance};
-use super::geometry::{Circles, Geometry};
-use super::inertia::{Body, Inertia};
+use super::geometry::Geometry;
 use super::inputs::{Inputs, Method};
+use super::masses::Masses;
 use super::position::reduced_curvature;
 use super::tip_gap::TipContact;
 use super::{Refusal, TeethCompliance, Velocity};
-use crate::numeric::Real;
 
 /// The impact at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,86 +102,27 @@ impl Impact {
     }
 }
 
-/// What velocities, force and friction of an impact depend on, apart from geometry, masses and
-/// place.
+/// Inputs of force, energy and duration of an impact, besides geometry, masses, place and velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpactInputs {
-    /// `paper` takes Eqs. 32 and 34 as printed.
+    /// `paper` takes Eq. 32 as printed.
     pub method: Method,
-    /// Speed of the driver ω₁, in rad/s.
-    pub speed: f64,
-    /// Radius of the edge of the driven tip, in m.
-    pub tip_radius: Option<f64>,
-    /// Elasticity of the pair.
-    pub elasticity: Elasticity,
+    /// The teeth that strike.
+    pub compliance: ComplianceInputs,
     /// 1/E' of the pair, in 1/Pa.
     pub give: f64,
 }
 
-impl Inputs {
-    /// What velocities, force and friction of an impact depend on.
+impl ImpactInputs {
+    /// Selects them from the inputs of a solve.
     #[must_use]
-    pub fn impact(&self) -> ImpactInputs {
-        let elasticity = self.elasticity();
+    pub fn of(inputs: &Inputs) -> ImpactInputs {
+        let compliance = ComplianceInputs::of(inputs);
         ImpactInputs {
-            method: self.method,
-            speed: self.speed,
-            tip_radius: self.driven.tip_radius,
-            give: plane_strain_compliance(&elasticity),
-            elasticity,
+            method: inputs.method,
+            give: plane_strain_compliance(&compliance.elasticity),
+            compliance,
         }
-    }
-}
-
-/// Masses of the two gears at their base circles J/r_b², in kg.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Masses {
-    pub(super) driver: f64,
-    pub(super) driven: f64,
-    /// Moments of inertia of driver and driven gear.
-    pub(super) inertias: [Inertia; 2],
-}
-
-impl Masses {
-    /// Masses of the two gears.
-    ///
-    /// # Formula
-    /// ```text
-    /// m_red,i = J_i/rb_i²
-    /// ```
-    ///
-    /// # Source
-    /// Zhou & Chen 2014, Eq. 46. Corrected: Eq. 46 divides by the width and so gives kg/m where a
-    /// mass is meant. [`Inertia::of`] gives J.
-    ///
-    /// # Errors
-    /// [`Refusal::BoreTooLarge`] where a bore leaves no body.
-    pub fn of<T: Real>(bodies: &[Body; 2], geometry: &Geometry<T>) -> Result<Masses, Refusal> {
-        let driver = Inertia::of(&bodies[0], &geometry.driver)?;
-        let driven = Inertia::of(&bodies[1], &geometry.driven)?;
-        let mass = |inertia: &Inertia, circles: &Circles<T>| {
-            let base = circles.base.rounded();
-            inertia.moment / (base * base)
-        };
-        Ok(Masses {
-            driver: mass(&driver, &geometry.driver),
-            driven: mass(&driven, &geometry.driven),
-            inertias: [driver, driven],
-        })
-    }
-
-    /// Reduced mass of Eq. 33, 1/m_red = 1/m_red,1 + 1/m_red,2, in kg.
-    #[must_use]
-    pub fn reduced(&self) -> f64 {
-        self.driver * self.driven / (self.driver + self.driven)
-    }
-
-    /// Effective mass of Eq. 50, M = J₁ J₂/(J₁ r_b2'² + J₂ r_b1²), in kg: the reduced mass with the
-    /// driven gear's arm at D in place of its base radius.
-    #[must_use]
-    pub fn effective(&self, geometry: &Geometry, tip: &TipContact) -> f64 {
-        let arm = tip.normal_radius_driven / geometry.driven.base;
-        self.driver * self.driven / (self.driver * arm * arm + self.driven)
     }
 }
 
@@ -209,7 +149,7 @@ pub fn impact(
     (teeth, spring): (&TeethCompliance, &ContactSpring),
     velocity: &Velocity,
 ) -> Result<Impact, Refusal> {
-    let width = inputs.elasticity.width;
+    let width = inputs.compliance.elasticity.width;
     let effective_mass = masses.effective(geometry, tip);
     let (force, pair_compliance) = spring.impact(
         teeth.sum(),
@@ -226,7 +166,7 @@ pub fn impact(
             width,
             approach: velocity.normal,
             reduced_mass: masses.reduced(),
-            curvature_radius: reduced_curvature(inputs.tip_radius, geometry, tip),
+            curvature_radius: reduced_curvature(inputs.compliance.tip_radius, geometry, tip),
             give: inputs.give,
             spring: *spring,
         },

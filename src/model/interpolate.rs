@@ -1,11 +1,12 @@
 //! The results for the incoming tooth at any roll angle, at stations and between them.
 
 use super::compliance::Teeth;
-use super::impact::Masses;
 use super::inputs::Inputs;
+use super::masses::{MassInputs, Masses};
 use super::mesh::Mesh;
 use super::static_load::balance;
-use super::{MeshStation, Solution, Station, stations};
+use super::stations::{self, StationsInputs};
+use super::{MeshStation, Solution, Station};
 
 /// An angle beyond the first contact by less than this share of it is at the first contact.
 const ROUNDING: f64 = 1e-9;
@@ -75,13 +76,13 @@ impl Interpolated {
 fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Station> {
     let angle = roll_angle / inputs.ratio();
     let first = solution.position?.approach_angle_driven * (1.0 + ROUNDING);
-    let masses = Masses::of(&inputs.bodies(), &solution.geometry)
+    let masses = Masses::of(&MassInputs::of(inputs), &solution.geometry)
         .ok()
         .filter(|_| (0.0..=first).contains(&angle))?;
     let geometry = &solution.geometry;
-    let impact = inputs.impact();
-    let teeth = Teeth::of(&impact.elasticity, geometry).ok()?;
-    let station = stations::station(&impact, geometry, &teeth, &masses, angle).ok()?;
+    let inputs = StationsInputs::of(inputs);
+    let teeth = Teeth::of(&inputs.impact.compliance.elasticity, geometry).ok()?;
+    let station = stations::station(&inputs, geometry, &teeth, &masses, angle).ok()?;
     station.impact_force.is_finite().then_some(station)
 }
 

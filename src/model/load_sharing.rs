@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use super::budget::{MOTION_WORK, Meter};
 use super::dynamic::steady::{Steady, steady};
-use super::dynamic::{Dynamic, Settings, dynamic};
+use super::dynamic::{Dynamic, MotionInputs, dynamic};
 use super::mesh::{Mesh, MeshInputs};
 use super::request::Request;
-use super::resonance::Resonance;
-use super::spacing::{Resolution, Spacing};
+use super::resonance::{Resonance, ResonanceInputs};
+use super::spacing::Resolution;
 use super::stage::{Stage, Stages};
-use super::static_load::{StaticLoad, static_load};
+use super::static_load::{StaticInputs, StaticLoad, static_load};
 use super::static_spectrum::{StaticSpectrum, static_spectrum};
 use super::{Outcome, Refusal, Solution};
 
@@ -173,22 +173,28 @@ fn run(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Shared, Refusal> {
     let inputs = asked.inputs;
-    let settings = Settings::of(inputs, mass);
     let mut run = Stretch { asked, ran };
     let static_load = run.stage(
         Stage::Static,
         |earlier| earlier.static_load.clone(),
-        || static_load(mesh, Spacing::of(inputs)),
+        || {
+            let at_rest = StaticInputs::of(inputs);
+            static_load(&mesh.turning_at(at_rest.speed), at_rest.spacing)
+        },
     )?;
     let dynamic = run.stage(
         Stage::Dynamic,
         |earlier| earlier.dynamic.clone(),
-        || dynamic(mesh, &settings, go_on),
+        || {
+            let motion = MotionInputs::of(inputs);
+            let mesh = mesh.turning_at(motion.speed);
+            dynamic(&mesh, &motion.settings(mass), go_on)
+        },
     )?;
     let resonance = run.stage(
         Stage::Resonance,
         |earlier| earlier.resonance,
-        || Ok(Resonance::of(mesh, mass)),
+        || Ok(Resonance::of(&ResonanceInputs::of(inputs), mesh, mass)),
     )?;
     let static_spectrum = run.stage(
         Stage::StaticSpectrum,
@@ -198,7 +204,7 @@ fn run(
     let steady = run.stage(
         Stage::SteadyMotion,
         |earlier| earlier.steady.clone(),
-        || steady_motion(mesh, &settings, go_on),
+        || steady_motion(mesh, mass, &MotionInputs::steady(inputs), go_on),
     )?;
     Ok(Shared {
         mesh: Arc::clone(mesh),
@@ -213,12 +219,14 @@ fn run(
 
 /// The steady motion, or why there is none.
 fn steady_motion(
-    mesh: &Mesh,
-    settings: &Settings,
+    mesh: &Arc<Mesh>,
+    mass: f64,
+    motion: &MotionInputs,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Result<Steady, Refusal>, Refusal> {
-    let settings = settings.without_warmup();
+    let mesh = &*mesh.turning_at(motion.speed);
     let meter = Meter::new(MOTION_WORK);
+    let settings = motion.settings(mass);
     late(mesh, steady(mesh, &settings, None, &meter, go_on))
 }
 

@@ -16,9 +16,9 @@ use search::{KEPT_DIGITS, LARGEST_ANGLE};
 /// In double-double arithmetic the gap in closed form may lose this factor of its digits.
 const LOST: f64 = 1e14;
 
-/// How the first contact is searched for, apart from geometry and deviation.
+/// Inputs of the first contact, besides geometry and deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactSearch {
+pub struct PositionInputs {
     /// `paper` takes the printed equations, every other method the gap.
     pub method: Method,
     /// Shape of the pair, for a close call in double-double arithmetic.
@@ -27,14 +27,14 @@ pub struct ContactSearch {
     pub tip_radius: Option<f64>,
 }
 
-impl Inputs {
-    /// How the first contact is searched for.
+impl PositionInputs {
+    /// Selects them from the inputs of a solve.
     #[must_use]
-    pub fn contact_search(&self) -> ContactSearch {
-        ContactSearch {
-            method: self.method,
-            shape: self.shape(),
-            tip_radius: self.driven.tip_radius,
+    pub fn of(inputs: &Inputs) -> PositionInputs {
+        PositionInputs {
+            method: inputs.method,
+            shape: inputs.shape(),
+            tip_radius: inputs.driven.tip_radius,
         }
     }
 }
@@ -149,7 +149,7 @@ pub fn reduced_curvature(tip_radius: Option<f64>, geometry: &Geometry, tip: &Tip
 /// # Errors
 /// A [`Refusal`] where D does not exist or lies beyond the driver's tip.
 pub(super) fn position(
-    search: &ContactSearch,
+    inputs: &PositionInputs,
     geometry: &Geometry,
     precise: Option<&Geometry<TwoFloat>>,
     series: &GapSeries,
@@ -159,29 +159,29 @@ pub(super) fn position(
     if plain.total <= 0.0 {
         return Ok(None);
     }
-    let angle = match search.method {
+    let angle = match inputs.method {
         Method::Paper => printed_contact(geometry, &plain),
         _ => first_contact(geometry, series, plain.total)?,
     };
     let contact = tip_at(geometry, angle);
     let close_call = contact.is_close_call(geometry)
-        || search.method == Method::Paper && plain.equivalent_error < 0.0;
+        || inputs.method == Method::Paper && plain.equivalent_error < 0.0;
     let (contact, closed_gap) = match precise {
-        Some(precise) => precise_contact(search.method, precise, deviation, angle),
+        Some(precise) => precise_contact(inputs.method, precise, deviation, angle),
         None if close_call => {
-            let precise = geometry::geometry(&search.shape)?;
-            precise_contact(search.method, &precise, deviation, angle)
+            let precise = geometry::geometry(&inputs.shape)?;
+            precise_contact(inputs.method, &precise, deviation, angle)
         }
-        None if search.method == Method::Exact => (contact, plain.total),
+        None if inputs.method == Method::Exact => (contact, plain.total),
         None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
-    let closed_gap = if search.method == Method::Exact {
+    let closed_gap = if inputs.method == Method::Exact {
         plain.total
     } else {
         closed_gap
     };
     checked(
-        search.tip_radius,
+        inputs.tip_radius,
         geometry,
         plain.total,
         contact,

@@ -2,7 +2,25 @@
 
 use std::f64::consts::TAU;
 
+use super::inputs::Inputs;
 use super::mesh::Mesh;
+
+/// Inputs of the frequencies, besides mesh and masses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResonanceInputs {
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+}
+
+impl ResonanceInputs {
+    /// Selects them from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> ResonanceInputs {
+        ResonanceInputs {
+            speed: inputs.speed,
+        }
+    }
+}
 
 /// Frequencies of a pair, in Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,9 +45,9 @@ impl Resonance {
     /// # Valid for
     /// Rigid shafts: one mass on the mesh.
     #[must_use]
-    pub fn of(mesh: &Mesh, mass: f64) -> Resonance {
+    pub fn of(inputs: &ResonanceInputs, mesh: &Mesh, mass: f64) -> Resonance {
         Resonance {
-            mesh_frequency: mesh.speed / mesh.base_pitch,
+            mesh_frequency: inputs.speed * mesh.base_radii.0 / mesh.base_pitch,
             natural_frequency: (mesh.mean_stiffness / mass).sqrt() / TAU,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
+use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::pair_forces::Balance;
 use super::spacing::{Resolution, Spacing};
@@ -10,6 +11,26 @@ use crate::numeric::root;
 
 /// Places between two borders of the mesh at which the incoming pair is looked for.
 const LOOKS: usize = 16;
+
+/// Inputs of the shared load at rest, besides the mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StaticInputs {
+    /// Speed of the driver ω₁, at which the mesh turns, in rad/s.
+    pub speed: f64,
+    /// Distances between the stations.
+    pub spacing: Spacing,
+}
+
+impl StaticInputs {
+    /// Selects them from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> StaticInputs {
+        StaticInputs {
+            speed: inputs.speed,
+            spacing: Spacing::of(inputs),
+        }
+    }
+}
 
 /// What the incoming tooth carries from its first contact to its last.
 #[derive(Debug, Clone, PartialEq)]

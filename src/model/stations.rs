@@ -1,20 +1,46 @@
 //! The force over roll angle, from D to E.
 
+use super::Refusal;
 use super::budget::{CURVE_WORK, IMPACT_WORK};
-use super::compliance::{ContactPlace, Teeth};
+use super::compliance::Teeth;
 use super::geometry::Geometry;
-use super::impact::{ImpactInputs, Masses, impact};
+use super::impact::{ImpactInputs, impact};
+use super::inputs::Inputs;
+use super::masses::Masses;
 use super::mesh::Mesh;
 use super::position::Position;
 use super::spacing::{Resolution, Spacing};
 use super::tip_gap::{gap_without, tip_at};
-use super::{Refusal, velocity};
+use super::velocity::{VelocityInputs, velocity};
 
 /// The gap in closed form may lose this factor of its digits before the quadrature serves.
 const LOSS: f64 = 1e4;
 
 /// A force below this part of the forces of all pairs is the rounding of their balance, and 0.
 const ROUNDING: f64 = 1e-12;
+
+/// Inputs of the impacts between D and E, besides geometry, masses and D.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StationsInputs {
+    /// Velocities at a station.
+    pub velocity: VelocityInputs,
+    /// The impact at a station.
+    pub impact: ImpactInputs,
+    /// Distances between the stations.
+    pub spacing: Spacing,
+}
+
+impl StationsInputs {
+    /// Selects them from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> StationsInputs {
+        StationsInputs {
+            velocity: VelocityInputs::of(inputs),
+            impact: ImpactInputs::of(inputs),
+            spacing: Spacing::of(inputs),
+        }
+    }
+}
 
 /// A place between D and E at which the impact is computed as if it were D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,15 +146,15 @@ impl MeshStation {
 /// inside the base circle.
 #[must_use]
 pub fn stations(
-    (inputs, spacing): (&ImpactInputs, Spacing),
+    inputs: &StationsInputs,
     geometry: &Geometry,
     masses: &Masses,
     position: &Position,
     peak: f64,
 ) -> (Vec<Station>, Option<Refusal>) {
     let mut refused = None;
-    let mut found = Vec::with_capacity(spacing.count().map_or(0, |count| count + 1));
-    let teeth = match Teeth::of(&inputs.elasticity, geometry) {
+    let mut found = Vec::with_capacity(inputs.spacing.count().map_or(0, |count| count + 1));
+    let teeth = match Teeth::of(&inputs.impact.compliance.elasticity, geometry) {
         Ok(teeth) => teeth,
         Err(refusal) => return (found, Some(refusal)),
     };
@@ -141,7 +167,7 @@ pub fn stations(
             station,
         )
     };
-    let resolution = spacing.walk(
+    let resolution = inputs.spacing.walk(
         &[position.approach_angle_driven, 0.0],
         peak,
         CURVE_WORK / IMPACT_WORK,
@@ -159,19 +185,26 @@ pub fn stations(
 /// # Errors
 /// The [`Refusal`] of the stage that has no force there.
 pub fn station(
-    inputs: &ImpactInputs,
+    inputs: &StationsInputs,
     geometry: &Geometry,
     teeth: &Teeth,
     masses: &Masses,
     angle: f64,
 ) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
-    let velocity = velocity::velocity(inputs.speed / geometry.ratio, &tip);
+    let velocity = velocity(&inputs.velocity, &tip);
     let struck = if angle > 0.0 {
-        let place = ContactPlace::at_tip(inputs.tip_radius, geometry, &tip);
+        let place = inputs.impact.compliance.place(geometry, &tip);
         let (teeth, spring) = (teeth.at(&place)?, teeth.spring(&place)?);
         let elastic = (&teeth, &spring);
-        Some(impact(inputs, geometry, masses, &tip, elastic, &velocity)?)
+        Some(impact(
+            &inputs.impact,
+            geometry,
+            masses,
+            &tip,
+            elastic,
+            &velocity,
+        )?)
     } else {
         None
     };

@@ -3,7 +3,38 @@
 use super::compliance::contact::{self, ContactModel};
 use super::compliance::model_of;
 use super::compliance::tooth::{self, ToothModel};
+use super::deviation::DeviationInputs;
+use super::impact::ImpactInputs;
 use super::inputs::{ContactCompliance, Inputs, ToothCompliance};
+use super::position::PositionInputs;
+use super::velocity::VelocityInputs;
+
+/// Inputs of the stages that [`band`] repeats with other models, besides geometry, load and masses,
+/// which are the same for all models.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BandInputs {
+    /// Deviation and deflection.
+    pub deviation: DeviationInputs,
+    /// First contact.
+    pub position: PositionInputs,
+    /// Velocities there.
+    pub velocity: VelocityInputs,
+    /// The impact.
+    pub impact: ImpactInputs,
+}
+
+impl BandInputs {
+    /// Selects them from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> BandInputs {
+        BandInputs {
+            deviation: DeviationInputs::of(inputs),
+            position: PositionInputs::of(inputs),
+            velocity: VelocityInputs::of(inputs),
+            impact: ImpactInputs::of(inputs),
+        }
+    }
+}
 
 /// Least and greatest impact force over the stiffness models that cover the pair, in N.
 #[derive(Debug, Clone, Copy, PartialEq)]

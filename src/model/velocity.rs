@@ -1,6 +1,24 @@
 //! How fast the tip approaches the flank and slides on it.
 
+use super::inputs::Inputs;
 use super::tip_gap::TipContact;
+
+/// Inputs of the velocities, besides the place of the tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VelocityInputs {
+    /// Speed of the driven gear ω₂, in rad/s.
+    pub driven_speed: f64,
+}
+
+impl VelocityInputs {
+    /// Selects them from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> VelocityInputs {
+        VelocityInputs {
+            driven_speed: inputs.driven_speed(),
+        }
+    }
+}
 
 /// Velocities at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,8 +33,7 @@ pub struct Velocity {
     pub stick_limit: f64,
 }
 
-/// Velocities of the tip against the flank, while the driven gear turns at `driven_speed`, in
-/// rad/s.
+/// Velocities of the tip against the flank.
 ///
 /// # Formula
 /// ```text
@@ -30,7 +47,8 @@ pub struct Velocity {
 /// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is corrected to the law of cosines: as printed, ΔV_n at E
 /// would be 1.32 m/s for its Table 1 where it must be 0. Eq. 22 is ΔV_Dτ, whatever its label.
 #[must_use]
-pub fn velocity(driven_speed: f64, tip: &TipContact) -> Velocity {
+pub fn velocity(inputs: &VelocityInputs, tip: &TipContact) -> Velocity {
+    let driven_speed = inputs.driven_speed;
     let normal = driven_speed * tip.normal_radius_drop;
     let sliding = driven_speed * tip.sliding_arm;
     Velocity {

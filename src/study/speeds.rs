@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use crate::model::budget::Meter;
-use crate::model::dynamic::Settings;
 use crate::model::dynamic::steady::{Start, Steady, steady};
+use crate::model::dynamic::{MotionInputs, Settings};
 use crate::model::inputs::{Drive, Method};
 use crate::model::mesh::Mesh;
+use crate::model::resonance::ResonanceInputs;
 use crate::model::static_spectrum::static_spectrum;
 use crate::model::{Inputs, Refusal, Resonance, Solution, Stage, Stages, solve};
 
@@ -108,7 +109,7 @@ pub fn speeds(
     };
     let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
     let mesh = Arc::new(wide_mesh(&inputs, &solution)?);
-    let resonance = Resonance::of(&mesh, solution.reduced_mass);
+    let resonance = Resonance::of(&ResonanceInputs::of(&inputs), &mesh, solution.reduced_mass);
     let at_resonance = inputs.speed / resonance.ratio();
     let most = TO.max(BEYOND_PRESENT * resonance.ratio());
     let step = (most - FROM) / (SPEEDS - 1) as f64;
@@ -123,10 +124,7 @@ pub fn speeds(
     };
     let runs = Runs {
         mesh: &mesh,
-        settings: Settings {
-            mass: solution.reduced_mass,
-            ..inputs.steady_motion()
-        },
+        settings: MotionInputs::steady(&inputs).settings(solution.reduced_mass),
         tooth_force: static_spectrum(&mesh)?.tooth_force,
         resonance: at_resonance,
         work: Meter::new(WORK),

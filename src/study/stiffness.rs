@@ -9,8 +9,9 @@ use crate::model::compliance::tooth::{Tooth, ToothModel, field_of};
 use crate::model::compliance::{ContactPlace, ElasticGear};
 use crate::model::field::Field;
 use crate::model::geometry::{Circles, Geometry, geometry};
-use crate::model::impact::Masses;
 use crate::model::inputs::{Gear, ToothCompliance};
+use crate::model::load::{LoadInputs, mesh_force};
+use crate::model::masses::{MassInputs, Masses};
 use crate::model::profile::Profile;
 use crate::model::{Inputs, Refusal};
 
@@ -132,8 +133,8 @@ pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Re
 fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
     let geometry = geometry::<f64>(&inputs.shape())?;
     // Refuses a bore that leaves no gear body.
-    Masses::of(&inputs.bodies(), &geometry)?;
-    let mesh_force = geometry.mesh_force(inputs.torque());
+    Masses::of(&MassInputs::of(inputs), &geometry)?;
+    let mesh_force = mesh_force(&LoadInputs::of(inputs), &geometry);
     Ok((geometry, mesh_force))
 }
 

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use tipstrike::case::file::Document;
-use tipstrike::model::friction::friction;
+use tipstrike::model::friction::{FrictionInputs, friction};
 use tipstrike::model::geometry::geometry;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, solve};
@@ -356,7 +356,7 @@ fn table_1_friction_ratio_by_the_printed_end() {
         ..inputs
     };
     let mixed = friction(
-        &printed_end.impact(),
+        &FrictionInputs::of(&printed_end),
         &solution.geometry,
         &position.contact,
         &velocity,

@@ -20,24 +20,50 @@ pub struct Settings {
     pub spacing: Spacing,
 }
 
-impl Inputs {
-    /// How the motion is computed; the mass at the line of action is not known yet.
+/// Inputs of a motion, besides mesh and masses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionInputs {
+    /// Speed of the driver ω₁, at which the mesh turns, in rad/s.
+    pub speed: f64,
+    /// The settings without the mass.
+    settings: Settings,
+}
+
+impl MotionInputs {
+    /// Selects those of the method `dynamic` from the inputs of a solve.
     #[must_use]
-    pub fn motion(&self) -> Settings {
-        Settings {
-            mass: 0.0,
-            damping_ratio: self.damping_ratio,
-            warmup_cycles: self.warmup_cycles,
-            backlash: Some(self.backlash).filter(|&backlash| backlash > 0.0),
-            tolerance: self.tolerance,
-            spacing: Spacing::of(self),
+    pub fn of(inputs: &Inputs) -> MotionInputs {
+        MotionInputs {
+            speed: inputs.speed,
+            settings: Settings::of(inputs, 0.0),
         }
     }
 
-    /// How the steady motion is computed; the mass at the line of action is not known yet.
+    /// Selects those of the steady motion, which has neither warm-up nor stations.
     #[must_use]
-    pub fn steady_motion(&self) -> Settings {
-        self.motion().without_warmup()
+    pub fn steady(inputs: &Inputs) -> MotionInputs {
+        MotionInputs {
+            speed: inputs.speed,
+            settings: Settings::of(inputs, 0.0).without_warmup(),
+        }
+    }
+
+    /// Selects those of the approach, which has no stations.
+    #[must_use]
+    pub fn approach(inputs: &Inputs) -> MotionInputs {
+        MotionInputs {
+            speed: inputs.speed,
+            settings: Settings::of(inputs, 0.0).without_stations(),
+        }
+    }
+
+    /// The settings with the mass at the line of action, in kg.
+    #[must_use]
+    pub fn settings(&self, mass: f64) -> Settings {
+        Settings {
+            mass,
+            ..self.settings
+        }
     }
 }
 
@@ -47,13 +73,16 @@ impl Settings {
     pub fn of(inputs: &Inputs, mass: f64) -> Settings {
         Settings {
             mass,
-            ..inputs.motion()
+            damping_ratio: inputs.damping_ratio,
+            warmup_cycles: inputs.warmup_cycles,
+            backlash: Some(inputs.backlash).filter(|&backlash| backlash > 0.0),
+            tolerance: inputs.tolerance,
+            spacing: Spacing::of(inputs),
         }
     }
 
     /// The same without warm-up and stations.
-    #[must_use]
-    pub fn without_warmup(self) -> Settings {
+    fn without_warmup(self) -> Settings {
         Settings {
             warmup_cycles: 0,
             ..self.without_stations()
@@ -61,8 +90,7 @@ impl Settings {
     }
 
     /// The same with a single interval of stations.
-    #[must_use]
-    pub fn without_stations(self) -> Settings {
+    fn without_stations(self) -> Settings {
         Settings {
             spacing: Spacing::Even(1),
             ..self

@@ -2,7 +2,30 @@
 
 use crate::model::inputs::{Gear, Inputs, Method};
 
-/// Shape of the pair: all that its geometry depends on.
+/// Inputs of the geometry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GeometryInputs {
+    /// Shape of the pair.
+    pub shape: PairShape,
+    /// Bore radii of driver and driven gear, in m: a thin wall needs more digits.
+    pub bores: [f64; 2],
+    /// Whether the case calls for double-double arithmetic.
+    pub is_accurate: bool,
+}
+
+impl GeometryInputs {
+    /// Selects them from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> GeometryInputs {
+        GeometryInputs {
+            shape: inputs.shape(),
+            bores: inputs.bores(),
+            is_accurate: inputs.accurate,
+        }
+    }
+}
+
+/// Shape of the pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairShape {
     /// Module m, in m.

@@ -4,16 +4,18 @@ use std::cell::Cell;
 
 use twofloat::TwoFloat;
 
-use crate::model::compliance::ContactPlace;
-use crate::model::deviation::Deflected;
-use crate::model::impact::Masses;
+use crate::model::clearing::{ClearingInputs, clearing};
+use crate::model::deviation::GivenDeviations;
+use crate::model::geometry::{GeometryInputs, precise};
 use crate::model::inputs::Inputs;
+use crate::model::load::{LoadInputs, mesh_force};
+use crate::model::masses::{MassInputs, Masses};
 use crate::model::request::{Earlier, Request};
-use crate::model::spacing::Spacing;
 use crate::model::stage::{Stage, Stages};
+use crate::model::stations::{StationsInputs, stations};
 use crate::model::{
-    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, clearing, deviation, friction,
-    geometry, impact, load_sharing, position, stations, stiffness_spread, velocity,
+    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, deviation, friction, geometry,
+    impact, load_sharing, position, stiffness_spread, velocity,
 };
 use crate::numeric::Real;
 
@@ -71,7 +73,7 @@ impl<'a> Solving<'a> {
     /// and masses.
     pub(super) fn repeat(&self, solution: &mut Solution) -> Result<(), Refusal> {
         let inputs = self.asked.inputs;
-        solution.mesh_force = inputs.torque() / solution.geometry.driver.base;
+        solution.mesh_force = mesh_force(&LoadInputs::of(inputs), &solution.geometry);
         let deviation = self.deviation(&solution.geometry, solution.mesh_force)?;
         solution.deviation = deviation.rounded();
         solution.kept.deviation = deviation;
@@ -111,12 +113,9 @@ impl Solving<'_> {
         geometry: &Geometry,
         mesh_force: f64,
     ) -> Result<Deviation<TwoFloat>, Refusal> {
-        let inputs = self.asked.inputs;
-        let deflected = match inputs.deflection_taken() {
-            Some(given) => Deflected::alone(given),
-            None => self.setup.deflected(geometry, mesh_force)?,
-        };
-        Ok(deviation::deviation(&inputs.errors(), deflected))
+        let given = GivenDeviations::of(self.asked.inputs);
+        let by_load = || self.setup.deflected(&given, geometry, mesh_force);
+        deviation::deviation(&given, by_load)
     }
 
     fn run(&self, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
@@ -143,7 +142,7 @@ impl Solving<'_> {
             solution.ran = solution.ran.with(Stage::Clearing);
         }
         solution.clearing = Some(held.map_or_else(
-            || clearing::clearing(self.asked.inputs, solution, go_on),
+            || clearing(&ClearingInputs::of(self.asked.inputs), solution, go_on),
             Ok,
         )?);
         solution.stages = solution.stages.with(Stage::Clearing);
@@ -162,7 +161,7 @@ impl Solving<'_> {
             earlier.mesh_force
         } else {
             ran = ran.with(Stage::Load);
-            let force = geometry.mesh_force(inputs.torque());
+            let force = mesh_force(&LoadInputs::of(inputs), &geometry);
             self.asked
                 .note(Stage::Load, |s| s.mesh_force.to_bits() == force.to_bits());
             force
@@ -171,7 +170,7 @@ impl Solving<'_> {
             earlier.kept.masses
         } else {
             ran = ran.with(Stage::Masses);
-            let bodies = inputs.bodies();
+            let bodies = MassInputs::of(inputs);
             let masses = self.precise(&geometry)?.map_or_else(
                 || Masses::of(&bodies, &geometry),
                 |pair| Masses::of(&bodies, pair),
@@ -222,8 +221,9 @@ impl Solving<'_> {
         *ran = ran.with(Stage::Geometry);
         // More digits may be behind the same rounded ones.
         self.asked.note(Stage::Geometry, |_| false);
-        let plain = geometry::geometry::<f64>(&self.asked.inputs.shape());
-        let precise = self.precise_of(plain.as_ref().ok())?;
+        let inputs = GeometryInputs::of(self.asked.inputs);
+        let plain = geometry::geometry::<f64>(&inputs.shape);
+        let precise = precise(&inputs, plain.as_ref().ok())?;
         let rounded = precise.map(Geometry::rounded);
         let _ = self.setup.precise.set(precise);
         rounded.map_or(plain, Ok)
@@ -234,17 +234,10 @@ impl Solving<'_> {
     fn precise(&self, plain: &Geometry) -> Result<Option<&Geometry<TwoFloat>>, Refusal> {
         let known = &self.setup.precise;
         if known.get().is_none() {
-            let _ = known.set(self.precise_of(Some(plain))?);
+            let inputs = GeometryInputs::of(self.asked.inputs);
+            let _ = known.set(precise(&inputs, Some(plain))?);
         }
         Ok(known.get().and_then(Option::as_ref))
-    }
-
-    fn precise_of(&self, plain: Option<&Geometry>) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
-        let close_call =
-            plain.is_none_or(|geometry| geometry.is_close_call(self.asked.inputs.bores()));
-        (self.asked.inputs.accurate || close_call)
-            .then(|| geometry::geometry::<TwoFloat>(&self.asked.inputs.shape()))
-            .transpose()
     }
 
     /// D, and everything after it.
@@ -255,7 +248,7 @@ impl Solving<'_> {
             solution.ran = solution.ran.with(Stage::Position);
             let precise = self.precise(&solution.geometry)?;
             let found = position::position(
-                &self.setup.search,
+                &self.setup.position,
                 &solution.geometry,
                 precise,
                 self.setup.series(&solution.geometry),
@@ -286,7 +279,7 @@ impl Solving<'_> {
     /// The stages from the velocity on, as far as they are wanted and can be computed.
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
         let (inputs, tip) = (self.asked.inputs, &position.contact);
-        let (setup, strike) = (self.setup, &self.setup.impact);
+        let setup = self.setup;
         let Solution {
             geometry,
             kept: Kept { masses, .. },
@@ -299,9 +292,9 @@ impl Solving<'_> {
             &mut done,
             Stage::Velocity,
             |s| s.velocity,
-            || Ok(velocity::velocity(inputs.driven_speed(), tip)),
+            || Ok(velocity::velocity(&setup.velocity, tip)),
         )?;
-        let place = ContactPlace::at_tip(strike.tip_radius, geometry, tip);
+        let place = setup.impact.compliance.place(geometry, tip);
         let borne = || setup.teeth(geometry)?.at(&place);
         solution.compliance = self.stage(&mut done, Stage::Compliance, |s| s.compliance, borne)?;
         let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
@@ -310,7 +303,7 @@ impl Solving<'_> {
         let struck = || {
             let spring = setup.teeth(geometry)?.spring(&place)?;
             let elastic = (&teeth, &spring);
-            impact::impact(strike, geometry, masses, tip, elastic, &velocity)
+            impact::impact(&setup.impact, geometry, masses, tip, elastic, &velocity)
         };
         solution.impact = self.stage(&mut done, Stage::Impact, |s| s.impact, struck)?;
         let Some(impact) = &solution.impact else {
@@ -319,7 +312,12 @@ impl Solving<'_> {
         let rubbed = || {
             let reduced = masses.reduced();
             Ok(friction::friction(
-                strike, geometry, tip, &velocity, impact, reduced,
+                &setup.friction,
+                geometry,
+                tip,
+                &velocity,
+                impact,
+                reduced,
             ))
         };
         solution.friction = self.stage(&mut done, Stage::Friction, |s| s.friction, rubbed)?;
@@ -330,14 +328,8 @@ impl Solving<'_> {
             || Ok(stiffness_spread::band(inputs, impact.force, force)),
         )?;
         let stood = || {
-            let walk = (strike, Spacing::of(inputs));
-            Ok(stations::stations(
-                walk,
-                geometry,
-                masses,
-                position,
-                impact.force,
-            ))
+            let inputs = StationsInputs::of(inputs);
+            Ok(stations(&inputs, geometry, masses, position, impact.force))
         };
         let earlier = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
         if let Some((stations, withheld)) =

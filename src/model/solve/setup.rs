@@ -6,18 +6,23 @@ use std::cell::OnceCell;
 use twofloat::TwoFloat;
 
 use crate::model::compliance::Teeth;
-use crate::model::deviation::{Deflected, LoadedPairs};
+use crate::model::deviation::{Deflected, GivenDeviations, LoadedPairs};
+use crate::model::friction::FrictionInputs;
 use crate::model::impact::ImpactInputs;
 use crate::model::inputs::Inputs;
-use crate::model::position::{ContactSearch, GapSeries};
+use crate::model::position::{GapSeries, PositionInputs};
+use crate::model::velocity::VelocityInputs;
 use crate::model::{Geometry, Refusal};
 
 /// What a closed-form solve computes before load and deviations enter. The parts belong to one
 /// geometry, which their users hand over.
 #[derive(Debug, Clone)]
 pub struct Setup {
-    pub(super) search: ContactSearch,
+    pub(super) position: PositionInputs,
+    pub(super) velocity: VelocityInputs,
+    /// With the compliance.
     pub(super) impact: ImpactInputs,
+    pub(super) friction: FrictionInputs,
     /// Geometry in double-double arithmetic, where it is called for.
     pub(super) precise: OnceCell<Option<Geometry<TwoFloat>>>,
     series: OnceCell<GapSeries>,
@@ -28,8 +33,10 @@ pub struct Setup {
 impl Setup {
     pub(super) fn of(inputs: &Inputs) -> Setup {
         Setup {
-            search: inputs.contact_search(),
-            impact: inputs.impact(),
+            position: PositionInputs::of(inputs),
+            velocity: VelocityInputs::of(inputs),
+            impact: ImpactInputs::of(inputs),
+            friction: FrictionInputs::of(inputs),
             precise: OnceCell::new(),
             series: OnceCell::new(),
             teeth: OnceCell::new(),
@@ -42,7 +49,7 @@ impl Setup {
     }
 
     pub(super) fn teeth(&self, geometry: &Geometry) -> Result<&Teeth, Refusal> {
-        let teeth = || Teeth::of(&self.impact.elasticity, geometry);
+        let teeth = || Teeth::of(&self.impact.compliance.elasticity, geometry);
         let known = self.teeth.get_or_init(teeth);
         known.as_ref().map_err(|refusal| *refusal)
     }
@@ -50,11 +57,12 @@ impl Setup {
     /// The deflection by the load.
     pub(super) fn deflected(
         &self,
+        given: &GivenDeviations,
         geometry: &Geometry,
         mesh_force: f64,
     ) -> Result<Deflected, Refusal> {
         let teeth = || self.teeth(geometry);
-        let loaded = || LoadedPairs::of(self.search.method, geometry, teeth);
+        let loaded = || LoadedPairs::of(given.method, geometry, teeth);
         let pairs = self.loaded.get_or_init(loaded);
         let pairs = pairs.as_ref().map_err(|refusal| *refusal)?;
         pairs.deflected(teeth()?, mesh_force)
