@@ -318,7 +318,7 @@ macro_rules! gear {
             Field {
                 key: concat!(stringify!($gear), ".grade"),
                 symbol: concat!("A", $i),
-                label: "ISO 1328-1 grade",
+                label: "ISO 1328-1 class",
                 help: "Flank tolerance class of ISO 1328-1:2013; it gives the base pitch deviation \
                     f_pb = f_pT cos(alpha) of this gear.",
                 kind: Kind::Count(1, 11, |inputs, value| inputs.$gear.grade = Some(value)),
