@@ -25,11 +25,11 @@ use grading::Grading;
 use harmonics::Displacements;
 use load::Load;
 
-/// Pitches over which the force on one tooth displaces another: the pairs of a mesh whose contact
-/// ratio is below 4 are no further apart.
+/// Greatest distance, in pitches, at which a force on one tooth displaces another. Pairs in contact
+/// are not farther apart if the contact ratio is below 4.
 pub const PITCHES: usize = 3;
 
-/// A gear whose field is to be computed.
+/// Input of the field of a gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldInput {
     /// Profile of its teeth.
@@ -44,33 +44,33 @@ pub struct FieldInput {
     pub poisson: f64,
 }
 
-/// The elastic field of a gear, for Young's modulus 1 and unit face width: a value over E is a
-/// compliance in m²/N, displacement in m for a load in N/m.
+/// The elastic field of a gear, for Young's modulus 1 and unit face width. A value divided by E is
+/// a compliance in m²/N: the displacement in m for a load in N/m.
 ///
 /// A load acts on a flank at a radius, along the tangent to the base circle. Displacements are
-/// along the same tangent of the tooth on which they are measured. The twist of the body about
-/// its bore is taken out; without a bore, so is the shift of the body.
+/// along the same tangent of the tooth on which they are measured. They exclude the twist of the
+/// body about its bore, and without a bore the shift of the body.
 ///
-/// Radii outside of [`Field::radii`] count as the nearest one inside: the patch of a load ends at
-/// the tip's corner at the latest.
+/// Radii outside of [`Field::radii`] use the nearest radius inside, so that the patch of a load
+/// does not extend beyond the tip's corner.
 ///
 /// # Source
-/// Finite elements on half a tooth pitch, as in cyclic symmetry after Thomas 1979 ("Dynamics of
+/// Finite elements on half a tooth pitch with cyclic symmetry: Thomas 1979 ("Dynamics of
 /// rotationally periodic structures").
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
     flank: Flank,
-    /// Where the surface's series is evaluated, and where the others are.
+    /// The abscissas of the surface's series and of the other series.
     abscissas: [Abscissa; 2],
     /// Module, in m.
     module: f64,
     poisson: f64,
-    /// Roll angle less the force's angle to the normal of the centre line, in rad.
+    /// Roll angle minus the force's angle to the normal of the centre line, in rad.
     base_half_angle: f64,
     twist: Option<f64>,
     /// Displacement at the centre of a patch of unit half width in modules.
     surface: Series,
-    /// Displacement on the centre line under a patch of no width.
+    /// Displacement on the centre line under a patch of width 0.
     depth: Series,
     /// Displacement of teeth behind the load.
     cross: [CrossSeries; PITCHES],
@@ -80,15 +80,15 @@ impl Field {
     /// The field of a gear.
     ///
     /// # Errors
-    /// A [`FieldRefusal`] if the gear has no tooth, flank or rim that elements can be laid on.
+    /// A [`FieldRefusal`] if the gear has no tooth, flank or rim for the elements.
     pub fn build(input: &FieldInput) -> Result<Field, FieldRefusal> {
         Field::graded(input, &Grading::STANDARD)
     }
 
-    /// Whether elements can be laid on the gear, without solving for their displacements.
+    /// Checks whether the elements fit the gear, without computing displacements.
     ///
     /// # Errors
-    /// Those of [`Field::build`], but for [`FieldRefusal::NotPositive`].
+    /// Those of [`Field::build`] except [`FieldRefusal::NotPositive`].
     pub fn check(input: &FieldInput) -> Result<(), FieldRefusal> {
         solve::check(input, &Grading::STANDARD)
     }
@@ -99,16 +99,16 @@ impl Field {
         Ok(Field::fitted(input, &boundary, &loads, &values))
     }
 
-    /// The displacement under a load where the line of force meets the centre line of the tooth:
-    /// tooth and body without the contact.
+    /// The displacement under a load at the crossing of the line of force and the centre line of
+    /// the tooth: tooth and body without the contact.
     ///
-    /// `half_width` is that of the elliptical patch, in m, and may be 0.
+    /// `half_width` of the elliptical patch is in m and can be 0.
     ///
     /// # Formula
     /// ```text
     /// q(a) = q(0) − (1 + ν)(2 − ν)/(4π h²) a²
     /// ```
-    /// where h is the depth of the centre line below the flank, along the force.
+    /// h is the depth of the centre line below the flank, along the force.
     #[must_use]
     pub fn depth(&self, radius: f64, half_width: f64) -> f64 {
         let roll = self.flank.roll(radius);
@@ -116,7 +116,7 @@ impl Field {
         self.depth.at(self.abscissas[1].at(roll)) - depth_loss(self.poisson) * share * share
     }
 
-    /// The displacement at the centre of the elliptical patch of a load, contact included;
+    /// The displacement at the centre of the elliptical patch of a load, contact included.
     /// `half_width` is in m and above 0.
     ///
     /// # Formula
@@ -130,7 +130,7 @@ impl Field {
             + surface_slope(self.poisson) * (self.module / half_width).ln()
     }
 
-    /// What the displacement under a patch loses for each unit of ln a.
+    /// Decrease of the displacement under a patch per unit of ln a.
     ///
     /// # Formula
     /// ```text
@@ -141,9 +141,9 @@ impl Field {
         surface_slope(self.poisson)
     }
 
-    /// The displacement at radius `measured` of the tooth `pitches` ahead of the one that is
-    /// loaded at radius `loaded`; ahead is where the force pushes to, and teeth behind it are
-    /// counted below 0.
+    /// The displacement at radius `measured` of the tooth `pitches` ahead of the tooth loaded at
+    /// radius `loaded`. Teeth in the direction of the force are ahead; teeth behind have negative
+    /// numbers.
     ///
     /// 0 for the loaded tooth itself, and for teeth more than [`PITCHES`] away.
     #[must_use]
@@ -161,15 +161,15 @@ impl Field {
         })
     }
 
-    /// The radius of the load whose pressure over ± `half_width`, in m, ends at the tip's corner; the
-    /// load next to the tip at the most.
+    /// The radius of the load whose pressure over ± `half_width`, in m, ends at the tip's corner,
+    /// at most the radius of the load next to the tip.
     ///
     /// # Formula
     /// ```text
     /// r² = rb² + La² − 2 rb a
     /// ```
-    /// where La is the length of the tangent from the base circle to the corner: an involute's arc is
-    /// L²/(2 rb).
+    /// La is the length of the tangent from the base circle to the corner. The arc length of an
+    /// involute is L²/(2 rb).
     #[must_use]
     pub fn last_radius(&self, half_width: f64) -> f64 {
         let ([form, last], base) = (self.radii(), self.flank.base);
@@ -184,8 +184,8 @@ impl Field {
         self.flank.radii()
     }
 
-    /// The displacement of all teeth by the twist of the body about its bore, which is not in the
-    /// other values; `None` without a bore.
+    /// The displacement of all teeth by the twist of the body about its bore, which the other
+    /// values exclude. `None` without a bore.
     #[must_use]
     pub fn twist(&self) -> Option<f64> {
         self.twist

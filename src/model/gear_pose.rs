@@ -1,5 +1,5 @@
-//! Where the teeth of the pair stand at a roll angle: O₁ at the origin, O₂ at (a, 0), the driver
-//! turning clockwise.
+//! Positions of the teeth at a roll angle. O₁ is at the origin, O₂ at (a, 0), and the driver turns
+//! clockwise.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,8 +10,8 @@ use super::inputs::Inputs;
 use super::outline::Outline;
 use super::tip_gap::TipContact;
 
-/// The two gears at a roll angle. Tooth 0 of each is of the incoming pair, and teeth are counted
-/// counterclockwise.
+/// The two gears at a roll angle. Tooth 0 of each gear belongs to the incoming pair. Teeth are
+/// numbered counterclockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearPose {
     /// The driver.
@@ -34,16 +34,16 @@ pub struct Placed {
 }
 
 impl GearPose {
-    /// The pair at the driver's angle `roll_angle` before E, in rad, flank on flank on the line of
-    /// action.
+    /// The pair at the driver's angle `roll_angle` before E, in rad, with flanks in contact on the
+    /// line of action.
     ///
     /// # Formula
     /// ```text
     /// driver: αw − N1E/rb1 + θ + ψ1,   driven: π + αw − N2E/rb2 − θ/i + ψ2
     /// ```
-    /// is the direction of the centre line of tooth 0, where ψ is half of the tooth's angle at the
-    /// base circle: the involute begins N₁E/r_b1 before N₁ when it passes E, and likewise the
-    /// driven one.
+    /// These are the directions of the centre lines of the teeth 0. ψ is half of the tooth's angle
+    /// at the base circle. At E the driver's involute begins N₁E/r_b1 before N₁; the driven
+    /// involute accordingly.
     #[must_use]
     pub fn nominal(inputs: &Inputs, geometry: &Geometry, roll_angle: f64) -> GearPose {
         let driver = Outline::of(inputs, &inputs.driver, &geometry.driver);
@@ -78,13 +78,13 @@ impl Placed {
         TAU / f64::from(self.teeth)
     }
 
-    /// The place of a tooth, by its number from the incoming one.
+    /// The pose of a tooth, numbered from the incoming tooth.
     #[must_use]
     pub fn tooth(&self, number: i64) -> Isometry2<f64> {
         Isometry2::new(self.centre.coords, self.turn + number as f64 * self.pitch())
     }
 
-    /// This gear turned on by an angle, in rad.
+    /// The gear turned by an angle, in rad.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Placed {
         Placed {
@@ -94,13 +94,13 @@ impl Placed {
     }
 }
 
-/// N₁, where the line of action touches the driver's base circle.
+/// N₁, where the line of action is tangent to the driver's base circle.
 #[must_use]
 pub fn driver_tangent_point(geometry: &Geometry) -> Point2<f64> {
     on_line_of_action(geometry, 0.0)
 }
 
-/// N₂, where it touches the driven gear's.
+/// N₂, where the line of action is tangent to the driven gear's base circle.
 #[must_use]
 pub fn driven_tangent_point(geometry: &Geometry) -> Point2<f64> {
     on_line_of_action(geometry, geometry.tangent_length)
@@ -116,7 +116,7 @@ pub fn on_line_of_action(geometry: &Geometry, length: f64) -> Point2<f64> {
     ))
 }
 
-/// The driven tip on its circle; of a rounded tip the point of its arc that faces the driver's
+/// The driven tip on its circle. For a rounded tip, the point of its arc that faces the driver's
 /// flank.
 #[must_use]
 pub fn tip_point(geometry: &Geometry, tip: &TipContact) -> Point2<f64> {
@@ -139,8 +139,8 @@ mod tests {
     use crate::model::sample::standard_pair;
     use crate::model::{Stages, solve};
 
-    /// Pairs with a deviation: alike, up and down in ratio, shifted, at a wide centre distance,
-    /// with undercut teeth.
+    /// Pairs with a deviation: equal gears, speed reducing, speed increasing, with profile shift,
+    /// with a wide centre distance, with undercut teeth.
     fn solved() -> Vec<(String, Inputs, Solution)> {
         let kinds = [
             (20, 20, 0.0, 0.0, None),
@@ -173,8 +173,8 @@ mod tests {
         kinds.map(pair).into()
     }
 
-    /// Gap between a point and the driver's struck flank along the flank's normal, in m, by
-    /// unwinding the string from the base circle: an account of its own.
+    /// Gap between a point and the driver's flank along the flank's normal, in m, by unwinding a
+    /// string from the base circle. Independent of the model.
     fn gap_to_struck_flank(driver: &Placed, point: Point2<f64>) -> f64 {
         let profile = driver.outline.profile();
         let base = profile.circles().base;
@@ -192,7 +192,7 @@ mod tests {
         (0..=steps).map(lower).collect()
     }
 
-    /// Least distance between two runs of points.
+    /// Least distance between two polylines.
     fn distance(one: &[Point2<f64>], other: &[Point2<f64>]) -> (f64, Point2<f64>) {
         let pairs = one
             .iter()
@@ -220,7 +220,7 @@ mod tests {
                 let off = (place - on_line_of_action(&geometry, length)).norm();
                 assert!(
                     off < 0.1 * inputs.module,
-                    "{name}: {off:e} m off the line of action at {part}"
+                    "{name}: {off:e} m from the line of action at {part}"
                 );
                 let gaps = driven
                     .iter()
@@ -264,8 +264,7 @@ mod tests {
         }
     }
 
-    /// Seen from the driver, which is ahead by the deviation, the tip comes down on the flank and
-    /// touches it at D.
+    /// In the frame of the driver, which is ahead by the deviation, the tip touches the flank at D.
     #[test]
     fn the_path_of_the_tip_touches_the_flank_at_d() {
         for (name, inputs, solution) in solved() {

@@ -11,8 +11,8 @@ use crate::numeric::Real;
 pub use circles::{Circles, circles};
 pub use shape::{GearShape, GeometryInputs, PairShape};
 
-/// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose
-/// two digits and more.
+/// A difference below this part of its terms is computed in double-double arithmetic, because f64
+/// would lose two or more digits.
 pub(super) const LEAST_REST: f64 = 1.0 / 64.0;
 
 /// Geometry of the pair.
@@ -40,12 +40,13 @@ pub struct Geometry<T = f64> {
     pub approach_length: T,
     /// Contact ratio ε = EB/p_b.
     pub contact_ratio: T,
-    /// γ₂: angle at O₂ between the centre line and the tip at E, in rad; of a rounded tip the
-    /// centre of its arc.
+    /// γ₂: angle at O₂ between the centre line and the tip at E, in rad. For a rounded tip, the
+    /// centre of its arc replaces the tip.
     pub start_angle_driven: T,
     /// Sine and cosine of γ₂.
     pub start_direction_driven: Vector2<T>,
-    /// E seen from O₁, or the centre of the rounded tip's arc there, the centre line along x, in m.
+    /// The point E relative to O₁ with the centre line along x, in m. For a rounded tip, the centre
+    /// of its arc.
     pub start_point: Vector2<T>,
 }
 
@@ -54,26 +55,27 @@ pub struct Geometry<T = f64> {
 /// # Formula
 /// ```text
 /// rb = r cos α,  ra = r + m (ha* + x) − chamfer,  pb = π m cos α
-/// inv αw = inv α + 2 (x1 + x2) tan α/(z1 + z2)  where no centre distance is given,  else cos αw = (rb1 + rb2)/a
+/// inv αw = inv α + 2 (x1 + x2) tan α/(z1 + z2)  without a given centre distance,
+/// otherwise cos αw = (rb1 + rb2)/a
 /// N1E = N1N2 − √(ra2² − rb2²),  N1B = √(ra1² − rb1²),  ε = (N1B − N1E)/pb
 /// γ2 = ∠(O2O1, O2E)
 /// ```
-/// A tip that is rounded by an arc of radius re inside the tip circle, tangent to it and to the
-/// flank, ends the involute at the radius of curvature L_f in place of √(ra² − rb²), and γ₂ and E
-/// of the tip are those of the arc's centre C:
+/// A rounded tip is an arc of radius re inside the tip circle, tangent to the tip circle and to the
+/// flank. It ends the involute at the radius of curvature L_f instead of √(ra² − rb²). γ₂ and E are
+/// those of the centre C of the arc:
 /// ```text
 /// rC = ra − re,  L_C = √(rC² − rb²),  L_f = L_C + re,  N1C = N1E + re
 /// ```
-/// where inv t = tan t − t. Squares are never subtracted: r_a − r_b = 2 r sin²(α/2) + m (h_a* + x),
-/// and N₁N₂ = (r_b1 + r_b2) tan α_w.
+/// inv t = tan t − t. The formulas avoid differences of squares: r_a − r_b = 2 r sin²(α/2) + m
+/// (h_a* + x) and N₁N₂ = (r_b1 + r_b2) tan α_w.
 ///
 /// # Source
 /// ISO 21771:2007; Zhou & Chen 2014, Eqs. 8, 9 (γ₂), 16 and 20 (N₁E, here without the rounded
 /// contact ratio).
 ///
 /// # Errors
-/// A [`Refusal`] where the pair has no line of action, a tip lies inside its base circle, or the
-/// driven tip would touch the driver below its base circle.
+/// A [`Refusal`] if the pair has no line of action, a tip is inside its base circle, or the driven
+/// tip would touch the driver below its base circle.
 pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     let alpha: T = shape.pressure_angle.into();
     let driver: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driver)?;
@@ -152,7 +154,7 @@ fn tangent_of<T: Real>(angle: T) -> T {
 }
 
 /// The point of a flank with the radius of curvature `curvature` on a contact normal at `angle`,
-/// seen from O₁.
+/// relative to O₁.
 pub(super) fn foot<T: Real>(base: T, curvature: T, angle: T) -> Vector2<T> {
     turned(angle) * Vector2::new(base, -curvature)
 }
@@ -187,7 +189,7 @@ fn working_tangent<T: Real>(shape: &PairShape, alpha: T, base_sum: T) -> Result<
 
 /// α_w − α of the mesh without backlash, by Newton's method on the involute function.
 ///
-/// The involute function is convex, so that from the right of the root each step stays right of it.
+/// The involute function is convex, so that steps from the right of the root stay on the right.
 fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal> {
     const LARGEST_ANGLE: f64 = 1.4;
     const STEPS: usize = 40;
@@ -223,16 +225,15 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
 }
 
 impl Geometry {
-    /// Length of the path of contact on which one pair more is in contact, (ε − ⌈ε⌉ + 1) p_b, in m:
-    /// for 1 < ε < 2 the length of double contact at either end.
+    /// Length of the path of contact with one additional pair in contact, (ε − ⌈ε⌉ + 1) p_b, in m.
+    /// For 1 < ε < 2 this is the length of double contact at each end.
     #[must_use]
     pub fn shared_length(&self) -> f64 {
         (self.contact_ratio - self.contact_ratio.ceil() + 1.0) * self.base_pitch
     }
 
-    /// Whether the differences that the pair stands on are so small that f64 loses digits in them:
-    /// N₁E, the path of contact, EP, r_a − r_b, a − (r_b1 + r_b2), the wall between bore and base
-    /// circle, and of rounded tips ε − 1.
+    /// Whether f64 loses digits in a small difference: N₁E, the path of contact, EP, r_a − r_b, a −
+    /// (r_b1 + r_b2), the wall between bore and base circle, or ε − 1 with rounded tips.
     #[must_use]
     pub fn is_close_call(&self, bores: [f64; 2]) -> bool {
         const FLAT: f64 = 0.125;
@@ -255,9 +256,9 @@ impl Geometry {
         self.driver.edge > 0.0 || self.driven.edge > 0.0
     }
 
-    /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m,
-    /// where α_w0 is the working pressure angle without backlash; below 0 the teeth jam (ISO
-    /// 21771).
+    /// Normal backlash from the centre distance, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m. α_w0
+    /// is the working pressure angle without backlash. A negative value means that the teeth jam
+    /// (ISO 21771).
     #[must_use]
     pub fn backlash(&self, shape: &PairShape) -> f64 {
         let involute = |angle: f64| angle.tan() - angle;

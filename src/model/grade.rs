@@ -1,9 +1,9 @@
-//! Base pitch deviation of a gear: as the case gives it, or by its flank tolerance class.
+//! Base pitch deviation of a gear: given by the case, or from its flank tolerance class.
 
 use super::inputs::{Gear, Inputs};
 use super::iso_1328::{base_pitch_tolerance, pitch_tolerance};
 
-/// Where a gear's base pitch deviation comes from.
+/// Source of a gear's base pitch deviation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
     /// The gear's own value.
@@ -14,7 +14,7 @@ pub enum Origin {
     Common,
 }
 
-/// Why ISO 1328-1:2013 does not cover a gear, where it does not.
+/// Why ISO 1328-1:2013 does not cover a gear, or `None` if it does.
 #[must_use]
 pub fn out_of_range(module: f64, teeth: u32) -> Option<&'static str> {
     let diameter = module * f64::from(teeth);
@@ -28,12 +28,12 @@ pub fn out_of_range(module: f64, teeth: u32) -> Option<&'static str> {
 }
 
 impl Inputs {
-    /// Base pitch deviation f_pb of a gear of the pair, in m, and where it comes from: the gear's
-    /// own value governs its grade, and its grade the common value.
+    /// Base pitch deviation f_pb of a gear of the pair, in m, and its source. The gear's own value
+    /// has priority over its flank tolerance class, and the class over the common value.
     ///
     /// # Formula
     /// ```text
-    /// f_pb = f_pT cos α  by the grade
+    /// f_pb = f_pT cos α  for a flank tolerance class
     /// ```
     #[must_use]
     pub fn base_pitch_of(&self, gear: &Gear) -> (f64, Origin) {
@@ -49,7 +49,7 @@ impl Inputs {
         }
     }
 
-    /// Single pitch deviation f_pT of a gear's grade, in m.
+    /// Single pitch deviation f_pT of a gear's flank tolerance class, in m.
     #[must_use]
     pub fn graded_pitch(&self, gear: &Gear) -> Option<f64> {
         let diameter = self.module * f64::from(gear.teeth);
@@ -62,8 +62,8 @@ impl Inputs {
         [&self.driver, &self.driven].map(|gear| self.base_pitch_of(gear).0)
     }
 
-    /// The base pitch deviation that both gears would have to have for the same equivalent error,
-    /// in m: the root mean square of both.
+    /// The root mean square of both base pitch deviations, in m. Two gears with this deviation have
+    /// the same equivalent error.
     #[must_use]
     pub fn mean_base_pitch(&self) -> f64 {
         let [driver, driven] = self.base_pitches();
@@ -74,7 +74,7 @@ impl Inputs {
         mean.abs().sqrt().copysign(mean)
     }
 
-    /// Whether a gear has a base pitch deviation of its own, given or by its grade.
+    /// Whether a gear has its own base pitch deviation or flank tolerance class.
     #[must_use]
     pub fn has_own_base_pitch(&self) -> bool {
         [&self.driver, &self.driven]
@@ -86,7 +86,7 @@ impl Inputs {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn the_own_value_governs_the_grade_and_the_grade_the_common_value() {
+    fn the_own_value_replaces_the_class_and_the_class_replaces_the_common_value() {
         let mut inputs = crate::model::sample::standard_pair(20, 20, 5e-3);
         inputs.base_pitch_deviation = 3e-6;
         let bits = |inputs: &crate::model::Inputs| inputs.base_pitches().map(f64::to_bits);

@@ -4,21 +4,21 @@ use std::f64::consts::TAU;
 
 use crate::numeric::quadrature;
 
-/// Harmonics of the mesh frequency that a spectrum has.
+/// Number of harmonics in a spectrum.
 pub const HARMONICS: usize = 10;
 
-/// A transmission error over p mesh periods (p = 1 unless the motion repeats after several):
-/// amplitudes of the multiples of the mesh frequency, averaged over the periods. Subharmonics are
-/// left out.
+/// A transmission error over p mesh periods; p = 1 unless the motion repeats after several periods.
+/// Amplitudes of the multiples of the mesh frequency, averaged over the periods, without
+/// subharmonics.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spectrum {
-    /// Amplitudes of the harmonics of the mesh frequency, the first one first, in m.
+    /// Amplitudes of the harmonics of the mesh frequency from the first, in m.
     pub amplitudes: [f64; HARMONICS],
-    /// Greatest less least value, in m.
+    /// Difference of the greatest and the least value, in m.
     pub peak_to_peak: f64,
 }
 
-/// The sums of a Fourier analysis so far.
+/// Partial sums of a Fourier analysis.
 ///
 /// # Formula
 /// ```text
@@ -43,10 +43,11 @@ impl Fourier {
         }
     }
 
-    /// Adds a smooth piece from one part of the period to another; `value` is a function of the
-    /// part of the piece.
+    /// Adds a smooth piece between two parts of the period. `value` is a function of the part of
+    /// the piece, from 0 to 1.
     pub(super) fn add(&mut self, (from, to): (f64, f64), value: impl Fn(f64) -> f64) {
-        /// Of the rule: so that it resolves the highest harmonic in each of them.
+        /// Number of quadrature intervals per period, which resolves the highest harmonic in each
+        /// interval.
         const PIECES_OF_PERIOD: f64 = 2.0 * HARMONICS as f64;
         const LEAST: f64 = 3.0;
         let count = ((to - from) * PIECES_OF_PERIOD).ceil().max(LEAST);
@@ -63,12 +64,12 @@ impl Fourier {
         }
     }
 
-    /// Notes a value that the function takes.
+    /// Includes a value in the peak-to-peak range.
     pub(super) fn include(&mut self, value: f64) {
         (self.least, self.most) = (self.least.min(value), self.most.max(value));
     }
 
-    /// The spectrum after so many periods.
+    /// The spectrum after `periods` periods.
     pub(super) fn spectrum(&self, periods: u32) -> Spectrum {
         let amplitude =
             |[cosine, sine]: [f64; 2]| 2.0 * cosine.hypot(sine) / f64::from(periods.max(1));
@@ -99,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn two_periods_have_the_harmonics_of_one() {
+    fn two_periods_have_the_same_harmonics_as_one() {
         let mut fourier = Fourier::new();
         for _ in 0..2 {
             fourier.add((0.0, 1.0), |part| {

@@ -1,4 +1,4 @@
-//! Moment of inertia of a gear: from its true outline, as a disc, or as the case gives it.
+//! Moment of inertia of a gear: from its outline, as a disc, or given by the case.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -11,18 +11,18 @@ use crate::numeric::{Real, quadrature};
 /// Relative tolerance of the integral over the fillet.
 const TOLERANCE: f64 = 1e-14;
 
-/// A gear's body: all that its inertia depends on, apart from its circles.
+/// A gear's body: the inputs of its inertia besides its circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Body {
-    /// The case gives the moment of inertia of all that turns with the gear, in kg m².
+    /// The given moment of inertia of all parts that turn with the gear, in kg m².
     Given(f64),
-    /// The gear's true outline.
+    /// The outline of the gear.
     Outline(Blank, Rack, f64),
     /// A disc up to the base circle, Eq. 47.
     BaseCircle(Blank),
 }
 
-/// What a body of uniform width is made of.
+/// Bore, width and density of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blank {
     /// Key of the field of the bore.
@@ -36,7 +36,7 @@ pub struct Blank {
 }
 
 impl Inputs {
-    /// Bodies of driver and driven gear. The method `paper` takes the disc of its Eq. 47.
+    /// Bodies of driver and driven gear. The method `paper` uses the disc of Eq. 47.
     #[must_use]
     pub fn bodies(&self) -> [Body; 2] {
         let body = |bore_field, gear: &Gear| {
@@ -61,7 +61,7 @@ impl Inputs {
         ]
     }
 
-    /// The body of a gear without an inertia of its own: the method `paper` knows one alone.
+    /// The inertia model of a gear without a given inertia. The method `paper` has only one model.
     #[must_use]
     pub fn inertia_taken(&self) -> InertiaModel {
         match self.method {
@@ -76,7 +76,7 @@ impl Inputs {
 pub struct Inertia {
     /// J, in kg m².
     pub moment: f64,
-    /// Whether the outline encloses no tooth, so that the disc to the base circle replaces it.
+    /// Whether the disc replaces an outline that encloses no tooth.
     pub is_fallback: bool,
 }
 
@@ -90,10 +90,10 @@ impl Inertia {
     /// ```
     ///
     /// # Source
-    /// Zhou & Chen 2014, Eq. 47, of which a spurious g is taken out; [`polar_moment`].
+    /// Zhou & Chen 2014, Eq. 47, without a spurious g; [`polar_moment`].
     ///
     /// # Errors
-    /// [`Refusal::BoreTooLarge`] where the bore leaves no body.
+    /// [`Refusal::BoreTooLarge`] if the bore is larger than the body.
     pub fn of<T: Real>(body: &Body, circles: &Circles<T>) -> Result<Inertia, Refusal> {
         let disc = |blank: &Blank, is_fallback| {
             disc(blank, circles).map(|moment| Inertia {
@@ -124,7 +124,7 @@ impl Inertia {
     }
 }
 
-/// The circles of the gear before its tip is chamfered or rounded.
+/// The circles of the gear without chamfer and rounding of the tip.
 fn whole(circles: &Circles, rack: &Rack, addendum: f64) -> Circles {
     let tip = circles.reference + rack.module * (addendum + rack.profile_shift);
     Circles {
@@ -156,17 +156,17 @@ fn check_bore(blank: &Blank, circle: &'static str, limit: f64) -> Result<(), Ref
     Ok(())
 }
 
-/// Polar moment of area of the gear's section, in m⁴: times density and face width it is the moment
-/// of inertia J. `None` where the undercut cuts the teeth through.
+/// Polar moment of area of the gear's section, in m⁴. J is this moment times density and face
+/// width. `None` if the undercut cuts the teeth through.
 ///
 /// # Formula
 /// ```text
 /// π/2 (r_f⁴ − r_h⁴) + z ∫ 2 θ(r) r³ dr,  r = r_f .. r_a
 /// ```
-/// where θ is half of the tooth's angle. A pointed tooth ends where its flanks meet.
+/// θ is half of the tooth's angle. A pointed tooth ends at the intersection of its flanks.
 ///
 /// # Source
-/// The profile is the rack's, see [`Profile`].
+/// The profile cut by the rack, see [`Profile`].
 #[must_use]
 pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> Option<f64> {
     let root = profile.circles().root;
@@ -178,7 +178,7 @@ pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> Option<f
     Some(ring + 2.0 * f64::from(teeth) * (flank_moment(profile)? + fillet))
 }
 
-/// ∫ θ r³ dr over the involute in closed form; `None` where it begins beyond its own end.
+/// ∫ θ r³ dr over the involute in closed form. `None` if the involute begins beyond its end.
 ///
 /// # Formula
 /// ```text
@@ -211,7 +211,7 @@ fn flank_moment(profile: &Profile) -> Option<f64> {
     Some(base.powi(4) * (primitive(end) - primitive(start)))
 }
 
-/// ∫ θ r³ dr over the fillet, to the tip circle at the most; `None` where its two sides meet.
+/// ∫ θ r³ dr over the fillet, at most to the tip circle. `None` if both sides of the fillet meet.
 fn fillet_moment(profile: &Profile) -> Option<f64> {
     let tip = profile.circles().tip;
     let end = -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| {
@@ -231,8 +231,8 @@ fn fillet_moment(profile: &Profile) -> Option<f64> {
     is_whole.get().then_some(moment)
 }
 
-/// The greatest value at which a condition is true that is true at `from` and turns false once at
-/// the most, by bisection.
+/// The greatest value at which a condition is true, by bisection. The condition is true at `from`
+/// and changes at most once.
 fn last_where(from: f64, to: f64, is_true: impl Fn(f64) -> bool) -> f64 {
     const HALVINGS: usize = 60;
     if is_true(to) {

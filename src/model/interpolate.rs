@@ -1,4 +1,4 @@
-//! The results for the incoming tooth at any roll angle, at stations and between them.
+//! Results for the incoming tooth at any roll angle, at stations and between stations.
 
 use super::compliance::Teeth;
 use super::inputs::Inputs;
@@ -8,39 +8,40 @@ use super::static_load::balance;
 use super::stations::{self, StationsInputs};
 use super::{MeshStation, Solution, Station};
 
-/// An angle beyond the first contact by less than this share of it is at the first contact.
+/// An angle beyond the first contact by less than this part counts as the first contact.
 const ROUNDING: f64 = 1e-9;
 
 /// The results for the incoming tooth at a roll angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Interpolated {
-    /// From D to E, the impact as if it happened there.
+    /// From D to E: an impact at this angle.
     Impact(Station),
-    /// From the first contact to the last, with the load shared.
+    /// From the first to the last contact: the shared load.
     Load(MeshStation),
-    /// The same between two stations of a motion: force and displacement are good to
-    /// [`DIGITS_BETWEEN`] digits.
+    /// The shared load between two stations of a motion, with [`DIGITS_BETWEEN`] correct digits of
+    /// force and displacement.
     Between(MeshStation),
 }
 
-/// Digits of the greatest force to which the force between two stations of a motion is good, with
-/// 64 stations.
+/// Correct digits of the force between two stations of a motion, relative to the greatest force,
+/// with 64 stations.
 pub const DIGITS_BETWEEN: usize = 3;
 
 impl Interpolated {
-    /// The results of the solution's method `roll_angle` before E, in rad of the driver; `None`
-    /// where the tooth is not in contact, or has no force.
+    /// The results of the solution's method at `roll_angle` before E, in rad of the driver. `None`
+    /// if the tooth is not in contact or has no force.
     ///
     /// # Formula
     /// ```text
     /// paper, exact:  as at a station
     /// static:        as at a station
-    /// dynamic:       F of the load shared at x,  x by the cubic with x and x' of the stations on either side
+    /// dynamic:       F of the load shared at x,
+    ///                x by the cubic with x and x' of both neighbouring stations
     /// ```
     ///
     /// # Valid for
-    /// All digits in closed form and in `static`, and on the stations of `dynamic`. Between those,
-    /// with 64 of them, the force is good to 5e-3 of its peak.
+    /// Full precision for the closed form, for `static`, and at the stations of `dynamic`. Between
+    /// 64 stations of `dynamic` the error of the force is at most 5e-3 of the peak.
     #[must_use]
     pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Interpolated> {
         match (&solution.dynamic, &solution.static_load) {
@@ -51,7 +52,7 @@ impl Interpolated {
         }
     }
 
-    /// The impact, in the methods `paper` and `exact`.
+    /// The impact of the methods `paper` and `exact`.
     #[must_use]
     pub fn impact(&self) -> Option<&Station> {
         if let Interpolated::Impact(station) = self {
@@ -133,8 +134,8 @@ fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Inte
     )))
 }
 
-/// Displacement and time at a part of the way between two stations, by the cubic that has value and
-/// rate of both.
+/// Displacement and time between two stations, by the cubic through value and slope at both
+/// stations.
 fn cubic(from: &MeshStation, to: &MeshStation, part: f64) -> Option<(f64, f64)> {
     let (begin, end) = (from.time?, to.time?);
     let rest = 1.0 - part;
@@ -207,7 +208,7 @@ mod tests {
         }
     }
 
-    /// Contact begins and ends without force. The balance there is a difference of large numbers.
+    /// Contact begins and ends without force. There the balance is a difference of large numbers.
     #[test]
     fn the_force_at_the_ends_of_contact_is_zero_without_rounding() {
         for (teeth, deviation) in [(30, 10e-6), (25, 16e-6), (41, 23e-6), (67, 7e-6)] {

@@ -8,14 +8,15 @@ pub const CLASSES: RangeInclusive<u32> = 1..=11;
 const MICROMETRES: f64 = 1e6;
 const MILLIMETRES: f64 = 1e3;
 
-/// Allowed single pitch deviation f_pT of a gear with the module m and the reference diameter d,
-/// both in m; the result in m.
+/// Single pitch tolerance f_pT of a gear with the module m and the reference diameter d, both in m.
+/// The result is in m.
 ///
 /// # Formula
 /// ```text
 /// f_pT = (0.001 d + 0.4 m + 5) 2^((A − 5)/2)   in µm, with d and m in mm
 /// ```
-/// where A is the class, rounded to 1 µm above 10 µm, to 0.5 µm from 5 µm on, else to 0.1 µm.
+/// A is the class. The result is rounded to 1 µm above 10 µm, to 0.5 µm from 5 µm on, otherwise to
+/// 0.1 µm.
 ///
 /// # Source
 /// ISO 1328-1:2013, section 5.
@@ -31,7 +32,7 @@ pub fn pitch_tolerance(class: u32, module: f64, diameter: f64) -> f64 {
     (exact * step).round() / step / MICROMETRES
 }
 
-/// Allowed base pitch deviation f_pb = f_pT cos α, in m.
+/// Base pitch tolerance f_pb = f_pT cos α, in m.
 #[must_use]
 pub fn base_pitch_tolerance(class: u32, module: f64, diameter: f64, pressure_angle: f64) -> f64 {
     pitch_tolerance(class, module, diameter) * pressure_angle.cos()
@@ -42,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tolerances_are_those_of_the_standard() {
+    fn tolerances_agree_with_the_standard() {
         for (class, module, diameter, micrometres) in [
             (5, 2e-3, 0.1, 6.0),
             (6, 2e-3, 0.1, 8.5),

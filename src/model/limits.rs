@@ -1,4 +1,4 @@
-//! Where the model stops being right: refusals, with the value and the limit.
+//! Limits of the model: refusals with the value and the limit.
 
 pub mod field;
 mod refusal;

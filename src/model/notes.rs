@@ -1,4 +1,4 @@
-//! What a reader must know beside a result: each note with its value and its limit.
+//! Notes beside the results, each with its value and its limit.
 
 mod compliance;
 mod gear;
@@ -9,7 +9,7 @@ mod pair;
 use super::{Inputs, Solution};
 use crate::numeric::decimal::significant;
 
-/// Something a reader must know beside a result.
+/// A note beside the results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Note {
     /// A short name for scripts.
@@ -29,10 +29,10 @@ fn four(value: f64) -> String {
     significant(value, 4)
 }
 
-/// A condition to look for.
+/// Returns a note if its condition is true.
 type Look = fn(&Inputs, &Solution) -> Option<Note>;
 
-/// Every condition, in the order in which a reader meets them.
+/// All conditions, in the order of the notes.
 const LOOKS: &[Look] = &[
     load::method_taken,
     load::deflection_ignored,
@@ -72,7 +72,7 @@ const LOOKS: &[Look] = &[
     pair::form_circle,
 ];
 
-/// What a reader must know beside the result.
+/// The notes on the results.
 #[must_use]
 pub fn notes(inputs: &Inputs, solution: &Solution) -> Vec<Note> {
     LOOKS

@@ -1,4 +1,4 @@
-//! The true outline of a gear's tooth, piece by piece from the root to the tip.
+//! The outline of a gear's tooth, piece by piece from the root to the tip.
 
 mod edge;
 
@@ -15,29 +15,30 @@ use edge::{Bevel, Edge, bevel, widest_edge};
 /// The outline of a tooth in a frame whose x axis is the tooth's centre line, from the gear's
 /// centre.
 ///
-/// The tooth is symmetric: the half with y above 0 is described. A chamfer is a bevel at 45 degrees
-/// to the centre line, from the active tip circle to the tip circle; no case gives its angle. A tip
-/// with a radius has no bevel. Reliefs, some micrometres, are not on it.
+/// The tooth is symmetric: the type describes the half with y above 0. A chamfer is a bevel at 45
+/// degrees to the centre line, from the active tip circle to the tip circle, because a case does
+/// not give its angle. A tip with a radius has no bevel. The outline does not show reliefs of some
+/// micrometres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outline {
     profile: Profile,
     /// Angle of the rack's normal at which the fillet ends, in rad.
     fillet_end: f64,
-    /// Roll angle at which the involute ends, in rad; none is left where it is not above the
-    /// junction's.
+    /// Roll angle at which the involute ends, in rad. Without an involute it is at most the roll
+    /// angle of the junction.
     flank_end: f64,
     edge: Option<Edge>,
     bevel: Option<Bevel>,
     /// Radius at which the tooth ends, in m.
     tip_radius: f64,
-    /// Angle between the centre line and the place where the tip circle takes over, in rad.
+    /// Angle between the centre line and the end of the tip circle, in rad.
     tip_half_angle: f64,
 }
 
 /// A piece of the outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Piece {
-    /// The trochoid that the rack's rounding leaves.
+    /// The trochoid of the rack's rounding.
     Fillet,
     /// The involute, from the form circle.
     Flank,
@@ -63,8 +64,8 @@ impl Piece {
 impl Outline {
     /// The outline of the gear's teeth.
     ///
-    /// A pointed tooth ends where its flanks meet. A rounding of the edge for which the tip has no
-    /// room is made as large as there is room for.
+    /// A pointed tooth ends at the intersection of its flanks. A rounding too large for the tip is
+    /// reduced to the largest possible rounding.
     #[must_use]
     pub fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Outline {
         let profile = Profile::of(&Rack::of(inputs, gear), circles);
@@ -97,14 +98,13 @@ impl Outline {
         }
     }
 
-    /// The profile that it is made of.
+    /// The profile of the tooth.
     #[must_use]
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
 
-    /// Radius at which the tooth ends, in m: that of the tip circle, or less where the tooth is
-    /// pointed.
+    /// Radius at which the tooth ends, in m: the tip circle, or less for a pointed tooth.
     #[must_use]
     pub fn tip_radius(&self) -> f64 {
         self.tip_radius
@@ -122,8 +122,7 @@ impl Outline {
         })
     }
 
-    /// A point of a piece, `part` of the way of its parameter from its root end (0) to its tip end
-    /// (1).
+    /// The point of a piece at `part` of its parameter, from the root end (0) to the tip end (1).
     #[must_use]
     pub fn at(&self, piece: Piece, part: f64) -> Point2<f64> {
         let between = |from: f64, to: f64| from + part * (to - from);
@@ -147,8 +146,8 @@ impl Outline {
         }
     }
 
-    /// The whole tooth as points, from the middle of one space to the middle of the next, the root
-    /// circle and each piece in `steps` equal steps of the parameter.
+    /// The whole tooth as points, from the middle of one space to the middle of the next. The root
+    /// circle and each piece have `steps` equal steps of the parameter.
     #[must_use]
     pub fn tooth(&self, steps: usize) -> Vec<Point2<f64>> {
         let part = move |step: usize| step as f64 / steps.max(1) as f64;
@@ -173,8 +172,8 @@ fn tip_roll(profile: &Profile) -> f64 {
     profile.circles().tip_curvature / profile.circles().base
 }
 
-/// Roll angle at which the involute ends, in rad: on the tip circle, or before where the flanks
-/// meet.
+/// Roll angle at which the involute ends, in rad: on the tip circle, or before at the intersection
+/// of the flanks.
 fn flank_end(profile: &Profile) -> f64 {
     let (start, tip) = (profile.junction.roll, tip_roll(profile));
     last_where(start.min(tip), tip, |roll| {
@@ -191,7 +190,7 @@ fn fillet_end(profile: &Profile) -> f64 {
     })
 }
 
-/// The direction at an angle to the centre line.
+/// The unit vector at an angle to the centre line.
 fn along(angle: f64) -> Vector2<f64> {
     Vector2::new(angle.cos(), angle.sin())
 }
@@ -203,8 +202,7 @@ mod tests {
     use crate::model::sample::standard_pair;
     use std::f64::consts::PI;
 
-    /// Outlines of ordinary, shifted, undercut and rounded teeth, with their gear and its reference
-    /// circle.
+    /// Outlines of ordinary, shifted, undercut and rounded teeth, with their inputs.
     fn outlines() -> Vec<(String, Outline, Inputs)> {
         let kinds: [(u32, f64, Option<f64>); 7] = [
             (20, 0.0, None),
@@ -246,7 +244,7 @@ mod tests {
                 let point = outline.at(Piece::Flank, f64::from(step) / 40.0);
                 let radius = point.coords.norm();
                 let off = radius * (point.y.atan2(point.x) - involute_angle(&inputs, radius));
-                // Next to the base circle acos turns an error of 1e-16 in the radius into 1e-8 of
+                // Near the base circle acos amplifies an error of 1e-16 in the radius to 1e-8 of
                 // the angle.
                 let tolerance = if radius < 1.0001 * outline.profile().circles().base {
                     1e-9
@@ -255,14 +253,14 @@ mod tests {
                 };
                 assert!(
                     off.abs() < tolerance * inputs.module,
-                    "{name}: {off:e} m off at {radius}"
+                    "{name}: error {off:e} m at {radius}"
                 );
             }
         }
     }
 
     #[test]
-    fn pieces_follow_on_each_other_without_a_gap() {
+    fn pieces_join_without_a_gap() {
         for (name, outline, inputs) in outlines() {
             let pieces: Vec<_> = outline.pieces().collect();
             for pair in pieces.windows(2) {
@@ -286,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn thickness_at_the_reference_circle_is_the_racks() {
+    fn thickness_at_the_reference_circle_agrees_with_the_rack() {
         for (name, outline, inputs) in outlines() {
             let reference = outline.profile().circles().reference;
             let steps = 20_000;
@@ -307,7 +305,7 @@ mod tests {
         }
     }
 
-    /// The rounding leaves the involute and meets the tip circle in their own directions.
+    /// The arc is tangent to the involute and to the tip circle.
     #[test]
     fn rounded_edges_are_tangent_to_flank_and_tip() {
         const STEP: f64 = 1e-5;
@@ -344,7 +342,7 @@ mod tests {
         assert!((end.coords.norm() - 55e-3).abs() < 1e-15);
         assert!(((end.x - corner.x) + (end.y - corner.y)).abs() < 1e-15);
         assert!((outline.tip_radius() - 55e-3).abs() < 1e-15);
-        // A tooth that is thinner than the chamfer ends on its centre line.
+        // A tooth thinner than the chamfer ends on its centre line.
         inputs.driver.tip_chamfer = 4e-3;
         inputs.driver.addendum = 1.5;
         let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
@@ -353,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn teeth_end_where_their_flanks_meet() {
+    fn pointed_teeth_end_at_the_intersection_of_their_flanks() {
         let mut inputs = standard_pair(12, 60, 5e-3);
         (
             inputs.driver.addendum,

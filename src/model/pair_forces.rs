@@ -1,4 +1,4 @@
-//! The tooth pairs at one position of the mesh, and the forces that they share.
+//! The tooth pairs at one position of the mesh and their forces.
 
 mod compliances;
 #[cfg(test)]
@@ -9,7 +9,7 @@ pub use super::field::PITCHES;
 pub use compliances::Compliances;
 pub use touching::Touching;
 
-/// A pair at a place of the mesh.
+/// The contact place of a pair in the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Stiffness b/q of the pair alone, in N/m.
@@ -25,51 +25,53 @@ pub struct Place {
 /// A tooth pair at a position of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// How many base pitches it is ahead of the incoming one; below 0 behind.
+    /// Number of base pitches ahead of the incoming pair; negative for pairs behind.
     pub ahead: i32,
     /// Its place.
     pub place: Place,
-    /// The part of its force that turns the driver, 1 without friction.
+    /// The part of the force that turns the driver; 1 without friction.
     pub weight: f64,
 }
 
 impl Pair {
-    /// Force of a pair that is a spring of its own, in N.
+    /// Force of a pair as an independent spring, in N.
     fn alone(&self, displacement: f64) -> f64 {
         self.place.stiffness * (displacement - self.place.gap).max(0.0)
     }
 }
 
-/// The pairs that may touch at a position of the mesh, the rearmost first and without omission.
+/// The pairs that may touch at a position of the mesh, the rearmost first, without gaps in their
+/// order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSet {
     pairs: Vec<Pair>,
-    /// Displacement of each pair by the force on the pair 1, 2, .. pitches behind, in m/N; empty if
-    /// the pairs are independent springs.
+    /// Displacement of each pair by a unit force on the pair 1, 2, .. pitches behind, in m/N. Empty
+    /// if the pairs are independent springs.
     couplings: Vec<[f64; PITCHES]>,
 }
 
 /// The balance at a position of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Balance {
-    /// Displacement of the driver ahead x, in m; infinite where no pair can carry.
+    /// Displacement of the driver ahead x, in m; infinite if no pair can carry.
     pub displacement: f64,
     /// Force of the incoming tooth, in N.
     pub force: f64,
-    /// Forces of all pairs together, in N.
+    /// Sum of the forces of all pairs, in N.
     pub total: f64,
 }
 
-/// Where the search upwards from the first touch stops.
+/// End condition of the search upwards from the first touch.
 #[derive(Debug, Clone, Copy)]
 enum Until {
-    /// The forces that turn the driver add up to this, in N.
+    /// The sum of the forces that turn the driver, in N.
     Total(f64),
-    /// The displacement is this, in m.
+    /// The displacement, in m.
     Displacement(f64),
 }
 
-/// While the same pairs touch: force (or lead, in m, of a pair apart) = slope x − offset.
+/// For a fixed set of touching pairs: force (or, for a pair without contact, lead in m) = slope x −
+/// offset.
 struct Lines {
     touching: Vec<usize>,
     /// Slope and offset of each touching pair's force.
@@ -77,7 +79,7 @@ struct Lines {
 }
 
 impl PairSet {
-    /// Pairs without omission, the rearmost first, and their couplings.
+    /// `pairs` begins with the rearmost pair and has no gaps in its order.
     #[must_use]
     pub fn new(pairs: Vec<Pair>, couplings: Vec<[f64; PITCHES]>) -> PairSet {
         PairSet { pairs, couplings }
@@ -89,7 +91,7 @@ impl PairSet {
         &self.pairs
     }
 
-    /// The same pairs without their gaps; those that are not `kept` do not touch.
+    /// The pairs without their gaps. Pairs that are not `kept` do not touch.
     #[must_use]
     pub fn of_no_gap(mut self, kept: impl Fn(i32) -> bool) -> PairSet {
         for pair in &mut self.pairs {
@@ -98,7 +100,8 @@ impl PairSet {
         self
     }
 
-    /// The same pairs with wider gaps; `more` is in m, by the base pitches that a pair is ahead.
+    /// The pairs with wider gaps. `more` gives the addition in m for the base pitches that a pair
+    /// is ahead.
     #[must_use]
     pub fn widened(&self, more: impl Fn(i32) -> f64) -> PairSet {
         let mut pairs = self.pairs.clone();
@@ -111,11 +114,11 @@ impl PairSet {
         }
     }
 
-    /// The balance of the forces that turn the driver with `force`, in N.
+    /// The balance between `force`, in N, and the forces that turn the driver.
     ///
     /// # Formula
     /// ```text
-    /// x + e_k − S_k = Σ_j Q_kj F_j/b  where F_k > 0,  x + e_k − S_k <= Σ_j Q_kj F_j/b  where F_k = 0
+    /// x + e_k − S_k = Σ_j Q_kj F_j/b  if F_k > 0,  x + e_k − S_k <= Σ_j Q_kj F_j/b  where F_k = 0
     /// Σ w_k F_k = F0
     /// ```
     ///
@@ -142,7 +145,7 @@ impl PairSet {
         }
     }
 
-    /// Displacement of the driver ahead, in m, and the force of each pair, in N, at that balance.
+    /// Displacement of the driver ahead, in m, and the force of each pair, in N, in the balance.
     #[must_use]
     pub fn shared(&self, force: f64) -> (f64, Vec<f64>) {
         if self.couplings.is_empty() {
@@ -165,14 +168,14 @@ impl PairSet {
         self.followed(Until::Displacement(displacement)).1
     }
 
-    /// By how much the displacement under the others' forces is beyond a pair's gap, in m: above 0
+    /// How far the displacement under the other pairs' forces exceeds a pair's gap, in m. Above 0
     /// the pair carries.
     #[must_use]
     pub fn lead(mut self, ahead: i32, force: f64) -> f64 {
         let Some(index) = self.pairs.iter().position(|pair| pair.ahead == ahead) else {
             return f64::NEG_INFINITY;
         };
-        // A pair out of reach does not touch, and the pitches between the others stay.
+        // An infinite gap removes the pair from the contact but keeps the pitches of the others.
         let gap = std::mem::replace(&mut self.pairs[index].place.gap, f64::INFINITY);
         if self.couplings.is_empty() {
             return self.of_springs(force) - gap;
@@ -181,8 +184,8 @@ impl PairSet {
         displacement - gap - self.pushed(index, &forces)
     }
 
-    /// For each pair the overlap x − gap − Σ Q_kj F_j, in m, if just these pairs touch: above 0 a
-    /// touching pair presses, and a pair that does not touch would overlap.
+    /// The overlap x − gap − Σ Q_kj F_j of each pair, in m, if exactly these pairs touch. A
+    /// positive value means that a touching pair has a force, or that another pair would overlap.
     #[must_use]
     pub fn leads(&self, touching: Touching, displacement: f64) -> Vec<f64> {
         let gap = |index: usize| self.pairs[index].place.gap;
@@ -218,16 +221,15 @@ impl PairSet {
             .sum()
     }
 
-    /// Whether the compliances are positive definite, so that the forces are those of one set of
-    /// touching pairs.
+    /// Whether the compliances are positive definite, so that the set of touching pairs is unique.
     #[must_use]
     pub fn is_definite(&self) -> bool {
         let all: Vec<usize> = (0..self.pairs.len()).collect();
         self.couplings.is_empty() || self.compliances(&self.own()).among(&all).is_some()
     }
 
-    /// The displacement at which the springs together balance the force, found by taking in one
-    /// pair after the other, the smallest gap first.
+    /// The displacement at which the independent springs balance the force. Adds one pair after the
+    /// other, the smallest gap first.
     fn of_springs(&self, force: f64) -> f64 {
         let (mut stiffness, mut preload, mut displacement) = (0.0, force, f64::INFINITY);
         let mut last: Option<(f64, usize)> = None;
@@ -250,14 +252,13 @@ impl PairSet {
         }
     }
 
-    /// Displacement and forces where the way of the displacement up from the first touch ends: the
-    /// sum of forces grows along it in straight pieces, from one touch or loss of a pair to the
-    /// next.
+    /// Displacement and forces at the end condition. The displacement grows from the first touch,
+    /// and the sum of forces is linear between the points where a pair gains or loses contact.
     fn followed(&self, until: Until) -> (f64, Vec<f64>) {
         let own = self.own();
         let mut forces = vec![0.0; self.pairs.len()];
         let (mut x, mut touching) = (f64::NEG_INFINITY, Touching::NONE);
-        // Each pair turns once; few turn again.
+        // Each pair changes its contact once; few pairs change again.
         for _ in 0..=4 * self.pairs.len() {
             let Some(lines) = self.lines(&own, touching) else {
                 break;
@@ -276,7 +277,7 @@ impl PairSet {
         (f64::INFINITY, forces)
     }
 
-    /// The displacement at which the way ends if no other pair turns before.
+    /// The displacement of the end condition if no other pair gains or loses contact before.
     fn end(&self, lines: &Lines, until: Until) -> f64 {
         match until {
             Until::Displacement(displacement) => displacement,
@@ -295,7 +296,8 @@ impl PairSet {
         }
     }
 
-    /// The next pair that touches or leaves as the displacement grows from `x`, and where.
+    /// The next pair that gains or loses contact as the displacement grows from `x`, with the
+    /// displacement.
     fn next(&self, own: &[f64], lines: &Lines, x: f64) -> Option<(f64, usize)> {
         let leaves = lines
             .touching
@@ -315,7 +317,8 @@ impl PairSet {
             .min_by(|one, other| one.0.total_cmp(&other.0))
     }
 
-    /// The forces if just these pairs touch; `None` if their compliances are not positive definite.
+    /// The forces if exactly these pairs touch. `None` if their compliances are not positive
+    /// definite.
     fn lines(&self, own: &[f64], touching: Touching) -> Option<Lines> {
         let touching: Vec<usize> = touching.pairs().collect();
         let factored = self.compliances(own).among(&touching)?;
@@ -327,7 +330,7 @@ impl PairSet {
         Some(Lines { touching, forces })
     }
 
-    /// The overlap x − gap − Σ Q_kj F_j of a pair that does not touch, as slope and offset over x.
+    /// The overlap x − gap − Σ Q_kj F_j of a pair without contact, as slope and offset over x.
     fn apart(&self, own: &[f64], lines: &Lines, index: usize) -> [f64; 2] {
         let [slope, offset] = self
             .compliances(own)

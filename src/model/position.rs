@@ -1,4 +1,4 @@
-//! Where the driven tip first touches the driver's flank: D.
+//! The first contact D of the driven tip on the driver's flank.
 
 mod search;
 
@@ -13,15 +13,15 @@ use crate::numeric::{Real, root};
 pub(super) use search::{GapSeries, first_contact};
 use search::{KEPT_DIGITS, LARGEST_ANGLE};
 
-/// In double-double arithmetic the gap in closed form may lose this factor of its digits.
+/// Greatest loss of precision of the closed-form gap in double-double arithmetic, as a factor.
 const LOST: f64 = 1e14;
 
 /// Inputs of the first contact, besides geometry and deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PositionInputs {
-    /// `paper` takes the printed equations, every other method the gap.
+    /// `paper` uses the printed equations, every other method the gap.
     pub method: Method,
-    /// Shape of the pair, for a close call in double-double arithmetic.
+    /// Shape of the pair, to repeat the search in double-double arithmetic.
     pub shape: PairShape,
     /// Radius of the edge of the driven tip, in m.
     pub tip_radius: Option<f64>,
@@ -50,13 +50,13 @@ pub struct Position {
     pub contact: TipContact,
     /// Reduced radius of curvature ρ_S at D, in m.
     pub curvature_radius: f64,
-    /// Gap that the tip has closed there, S(u), in m: Δ in the method `exact`, far less in `paper`.
+    /// Gap S(u) closed at D, in m: Δ in the method `exact`, much less in `paper`.
     pub closed_gap: f64,
 }
 
-/// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of
-/// the gap keeps its digits down to deviations of 1e-14 of its terms; below, the angle stays as it
-/// is.
+/// The angle u after Newton steps in double-double arithmetic. There the closed-form gap keeps its
+/// digits down to deviations of 1e-14 of its terms; for smaller deviations the angle stays
+/// unchanged.
 fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> TwoFloat {
     const STEPS: usize = 3;
     let mut refined: TwoFloat = angle.into();
@@ -80,9 +80,9 @@ fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> Two
 /// ```
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 11-20. Corrected: the differences of arctangents (Eqs. 14, 17-19), which
-/// jump by π where Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio.
-/// Kept as printed: the result is linear in Δ, where the tip's gap grows as u².
+/// Zhou & Chen 2014, Eqs. 11-20. Corrected: each difference of arctangents (Eqs. 14, 17-19), which
+/// jumps by π for Δf > N₁E, is one arctangent; Eqs. 16 and 20 without the rounded contact ratio.
+/// Kept as printed: the result is linear in Δ, although the tip's gap grows as u².
 fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) -> T {
     let [error, deflection] = printed_turns(geometry, deviation);
     (error + deflection).over(geometry.ratio)
@@ -100,14 +100,15 @@ pub(super) fn printed_turns<T: Real>(geometry: &Geometry<T>, deviation: &Deviati
     ]
 }
 
-/// Least tip relief of the driven gear, beyond what it has, with which the printed equations bring
-/// the tooth in on time, in m; `None` where they do so anyhow.
+/// The required additional tip relief of the driven gear by the printed equations, in m. `None` if
+/// the tooth makes no contact before E.
 ///
 /// # Formula
 /// ```text
-/// C/√2 where u(Δf − C/√2) = 0
+/// C  with  u(Δf − C/√2) = 0
 /// ```
-/// since Eq. 1 as printed scales e_m. Less than √2 Δ: for a small Δ left, u is not above 0 already.
+/// Eq. 1 as printed scales e_m. The relief is less than √2 Δ, because u reaches 0 at a small
+/// positive Δ.
 ///
 /// # Errors
 /// Those of [`geometry`](geometry::geometry).
@@ -133,21 +134,21 @@ pub(super) fn printed_relief_to_clear(
     Ok((left(0.0) > 0.0).then(|| UP * root::between(0.0, all, left)))
 }
 
-/// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven
-/// flank's own at its tip, or the radius of the tip's edge where the case gives one (Zhou & Chen
-/// 2014, below Eq. 32).
+/// Reduced radius of curvature of the contact at the tip, ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m. ρ2 is the
+/// given tip radius, or without it the radius of curvature of the driven flank at its tip (Zhou &
+/// Chen 2014, below Eq. 32).
 #[must_use]
 pub fn reduced_curvature(tip_radius: Option<f64>, geometry: &Geometry, tip: &TipContact) -> f64 {
     let driven = tip_radius.unwrap_or(geometry.driven.tip_curvature);
     tip.curvature_driver * driven / (tip.curvature_driver + driven)
 }
 
-/// Where the tip first touches, by the method; `None` where no tooth strikes. `series` is that of
-/// the geometry. With `precise`, the same geometry in double-double arithmetic, the exact position
-/// is good to the last digit.
+/// The first contact of the tip by the method. `None` if no tooth strikes. `series` belongs to the
+/// geometry. `precise`, the geometry in double-double arithmetic, makes all digits of the exact
+/// position correct.
 ///
 /// # Errors
-/// A [`Refusal`] where D does not exist or lies beyond the driver's tip.
+/// A [`Refusal`] if D does not exist or is beyond the driver's tip.
 pub(super) fn position(
     inputs: &PositionInputs,
     geometry: &Geometry,
@@ -189,8 +190,7 @@ pub(super) fn position(
     )
 }
 
-/// The contact in double-double arithmetic, near the angle that f64 has found, and the gap closed
-/// there.
+/// The contact in double-double arithmetic, from the angle of the f64 search, and the closed gap.
 fn precise_contact(
     method: Method,
     geometry: &Geometry<TwoFloat>,
@@ -215,8 +215,8 @@ fn precise_contact(
     )
 }
 
-/// The contact as a position, where there is one on the driver's flank: ρ₁ has not grown by more
-/// than the path of contact, which tells more sharply than O₁D against r_a1.
+/// The contact as a position if it is on the driver's flank: ρ₁ must not grow by more than the path
+/// of contact. This condition has less rounding than a comparison of O₁D with r_a1.
 fn checked(
     tip_radius: Option<f64>,
     geometry: &Geometry,
@@ -256,8 +256,7 @@ mod tests {
     use crate::model::sample::standard_pair;
     use crate::model::{Stage, Stages, solve};
 
-    /// A pair whose line of action is all but along the centre line's normal: the parabola at E is
-    /// far beyond D.
+    /// A pair with a working pressure angle near 0: the parabola at E is far beyond D.
     #[test]
     fn contact_is_found_where_the_parabola_is_far_beyond_it() {
         let mut inputs = standard_pair(40, 40, 5e-3);

@@ -1,4 +1,4 @@
-//! The true profile of a tooth: involute and the trochoidal fillet that the cutting rack leaves.
+//! The profile of a tooth: the involute and the trochoidal fillet of the cutting rack.
 
 mod rack;
 mod section;
@@ -25,16 +25,16 @@ pub struct Profile {
     centre_depth: f64,
     /// Distance of the rounding's centre from the centre line of the rack's tooth, in m.
     centre_offset: f64,
-    /// Where the fillet hands over to the involute.
+    /// The junction of fillet and involute.
     pub junction: Junction,
 }
 
-/// Where the fillet hands over to the involute.
+/// The junction of fillet and involute.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Junction {
-    /// Angle of the rack's normal on the fillet there, in rad; π/2 at the root.
+    /// Angle of the rack's normal on the fillet at the junction, in rad; π/2 at the root.
     pub normal: f64,
-    /// Roll angle of the involute there, in rad.
+    /// Roll angle of the involute at the junction, in rad.
     pub roll: f64,
     /// Whether the fillet cuts the involute off above the base circle.
     pub undercut: bool,
@@ -47,8 +47,8 @@ impl Profile {
         Profile::cut_by(rack, circles, RACK_ROUNDING)
     }
 
-    /// The profile that a rack with a tip rounding of `rounding` modules cuts. A tip without room
-    /// for that rounding has the greatest possible one.
+    /// The profile cut by a rack with a tip rounding of `rounding` modules. If the tip is too
+    /// narrow, its rounding is the largest possible one.
     #[must_use]
     pub fn cut_by(rack: &Rack, circles: &Circles, rounding: f64) -> Profile {
         let flank = Profile::without_junction(rack, circles, rounding);
@@ -58,7 +58,7 @@ impl Profile {
         }
     }
 
-    /// The same without the search for the junction, to read the involute alone.
+    /// The profile without the search for the junction, for the involute alone.
     #[must_use]
     pub(in crate::model) fn of_flank(rack: &Rack, circles: &Circles) -> Profile {
         Profile::without_junction(rack, circles, RACK_ROUNDING)
@@ -93,8 +93,7 @@ impl Profile {
         self.half_pitch
     }
 
-    /// Half of the tooth's angle at the base circle, in rad, where its flanks begin if nothing
-    /// undercuts them.
+    /// Half of the tooth's angle at the base circle, in rad, for flanks without undercut.
     #[must_use]
     pub fn base_half_angle(&self) -> f64 {
         self.base_half_angle
@@ -141,7 +140,7 @@ impl Profile {
             .hypot(self.circles.base * self.junction.roll)
     }
 
-    /// Thickness of the tooth at its tip circle, in m; negative where the flanks meet below.
+    /// Thickness of the tooth at its tip circle, in m; negative if the flanks meet below.
     #[must_use]
     pub fn tip_thickness(&self) -> f64 {
         let roll = self.circles.tip_curvature / self.circles.base;
@@ -161,8 +160,7 @@ impl Profile {
         }
     }
 
-    /// The fillet where the rack's rounding touches it with its normal at the angle `normal`, π/2
-    /// at the root.
+    /// The fillet point with the angle `normal` of the rack's normal, π/2 at the root.
     ///
     /// # Source
     /// Rolling of the rack's line on the reference circle: every normal passes through the pitch
@@ -203,8 +201,8 @@ impl Profile {
         reach * reach_slope - self.circles.reference * self.rounding * cosine
     }
 
-    /// Where fillet and involute meet: where the rack's flank ends, or, on an undercut tooth, where
-    /// they cross.
+    /// The junction of fillet and involute: the end of the rack's flank, or the crossing on an
+    /// undercut tooth.
     fn find_junction(&self, alpha: f64) -> Junction {
         let base = self.circles.base;
         let (sine, _) = alpha.sin_cos();
@@ -226,8 +224,8 @@ impl Profile {
         }
     }
 
-    /// The normal's angle at which the fillet of an undercut tooth crosses the involute, by
-    /// bisection.
+    /// The angle of the rack's normal where the fillet of an undercut tooth crosses the involute,
+    /// by bisection.
     fn crossing(&self, alpha: f64) -> f64 {
         const SAMPLES: usize = 64;
         const HALVINGS: usize = 50;
@@ -247,7 +245,7 @@ impl Profile {
         0.5 * (outside + inside)
     }
 
-    /// Whether the fillet lies above the base circle and outside of the involute.
+    /// Whether the fillet is above the base circle and outside of the involute.
     fn outside_involute(&self, normal: f64) -> bool {
         let section = self.fillet_at(normal);
         let radius = section.along.hypot(section.half_thickness);
@@ -346,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn thickness_at_the_reference_circle_is_the_racks() {
+    fn thickness_at_the_reference_circle_agrees_with_the_rack() {
         for (name, profile, module) in profiles() {
             let section = profile.involute_at(profile.roll_at(profile.circles.reference));
             let angle = section.half_thickness.atan2(section.along);

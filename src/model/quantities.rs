@@ -1,11 +1,10 @@
-//! The one table of quantities: a row has the name, the value, the explanation and the inputs of a
+//! The table of quantities: each row has the name, the value, the explanation and the inputs of a
 //! quantity.
 //!
-//! Results pane, text, JSON, CSV, limits, `--only`, the explanation and the dependencies derive
-//! from the rows. A new quantity is a stage that computes it and a row here. The rows are Rust
-//! constants and no data file: whoever corrects a sentence or a formula finds it as a string in
-//! the row, the compiler checks the names of checks and conditions beside it, and the first frame
-//! does not wait for a parser.
+//! Results pane, text, JSON, CSV, limits, `--only`, the explanation and the dependencies use these
+//! rows. A new quantity needs a stage that computes it and a row here. The rows are Rust constants,
+//! not a data file: the compiler checks the names of checks and conditions, and the program starts
+//! without a parser.
 
 mod at_rest;
 mod checks;
@@ -34,13 +33,13 @@ pub struct Quantity {
     pub key: &'static str,
     /// The symbol in formulas.
     pub symbol: &'static str,
-    /// A few words for a person.
+    /// A short description.
     pub label: &'static str,
     /// The SI unit, "1" for a number.
     pub unit: &'static str,
-    /// The unit in which a person reads the value.
+    /// The unit of the shown value.
     pub shown: &'static str,
-    /// Significant digits that a person reads.
+    /// Significant digits of the shown value.
     pub digits: usize,
     /// The equation or standard that defines the value. A numbered equation, such as `Eq. 57`, must
     /// also be in the source. Other words need their first word in the source, the meaning or the
@@ -48,35 +47,35 @@ pub struct Quantity {
     pub equation: &'static str,
     /// The last stage that the value needs.
     pub stage: Stage,
-    /// The value in SI; `None` where the solution has none.
+    /// The value in SI. `None` if the solution has no value.
     pub value: fn(&Solution) -> Option<f64>,
     /// What the quantity is and what it is used for.
     pub meaning: &'static str,
-    /// How it is computed.
+    /// How the value is computed.
     pub formula: Formula,
     /// Author, year, equation.
     pub source: &'static str,
-    /// The errors in print that it rests on, by their equations.
+    /// The equations with printing errors that the quantity uses.
     pub corrections: &'static [&'static str],
     /// What the formula assumes.
     pub assumptions: &'static str,
     /// Ranges of validity.
     pub checks: &'static [Check],
-    /// Other words in some cases; the first variant whose condition is true is used.
+    /// Replacements of texts in some cases. The first variant whose condition is true is used.
     pub variants: &'static [Variant],
-    /// Whether it may be negative.
+    /// Whether the value can be negative.
     pub is_signed: bool,
-    /// Whether there is nothing of it without a friction coefficient.
+    /// Whether the quantity needs a friction coefficient.
     pub needs_friction: bool,
-    /// Whether there is nothing of it without a backlash.
+    /// Whether the quantity needs a backlash.
     pub needs_backlash: bool,
-    /// The key of what `static` itself finds in place of a quantity of the free impact.
+    /// The key of the result of `static` that corresponds to a quantity of the free impact.
     pub by_static: Option<&'static str>,
-    /// The same for `dynamic`.
+    /// The corresponding key for `dynamic`.
     pub by_dynamic: Option<&'static str>,
 }
 
-/// The members that most rows leave as they are; a test demands all others of each row.
+/// Default members of a row. A test requires all other members in each row.
 const PLAIN: Quantity = Quantity {
     key: "",
     symbol: "",
@@ -101,7 +100,7 @@ const PLAIN: Quantity = Quantity {
     by_dynamic: None,
 };
 
-/// Other words on a quantity in some cases.
+/// Replacements of texts of a quantity in some cases.
 #[derive(Debug, Clone, Copy)]
 pub struct Variant {
     when: When,
@@ -128,7 +127,7 @@ impl Variant {
 }
 
 impl Quantity {
-    /// The value in SI where there is one: finite, and zero without a sign.
+    /// The value in SI if it is finite. Zero has no sign.
     #[must_use]
     pub fn finite_value(&self, solution: &Solution) -> Option<f64> {
         (self.value)(solution)
@@ -136,14 +135,13 @@ impl Quantity {
             .map(|value| value + 0.0)
     }
 
-    /// Whether it is true (1) or false (0).
+    /// Whether the value is true (1) or false (0).
     #[must_use]
     pub fn is_flag(&self) -> bool {
         self.shown == "yes/no"
     }
 
-    /// The symbol in a method. It differs from the symbol of the closed form where the definition
-    /// differs.
+    /// The symbol in a method. It differs from the closed form if the definition differs.
     #[must_use]
     pub fn symbol_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) {
@@ -153,7 +151,7 @@ impl Quantity {
         }
     }
 
-    /// A few words for a person, as the method defines the quantity.
+    /// The label in a method.
     #[must_use]
     pub fn label_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) {
@@ -163,7 +161,7 @@ impl Quantity {
         }
     }
 
-    // In `static` and `dynamic` the reliefs act on the flanks, and are no part of Δf.
+    // `static` and `dynamic` apply the reliefs to the flanks and exclude them from Δf.
     fn leaves_reliefs_out(&self, method: Method) -> bool {
         self.key == "equivalent_error" && method.shares_load()
     }
@@ -187,15 +185,15 @@ impl Quantity {
         self.variants.iter().find(|variant| (variant.when)(inputs))
     }
 
-    /// Whether it is of the free impact at D: the closed form, which every method has beside its
-    /// own results.
+    /// Whether the quantity belongs to the free impact at D. Every method computes this closed form
+    /// besides its own results.
     #[must_use]
     pub fn is_of_free_impact(&self) -> bool {
         FREE_IMPACT.contains(&self.stage)
     }
 
-    /// What a method itself finds in place of a quantity of the free impact; the quantity where the
-    /// method is the closed form.
+    /// The corresponding quantity of a method for a quantity of the free impact. For a closed-form
+    /// method, the quantity itself.
     #[must_use]
     pub fn by(&'static self, method: Method) -> Option<&'static Quantity> {
         match method {
@@ -206,13 +204,13 @@ impl Quantity {
         }
     }
 
-    /// The quantity of that name.
+    /// The quantity of a key.
     #[must_use]
     pub fn find(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
-    /// The quantity of that key, or of that symbol in some method.
+    /// The quantity of a key or of its symbol in any method.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Quantity> {
         let has_symbol = |quantity: &&Quantity| {
@@ -236,7 +234,7 @@ const FREE_IMPACT: [Stage; 7] = [
     Stage::Stations,
 ];
 
-/// The rows by groups, in the order in which a person reads them.
+/// The rows by groups, in the order of the results.
 const GROUPS: [&[Quantity]; 10] = [
     geometry::TABLE,
     deviation::TABLE,
@@ -259,7 +257,7 @@ const COUNT: usize = {
     count
 };
 
-/// Every quantity, in the order in which a person reads them.
+/// Every quantity, in the order of the results.
 pub static QUANTITIES: &[Quantity] = &{
     let mut all = [GROUPS[0][0]; COUNT];
     let (mut at, mut group) = (0, 0);
@@ -274,7 +272,7 @@ pub static QUANTITIES: &[Quantity] = &{
     all
 };
 
-/// Every value between the fields and the quantities, but for those of the compliance models.
+/// Every step between the fields and the quantities, except the steps of the compliance models.
 pub fn steps() -> impl Iterator<Item = &'static Step> {
     [
         geometry::STEPS,
@@ -301,7 +299,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_row_names_what_a_reader_needs_and_only_rows_of_the_table() {
+    fn every_row_is_complete_and_names_only_rows_of_the_table() {
         for row in QUANTITIES {
             let words = [
                 row.key,

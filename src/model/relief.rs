@@ -3,10 +3,10 @@
 use super::geometry::Geometry;
 use super::inputs::{Gear, Inputs, ReliefShape};
 
-/// Reliefs of the pair as the case gives them.
+/// Reliefs of the pair given by the case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reliefs {
-    /// How they grow along the path of contact.
+    /// Shape of the reliefs along the path of contact.
     pub shape: ReliefShape,
     /// Of the driver.
     pub driver: GearReliefs,
@@ -46,14 +46,14 @@ impl Inputs {
 }
 
 impl Reliefs {
-    /// All of them together, in m.
+    /// The sum of all reliefs, in m.
     #[must_use]
     pub fn sum(&self) -> f64 {
         (self.driver.tip + self.driver.root) + (self.driven.tip + self.driven.root)
     }
 }
 
-/// Material that both flanks lack where they touch, as a function of the radii of curvature there.
+/// Relief of both flanks at their contact, as a function of the radii of curvature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relief {
     shape: ReliefShape,
@@ -61,7 +61,7 @@ pub struct Relief {
     driven: [Ramp; 2],
 }
 
-/// One relief: full where the radius of curvature is `full`, none from `none` on.
+/// One relief: the full amount at the radius of curvature `full`, 0 from `none` on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Ramp {
     amount: f64,
@@ -72,8 +72,8 @@ struct Ramp {
 impl Relief {
     /// The reliefs of the pair.
     ///
-    /// A relief whose length is not given reaches over [`Geometry::shared_length`]: for 1 < ε < 2
-    /// to the start of single contact, the long relief.
+    /// The default length of a relief is [`Geometry::shared_length`]: for 1 < ε < 2 up to the start
+    /// of single-tooth contact, the long relief.
     #[must_use]
     pub fn of(reliefs: &Reliefs, geometry: &Geometry) -> Relief {
         let usual = geometry.shared_length();
@@ -101,15 +101,16 @@ impl Relief {
         }
     }
 
-    /// What both flanks lack where their radii of curvature are these, in m.
+    /// Relief of both flanks at these radii of curvature, in m.
     ///
     /// # Formula
     /// ```text
-    /// C1a h((N1B − ρ1)/L1a) + C1f h((ρ1 − N1E)/L1f) + C2a h((N2E − ρ2)/L2a) + C2f h((ρ2 − N2B)/L2f)
-    /// h(t) = 1 − t  linear,  (1 − t)²  parabolic;  1 where t < 0,  0 where t > 1
+    /// C1a h((N1B − ρ1)/L1a) + C1f h((ρ1 − N1E)/L1f)
+    ///     + C2a h((N2E − ρ2)/L2a) + C2f h((ρ2 − N2B)/L2f)
+    /// h(t) = 1 − t  linear,  (1 − t)²  parabolic;  1 for t < 0,  0 for t > 1
     /// ```
-    /// Before E the driven tip touches the driver above the point of E, so that the driver's root
-    /// relief fades there while the tip's own is there in full.
+    /// Before E the driven tip touches the driver above the point of E. There the driver's root
+    /// relief decreases, and the relief of the driven tip is at its full amount.
     #[must_use]
     pub fn at(&self, driver: f64, driven: f64) -> f64 {
         let sum = |ramps: &[Ramp; 2], curvature: f64| -> f64 {
@@ -131,15 +132,15 @@ impl Relief {
         ends(&self.driven)
     }
 
-    /// By how much the rounding of a radius of curvature changes what both flanks lack, in m: a
-    /// steep relief is known no better.
+    /// Effect of the rounding of a radius of curvature on the relief of both flanks, in m. Limits
+    /// the precision of a steep relief.
     #[must_use]
     pub fn rounding(&self) -> f64 {
         let ramps = self.driver.iter().chain(&self.driven);
         ramps.map(Ramp::rounding).sum()
     }
 
-    /// The most that both flanks may lack together, in m.
+    /// Upper bound of the relief of both flanks together, in m.
     #[must_use]
     pub fn most(&self) -> f64 {
         self.driver
@@ -158,7 +159,7 @@ fn ends(ramps: &[Ramp; 2]) -> impl Iterator<Item = f64> {
 }
 
 impl Ramp {
-    /// See [`Relief::rounding`]; a parabola is twice as steep as its chord.
+    /// See [`Relief::rounding`]. A parabola is twice as steep as its chord.
     fn rounding(&self) -> f64 {
         let radius = self.full.abs().max(self.none.abs());
         2.0 * self.amount * f64::EPSILON * radius / (self.full - self.none).abs()

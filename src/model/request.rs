@@ -1,4 +1,4 @@
-//! A solve as it is asked for: the inputs, the wanted stages, and the results of an earlier solve.
+//! A request for a solve: the inputs, the stages to compute, and the results of an earlier solve.
 
 use std::cell::Cell;
 
@@ -15,7 +15,7 @@ pub struct Earlier<'a> {
     pub solution: &'a Solution,
 }
 
-/// A solve as it is asked for.
+/// A request for a solve.
 pub(super) struct Request<'a> {
     pub(super) inputs: &'a Inputs,
     pub(super) wanted: Stages,
@@ -25,8 +25,8 @@ pub(super) struct Request<'a> {
 }
 
 impl<'a> Request<'a> {
-    /// The earlier solution, if its result of this stage is valid: the stage reads the same of the
-    /// case and of the other stages.
+    /// The earlier solution if its result of this stage is still valid: the stage has the same
+    /// inputs from the case and from other stages.
     pub(super) fn kept(&self, stage: Stage) -> Option<&'a Solution> {
         let Earlier { inputs, solution } = self.earlier?;
         let is_valid = solution.stages.has(stage)
@@ -35,7 +35,7 @@ impl<'a> Request<'a> {
         is_valid.then_some(solution)
     }
 
-    /// Compares a new result with the earlier one, which `same` does.
+    /// Records whether a new result equals the earlier one, by the comparison `same`.
     pub(super) fn note(&self, stage: Stage, same: impl FnOnce(&Solution) -> bool) {
         let is_same = self
             .earlier

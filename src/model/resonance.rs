@@ -25,9 +25,9 @@ impl ResonanceInputs {
 /// Frequencies of a pair, in Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resonance {
-    /// Tooth pairs that come into contact per second f_z = z₁ n₁.
+    /// Tooth engagements per second, f_z = z₁ n₁.
     pub mesh_frequency: f64,
-    /// Natural frequency f_n of the pair at the mean stiffness of the mesh.
+    /// Natural frequency f_n of the pair with the mean mesh stiffness.
     pub natural_frequency: f64,
 }
 
@@ -43,7 +43,7 @@ impl Resonance {
     /// ISO 6336-1:2019, 6.5: N = n1/n_E1, n_E1 = 30 000 √(c_γ/m_red)/(π z1).
     ///
     /// # Valid for
-    /// Rigid shafts: one mass on the mesh.
+    /// Rigid shafts: one mass on the mesh stiffness.
     #[must_use]
     pub fn of(inputs: &ResonanceInputs, mesh: &Mesh, mass: f64) -> Resonance {
         Resonance {

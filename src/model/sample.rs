@@ -1,4 +1,4 @@
-//! A pair to start tests from.
+//! A standard pair for tests.
 
 use super::geometry::Circles;
 use super::inputs::{Drive, Gear, Inputs};

@@ -1,4 +1,4 @@
-//! Where stations stand on a curve: evenly, or as closely as the curve needs.
+//! Places of stations on a curve: evenly spaced, or as dense as the curve needs.
 
 mod refine;
 
@@ -6,21 +6,21 @@ use super::Refusal;
 use super::inputs::Inputs;
 use refine::Look;
 
-/// How stations are placed.
+/// Spacing of stations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Spacing {
     /// This many equal intervals.
     Even(usize),
-    /// So that the curve lies off the straight lines between them by no more than this part of its
+    /// Greatest distance of the curve from the straight lines between stations, relative to the
     /// peak.
     AsNeeded(f64),
 }
 
 impl Spacing {
-    /// Where their number is not given, intervals in which the curve is looked at to begin with.
+    /// Number of initial intervals if the case gives no number.
     pub const LOOKS: usize = 8;
 
-    /// As the case asks for it.
+    /// The spacing of the case.
     #[must_use]
     pub fn of(inputs: &Inputs) -> Spacing {
         inputs
@@ -28,10 +28,10 @@ impl Spacing {
             .map_or(Spacing::AsNeeded(inputs.station_tolerance), Spacing::Even)
     }
 
-    /// What `at` gives at the stations from the first of `ends` to the last, both among them. `at`
-    /// gives the height of the curve as well. Between two of the ends it should turn once at most:
-    /// those in between are looked at, in no more places than `most`, and are stations only where
-    /// the curve needs them.
+    /// The values of `at` at the stations from the first to the last of `ends`, including both.
+    /// `at` also gives the height of the curve. The curve should have at most one turning point
+    /// between two of the ends. Other ends are sampled, at most `most` places in total, and become
+    /// stations only if the curve needs them.
     pub fn stations<T>(
         self,
         ends: &[f64],
@@ -44,7 +44,7 @@ impl Spacing {
         (found, resolution)
     }
 
-    /// Intervals, where their number is given.
+    /// The number of intervals if it is given.
     #[must_use]
     pub fn count(self) -> Option<usize> {
         match self {
@@ -53,7 +53,7 @@ impl Spacing {
         }
     }
 
-    /// The same, each given to `keep` in its turn.
+    /// Passes each station to `keep`, in order.
     #[must_use]
     pub fn walk<T>(
         self,
@@ -89,18 +89,18 @@ impl Spacing {
     }
 }
 
-/// Whether the stations are as close to each other as the curve needs.
+/// Whether the stations are as dense as the curve needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Resolution {
-    /// They are.
+    /// The stations are dense enough.
     Full,
-    /// The curve is computed in this many places, as the [budget](super::budget) allows, and needs
-    /// more.
+    /// The curve was computed in this many places, the limit of the [budget](super::budget), and
+    /// needs more.
     Limited(usize),
 }
 
 impl Resolution {
-    /// That of two parts of a curve.
+    /// The resolution of two parts of a curve together.
     #[must_use]
     pub fn and(self, other: Resolution) -> Resolution {
         if self == Resolution::Full {
@@ -110,7 +110,7 @@ impl Resolution {
         }
     }
 
-    /// Why stations are missing, where some are.
+    /// The reason for missing stations.
     #[must_use]
     pub fn refusal(self) -> Option<Refusal> {
         match self {
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_curve_takes_its_ends_alone() {
+    fn a_straight_curve_needs_only_its_ends() {
         assert_eq!(
             places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x),
             [2.0, 0.0]
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_take_about_as_many_as_they_need() {
+    fn the_number_of_stations_is_near_the_least_possible() {
         let curves: [(&str, Curve); 6] = [
             ("an arch", |x| x * (2.0 - x)),
             ("a swing", |x| (3.0 * x).sin()),
@@ -177,7 +177,7 @@ mod tests {
             }),
             ("a bend", |x| (x - 1.23).abs()),
             ("a steep beginning", |x: f64| (0.5 * x).powf(0.75)),
-            ("a swing that dies away", |x| {
+            ("a decaying oscillation", |x| {
                 (40.0 * x).sin() * (-3.0 * x).exp()
             }),
         ];
@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// Intervals that one needs who knows the curve: each as long as can be.
+    /// The least number of intervals with a known curve: each interval is as long as possible.
     fn fewest(curve: Curve, tolerance: f64) -> usize {
         const LOOKS: usize = 4000;
         let at = |look: usize| 2.0 * look as f64 / LOOKS as f64;
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_that_bends_without_end_takes_no_more_places_than_its_budget() {
+    fn an_infinitely_curved_function_stays_within_its_budget() {
         let rough = |x: f64| (1e9 * x).sin();
         for ends in [
             vec![0.0, 2.0],
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_height_that_is_no_number_is_let_be() {
+    fn a_curve_of_nan_keeps_all_its_places() {
         let found = places(Spacing::AsNeeded(1e-3), &[0.0, 2.0], |_| f64::NAN);
         assert_eq!(found.len(), Spacing::LOOKS + 1, "{found:?}");
     }

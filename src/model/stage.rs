@@ -1,4 +1,4 @@
-//! The stages of a solve, in the order the data flows, and sets of them.
+//! The stages of a solve in the order of the data flow, and sets of stages.
 
 /// A stage of a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -10,9 +10,9 @@ pub enum Stage {
     Load,
     /// Masses of the gears at their base circles.
     Masses,
-    /// Deviation and deflection that bring the tooth in early.
+    /// Deviation and deflection that make the tooth early.
     Deviation,
-    /// Where the tip first touches the flank: D.
+    /// First contact D of the tip on the flank.
     Position,
     /// Approach and sliding velocity at D.
     Velocity,
@@ -30,15 +30,15 @@ pub enum Stage {
     Mesh,
     /// Mesh frequency and natural frequency.
     Resonance,
-    /// The load shared by every pair.
+    /// Load sharing in static balance.
     Static,
-    /// The same with inertia.
+    /// Load sharing with inertia and damping.
     Dynamic,
-    /// Harmonics of the transmission error at rest.
+    /// Harmonics of the static transmission error.
     StaticSpectrum,
-    /// The motion that every base pitch repeats.
+    /// Steady motion, which repeats with every base pitch.
     SteadyMotion,
-    /// The least tip relief with which the tooth comes in on time.
+    /// Required additional tip relief.
     Clearing,
 }
 
@@ -106,14 +106,14 @@ impl Stage {
                 .with(Stage::Masses)
                 .with(Stage::Resonance),
             Stage::Resonance => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
-            // A quantity divides by the force at rest.
+            // A quantity divides by the static force.
             Stage::SteadyMotion => Stages::NONE
                 .with(Stage::Mesh)
                 .with(Stage::Masses)
                 .with(Stage::Resonance)
                 .with(Stage::StaticSpectrum),
             Stage::Position => geometry.with(Stage::Deviation),
-            // Stages that the method does not have are left out.
+            // Stages that the method does not have are ignored.
             Stage::Clearing => pair
                 .with(Stage::Load)
                 .with(Stage::Deviation)
@@ -133,8 +133,8 @@ impl Stage {
         }
     }
 
-    /// The stages on whose results this stage depends. The relief search computes its own mesh and
-    /// motion, without stations, and so does not depend on `static` and `dynamic`.
+    /// The stages whose results this stage needs. The search for the required relief computes its
+    /// own mesh and motion without stations, so it does not need `static` and `dynamic`.
     pub(super) const fn depends_on(self) -> Stages {
         match self {
             Stage::Clearing => self.reads().without(Stage::Static).without(Stage::Dynamic),
@@ -150,26 +150,26 @@ pub struct Stages(u32);
 impl Stages {
     /// No stage.
     pub const NONE: Stages = Stages(0);
-    /// From geometry to friction: all that one impact model says of D.
+    /// From geometry to friction: all results of one impact model at D.
     pub const CLOSED_FORM: Stages = Stages::of(Stage::Friction);
-    /// Every stage of the methods `paper` and `exact`, but for the least relief.
+    /// Every stage of the methods `paper` and `exact` except the required relief.
     pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
-    /// The stages that give stations, each in its methods.
+    /// The stages that compute stations, in their methods.
     pub const STATIONS: Stages = Stages::of(Stage::Stations)
         .and(Stages::of(Stage::Static))
         .with(Stage::Dynamic);
-    /// Every stage there is.
+    /// Every stage.
     pub const EVERY: Stages = Stages::ALL
         .and(Stages::of(Stage::Resonance))
         .and(Stages::of(Stage::SteadyMotion))
         .and(Stages::of(Stage::Clearing));
-    /// The stages that neither the outcome nor a note waits for.
+    /// The stages that neither the outcome nor a note needs.
     pub const LATE: Stages = Stages::NONE
         .with(Stage::StaticSpectrum)
         .with(Stage::SteadyMotion)
         .with(Stage::Clearing);
 
-    /// The stage and all that it needs.
+    /// The stage and all stages that it needs.
     #[must_use]
     pub const fn of(stage: Stage) -> Stages {
         let mut set = Stages::NONE.with(stage);
@@ -183,7 +183,7 @@ impl Stages {
         set
     }
 
-    /// This set and one stage more.
+    /// This set with another stage.
     #[must_use]
     pub const fn with(self, stage: Stage) -> Stages {
         Stages(self.0 | 1 << stage as u8)
@@ -207,7 +207,7 @@ impl Stages {
         Stages(self.0 | other.0)
     }
 
-    /// What is in both sets.
+    /// The stages in both sets.
     #[must_use]
     pub const fn within(self, other: Stages) -> Stages {
         Stages(self.0 & other.0)

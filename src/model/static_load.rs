@@ -1,4 +1,4 @@
-//! The method `static`: the load shared by every pair in contact, without inertia.
+//! The method `static`: the load shared by all pairs in contact, without inertia.
 
 use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
@@ -9,7 +9,7 @@ use super::spacing::{Resolution, Spacing};
 use super::stations::MeshStation;
 use crate::numeric::root;
 
-/// Places between two borders of the mesh at which the incoming pair is looked for.
+/// Samples between two borders of the mesh in the search for the incoming pair.
 const LOOKS: usize = 16;
 
 /// Inputs of the shared load at rest, besides the mesh.
@@ -32,45 +32,46 @@ impl StaticInputs {
     }
 }
 
-/// What the incoming tooth carries from its first contact to its last.
+/// Load of the incoming tooth from its first to its last contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StaticLoad {
-    /// Driven gear's angle before E at the first contact, in rad, where that is before E.
+    /// Driven gear's angle before E at the first contact, in rad. `None` without contact before E.
     pub first_contact_angle: Option<f64>,
-    /// Driver's angle after B at the last contact, in rad, where that is after B.
+    /// Driver's angle after B at the last contact, in rad. `None` without contact after B.
     pub last_contact_angle: Option<f64>,
     /// Force of the incoming tooth at E, in N.
     pub force_at_start: f64,
-    /// Its greatest force anywhere, in N.
+    /// Greatest force of the incoming tooth, in N.
     pub peak_force: f64,
-    /// Greatest less least displacement of the driver ahead while the incoming tooth carries, in m.
+    /// Difference of the greatest and the least displacement of the driver ahead while the incoming
+    /// tooth carries, in m.
     pub transmission_error: f64,
-    /// By how much the forces of all pairs together change where the incoming tooth passes the
-    /// pitch point, in N; with friction alone.
+    /// Change of the sum of all forces as the incoming tooth passes the pitch point, in N. `None`
+    /// without friction.
     pub pitch_jump: Option<f64>,
-    /// From the first contact through E to the last.
+    /// From the first contact through E to the last contact.
     pub stations: Vec<MeshStation>,
-    /// Whether the stations are as close to each other as the curve needs.
+    /// Whether the stations are as dense as the curve needs.
     pub resolution: Resolution,
 }
 
-/// The way of the incoming pair on which it may carry.
+/// The range in which the incoming pair can carry.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
     first: f64,
     last: f64,
 }
 
-/// The load shared from the first contact of the incoming tooth to its last.
+/// The shared load from the first contact of the incoming tooth to its last contact.
 ///
 /// # Formula
 /// ```text
 /// Σ w_k F_k = F0,   w_k = 1 − μ sgn(ΔVτ) ρ1/rb1
-/// x + e_k − S(s_k) = Σ_j Q_kj F_j/b  where F_k > 0,   x + e_k − S(s_k) <= Σ_j Q_kj F_j/b  where F_k = 0
+/// x + e_k − S(s_k) = Σ_j Q_kj F_j/b  if F_k > 0,   x + e_k − S(s_k) <= Σ_j Q_kj F_j/b  if F_k = 0
 /// ```
-/// The weights are those of the driver's own balance: on the way to the pitch point the friction of
-/// a pair turns the driver on, after it back, so that the forces jump there. Without friction they
-/// are 1.
+/// The weights come from the balance of the driver. Before the pitch point the friction of a pair
+/// turns the driver forwards, after the pitch point backwards, so that the forces jump there.
+/// Without friction the weights are 1.
 ///
 /// # Source
 /// Compliances of Zhou & Chen 2014, Eqs. 53-56; the third kind of impact friction in its
@@ -78,10 +79,10 @@ struct Contact {
 /// Seireg & Houser 1970; with a matrix of compliances: Conry & Seireg 1973.
 ///
 /// # Valid for
-/// A speed so low that no pair swings; any contact ratio.
+/// A speed so low that no pair oscillates; any contact ratio.
 ///
 /// # Errors
-/// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
+/// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
 pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal> {
     let (from, to) = mesh.ends();
     let grid = grid(mesh, from, to);
@@ -113,7 +114,7 @@ pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal>
 }
 
 impl StaticLoad {
-    /// No contact at all.
+    /// No contact.
     fn none() -> StaticLoad {
         StaticLoad {
             first_contact_angle: None,
@@ -128,13 +129,15 @@ impl StaticLoad {
     }
 }
 
-/// The balance while the incoming pair stands at `s`; on a border, sliding as at `inside`.
+/// The balance with the incoming pair at `s`. On a border the sliding direction is that at
+/// `inside`.
 #[must_use]
 pub fn balance(mesh: &Mesh, s: f64, inside: f64) -> Balance {
     mesh.pair_set(s, inside).balance(mesh.force)
 }
 
-/// By how much the others' displacement is beyond the incoming pair's gap: above 0 it carries.
+/// How far the displacement by the other pairs exceeds the gap of the incoming pair, in m. Above 0
+/// it carries.
 fn lead(mesh: &Mesh, s: f64) -> f64 {
     let lead = mesh.pair_set(s, s).lead(0, mesh.force);
     lead.clamp(-mesh.length, mesh.length)
@@ -146,7 +149,7 @@ pub(super) fn reaches_ends(mesh: &Mesh) -> bool {
     lead(mesh, from) > 0.0 || lead(mesh, to) > 0.0
 }
 
-/// Every border and some places between.
+/// Every border and samples between the borders.
 fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<f64> {
     let borders = mesh.borders(from, to);
     let between = |ends: &[f64]| {
@@ -156,11 +159,11 @@ fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<f64> {
     borders.windows(2).flat_map(between).chain([to]).collect()
 }
 
-/// By how much the other pairs' displacement is beyond the incoming pair's gap before E, at most,
-/// in m: above 0 it touches before E, below it is the gap that is left.
+/// The greatest lead before E, in m: the displacement by the other pairs minus the gap of the
+/// incoming pair. Above 0 the tooth touches before E. A negative value is the gap that is left.
 ///
 /// # Errors
-/// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
+/// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
 pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
     let leads = leads(mesh, &grid(mesh, mesh.ends().0, 0.0));
     let has_end = leads.first().is_some_and(|&(_, lead)| lead <= 0.0);
@@ -171,10 +174,10 @@ pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
     }
 }
 
-/// The same of the pair that leaves, after B.
+/// The greatest lead of the outgoing pair after B, in m, see [`lead_before_start`].
 ///
 /// # Errors
-/// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
+/// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
 pub fn lead_after_end(mesh: &Mesh) -> Result<f64, Refusal> {
     let leads = leads(mesh, &grid(mesh, mesh.length, mesh.ends().1));
     let has_end = leads.last().is_some_and(|&(_, lead)| lead <= 0.0);
@@ -185,7 +188,7 @@ pub fn lead_after_end(mesh: &Mesh) -> Result<f64, Refusal> {
     }
 }
 
-/// Work of [`lead_before_start`]: its places times the pairs at each.
+/// Work of [`lead_before_start`]: the number of places times the pairs at each place.
 #[must_use]
 pub fn places_before_start(mesh: &Mesh) -> u64 {
     let (from, _) = mesh.ends();
@@ -197,18 +200,19 @@ fn leads(mesh: &Mesh, places: &[f64]) -> Vec<(f64, f64)> {
     places.iter().map(|&s| (s, lead(mesh, s))).collect()
 }
 
-/// Where before E the lead is greatest, and the lead there.
+/// The place before E with the greatest lead, and this lead.
 fn foremost(mesh: &Mesh, leads: &[(f64, f64)]) -> (f64, f64) {
     let before = leads.partition_point(|&(s, _)| s <= 0.0);
     greatest(&leads[..before], |s| lead(mesh, s))
 }
 
-/// From the first contact of the incoming pair to its last; nothing where it never carries.
+/// The range from the first to the last contact of the incoming pair. `None` if the pair never
+/// carries.
 fn contact(mesh: &Mesh, grid: &[f64]) -> Result<Option<Contact>, Refusal> {
     let mut leads = leads(mesh, grid);
     let start = leads.partition_point(|&(s, _)| s <= 0.0);
     if leads[..start].iter().all(|&(_, lead)| lead <= 0.0) {
-        // A touch before E may hide between two places.
+        // A short contact before E may be between two samples.
         let foremost = foremost(mesh, &leads);
         let at = leads.partition_point(|&(s, _)| s <= foremost.0);
         leads.insert(at, foremost);
@@ -244,7 +248,7 @@ fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f6
     }
 }
 
-/// The greatest value and its place: the best of the known places, improved between its neighbours.
+/// The greatest value and its place: the best of the known places, refined between its neighbours.
 pub(super) fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
     const STEPS: usize = 60;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
@@ -279,8 +283,8 @@ pub(super) fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f
     highest
 }
 
-/// What all pairs carry just after the incoming one passes the pitch point, less what they carried
-/// just before.
+/// Sum of all forces just after the incoming pair passes the pitch point, minus the sum just
+/// before.
 fn pitch_jump(mesh: &Mesh) -> Option<f64> {
     let pitch_point = mesh.pitch_point()?;
     let aside = 1e-9 * mesh.base_pitch;
@@ -288,7 +292,7 @@ fn pitch_jump(mesh: &Mesh) -> Option<f64> {
     (mesh.friction() > 0.0).then(|| total(pitch_point + aside) - total(pitch_point - aside))
 }
 
-/// Stations from the first contact to E and from there to the last.
+/// Stations from the first contact to E and from E to the last contact.
 fn stations(
     mesh: &Mesh,
     contact: Contact,

@@ -1,4 +1,4 @@
-//! The transmission error at rest over the mesh period, without the deviation of one pair.
+//! The static transmission error over the mesh period, without base pitch deviations.
 
 use super::Refusal;
 use super::harmonics::{Fourier, Spectrum};
@@ -6,10 +6,10 @@ use super::mesh::Mesh;
 use super::static_load::{balance, greatest, reaches_ends};
 use crate::numeric::root;
 
-/// Places between two borders of the mesh at which the pairs in contact are compared.
+/// Samples between two borders of the mesh to find changes of the pairs in contact.
 const LOOKS: usize = 16;
 
-/// What every pair carries at rest where all pairs are alike.
+/// Static transmission error and tooth force of equal pairs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticSpectrum {
     /// The transmission error over a base pitch.
@@ -18,21 +18,22 @@ pub struct StaticSpectrum {
     pub tooth_force: f64,
 }
 
-/// The displacement of the driver over one base pitch at rest, of a mesh in which no pair deviates.
+/// The static displacement of the driver over one base pitch, for a mesh without base pitch
+/// deviations.
 ///
 /// # Formula
 /// ```text
 /// x(s) by Σ w_k F_k = F0 with e_k = 0,   s from 0 to pb
 /// ```
-/// The pitch is cut at every border of the mesh and wherever a pair touches or leaves, so that each
-/// piece of x is smooth.
+/// Every border of the mesh and every gain or loss of contact divides the pitch, so that each piece
+/// of x is smooth.
 ///
 /// # Source
-/// The balance of [`static_load`](super::static_load::static_load); transmission error as the cause
-/// of whine: Gregory, Harris & Munro 1963.
+/// The balance of [`static_load`](super::static_load::static_load). Gregory, Harris & Munro 1963
+/// name the transmission error as the cause of whine.
 ///
 /// # Errors
-/// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
+/// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
 pub fn static_spectrum(mesh: &Mesh) -> Result<StaticSpectrum, Refusal> {
     let mesh = &mesh.without_error();
     if reaches_ends(mesh) {
@@ -75,7 +76,7 @@ fn peak((from, to): (f64, f64), value: impl Fn(f64) -> f64) -> (f64, f64) {
     greatest(&known, value)
 }
 
-/// The ends of the pieces between two borders on which the same pairs touch.
+/// The borders of the pieces with the same touching pairs, between two borders of the mesh.
 fn pieces(mesh: &Mesh, (from, to): (f64, f64), inside: f64) -> Vec<f64> {
     let touching = |s: f64| {
         let pairs = mesh.pair_set(s, inside);

@@ -1,4 +1,4 @@
-//! How far the impact force depends on the choice of stiffness models.
+//! Spread of the impact force over the stiffness models.
 
 use super::compliance::contact::{self, ContactModel};
 use super::compliance::model_of;
@@ -39,13 +39,13 @@ impl BandInputs {
 /// Least and greatest impact force over the stiffness models that cover the pair, in N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
-    /// By the most compliant model.
+    /// By the most compliant models.
     pub low: f64,
-    /// By the stiffest model.
+    /// By the stiffest models.
     pub high: f64,
 }
 
-/// A model of the teeth with a model of the contact.
+/// A tooth model with a contact model.
 #[derive(Debug, Clone, Copy)]
 pub struct StiffnessModels {
     /// Model of the teeth.
@@ -62,7 +62,7 @@ impl PartialEq for StiffnessModels {
 }
 
 impl StiffnessModels {
-    /// The models of a pair: those of the case, else by range and method.
+    /// The models of a pair: given by the case, otherwise by range and method.
     #[must_use]
     pub fn of(inputs: &Inputs) -> StiffnessModels {
         let tooth = model_of(inputs).model();
@@ -72,7 +72,7 @@ impl StiffnessModels {
         }
     }
 
-    /// The models in range other than those of the case.
+    /// The models that cover the pair, without the models of the case.
     pub fn others(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
         let own = StiffnessModels::of(inputs);
         StiffnessModels::covering(inputs).filter(move |models| *models != own)
@@ -87,7 +87,7 @@ impl StiffnessModels {
         })
     }
 
-    /// Every model of the teeth with every model of the contact that it needs.
+    /// Every tooth model with every contact model that it needs.
     pub fn all() -> impl Iterator<Item = StiffnessModels> {
         tooth::MODELS.into_iter().flat_map(|tooth| {
             let own = tooth.has_contact.then_some(None);
@@ -99,7 +99,7 @@ impl StiffnessModels {
         })
     }
 
-    /// Those whose model of the teeth covers the pair.
+    /// The models whose tooth model covers the pair.
     pub fn covering(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
         let covers = tooth::MODELS.map(|model| (model.covers)(inputs));
         let covering = move |models: &StiffnessModels| {
@@ -142,9 +142,10 @@ impl StiffnessModels {
     }
 }
 
-/// The band of the impact force over every tooth and contact compliance that covers the pair, and
-/// the case's own, with the deflection of each where the case does not give one: `force` by the
-/// case's own, the others by `solved`, which has none where a model gives no answer.
+/// The range of the impact force over every pair of stiffness models that covers the pair, and the
+/// models of the case. Each force uses its own deflection unless the case gives the deflection.
+/// `force` is the result of the case's models. `solved` computes the others, or `None` if a model
+/// has no result.
 #[must_use]
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
     StiffnessModels::others(inputs)

@@ -1,16 +1,16 @@
-//! The driven tip on its circle, and the gap to the driver's flank that it closes.
+//! The driven tip on its circle and its gap to the driver's flank.
 
 use nalgebra::Vector2;
 
 use super::geometry::{Geometry, LEAST_REST, foot};
 use crate::numeric::{Real, quadrature};
 
-/// A place of the driven tip on its circle, and the driver's flank that it would touch there.
+/// A place of the driven tip on its circle and the driver's flank that it would touch.
 ///
-/// A rounded tip is the centre C of its arc on a smaller circle: C meets the involute parallel to
-/// the driver's flank, at the distance r_e from it.
+/// For a rounded tip, the centre C of its arc moves on a smaller circle. C meets the involute
+/// parallel to the driver's flank, at the distance r_e.
 ///
-/// What changes from E is carried as an increment, so that nothing is lost close to E.
+/// Changes since E are stored as increments, so that values near E keep their digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipContact<T = f64> {
     /// Driven gear's angle before E, u, in rad.
@@ -19,7 +19,7 @@ pub struct TipContact<T = f64> {
     pub polar_angle: T,
     /// O₁D, in m.
     pub radius_driver: T,
-    /// O₂D, in m: the tip radius where the tip is sharp.
+    /// O₂D, in m: the tip radius for a sharp tip.
     pub radius_driven: T,
     /// Radius of curvature of the driver's flank ρ₁ = N₁'D, in m.
     pub curvature_driver: T,
@@ -49,16 +49,16 @@ pub struct TipContact<T = f64> {
 /// a sin(αw + Δχ/2) = N1N2 cos(Δχ/2) + (rb1 + rb2) sin(Δχ/2), likewise the cosine
 /// N2'D − i ρ1 = (1 + i) EP + Δ(N2'D) − i Δρ1
 /// ```
-/// For a rounded tip ra2, N1E, γ2, E and D are those of the arc's centre C in Q, Δβ1 and Δψ, and
-/// then ρ1 = N1'C − re and O1D² = rb1² + ρ1². Here E and D are seen from O₁, D − E is the chord of
-/// the tip circle, EP is the path of approach and Δ the growth since E.
+/// For a rounded tip ra2, N1E, γ2, E and D are those of the arc's centre C in Q, Δβ1 and Δψ. Then
+/// ρ1 = N1'C − re and O1D² = rb1² + ρ1². E and D are relative to O₁, D − E is the chord of the tip
+/// circle, EP the path of approach and Δ the growth since E.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E; Eq. 27 corrected to the
-/// law of cosines.
+/// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E. Eq. 27 is corrected to
+/// the law of cosines.
 ///
 /// # Valid for
-/// Any angle at which the tip lies outside the driver's base circle (`N1E² + Q > 0`).
+/// Any angle with the tip outside the driver's base circle (`N1E² + Q > 0`).
 #[inline]
 pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     let (half, two): (T, T) = (0.5.into(), 2.0.into());
@@ -119,14 +119,14 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     }
 }
 
-/// A turn by less than half a revolution, as a vector that it gives the x axis.
+/// A rotation by less than half a revolution, as the image of the x axis.
 struct Turn<T> {
     along: T,
     across: T,
 }
 
 impl<T: Real> Turn<T> {
-    /// One turn after another: the product of complex numbers.
+    /// The composition of two rotations: the product of complex numbers.
     fn and(&self, other: &Turn<T>) -> Turn<T> {
         Turn {
             along: self.along * other.along - self.across * other.across,
@@ -154,14 +154,14 @@ impl<T: Real> Turn<T> {
 /// ```text
 /// S(u) = Δρ1 + rb2 u − rb1 Δχ
 /// ```
-/// The three terms grow as u and their sum as u², so that about ε r_b2 u/S is lost; see
-/// [`gap_by_quadrature`].
+/// The three terms grow as u and their sum as u². The relative loss of precision is about ε r_b2
+/// u/S; see [`gap_by_quadrature`].
 pub fn gap<T: Real>(geometry: &Geometry<T>, tip: &TipContact<T>) -> T {
     tip.curvature_growth + geometry.driven.base * tip.angle - geometry.driver.base * tip.normal_turn
 }
 
-/// Normal gap S(u), in m, in closed form, or by quadrature where the terms of the closed form
-/// outgrow their sum by more than the factor `loss`.
+/// Normal gap S(u), in m, in closed form, or by quadrature if the largest term exceeds the sum by
+/// more than the factor `loss`.
 pub(super) fn gap_without(loss: f64, geometry: &Geometry, tip: &TipContact) -> f64 {
     let closed = gap(geometry, tip);
     if largest_term(geometry, tip) > loss * closed {
@@ -178,9 +178,9 @@ pub(super) fn largest_term(geometry: &Geometry, tip: &TipContact) -> f64 {
         .max(geometry.driven.base * tip.angle)
 }
 
-/// Normal gap S(u), in m, as the integral of dS/du = r_b2 − r_b2', which cancels nothing.
+/// Normal gap S(u), in m, as the integral of dS/du = r_b2 − r_b2', without cancellation.
 ///
-/// The integrand has its branch point where ρ₁ = 0. Where that is near, ρ₁ itself is the variable,
+/// The integrand has its branch point at ρ₁ = 0. Near this point the variable of integration is ρ₁,
 /// in which the integrand is smooth.
 #[must_use]
 pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
@@ -210,8 +210,8 @@ pub(super) fn angle_at_curvature(geometry: &Geometry, curvature: f64) -> f64 {
     )
 }
 
-/// The angle u at which O₁D² and ρ₁², of a rounded tip O₁C² and N₁'C², have grown by
-/// `grown_square`: the inverse of Q(u). NaN where the tip circle does not reach so far.
+/// The angle u at which O₁D² and ρ₁² (for a rounded tip O₁C² and N₁'C²) have grown by
+/// `grown_square`: the inverse of Q(u). NaN if the tip circle does not reach so far.
 #[must_use]
 pub fn angle_by_growth(geometry: &Geometry, grown_square: f64) -> f64 {
     let tip = geometry.driven.tip - geometry.driven.edge;
@@ -227,9 +227,9 @@ pub fn angle_by_growth(geometry: &Geometry, grown_square: f64) -> f64 {
     (cosine * sine_growth + fallen * sine).atan2(cosine * (cosine - fallen) + sine * end_sine)
 }
 
-/// The pair as seen from `tip` in place of E, so that [`tip_at`] gives what changes from there and
-/// loses nothing close to it. Only what `tip_at` reads is moved, and its sliding arm has no meaning
-/// then.
+/// The pair with `tip` as reference instead of E, so that [`tip_at`] gives increments from `tip`
+/// with full precision near it. Changes only the inputs of `tip_at`; the sliding arm of the result
+/// has no meaning.
 #[must_use]
 pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
     let mut moved = *geometry;
@@ -249,8 +249,8 @@ pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
 }
 
 impl TipContact {
-    /// Distance of D from the driven gear's tangent to its base circle through D, √(O₂D² − r_b2²),
-    /// in m: where the tooth's compliance is that of the load on the flank.
+    /// Distance of D from the point of tangency on the driven base circle, √(O₂D² − r_b2²), in m.
+    /// The tooth's compliance uses the load at this place of the flank.
     pub(super) fn load_arm_driven(&self, geometry: &Geometry) -> f64 {
         if geometry.driven.edge <= 0.0 {
             return geometry.driven.tip_curvature;
@@ -259,8 +259,8 @@ impl TipContact {
         ((radius - base) * (radius + base)).max(0.0).sqrt()
     }
 
-    /// Whether the tip all but rolls, or stands all but on the centre line, or its normal all but
-    /// passes through O₂: f64 loses digits in the small rest.
+    /// Whether f64 loses digits because the tip nearly rolls, is nearly on the centre line, or its
+    /// normal nearly passes through O₂.
     pub(super) fn is_close_call(&self, geometry: &Geometry) -> bool {
         let sliding_terms =
             self.normal_length_driven.abs() + geometry.ratio * self.curvature_driver;

@@ -1,4 +1,4 @@
-//! The part of a field that belongs to the gear's body: twist about the bore, and shift.
+//! Displacements of the gear body in a field: twist about the bore, and shift.
 
 use std::f64::consts::PI;
 

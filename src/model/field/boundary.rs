@@ -7,14 +7,14 @@ use nalgebra::Vector2;
 use super::{FieldInput, FieldRefusal};
 use crate::model::profile::Profile;
 
-/// Points of the table of the fillet.
+/// Number of intervals in the table of the fillet.
 const FILLET_STEPS: usize = 128;
-/// Least length of the involute that is loaded, in modules.
+/// Least length of the loaded involute, in modules.
 const LEAST_FLANK: f64 = 0.15;
 /// Least thickness of the tooth at its tip and at its neck, in modules.
 const LEAST_THICKNESS: f64 = 0.004;
 
-/// Half of a space's angle at the root circle, in rad, that rounding may leave below 0.
+/// Rounding tolerance of half a space's angle at the root circle, in rad.
 const LEAST_ANGLE: f64 = 1e-12;
 
 /// The boundary in modules: x across the tooth from its centre line, y along it from the gear's
@@ -39,7 +39,7 @@ pub(super) struct Boundary {
     pub(super) flank_length: f64,
     /// Arc length of the fillet from the junction, and the angle of the rack's normal there.
     fillet: Vec<(f64, f64)>,
-    /// Length from the junction down to where the fillet has turned by 45 degrees.
+    /// Length from the junction down to the point where the fillet has turned by 45 degrees.
     pub(super) turned_length: f64,
     /// Half of the tooth's angle at the root circle, in rad.
     root_half_angle: f64,
@@ -49,7 +49,7 @@ impl Boundary {
     /// The boundary of the gear's teeth.
     ///
     /// # Errors
-    /// A [`FieldRefusal`] if the tooth is pointed, cut through, or has next to no involute.
+    /// A [`FieldRefusal`] if the tooth is pointed, cut through, or has nearly no involute.
     pub(super) fn of(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
         let (profile, module) = (input.profile, input.module);
         let circles = profile.circles();
@@ -139,7 +139,7 @@ impl Boundary {
         start + (end - start) * (arc - low) / (high - low)
     }
 
-    /// Fills the table of the fillet and finds where it has turned by 45 degrees.
+    /// Fills the table of the fillet and finds the point where it has turned by 45 degrees.
     fn walk_fillet(&mut self) -> Result<(), FieldRefusal> {
         const TURNED: (f64, f64) = (0.15, 0.9);
         let first = self.profile.junction.normal;

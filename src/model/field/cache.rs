@@ -1,5 +1,5 @@
-//! Fields of recent gears, shared by all solves: a gear's field depends on the gear alone and takes
-//! thousands of times as long to build as to read.
+//! Cache of the fields of recent gears, shared by all solves. A field depends only on its gear, and
+//! building takes thousands of times as long as reading.
 
 use std::cell::RefCell;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -9,10 +9,10 @@ use crate::model::Refusal;
 use crate::model::geometry::{GearShape, circles};
 use crate::model::profile::{Profile, Rack};
 
-/// Most gears that are kept, of 2 kB each; the one that was read longest ago gives way.
+/// Greatest number of cached gears, 2 kB each. A new gear replaces the least recently used one.
 const MOST: usize = 256;
 
-/// All that the field of a gear depends on.
+/// All inputs of a gear's field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldGear {
     /// The rack that cuts the profile.
@@ -29,17 +29,17 @@ impl FieldGear {
     /// The field of the gear, built if no recent solve has built it.
     ///
     /// # Errors
-    /// [`Refusal::NoField`] if the gear has none, and the refusals of its circles.
+    /// [`Refusal::NoField`] if the gear has no field, and the refusals of its circles.
     pub fn field(&self) -> Result<Arc<Field>, Refusal> {
         let entry = self.entry();
-        // The list is free while a field is built: other gears need not wait.
+        // The list is not locked while a field is built, so that other gears do not wait.
         entry
             .field
             .get_or_init(|| self.build().map(Arc::new))
             .clone()
     }
 
-    /// The field of the gear, built without the kept ones.
+    /// The field of the gear, built without the cache.
     ///
     /// # Errors
     /// Those of [`FieldGear::field`].
@@ -81,7 +81,7 @@ impl FieldGear {
         }
     }
 
-    /// The entry of the gear: without a lock if it is one of the two that this thread read last.
+    /// The entry of the gear. Needs no lock for the two gears that this thread used last.
     fn entry(&self) -> Arc<Entry> {
         LAST_READ.with_borrow_mut(|last| {
             let known = last.iter().position(|entry| entry.gear == *self);
@@ -115,20 +115,20 @@ impl FieldGear {
     }
 }
 
-/// A gear and its field, once they are asked for.
+/// A gear and its field after the first request.
 struct Entry {
     gear: FieldGear,
     check: OnceLock<Result<(), Refusal>>,
     field: OnceLock<Result<Arc<Field>, Refusal>>,
 }
 
-/// Recent gears, the one that was read last at the end.
+/// Recent gears, the most recently used one last.
 static RECENT: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
 
-/// How many entries a thread has at hand.
+/// Number of entries cached per thread.
 const GEARS_OF_A_PAIR: usize = 2;
 
 thread_local! {
-    /// The gears that this thread read last, the newest first.
+    /// The gears that this thread used last, the newest first.
     static LAST_READ: RefCell<Vec<Arc<Entry>>> = const { RefCell::new(Vec::new()) };
 }

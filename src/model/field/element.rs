@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-/// Stiffness of an element for Young's modulus 1 and width 1, two components a node.
+/// Stiffness of an element for Young's modulus 1 and width 1, with two components per node.
 pub(super) type Stiffness = [[f64; 18]; 18];
 
 /// Places and weights of the 3-point Gauss rule on (-1, 1).
@@ -38,7 +38,7 @@ pub(super) fn line_shapes(at: f64) -> [f64; 3] {
     ]
 }
 
-/// Their slopes.
+/// The slopes of the shape functions.
 pub(super) fn line_slopes(at: f64) -> [f64; 3] {
     [at - 0.5, -2.0 * at, at + 0.5]
 }
@@ -51,7 +51,7 @@ struct Products {
     yy: [[f64; 9]; 9],
 }
 
-/// Stiffness of the element, or `None` if the map folds at a point of the rule.
+/// Stiffness of the element. `None` if the map folds at a point of the rule.
 pub(super) fn stiffness(places: &[Vector2<f64>; 9], material: Material) -> Option<Stiffness> {
     let mut products = Products::default();
     for (across, across_weight) in GAUSS {
@@ -63,11 +63,10 @@ pub(super) fn stiffness(places: &[Vector2<f64>; 9], material: Material) -> Optio
     Some(products.stiffness(material))
 }
 
-/// Node of an element in its middle, which no other element shares.
+/// The node in the middle of an element, which no other element shares.
 pub(super) const MIDDLE: usize = 4;
 
-/// Takes the middle node out of a stiffness: no load acts on it, so that it moves as the others
-/// make it. Its rows and columns become zero.
+/// Condenses the middle node, which has no load. Its rows and columns become zero.
 pub(super) fn take_middle_out(stiffness: &mut Stiffness) {
     for unknown in [2 * MIDDLE, 2 * MIDDLE + 1] {
         let taken = stiffness[unknown];

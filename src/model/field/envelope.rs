@@ -1,9 +1,9 @@
-//! Cholesky's factorisation of a symmetric matrix within its envelope, stopped at any row.
+//! Cholesky factorisation of a symmetric matrix within its envelope, which can stop at any row.
 
-/// A symmetric positive definite matrix, bordered below by rows to be solved for.
+/// A symmetric positive definite matrix with additional border rows for right-hand sides.
 ///
-/// Row by row, the entries from the row's first one that is not zero to the diagonal; a row of the
-/// border goes on to the last column of the matrix.
+/// Each row stores the entries from its first nonzero entry to the diagonal. A border row stores
+/// entries up to the last column of the matrix.
 #[derive(Debug, Clone)]
 pub(super) struct Envelope {
     /// Column of the first entry of each row.
@@ -16,8 +16,7 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// A matrix of zeros with the given first columns, of which those past `columns` are the
-    /// border's.
+    /// A zero matrix with the given first columns. Rows past `columns` belong to the border.
     pub(super) fn new(first: Vec<usize>, columns: usize) -> Envelope {
         let mut offset = Vec::with_capacity(first.len() + 1);
         offset.push(0);
@@ -40,17 +39,17 @@ impl Envelope {
         self.values[index] += value;
     }
 
-    /// The entries of a row from column `from`, zeros left of the envelope excluded, with the
-    /// column of the first of them.
+    /// The entries of a row from column `from`, without zeros left of the envelope, and the column
+    /// of the first entry.
     pub(super) fn row(&self, row: usize, from: usize) -> (usize, &[f64]) {
         let start = from.max(self.first[row]);
         let values = &self.values[self.offset[row]..self.offset[row + 1]];
         (start, &values[start - self.first[row]..])
     }
 
-    /// Eliminates the first `count` columns: they become Cholesky's factor L, the rest of the
-    /// matrix its Schur complement, and each row b of the border L⁻¹ b, with what remains of b in
-    /// the other columns.
+    /// Eliminates the first `count` columns. These become Cholesky's factor L, the rest of the
+    /// matrix its Schur complement, and each border row b becomes L⁻¹ b with the reduced b in the
+    /// other columns.
     ///
     /// Returns `false` if the matrix is not positive definite.
     ///
@@ -94,7 +93,7 @@ impl Envelope {
     }
 }
 
-/// Sum of products, in eight partial sums that the compiler can lay side by side.
+/// Sum of products, in eight partial sums for vector instructions.
 pub(super) fn dot(left: &[f64], right: &[f64]) -> f64 {
     const LANES: usize = 8;
     let (left_chunks, right_chunks) = (left.chunks_exact(LANES), right.chunks_exact(LANES));

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-/// Terms of a series of one radius.
+/// Terms of a series in one radius.
 pub(super) const TERMS: usize = 14;
-/// Terms in each radius of a series of two.
+/// Terms in each radius of a series in two radii.
 pub(super) const CROSS_TERMS: usize = 9;
 
-/// The part of a flank that loads cover.
+/// The loaded part of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Flank {
     /// Base radius, in m.
@@ -19,7 +19,7 @@ pub(super) struct Flank {
 }
 
 impl Flank {
-    /// Roll angle at a radius, in rad, within the loads.
+    /// Roll angle at a radius, in rad, limited to the range of the loads.
     pub(super) fn roll(&self, radius: f64) -> f64 {
         let over_base = (radius - self.base).max(0.0);
         let roll = (over_base * (radius + self.base)).sqrt() / self.base;
@@ -38,8 +38,8 @@ impl Flank {
 /// ```text
 /// ln((φ_a + δ − φ)/(φ − φ_J + ε))
 /// ```
-/// in which a compliance is smooth: it rises ever more steeply towards the tip, and the loads are
-/// closest there and at the junction.
+/// The compliance is a smooth function of this place. It rises steeply towards the tip, and the
+/// loads are densest near the tip and the junction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Abscissa {
     /// φ_a + δ and φ_J − ε, in rad.
@@ -49,7 +49,7 @@ pub(super) struct Abscissa {
 }
 
 impl Abscissa {
-    /// The abscissa with the arc lengths that δ and ε stand for, in m.
+    /// The abscissa for the arc lengths δ and ε, in m.
     pub(super) fn of(flank: &Flank, beyond: [f64; 2]) -> Abscissa {
         let slope = flank.base * f64::midpoint(flank.tip_roll, flank.rolls[0]);
         let ends = [
@@ -86,7 +86,7 @@ pub(super) struct Interpolation {
 }
 
 impl Interpolation {
-    /// Interpolation between places in order.
+    /// Interpolation between ordered places.
     pub(super) fn new(places: Vec<f64>) -> Interpolation {
         const DEGREE: usize = 6;
         let last = places.len() - 1;
@@ -109,7 +109,7 @@ impl Interpolation {
         }
     }
 
-    /// The share of each place in the value at `x`.
+    /// The weight of each place in the value at `x`.
     fn shares(&self, x: f64) -> Vec<f64> {
         const SAME: f64 = 1e-14;
         let is_here = |place: &f64| (place - x).abs() < SAME;
@@ -124,7 +124,7 @@ impl Interpolation {
         pulls.into_iter().map(|pull| pull / sum).collect()
     }
 
-    /// Matrix that takes values at the places to `N` Chebyshev coefficients.
+    /// Matrix that converts values at the places to `N` Chebyshev coefficients.
     fn to_series<const N: usize>(&self) -> [Vec<f64>; N] {
         let angle = |point: usize| PI * (point as f64 + 0.5) / N as f64;
         let shares: [_; N] = std::array::from_fn(|point| self.shares(angle(point).cos()));

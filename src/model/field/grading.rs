@@ -66,7 +66,7 @@ impl Grading {
         }
     }
 
-    /// Twice as many loads between the same outermost ones.
+    /// Twice as many loads between the outermost loads.
     #[cfg(test)]
     pub(super) fn with_more_loads(self) -> Grading {
         Grading {
@@ -102,8 +102,8 @@ impl Grading {
         ends(&scaled(&widths, 1.0))
     }
 
-    /// Rows of the involute of a given length: pairs of equal rows with a load between them, and a
-    /// single row above the junction, which carries the last load.
+    /// Rows of an involute of the given length: pairs of equal rows with a load between them, and a
+    /// single row above the junction with the last load.
     pub(super) fn flank_rows(&self, length: f64) -> FlankRows {
         let (mut upper, mut lower) = (vec![self.tip_row], Vec::new());
         let mut lowest = self.junction_row;
@@ -130,8 +130,8 @@ impl Grading {
         FlankRows { heights, loads }
     }
 
-    /// Heights of the rows of a fillet of a given length, from the junction down, the first like
-    /// the row above the junction.
+    /// Heights of the rows of a fillet of the given length, from the junction down. The first row
+    /// is as high as the row above the junction.
     pub(super) fn fillet_rows(&self, length: f64, first: f64) -> Vec<f64> {
         let first = first.min(length / 2.0);
         let mut heights = Vec::new();
@@ -166,7 +166,7 @@ fn scaled(sizes: &[f64], sum: f64) -> Vec<f64> {
     sizes.iter().map(|size| size * scale).collect()
 }
 
-/// Where each size ends, from 0.
+/// The end of each size, summed from 0.
 pub(super) fn ends(sizes: &[f64]) -> Vec<f64> {
     let summed = sizes.iter().scan(0.0, |sum, size| {
         *sum += size;
@@ -175,7 +175,7 @@ pub(super) fn ends(sizes: &[f64]) -> Vec<f64> {
     std::iter::once(0.0).chain(summed).collect()
 }
 
-/// The ends and the middles between them.
+/// The ends and their midpoints.
 pub(super) fn with_middles(ends: &[f64]) -> Vec<f64> {
     let halves = ends
         .windows(2)

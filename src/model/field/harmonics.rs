@@ -1,4 +1,4 @@
-//! The whole gear from one half pitch, by a Fourier sum over its teeth.
+//! The displacements of the whole gear from half a pitch, by a Fourier sum over its teeth.
 
 use std::f64::consts::TAU;
 
@@ -15,12 +15,12 @@ pub(super) struct Displacements {
     pub(super) surface: Vec<f64>,
     /// On the loaded tooth on the centre line.
     pub(super) centre: Vec<f64>,
-    /// On the teeth up to so many pitches clockwise, for a load on the right flank, averaged over
-    /// the patch: rows of loads, columns of measured places.
+    /// On the teeth up to [`PITCHES`] pitches clockwise, for a load on the right flank, averaged
+    /// over the patch. Rows are loads, columns are measured places.
     pub(super) cross: [Vec<f64>; PITCHES],
 }
 
-/// The vectors of one mode after a harmonic's elimination, by load.
+/// The vectors of one mode for each load after the elimination of a harmonic.
 struct Solved<'a> {
     matrix: &'a Envelope,
     size: usize,
@@ -41,9 +41,9 @@ impl Solved<'_> {
 /// H = Ds Ss Ds + Da Sa Da,  Ds = diag(cos μ/2, sin μ/2),  Da = diag(sin μ/2, −cos μ/2)
 /// A = γs Ds H⁻¹ Ds gs + γa Da H⁻¹ Da ga,  B = γa Da H⁻¹ Ds gs − γs Ds H⁻¹ Da ga
 /// ```
-/// where w_n is 1 for n = 0 and n = z/2, else 2; g and γ belong to load and measured place.
+/// w_n is 1 for n = 0 and n = z/2, otherwise 2. g belongs to the load, γ to the measured place.
 ///
-/// Returns `None` if rounding has made a stiffness matrix indefinite.
+/// Returns `None` if rounding makes a stiffness matrix indefinite.
 pub(super) fn displacements(
     symmetric: &Condensed,
     antisymmetric: &Condensed,
@@ -71,9 +71,9 @@ pub(super) fn displacements(
 
 /// Harmonics of the sum over the teeth with their weights.
 ///
-/// With many teeth the high ones follow each other so smoothly that the sum over them is the
-/// integral from half a harmonic before the first: by Euler and Maclaurin the rest is 1/12 of the
-/// slope there.
+/// With many teeth the terms of high harmonics vary smoothly. An integral replaces their sum, from
+/// half a harmonic before the first one, with the Euler-Maclaurin correction of 1/12 of the slope
+/// at this end.
 fn harmonics(teeth: u32) -> Vec<(f64, f64)> {
     const SUMMED: u32 = 20;
     const FEW_TEETH: u32 = 4 * SUMMED;
@@ -136,7 +136,7 @@ fn eliminated(modes: [&Condensed; 2], phase: f64) -> Option<Envelope> {
     matrix.eliminate(size).then_some(matrix)
 }
 
-/// Adds the harmonic's share to the sums.
+/// Adds the terms of a harmonic to the sums.
 fn add_harmonic(
     sums: &mut Displacements,
     matrix: &Envelope,

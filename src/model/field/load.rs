@@ -1,4 +1,4 @@
-//! Elliptical patches on the flank as forces on nodes, and the displacements that are measured.
+//! Elliptical patches on the flank as nodal forces, and the measured displacements.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -8,10 +8,10 @@ use super::boundary::Boundary;
 use super::element::line_shapes;
 use super::mesh::{LoadPlace, Mesh};
 
-/// Forces on nodes, or the weights of the nodes' displacements in a measured one.
+/// Forces on nodes, or the weights of nodal displacements in a measured displacement.
 pub(super) type NodeVector = Vec<(usize, Vector2<f64>)>;
 
-/// A unit load on the flank and what is measured of it; lengths in modules.
+/// A unit load on the flank and its measured displacements; lengths in modules.
 #[derive(Debug, Clone)]
 pub(super) struct Load {
     /// Roll angle at the load, in rad.
@@ -58,7 +58,7 @@ impl Load {
     }
 }
 
-/// Shares of the nodes of two rows in an elliptical pressure centred between the rows.
+/// Weights of the nodes of two rows under an elliptical pressure centred between the rows.
 ///
 /// # Formula
 /// ```text
@@ -81,7 +81,7 @@ fn patch_shares(heights: [f64; 2], half_width: f64) -> [f64; 5] {
     shares
 }
 
-/// Shares of three nodes of the centre line in its displacement at a distance from the gear's
+/// Weights of three nodes of the centre line in its displacement at a distance from the gear's
 /// centre.
 fn centre_shares(mesh: &Mesh, distance: f64) -> [(usize, f64); 3] {
     const STEPS: usize = 8;

@@ -1,18 +1,19 @@
-//! Mapped nine-node elements on half a tooth, half a space and the rim below them.
+//! Mapped nine-node elements on half a tooth, half a space and the rim below.
 
 use nalgebra::Vector2;
 
 use super::boundary::Boundary;
 use super::grading::{FlankRows, Grading, ends, with_middles};
 
-/// Nodes of an element: three from the centre line to the space, times three from the bore
-/// upwards, the second index running faster.
+/// Nodes of an element: three from the centre line to the space, times three from the bore upwards.
+/// The second index runs faster.
 pub(super) type Nodes = [usize; 9];
 
 /// The mesh; lengths in modules.
 ///
-/// The nodes are numbered from the tip to the rim, then down the rim's columns from the centre
-/// line; the cut in the middle of the space follows, and the clamped nodes on the bore come last.
+/// The numbers of the nodes run from the tip to the rim, then down the columns of the rim from the
+/// centre line. The nodes of the cut in the middle of the space follow. The clamped nodes on the
+/// bore are last.
 #[derive(Debug, Clone)]
 pub(super) struct Mesh {
     /// Places of the nodes: x across the tooth, y along its centre line.
@@ -38,7 +39,7 @@ pub(super) struct LoadPlace {
 /// Counts of nodes and their numbers.
 #[derive(Debug, Clone, Copy)]
 struct Layout {
-    /// Rows of nodes of the tooth block, the one that it shares with the rim included.
+    /// Rows of nodes of the tooth block, including the row shared with the rim.
     tooth_rows: usize,
     /// Nodes in each row of the tooth block.
     tooth_columns: usize,
@@ -69,7 +70,7 @@ impl Layout {
     }
 }
 
-/// Heights of the rows and columns over which the nodes are laid.
+/// Arc lengths and relative depths of the rows and columns of nodes.
 struct Lines {
     /// Arc lengths of the rows of nodes of the tooth block on the boundary.
     arcs: Vec<f64>,
@@ -109,8 +110,7 @@ impl Mesh {
         }
     }
 
-    /// The places of loads between all rows of the involute, every other one a place of its own
-    /// loads.
+    /// Load places between all rows of the involute: every second place is a load of the field.
     #[cfg(test)]
     pub(super) fn all_load_places(
         &self,
@@ -170,7 +170,7 @@ impl Lines {
     }
 }
 
-/// Lays the tooth block: parabolas across the tooth, an arc at the tip.
+/// Places the tooth block: parabolas across the tooth, an arc at the tip.
 fn place_tooth(
     places: &mut [Vector2<f64>],
     layout: &Layout,
@@ -178,7 +178,7 @@ fn place_tooth(
     bore: f64,
     lines: &Lines,
 ) {
-    /// Sag of the lowest row, over its half width, and least share of the depth that it leaves.
+    /// Sag of the lowest row relative to its half width, and least remaining part of the depth.
     const SAG: (f64, f64) = (0.13, 0.6);
     let corner = boundary.at(0.0);
     let lowest = boundary.at(lines.arcs[layout.tooth_rows - 1]);
@@ -199,7 +199,7 @@ fn place_tooth(
     }
 }
 
-/// Lays the rim below the tooth block and the space, down to the bore.
+/// Places the rim below the tooth block and the space, down to the bore.
 fn place_rim(
     places: &mut [Vector2<f64>],
     layout: &Layout,
@@ -207,9 +207,9 @@ fn place_rim(
     bore: f64,
     lines: &Lines,
 ) {
-    /// Depth, in modules, in which the columns spread to equal angles.
+    /// Depth, in modules, in which the columns change to equal angles.
     const SPREAD: f64 = 1.5;
-    /// Thickness of the rim, in modules, up to which its columns rather go straight down.
+    /// Thickness of the rim, in modules, up to which its columns stay straight.
     const THIN: f64 = 0.3;
     let thickness = boundary.root - bore;
     let evenness = -(-thickness / THIN).exp_m1();

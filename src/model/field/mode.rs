@@ -5,7 +5,7 @@ use super::envelope::{Envelope, dot};
 use super::load::{Load, NodeVector};
 use super::mesh::Mesh;
 
-/// A component of a displacement that is fixed.
+/// Marks a fixed displacement component.
 const FIXED: usize = usize::MAX;
 
 /// Symmetry of a displacement about the centre line of the tooth.
@@ -13,40 +13,40 @@ const FIXED: usize = usize::MAX;
 pub(super) enum Mode {
     /// No displacement across the centre line.
     Symmetric,
-    /// No displacement along it.
+    /// No displacement along the centre line.
     Antisymmetric,
 }
 
-/// What the cut sees of the half pitch, its radial components before its tangential ones.
+/// Half a pitch condensed to the cut, radial components before tangential ones.
 #[derive(Debug, Clone)]
 pub(super) struct Condensed {
     /// Nodes on the cut.
     pub(super) nodes: usize,
     /// Stiffness, row by row.
     pub(super) stiffness: Vec<f64>,
-    /// For each load.
+    /// One entry for each load.
     pub(super) loads: Vec<CondensedLoad>,
 }
 
-/// What the cut sees of a load.
+/// A load condensed to the cut.
 #[derive(Debug, Clone)]
 pub(super) struct CondensedLoad {
     /// Force on the cut, for half of the load on each flank.
     pub(super) force: Vec<f64>,
     /// Weights of the cut's displacement in the displacement at the centre of the patch.
     pub(super) surface: Vec<f64>,
-    /// The same on the centre line.
+    /// Weights of the cut's displacement in the displacement on the centre line.
     pub(super) centre: Vec<f64>,
-    /// Displacement at the centre of the patch with the cut held.
+    /// Displacement at the centre of the patch with a fixed cut.
     pub(super) held_surface: f64,
-    /// The same on the centre line.
+    /// Displacement on the centre line with a fixed cut.
     pub(super) held_centre: f64,
 }
 
 /// Numbers of the unknowns of a mode.
 struct Unknowns {
-    /// The unknowns of each node: across and along the centre line, or radial and tangential on
-    /// the cut.
+    /// The unknowns of each node: across and along the centre line, or on the cut radial and
+    /// tangential.
     of_node: Vec<[usize; 2]>,
     /// Unknowns off the cut.
     inner: usize,
@@ -97,7 +97,7 @@ impl Unknowns {
         first
     }
 
-    /// The parts of a vector that act on free unknowns.
+    /// The parts of a vector on free unknowns.
     fn free<'a>(&'a self, vector: &'a NodeVector) -> impl Iterator<Item = (usize, f64)> + 'a {
         let parts = vector.iter().flat_map(|&(node, part)| {
             let [across, along] = self.of_node[node];
@@ -107,9 +107,9 @@ impl Unknowns {
     }
 }
 
-/// Condenses a mode of the mesh; `stiffnesses` are those of its elements, in the same order.
+/// Condenses a mode of the mesh. `stiffnesses` belong to its elements, in the same order.
 ///
-/// Returns `None` if rounding has made the stiffness matrix indefinite.
+/// Returns `None` if rounding makes the stiffness matrix indefinite.
 pub(super) fn condense(
     mesh: &Mesh,
     stiffnesses: &[Stiffness],
@@ -158,8 +158,8 @@ fn add_element(matrix: &mut Envelope, members: &[usize], stiffness: &Stiffness) 
     }
 }
 
-/// Turns the unknowns of an element's nodes on the cut to the radial and tangential direction
-/// there; the angle of the cut to the centre line is in rad.
+/// Rotates the unknowns of an element's nodes on the cut to the radial and tangential directions.
+/// The angle between cut and centre line is in rad.
 pub(super) fn turn(stiffness: &mut Stiffness, is_on_cut: [bool; 9], angle: f64) {
     let (sine, cosine) = angle.sin_cos();
     let polar = |across: f64, along: f64| {
@@ -179,7 +179,7 @@ pub(super) fn turn(stiffness: &mut Stiffness, is_on_cut: [bool; 9], angle: f64) 
     }
 }
 
-/// Reads the eliminated matrix.
+/// Reads the condensed values from the eliminated matrix.
 fn collect(matrix: &Envelope, unknowns: &Unknowns, loads: usize) -> Condensed {
     let (inner, count) = (unknowns.inner, unknowns.count);
     let size = count - inner;

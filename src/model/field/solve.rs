@@ -1,4 +1,4 @@
-//! From a gear to the displacements under its loads, twist and shift of the body taken out.
+//! From a gear to the displacements under its loads, without twist and shift of the body.
 
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ use crate::model::limits::field::POISSON;
 /// Least thickness of the rim, in modules.
 const LEAST_RIM: f64 = 1e-3;
 
-/// The boundary of a gear that elements can be laid on.
+/// The boundary of a gear, checked for the mesh.
 pub(super) fn boundary(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
     let boundary = Boundary::of(input)?;
     let (thickness, least) = (
@@ -34,7 +34,7 @@ pub(super) fn boundary(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
     Ok(boundary)
 }
 
-/// Refuses a gear on whose outline the elements fold.
+/// Refuses a gear whose outline folds the elements.
 pub(super) fn check(input: &FieldInput, grading: &Grading) -> Result<(), FieldRefusal> {
     let boundary = boundary(input)?;
     let bore = input.bore_radius / input.module;
@@ -61,7 +61,7 @@ fn folded(element: usize, mesh: &Mesh) -> FieldRefusal {
     }
 }
 
-/// r_f/r_h of the bores from which a smaller one is extrapolated.
+/// Two ratios r_f/r_h from which the field of a smaller bore is extrapolated.
 const RATIOS: [f64; 2] = [5.0, 7.0];
 
 /// Whether the field of a bore in modules is extrapolated from larger bores.
@@ -69,10 +69,11 @@ fn is_extrapolated(bore: f64, boundary: &Boundary) -> bool {
     bore * RATIOS[1] < boundary.root
 }
 
-/// The displacements with the body's twist taken out, without a bore its shift as well.
+/// The displacements without the twist of the body, and for a gear without a bore without its
+/// shift.
 ///
-/// A small bore is as good as none but for twist and shift, up to the square of its radius: it is
-/// extrapolated from two larger ones, since the twist would be most of the answer.
+/// A small bore affects the field only by twist and shift, up to the square of its radius. Its
+/// field is extrapolated from two larger bores, because the twist would be most of the result.
 pub(super) fn without_twist(
     input: &FieldInput,
     boundary: &Boundary,
@@ -98,7 +99,7 @@ pub(super) fn without_twist(
     Ok((loads, values))
 }
 
-/// Every displacement.
+/// All displacements.
 fn all(values: &mut Displacements) -> impl Iterator<Item = &mut f64> {
     let own = values.surface.iter_mut().chain(&mut values.centre);
     own.chain(values.cross.iter_mut().flatten())
@@ -121,7 +122,7 @@ fn add_shift(values: &mut Displacements, loads: &[Load], input: &FieldInput, log
     }
 }
 
-/// The loads of the mesh, and the displacements of the gear with a bore in modules under them.
+/// The loads of the mesh, and the displacements under them for a bore in modules.
 fn solved(
     input: &FieldInput,
     boundary: &Boundary,
@@ -141,7 +142,7 @@ fn solved(
     Ok((loads, values))
 }
 
-/// The displacements under loads on the mesh, twist included.
+/// The displacements under the loads of the mesh, twist included.
 pub(super) fn under_loads(
     input: &FieldInput,
     boundary: &Boundary,
@@ -159,7 +160,7 @@ pub(super) fn under_loads(
     })
 }
 
-/// The stiffnesses of the mesh's elements, in radial and tangential components on the cut.
+/// The stiffnesses of the elements, with radial and tangential components on the cut.
 fn stiffnesses(
     mesh: &Mesh,
     boundary: &Boundary,

@@ -1,4 +1,4 @@
-//! The field against closed forms, itself on finer meshes, and gears of every kind.
+//! Tests of the field against closed forms, finer meshes, and gears of all kinds.
 
 use super::*;
 use crate::model::profile::Rack;
@@ -24,7 +24,7 @@ fn gear(teeth: u32, shift: f64, degrees: f64, heights: [f64; 2], rounding: f64) 
     }
 }
 
-/// The same with a bore of r_f over `ratio`.
+/// The gear with a bore of r_f/`ratio`.
 fn bored(mut input: FieldInput, ratio: f64) -> FieldInput {
     input.bore_radius = input.profile.circles().root / ratio;
     input
@@ -39,7 +39,7 @@ fn gears() -> [FieldInput; 4] {
     ]
 }
 
-/// Surface, depth and coupling of two fields at places all over the flank: greatest differences.
+/// Greatest differences between two fields over the flank: surface, depth and coupling.
 fn differences(left: &Field, right: &Field) -> [f64; 3] {
     let [from, to] = left.radii();
     let mut worst = [0.0_f64; 3];
@@ -83,7 +83,7 @@ fn field_converges_as_the_mesh_is_halved() {
 }
 
 #[test]
-fn series_meet_the_loads_between_their_own() {
+fn series_agree_with_loads_between_their_sampled_loads() {
     for input in gears() {
         let boundary = solve::boundary(&input).unwrap();
         let grading = Grading::STANDARD.with_more_loads();
@@ -129,7 +129,7 @@ fn series_meet_the_loads_between_their_own() {
 }
 
 #[test]
-fn neighbours_ahead_and_behind_are_those_of_the_rows() {
+fn neighbours_ahead_and_behind_agree_with_the_reference() {
     let rows: Vec<Value> =
         serde_json::from_str(include_str!("../../../tests/reference/field/teeth.json")).unwrap();
     for row in rows {
@@ -292,7 +292,7 @@ fn twist_is_the_integral_of_the_shear_strain_over_the_ring() {
 }
 
 #[test]
-fn elimination_leaves_the_schur_complement_and_the_border_solved() {
+fn elimination_gives_the_schur_complement_and_the_reduced_border() {
     let dense = [
         [4.0, 1.0, 0.0, 0.5],
         [1.0, 5.0, 2.0, 0.0],
@@ -341,9 +341,9 @@ fn a_matrix_that_is_not_positive_definite_is_not_eliminated() {
     assert!(!matrix.eliminate(2));
 }
 
-/// The series meet the loads that they are made of, and loads of the same mesh between them. Those
-/// lie between rows of equal height as well: the elements under a patch between unequal rows err
-/// otherwise, by up to 1e-2.
+/// The series agree with their own loads and with other loads of the same mesh. The other loads are
+/// also between rows of equal height, because elements under a patch between unequal rows have
+/// errors of up to 1e-2.
 #[test]
 fn the_series_of_the_surface_is_within_1e_4_of_the_loads_of_its_mesh() {
     let mut seen = 0;

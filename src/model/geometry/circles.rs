@@ -11,7 +11,7 @@ pub struct Circles<T = f64> {
     pub reference: T,
     /// Base radius r_b = r cos α.
     pub base: T,
-    /// Active tip radius r_a, the chamfer taken off.
+    /// Active tip radius r_a after the chamfer.
     pub tip: T,
     /// Radius of curvature of the involute at its end, L_f: √(r_a² − r_b²) at a sharp tip.
     pub tip_curvature: T,
@@ -24,8 +24,9 @@ pub struct Circles<T = f64> {
 /// Circles of one gear, cut by a rack of a module in m and a pressure angle in rad.
 ///
 /// # Errors
-/// [`Refusal::PointedRack`], [`Refusal::TipInsideBase`], and of the rounding of the tip
-/// [`Refusal::RoundingInsideBase`] and [`Refusal::RoundingTooWide`]. Each names the driver's field.
+/// [`Refusal::PointedRack`], [`Refusal::TipInsideBase`], and for the rounding of the tip
+/// [`Refusal::RoundingInsideBase`] and [`Refusal::RoundingTooWide`]. Each names the field of the
+/// driver.
 pub fn circles<T: Real>(
     module: f64,
     pressure_angle: f64,
@@ -89,8 +90,8 @@ pub fn circles<T: Real>(
     })
 }
 
-/// Refuse a rounding for which the tooth is too thin: its arc would begin beyond the tooth's centre
-/// line.
+/// Refuses a rounding that is too large for the tooth: its arc would begin beyond the centre line
+/// of the tooth.
 ///
 /// # Formula
 /// ```text
@@ -146,7 +147,7 @@ impl Circles {
         }
     }
 
-    /// Radius at which the involute ends, in m: the tip circle's at a sharp tip.
+    /// Radius at which the involute ends, in m: the tip radius for a sharp tip.
     #[must_use]
     pub fn involute_end(&self) -> f64 {
         if self.edge <= 0.0 {

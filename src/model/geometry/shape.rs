@@ -1,4 +1,4 @@
-//! The shape of a pair: what its geometry reads of a case.
+//! The shape of a pair: the inputs of its geometry.
 
 use crate::model::inputs::{Gear, Inputs, Method};
 
@@ -32,7 +32,7 @@ pub struct PairShape {
     pub module: f64,
     /// Pressure angle α, in rad.
     pub pressure_angle: f64,
-    /// Centre distance a, in m; without it the mesh has no backlash.
+    /// Centre distance a, in m; `None` for a mesh without backlash.
     pub centre_distance: Option<f64>,
     /// Shape of the driver.
     pub driver: GearShape,
@@ -49,21 +49,21 @@ pub struct GearShape {
     pub profile_shift: f64,
     /// Addendum coefficient h_a*.
     pub addendum: f64,
-    /// Tip diameter before the chamfer, in m, where it gives the coefficient.
+    /// Tip diameter before the chamfer, in m, which replaces the coefficient.
     pub tip_diameter: Option<f64>,
     /// Dedendum coefficient h_fP*.
     pub dedendum: f64,
-    /// Root diameter, in m, where it gives the coefficient.
+    /// Root diameter, in m, which replaces the coefficient.
     pub root_diameter: Option<f64>,
     /// Radial tip chamfer, in m.
     pub tip_chamfer: f64,
-    /// Radius of the rounding of the tip's edge, in m; a sharp tip has none.
+    /// Radius of the rounding of the tip's edge, in m; `None` for a sharp tip.
     pub tip_radius: Option<f64>,
 }
 
 impl Gear {
-    /// Addendum coefficient h_a* = d_a/(2 m) − z/2 − x where the tip diameter is given, else the
-    /// given one; the module is in m.
+    /// Addendum coefficient: h_a* = d_a/(2 m) − z/2 − x if the tip diameter is given, otherwise the
+    /// given coefficient. The module is in m.
     #[must_use]
     pub fn addendum_coefficient(&self, module: f64) -> f64 {
         self.tip_diameter.map_or(self.addendum, |diameter| {
@@ -71,8 +71,8 @@ impl Gear {
         })
     }
 
-    /// Dedendum coefficient h_fP* = z/2 + x − d_f/(2 m) where the root diameter is given, else the
-    /// given one; the module is in m.
+    /// Dedendum coefficient: h_fP* = z/2 + x − d_f/(2 m) if the root diameter is given, otherwise
+    /// the given coefficient. The module is in m.
     #[must_use]
     pub fn dedendum_coefficient(&self, module: f64) -> f64 {
         self.root_diameter.map_or(self.dedendum, |diameter| {
@@ -102,7 +102,7 @@ impl Gear {
 }
 
 impl Inputs {
-    /// Shape of the pair. The method `paper` knows sharp tips alone.
+    /// Shape of the pair. The method `paper` has only sharp tips.
     #[must_use]
     pub fn shape(&self) -> PairShape {
         let shape = |gear: &Gear| {

@@ -1,4 +1,4 @@
-//! Why a gear has no elastic field.
+//! Reasons why a gear has no elastic field.
 
 use thiserror::Error;
 
@@ -6,7 +6,7 @@ const MILLIMETRE: f64 = 1e-3;
 /// Range of Poisson's ratio.
 pub(in crate::model) const POISSON: (f64, f64) = (0.0, 0.49);
 
-/// Why a gear has no field.
+/// The reason why a gear has no field.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum FieldRefusal {
     /// The flanks meet at or below the tip circle.
@@ -17,7 +17,7 @@ pub enum FieldRefusal {
         /// Least thickness, in m.
         least: f64,
     },
-    /// The undercut leaves next to no neck below the tooth.
+    /// The undercut leaves nearly no neck below the tooth.
     #[error("undercut tooth: its neck is {:.4} mm thick and must be at least {:.4} mm", .thickness / MILLIMETRE, .least / MILLIMETRE)]
     CutThrough {
         /// Least thickness of the fillet, in m.
@@ -31,7 +31,7 @@ pub enum FieldRefusal {
         /// Width of the space at the root circle, in m, below 0.
         width: f64,
     },
-    /// Next to no involute is left between fillet and tip.
+    /// Nearly no involute is left between fillet and tip.
     #[error("short flank: its involute is {:.4} mm long and must be at least {:.4} mm", .length / MILLIMETRE, .least / MILLIMETRE)]
     ShortFlank {
         /// Arc length of the involute, in m.
@@ -47,7 +47,7 @@ pub enum FieldRefusal {
         /// Least thickness, in m.
         least: f64,
     },
-    /// No plane strain exists in the material.
+    /// Plane strain is impossible with this Poisson's ratio.
     #[error("Poisson's ratio is {poisson} and must be between 0 and {}", POISSON.1)]
     Poisson {
         /// ν.
@@ -61,7 +61,7 @@ pub enum FieldRefusal {
         /// Number of elements.
         count: usize,
     },
-    /// Rounding errors swamp the stiffness matrix.
+    /// Rounding errors make the stiffness matrix indefinite.
     #[error("the stiffness matrix is not positive definite with {unknowns} unknowns")]
     NotPositive {
         /// Unknowns.

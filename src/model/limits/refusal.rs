@@ -1,4 +1,4 @@
-//! Every refusal, with its values and its message.
+//! All refusals with their values and messages.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::numeric::decimal::significant;
 const MILLIMETRE: f64 = 1e-3;
 const MICROMETRE: f64 = 1e-6;
 
-/// Why a pair cannot be solved, or why some of its quantities cannot.
+/// The reason why a pair, or some of its quantities, cannot be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Refusal {
     /// The driven tip would touch the driver below its base circle.
@@ -29,7 +29,7 @@ pub enum Refusal {
         /// Whether the case gives the centre distance.
         is_distance_given: bool,
     },
-    /// No involute is left at the tip.
+    /// The tip has no involute.
     #[error("the tip is inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
     TipInsideBase {
         /// The key of the field where the fix begins.
@@ -71,12 +71,12 @@ pub enum Refusal {
         /// x₁ + x₂.
         sum: f64,
     },
-    /// No pair is in contact while the next one comes in.
+    /// No pair is in contact when the next pair starts contact.
     #[error("the contact ratio is {ratio:.4} and must be above 1 to compute the deflection at F")]
     ContactRatioBelowOne {
         /// ε.
         ratio: f64,
-        /// Whether the method takes a deflection that is given, in place of computing it.
+        /// Whether the method accepts a given deflection.
         is_deflection_taken: bool,
     },
     /// The bore leaves no gear body.
@@ -86,7 +86,7 @@ pub enum Refusal {
         field: &'static str,
         /// r_h, in m.
         bore: f64,
-        /// The circle that it must not reach.
+        /// The circle that limits the bore.
         circle: &'static str,
         /// The radius of that circle, in m.
         limit: f64,
@@ -116,7 +116,7 @@ pub enum Refusal {
         field: &'static str,
         /// r_e, in m.
         radius: f64,
-        /// What half of the tooth lacks, on the base circle, in m.
+        /// Missing half thickness of the tooth, on the base circle, in m.
         lack: f64,
     },
     /// Rounded tips leave a path of contact shorter than a base pitch.
@@ -157,7 +157,7 @@ pub enum Refusal {
         /// Greatest |x| of the fit.
         limit: f64,
     },
-    /// Eq. 56 gives no stiffness so far out on the tooth.
+    /// Eq. 56 gives no positive stiffness at this height of the tooth.
     #[error(
         "load point outside the Kuang-Yang fit: (r_x - r)/((1+x) m) is {height:.4}, where the \
             fit's stiffness is not above 0"
@@ -166,7 +166,7 @@ pub enum Refusal {
         /// (r_x − r)/((1 + x) m).
         height: f64,
     },
-    /// No tooth is left at the load point.
+    /// The tooth has no thickness at the load point.
     #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
     PointedTip {
         /// The key of the field where the fix begins.
@@ -185,7 +185,7 @@ pub enum Refusal {
         /// x.
         shift: f64,
     },
-    /// The load point is on the fillet, which is no involute.
+    /// The load point is on the fillet, outside the involute.
     #[error("the flank ends above the contact: the contact is at the radius {:.4} mm and the form circle at {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
     BelowFormCircle {
         /// The key of the field where the fix begins.
@@ -200,7 +200,7 @@ pub enum Refusal {
     NoField {
         /// z.
         teeth: u32,
-        /// Why.
+        /// The reason.
         reason: FieldRefusal,
     },
     /// The driver's tip would touch the driven gear below its base circle.
@@ -209,10 +209,10 @@ pub enum Refusal {
         /// N₂B, in m.
         start: f64,
     },
-    /// The pairs yield so far that a tip would leave the other flank.
+    /// The deflection of the pairs is so large that a tip would leave the other flank.
     #[error("the teeth cannot carry the load: the pairs deflect further than their flanks reach")]
     BeyondReach,
-    /// The compliances of neighbouring pairs contradict each other.
+    /// The compliances of neighbouring pairs are inconsistent.
     #[error(
         "no load sharing: the compliance matrix is not positive definite (a force displaces a \
             neighbouring tooth more than the loaded tooth)"
@@ -226,21 +226,21 @@ pub enum Refusal {
     FrictionLocks {
         /// μ.
         friction: f64,
-        /// The least coefficient that locks.
+        /// The least coefficient that locks the gears.
         limit: f64,
     },
-    /// The mesh swings too often while a tooth passes.
+    /// The mesh oscillates too often while a tooth passes.
     #[error(
         "too slow for method dynamic: the mesh oscillates {swings:.2e} times while a tooth passes, \
             and the limit is {limit:.0e}"
     )]
     TooSlow {
-        /// Swings of the mesh on the way.
+        /// Oscillations of the mesh.
         swings: f64,
-        /// The most that are followed.
+        /// Greatest number of oscillations.
         limit: f64,
     },
-    /// The series of the motion has no numbers.
+    /// The series of the motion is not finite.
     #[error("the motion does not settle: the teeth touch and separate without end")]
     Unsettled,
     /// The motion exceeds its budget of work.
@@ -250,13 +250,13 @@ pub enum Refusal {
     MotionTooLong {
         /// Steps.
         steps: u64,
-        /// How much of the way they are, from 0 to 1.
+        /// The computed part of the motion, from 0 to 1.
         done: f64,
     },
     /// The motion does not become periodic.
     #[error("no steady motion: after {pitches} base pitches the motion does not repeat")]
     NoSteadyMotion {
-        /// Base pitches that were followed.
+        /// Number of computed base pitches.
         pitches: u32,
     },
     /// The steps of the motion exceed the memory of a solve.
@@ -270,24 +270,24 @@ pub enum Refusal {
         /// The computed part of the motion, from 0 to 1.
         done: f64,
     },
-    /// A set of pairs has no room for all that may touch.
+    /// The number of pairs that may touch exceeds the limit of a set.
     #[error("{pairs} tooth pairs may touch at a time, and the limit is {limit}")]
     TooManyPairs {
         /// Pairs.
         pairs: usize,
-        /// The most that are followed.
+        /// Greatest number of pairs.
         limit: usize,
     },
     /// The search for the required tip relief exceeds its budget of work.
     #[error("the search stopped after {tries} {}: {}", if *.in_motion { "motions" } else { "balances" }, Bracket(*.touching, *.clear))]
     SearchTooLong {
-        /// Motions or balances tried.
+        /// Number of tested motions or balances.
         tries: u32,
-        /// Whether they are motions.
+        /// Whether motions were tested.
         in_motion: bool,
-        /// The greatest additional tip relief with which the tooth touches, in m.
+        /// The greatest tested additional tip relief with contact, in m.
         touching: Option<f64>,
-        /// The least greater one with which it does not, in m.
+        /// The least greater relief without contact, in m.
         clear: Option<f64>,
     },
     /// The force curve needs more stations than are computed.
@@ -296,13 +296,13 @@ pub enum Refusal {
             more"
     )]
     CurveTooRough {
-        /// Places.
+        /// Number of places.
         limit: usize,
     },
     /// No relief keeps the incoming tooth from touching before E.
     #[error("the tooth touches before E even with {:.4} um more tip relief of the driven gear", .most / MICROMETRE)]
     NoClearing {
-        /// The most that was tried, in m.
+        /// The greatest tested relief, in m.
         most: f64,
     },
     /// The user stopped the solve.
@@ -315,13 +315,13 @@ pub enum Refusal {
     HertzWidthTooLarge {
         /// Half-width, in m.
         half_width: f64,
-        /// Where q_H vanishes, in m.
+        /// Half-width at which q_H is 0, in m.
         limit: f64,
     },
 }
 
 impl Refusal {
-    /// The same refusal of the driven gear: a refusal of one gear names the field of the driver.
+    /// The refusal for the driven gear. A refusal of one gear names the field of the driver.
     pub(in crate::model) fn at_driven(mut self) -> Refusal {
         match &mut self {
             Refusal::RoundingInsideBase { field, .. } | Refusal::RoundingTooWide { field, .. } => {
@@ -339,11 +339,11 @@ impl Refusal {
     }
 }
 
-/// Digits that tell any two numbers apart.
+/// Digits that distinguish any two numbers.
 const MOST_DIGITS: usize = 17;
 
-/// What a search knows of the additional tip reliefs, in m: the greatest that touches and the least
-/// that does not.
+/// Bracket of the additional tip relief, in m: the greatest value with contact and the least value
+/// without.
 struct Bracket(Option<f64>, Option<f64>);
 
 impl fmt::Display for Bracket {
@@ -356,7 +356,7 @@ impl fmt::Display for Bracket {
             let shown = |relief: f64| significant(relief / MICROMETRE, digits);
             (shown(touching), self.1.map(shown))
         };
-        // So many digits that the ends of a narrow bracket differ.
+        // Uses enough digits to distinguish the ends of a narrow bracket.
         let (touching_shown, clear) = (4..MOST_DIGITS)
             .map(shown)
             .find(|(touching, clear)| clear.as_ref() != Some(touching))
@@ -371,7 +371,7 @@ impl fmt::Display for Bracket {
     }
 }
 
-/// A part of a motion that is not over: never 100 %.
+/// A part of an unfinished motion in percent, always below 100 %.
 fn percent(done: f64) -> String {
     format!("{:.2} %", (1e4 * done).floor().min(9999.0) / 100.0)
 }

@@ -1,8 +1,8 @@
-//! How to fix what is refused: a code for scripts, the field, and the fix.
+//! Code, field and fix of each refusal.
 
 use super::refusal::Refusal;
 
-/// A refusal's name, the field where its fix begins, and the fix.
+/// The code of a refusal, the field where its fix begins, and the fix.
 struct Remedy {
     code: &'static str,
     field: &'static str,
@@ -22,7 +22,7 @@ impl Refusal {
         self.remedy().field
     }
 
-    /// How to fix it.
+    /// How to fix the input.
     #[must_use]
     pub fn fix(&self) -> &'static str {
         self.remedy().fix

@@ -6,7 +6,7 @@ use crate::model::compliance::tooth::preferences;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
 
-/// The range chose the model.
+/// The pair's range determined the model.
 pub(super) fn chosen_by_range(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let used = solution.compliance?.model.model();
     let [first, ..] = preferences(inputs);
@@ -40,7 +40,7 @@ pub(super) fn hertz_width(inputs: &Inputs, solution: &Solution) -> Option<Note> 
     (half_width > limit).then(|| Note::new("hertz-width-not-small", message()))
 }
 
-/// The model takes neighbouring teeth for independent springs where the method would couple them.
+/// The model has independent springs although the method supports coupling.
 pub(super) fn without_coupling(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let is_coupled = match solution.method {
         Method::Static | Method::Dynamic => true,
@@ -59,6 +59,6 @@ pub(super) fn without_coupling(inputs: &Inputs, solution: &Solution) -> Option<N
     (is_coupled && !model.has_coupling).then(|| Note::new("no-coupling", message()))
 }
 
-/// Changes of first contact and peak force in `dynamic` with the finite elements over `cases/` if
-/// the coupling is left out.
+/// Changes of first contact and peak force in `dynamic` without coupling, with finite elements over
+/// `cases/`.
 const UNCOUPLED: (&str, &str) = ("2 to 13 %", "-12 to +14 %");

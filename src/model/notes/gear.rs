@@ -63,7 +63,7 @@ fn grade(table: &str, inputs: &Inputs, gear: &Gear) -> Option<Note> {
     let grade = gear.grade?;
     if let Some(own) = gear.base_pitch {
         let message = format!(
-            "{table}.grade = {grade} is not used: {table}.base_pitch = {} um governs",
+            "{table}.grade = {grade} is not used: {table}.base_pitch = {} um replaces it",
             four(own * MICRO)
         );
         return Some(Note::new("grade-not-used", message));

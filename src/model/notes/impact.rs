@@ -1,4 +1,4 @@
-//! Notes on the impact itself.
+//! Notes on the impact.
 
 use std::f64::consts::SQRT_2;
 
@@ -9,7 +9,7 @@ use crate::numeric::decimal::significant;
 
 const MICRO: f64 = 1e6;
 
-/// Quantities that could not be computed although the tooth strikes.
+/// Some quantities cannot be computed although the tooth strikes.
 pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.withheld?;
     Some(Note::new(
@@ -21,7 +21,7 @@ pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
     ))
 }
 
-/// Stations whose force could not be computed.
+/// The force of some stations cannot be computed.
 pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.stations_withheld?;
     let message = match inputs.stations {
@@ -40,10 +40,11 @@ pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<
 ///
 /// # Formula
 /// ```text
-/// f_pb,0 = f_pb + g/√2,  reported where f_pb,0 < 1.1 f_pb, or where g < 0.1 δ and the load makes δ
+/// f_pb,0 = f_pb + g/√2,  reported if f_pb,0 < 1.1 f_pb, or if g < 0.1 δ and the load causes δ
 /// ```
-/// where g is the remaining gap, which √2 f_pb closes, Eqs. 1 and 5, and δ grows about as the load.
-/// Where the gears have their own deviations, f_pb is their root mean square.
+/// g is the remaining gap. An increase of √2 f_pb by g closes it, Eqs. 1 and 5. δ is approximately
+/// proportional to the load. If the gears have their own deviations, f_pb is their root mean
+/// square.
 pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     const CLOSE: f64 = 0.1;
     let clear = solution.margin()?;
@@ -70,7 +71,7 @@ pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note>
         .then(|| Note::new("barely-clear", message()))
 }
 
-/// The printed equations put D where the tip has hardly closed its gap.
+/// The printed equations put D so close to E that the tip has closed almost nothing of its gap.
 pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
     const CLOSED: f64 = 1e-6;
     let (closed, total) = (solution.position?.closed_gap, solution.deviation.total);
@@ -85,7 +86,7 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
         .then(|| Note::new("gap-left-open", message()))
 }
 
-/// There is no end of the impact, and so no friction ratio.
+/// The impact has no end, and therefore no friction ratio.
 pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
     let is_without = solution.friction?.ratio.is_none();
     let message =
@@ -95,7 +96,7 @@ pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
     (solution.method == Method::Paper && is_without).then(|| Note::new("no-end-of-impact", message))
 }
 
-/// The impact is longer than the way from D to E.
+/// The impact lasts longer than the time from D to E.
 pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
     let duration = solution
         .impact
@@ -113,7 +114,7 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
     (duration > transit).then(|| Note::new("impact-outlasts-approach", message()))
 }
 
-/// Force and duration contradict each other.
+/// Force and duration are inconsistent.
 pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     const ROUNDING: f64 = 1e-9;
     let ratio = solution.impact?.impulse_ratio();
@@ -136,7 +137,8 @@ pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     })
 }
 
-/// The load cannot hold the pair ahead in contact while the incoming tooth carries its error.
+/// The load cannot keep the pair ahead in contact because the error of the incoming tooth is too
+/// large.
 pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
     if solution.method.shares_load() {
         return None;
@@ -156,7 +158,7 @@ pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
     (deflection < error).then(|| Note::new("contact-lost", message()))
 }
 
-/// The tip slides the other way before it reaches E.
+/// The sliding velocity of the tip changes its sign between D and E.
 pub(super) fn sliding_reverses(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let at_contact = solution.velocity?.sliding;
     let at_start = (inputs.speed + inputs.driven_speed()) * solution.geometry.approach_length;
@@ -169,7 +171,7 @@ pub(super) fn sliding_reverses(inputs: &Inputs, solution: &Solution) -> Option<N
     (at_contact * at_start < 0.0).then(|| Note::new("sliding-reverses", message()))
 }
 
-/// What the case's own friction coefficient can do.
+/// The given friction coefficient compared with the stick limit.
 pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let friction = inputs.friction_coefficient?;
     let limit = solution.velocity?.stick_limit;
@@ -203,7 +205,7 @@ mod tests {
     use crate::model::stage::Stages;
     use crate::model::{Outcome, notes, solve};
 
-    /// Table 1's deviations, with this tip relief on the driven gear.
+    /// The deviations of Table 1 with a tip relief on the driven gear.
     fn relieved(relief: f64, deviation: f64) -> Inputs {
         let mut inputs = standard_pair(20, 20, 5e-3);
         (inputs.base_pitch_deviation, inputs.deflection) = (deviation, Some(24.7e-6));
@@ -218,7 +220,7 @@ mod tests {
             .any(|note| note.code == "barely-clear")
     }
 
-    /// The pair m 2, z 23/71 under that power, in W, with so much tip relief, in m.
+    /// The pair m 2, z 23/71 with a power in W and a tip relief in m.
     fn of_two_modules(method: Method, power: f64) -> Inputs {
         let mut inputs = standard_pair(23, 71, 2e-3);
         inputs.method = method;
@@ -228,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn every_method_gives_a_small_clearance_and_the_changes_that_close_it() {
+    fn every_method_reports_a_small_clearance_and_the_changes_that_close_it() {
         for method in [Method::Exact, Method::Static, Method::Dynamic] {
             let mut inputs = of_two_modules(method, 4e3);
             let least = solve(&inputs, Stages::EVERY)
@@ -265,15 +267,21 @@ mod tests {
             assert_eq!(outcome(1.01), Outcome::CornerContact, "{method:?}");
             assert_eq!(outcome(0.99), Outcome::NoCornerContact, "{method:?}");
             inputs.driven.tip_relief = 1.5 * least;
-            assert!(!clears_barely(&inputs), "{method:?}: it clears by far");
+            assert!(
+                !clears_barely(&inputs),
+                "{method:?}: the clearance is large"
+            );
         }
     }
 
     #[test]
-    fn a_small_clearance_is_given_with_the_deviation_that_causes_contact() {
+    fn a_small_clearance_is_reported_with_the_deviation_that_causes_contact() {
         assert!(clears_barely(&relieved(48e-6, 16e-6)));
         assert!(!clears_barely(&relieved(47e-6, 16e-6)), "it strikes");
-        assert!(!clears_barely(&relieved(60e-6, 16e-6)), "it clears by far");
+        assert!(
+            !clears_barely(&relieved(60e-6, 16e-6)),
+            "the clearance is large"
+        );
         let clear = -solve(&relieved(48e-6, 16e-6), Stages::EVERY)
             .unwrap()
             .deviation

@@ -1,12 +1,11 @@
-//! Notes on the methods in which every pair takes its share of the load, and on the choice of the
-//! method.
+//! Notes on the methods with load sharing and on the choice of the method.
 
 use super::{Note, four};
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
 
-/// The method that was taken, and why.
+/// The method that `auto` chose and the reason.
 pub(super) fn method_taken(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let choice = solution.choice?;
     let message = if inputs.tooth_compliance.is_none() {
@@ -33,7 +32,7 @@ pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option
     Some(Note::new("deflection-ignored", message))
 }
 
-/// The case gives the deflection, so that the load moves nothing of the impact.
+/// The case gives the deflection, so that the load does not affect the impact.
 pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let given = four(
         inputs
@@ -48,7 +47,7 @@ pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<N
     Some(Note::new("deflection-given", message))
 }
 
-/// No pair carries at some moment.
+/// For a time, no pair is in contact.
 pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
     let lost = solution.dynamic.as_ref()?.contact_lost;
     lost.then(|| {
@@ -84,7 +83,7 @@ pub(super) fn back_strikes(inputs: &Inputs, solution: &Solution) -> Option<Note>
     Some(Note::new("back-flank-strikes", message))
 }
 
-/// The mesh has no time to follow the load at rest.
+/// The load changes too fast for a static balance.
 pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let (Method::Static, Some(mesh), Some(load)) =
         (solution.method, &solution.mesh, &solution.static_load)
@@ -105,7 +104,7 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     (part > inputs.within).then(|| Note::new("inertia", message()))
 }
 
-/// No relief was found that keeps the tooth from striking.
+/// The search found no relief without contact before E.
 pub(super) fn not_cleared(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.clearing?.withheld?;
     Some(Note::new(

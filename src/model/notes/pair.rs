@@ -29,7 +29,7 @@ pub(super) fn contact_ratio_above_two(inputs: &Inputs, solution: &Solution) -> O
     (ratio > 2.0).then(|| Note::new("contact-ratio-above-2", message()))
 }
 
-/// No pair is in contact while the next comes in.
+/// At some angles no pair is in contact.
 pub(super) fn contact_ratio_below_one(_: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.geometry.contact_ratio;
     let message = || {
@@ -68,7 +68,7 @@ pub(super) fn centre_distance(inputs: &Inputs, solution: &Solution) -> Option<No
     }
 }
 
-/// The tips are so short that contact starts past the pitch point.
+/// The tips are so short that contact starts after the pitch point.
 pub(super) fn start_past_pitch(_: &Inputs, solution: &Solution) -> Option<Note> {
     let length = solution.geometry.approach_length;
     let message = || {
@@ -114,12 +114,12 @@ fn undercut(name: &str, inputs: &Inputs, gear: &Gear) -> Option<Note> {
     })
 }
 
-/// The driver's tip.
+/// The driver's tip is pointed or thin.
 pub(super) fn tip_driver(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     tip("driver", inputs, &inputs.driver, &solution.geometry.driver)
 }
 
-/// The driven gear's tip.
+/// The driven gear's tip is pointed or thin.
 pub(super) fn tip_driven(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     tip(
         "driven gear",
@@ -152,7 +152,7 @@ fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<No
     }
 }
 
-/// D or E lies where the driver has no involute.
+/// D or E is below the form circle of the driver.
 pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let geometry = &solution.geometry;
     let form = Profile::of(&Rack::of(inputs, &inputs.driver), &geometry.driver).form_radius();
@@ -172,7 +172,7 @@ pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> 
     Some(Note::new("below-form-circle", message))
 }
 
-/// A length in mm with as many digits as distinguish it from another.
+/// A length in mm with enough digits to distinguish it from another length.
 fn distinct_digits(length: f64, other: f64) -> String {
     let digits = 4.0 - ((length - other) * MILLI).abs().log10().floor();
     format!(

@@ -10,7 +10,7 @@ use crate::numeric::root::last_where;
 pub(super) struct Edge {
     pub(super) centre: Point2<f64>,
     pub(super) radius: f64,
-    /// Roll angle of the involute where the rounding touches it, in rad.
+    /// Roll angle at the end of the involute, in rad.
     pub(super) roll: f64,
 }
 
@@ -21,7 +21,7 @@ pub(super) struct Bevel {
     pub(super) to: Point2<f64>,
 }
 
-/// The rounding of that radius, or of the greatest that the tip has room for.
+/// The rounding with the given radius, or the largest one that fits the tip.
 pub(super) fn widest_edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
     edge(
         profile,
@@ -32,15 +32,15 @@ pub(super) fn widest_edge(profile: &Profile, flank_end: f64, radius: f64) -> Opt
     )
 }
 
-/// The rounding of a radius that touches the involute and the tip circle from within, where the tip
-/// has room for it.
+/// The rounding of a radius, tangent to the involute and inside the tip circle. `None` if it does
+/// not fit.
 ///
 /// # Formula
 /// ```text
 /// (rb φ − re)² + rb² = (ra − re)²
 /// ```
-/// since the curve at the distance r_e inside of an involute is an involute of the same base
-/// circle, its string shorter by r_e.
+/// The curve at the distance r_e inside an involute is an involute of the same base circle with a
+/// string shorter by r_e.
 fn edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
     let circles = profile.circles();
     let over_base = circles.tip - radius - circles.base;
@@ -58,8 +58,8 @@ fn edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
     })
 }
 
-/// The bevel at 45 degrees from the corner of the flank to the tip circle, or to the centre line
-/// where the tooth is too thin.
+/// The bevel at 45 degrees from the corner of the flank to the tip circle. It ends at the centre
+/// line if the tooth is too thin.
 pub(super) fn bevel(corner: Point2<f64>, tip: f64) -> Bevel {
     let skew = corner.x - corner.y;
     let rise = (tip - corner.coords.norm()) * (tip + corner.coords.norm());

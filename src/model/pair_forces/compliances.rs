@@ -1,17 +1,17 @@
-//! How far the forces on the pairs of a set displace each of them.
+//! Displacements of pairs by their forces.
 
 use std::array::from_fn;
 
 use crate::model::field::PITCHES;
 use crate::numeric::banded::Banded;
 
-/// A row of a matrix of compliances: a pair and those before it that displace it.
+/// Length of a matrix row: a pair and the coupled pairs before it.
 const ROW: usize = 1 + PITCHES;
 
-/// The compliances of a set of pairs, Q/b.
+/// Compliance matrix of a set of pairs, Q/b.
 #[derive(Debug, Clone, Copy)]
 pub struct Compliances<'a> {
-    /// Of each pair under its own force, in m/N.
+    /// Compliance of each pair, in m/N.
     pub own: &'a [f64],
     /// Displacement of each pair by the force on the pair 1, 2, .. pitches behind, in m/N.
     pub couplings: &'a [[f64; PITCHES]],
@@ -29,8 +29,7 @@ impl Compliances<'_> {
         }
     }
 
-    /// The factors of the matrix of the touching pairs; `None` if it is not
-    /// positive definite.
+    /// The factors of the matrix of the touching pairs. `None` if it is not positive definite.
     #[must_use]
     pub fn among(&self, touching: &[usize]) -> Option<Banded<ROW>> {
         let entry = |at: usize, distance: usize| {
@@ -41,7 +40,7 @@ impl Compliances<'_> {
         Banded::factored(rows.collect())
     }
 
-    /// Displacement of a pair by unit forces, without its own.
+    /// Displacement of a pair by unit forces on the other pairs.
     pub(super) fn pushed<const M: usize>(
         &self,
         pair: usize,

@@ -1,4 +1,4 @@
-//! Random pairs against the conditions of the complementarity problem.
+//! Tests random pairs against the conditions of the complementarity problem.
 
 use super::*;
 
@@ -23,7 +23,8 @@ fn pair(ahead: i32, stiffness: f64, gap: f64) -> Pair {
     }
 }
 
-/// Up to six random pairs, coupled strongly over three pitches; gaps of the size of the deflections.
+/// Up to six random pairs with strong coupling over three pitches. The gaps are as large as the
+/// deflections.
 fn random_pairs(state: &mut u64) -> PairSet {
     loop {
         let count = 1 + (random(state) * 6.0) as i32;
@@ -44,7 +45,7 @@ fn random_pairs(state: &mut u64) -> PairSet {
     }
 }
 
-/// What is left of the conditions of the complementarity problem, which has one solution.
+/// Violation of the conditions of the complementarity problem, which has one solution.
 fn violation(set: &PairSet, displacement: f64, forces: &[f64]) -> f64 {
     let rest = |(index, pair): (usize, &Pair)| {
         let own = forces[index] / pair.place.stiffness;
@@ -60,7 +61,7 @@ fn violation(set: &PairSet, displacement: f64, forces: &[f64]) -> f64 {
 }
 
 #[test]
-fn each_pair_has_a_force_and_no_gap_or_a_gap_and_no_force() {
+fn each_pair_has_either_a_force_or_a_gap() {
     let mut state = 7;
     for round in 0..20_000 {
         let set = random_pairs(&mut state);
@@ -72,7 +73,7 @@ fn each_pair_has_a_force_and_no_gap_or_a_gap_and_no_force() {
             "{round}: {sum} of {total}"
         );
         let off = violation(&set, displacement, &forces);
-        assert!(off < 1e-9, "{round}: off by {off:e}, {set:?}");
+        assert!(off < 1e-9, "{round}: error {off:e}, {set:?}");
         for (force, expected) in set.forces(displacement).iter().zip(&forces) {
             assert!(
                 (force - expected).abs() < 1e-8,
@@ -83,7 +84,7 @@ fn each_pair_has_a_force_and_no_gap_or_a_gap_and_no_force() {
 }
 
 #[test]
-fn the_lead_of_a_pair_is_above_0_where_it_carries() {
+fn the_lead_of_a_loaded_pair_is_positive() {
     let mut state = 5;
     for _ in 0..5_000 {
         let set = random_pairs(&mut state);
@@ -99,7 +100,7 @@ fn the_lead_of_a_pair_is_above_0_where_it_carries() {
 }
 
 #[test]
-fn pairs_of_no_coupling_are_independent_springs() {
+fn pairs_without_coupling_are_independent_springs() {
     let mut state = 3;
     for _ in 0..2_000 {
         let set = random_pairs(&mut state);
@@ -116,7 +117,7 @@ fn pairs_of_no_coupling_are_independent_springs() {
 }
 
 #[test]
-fn equal_pairs_share_the_load_equally_and_deflect_by_all_of_it() {
+fn equal_pairs_share_the_load_equally() {
     let pairs = (0..3).map(|ahead| pair(ahead, 0.5, 0.1)).collect();
     let (x, forces) = PairSet::new(pairs, vec![[0.5; PITCHES]; 3]).shared(3.0);
     for force in forces {
@@ -126,7 +127,7 @@ fn equal_pairs_share_the_load_equally_and_deflect_by_all_of_it() {
 }
 
 #[test]
-fn leads_of_the_pairs_that_touch_are_their_forces() {
+fn leads_of_touching_pairs_are_their_forces() {
     let mut state = 11;
     for _ in 0..2_000 {
         let set = random_pairs(&mut state);

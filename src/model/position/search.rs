@@ -1,4 +1,4 @@
-//! Searches the angle before E at which the driven tip first touches.
+//! Search for the angle before E at which the driven tip first touches.
 
 use crate::model::Refusal;
 use crate::model::geometry::Geometry;
@@ -7,31 +7,30 @@ use crate::model::tip_gap::{
 };
 use crate::numeric::near::{exponential, logarithm};
 
-/// Half a turn and more never brings a tip back: no contact is sought beyond, in rad.
+/// Limit of the search, in rad. Larger angles never bring a tip back into contact.
 pub(super) const LARGEST_ANGLE: f64 = 1.5;
 
-/// The gap in closed form may lose this factor of its digits, 5e-14 of u, before the quadrature,
-/// ten times as costly, serves.
+/// Greatest loss of precision of the closed-form gap, as a factor; it corresponds to 5e-14 of u.
+/// Beyond it the quadrature, ten times as costly, computes the gap.
 pub(super) const KEPT_DIGITS: f64 = 512.0;
 
-/// The angle u at which the tip has closed the gap Δ, `S(u) = Δ`, for which `series` is that of the
-/// geometry.
+/// The angle u at which the tip has closed the gap Δ, `S(u) = Δ`. `series` belongs to the geometry.
 ///
-/// Newton's method of fourth order on ln S against ln u, from the series, until a step with all
-/// digits of the gap.
+/// Newton's method of fourth order for ln S over ln u. Starts from the series and ends with a step
+/// that uses all digits of the gap.
 ///
 /// # Errors
-/// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such
-/// a deviation.
+/// [`Refusal::NoFirstContact`] if the steps do not converge, because no angle closes such a
+/// deviation.
 pub(in crate::model) fn first_contact(
     geometry: &Geometry,
     series: &GapSeries,
     deviation: f64,
 ) -> Result<f64, Refusal> {
     const STEPS: usize = 60;
-    /// A last step with all digits follows a step as small as this.
+    /// After a step of this size one more step uses all digits.
     const SETTLED: f64 = 1e-4;
-    /// The fourth power of such a step is rounding.
+    /// The fourth power of such a step is below rounding.
     const EXACT: f64 = 2e-4;
     const ON_THE_WAY: f64 = 1e8;
     let mut angle = series.angle(geometry, deviation);
@@ -64,8 +63,8 @@ pub(in crate::model) fn first_contact(
 /// u = p (1 + c1 p + c2 p² + c3 p³),  p = √(2 S/S2)
 /// ρ1 ρ1' = a ra2 sin η,  rb1 χ' = ρ1' + rb2',  S' = rb2 − rb2',  rb2' = a cos χ − rb1
 /// ```
-/// where S2 to S5 are the derivatives of S at E, p0 to p3 below those of ρ1' and x1 to x4 those of
-/// χ.
+/// S2 to S5 are the derivatives of S at E. In the code p0 to p3 are those of ρ1', and x1 to x4
+/// those of χ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::model) struct GapSeries {
     /// 1/S2, in 1/m.
@@ -111,15 +110,15 @@ impl GapSeries {
         }
     }
 
-    /// An angle u near `S(u) = deviation`, in rad: by the series, or where that does not converge
-    /// by its first term, but no further than the driver's tip.
+    /// An angle u near `S(u) = deviation`, in rad. Uses the series, or its first term if the series
+    /// does not converge, limited to the driver's tip.
     fn angle(&self, geometry: &Geometry, deviation: f64) -> f64 {
         let parabola = (2.0 * deviation * self.per_curve).sqrt();
         let [first, second, third] = self.terms;
         let first = first * parabola;
         let second = second * parabola * parabola;
         let third = third * parabola * parabola * parabola;
-        // As if the rest of the series were geometric: ρ1 has a branch point not far before E.
+        // Treats the rest as a geometric series, because ρ1 has a branch point shortly before E.
         let rest = second / (1.0 - third / second);
         if first.abs() < 0.2 && rest.abs() < first.abs() {
             return (parabola * (1.0 + first + rest)).min(LARGEST_ANGLE);
@@ -130,8 +129,8 @@ impl GapSeries {
     }
 }
 
-/// Step of ln u towards `S = deviation`, of fourth order, with the gap by quadrature where the
-/// terms of its closed form outgrow their sum by more than the factor `loss`.
+/// Fourth-order step of ln u towards `S = deviation`. Uses the gap by quadrature if the largest
+/// term of the closed form exceeds the sum by more than the factor `loss`.
 ///
 /// # Formula
 /// ```text
@@ -140,9 +139,9 @@ impl GapSeries {
 /// S'' = a sin χ χ',  S''' = a cos χ χ'² + a sin χ χ'',  χ' = ρ2/ρ1,  χ'' = (ρ1'' − S'')/rb1
 /// ρ1' = rb1 χ' − rb2',  ρ1 ρ1'' = a ra2 cos η − ρ1'²
 /// ```
-/// the power series of ln u in ln S.
+/// This is the power series of ln u in ln S.
 fn logarithmic_step(geometry: &Geometry, tip: &TipContact, deviation: f64, loss: f64) -> f64 {
-    /// Farther away the higher orders may diverge.
+    /// Farther away the higher orders can diverge.
     const NEAR: f64 = 0.1;
     let closed = gap_without(loss, geometry, tip);
     let (angle, slope) = (tip.angle, tip.normal_radius_drop);
@@ -158,7 +157,7 @@ fn logarithmic_step(geometry: &Geometry, tip: &TipContact, deviation: f64, loss:
     newton * (1.0 - newton * (0.5 * off - newton * square))
 }
 
-/// S'' and S''' in m; of a rounded tip the lengths are those of the centre of its arc.
+/// S'' and S''' in m. For a rounded tip the lengths are those of the centre of its arc.
 fn gap_derivatives(geometry: &Geometry, tip: &TipContact) -> [f64; 2] {
     let (base, edge) = (geometry.driver.base, geometry.driven.edge);
     let (curvature, length) = (tip.curvature_driver + edge, tip.normal_length_driven - edge);

@@ -14,7 +14,7 @@ pub struct Section {
 }
 
 impl Section {
-    /// Its end on the flank, y above 0.
+    /// The end of the section on the flank, y above 0.
     #[must_use]
     pub fn point(&self) -> Point2<f64> {
         Point2::new(self.along, self.half_thickness)

@@ -1,4 +1,4 @@
-//! Rows of the load that the pairs share at rest.
+//! Rows of the static load sharing.
 
 use super::conditions::friction_given;
 use super::{PLAIN, Quantity, Variant, checks, of_driver};
@@ -237,8 +237,8 @@ fn lead_at_first(k: &Context) -> Option<f64> {
     )
 }
 
-/// Displacement of the driver ahead with the incoming pair at `s`, less that of the pair by the
-/// forces on the others.
+/// Displacement of the driver ahead with the incoming pair at `s`, minus the displacement of the
+/// incoming pair by the forces on the other pairs.
 fn lead(k: &Context, s: f64) -> Option<f64> {
     let mesh = k.solution.mesh.as_deref()?;
     let pairs = mesh.pair_set(s, s);

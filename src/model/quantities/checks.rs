@@ -1,4 +1,4 @@
-//! Ranges of validity, each with the values of a case in it.
+//! Ranges of validity with the values of a case.
 
 use std::f64::consts::{PI, TAU};
 
@@ -51,7 +51,7 @@ pub(super) fn distance(k: &Context) -> Option<Finding> {
     )
 }
 
-/// The bores lie within the discs.
+/// The bores are smaller than the bodies.
 pub(super) fn bodies(k: &Context) -> Option<Finding> {
     let geometry = &k.solution.geometry;
     let [driver, driven] = k.inputs.bores();
@@ -67,7 +67,7 @@ pub(super) fn bodies(k: &Context) -> Option<Finding> {
     )
 }
 
-/// The tip has closed the gap that Δ closes.
+/// At D the tip has closed the gap Δ.
 pub(super) fn gap_closed(k: &Context) -> Option<Finding> {
     const CLOSED: f64 = 1e-9;
     let closed = k.solution.position?.closed_gap;
@@ -81,7 +81,7 @@ pub(super) fn gap_closed(k: &Context) -> Option<Finding> {
     )
 }
 
-/// D lies on the driver's involute.
+/// D is on the driver's involute.
 pub(super) fn on_flank(k: &Context) -> Option<Finding> {
     let circles = &k.solution.geometry.driver;
     let radius = k.solution.position?.contact.radius_driver;
@@ -108,7 +108,7 @@ pub(super) fn edge(k: &Context) -> Option<Finding> {
     )
 }
 
-/// Sliding keeps its direction from D to E.
+/// Sliding does not reverse between D and E.
 pub(super) fn keeps_sliding(k: &Context) -> Option<Finding> {
     let at_contact = k.solution.velocity?.sliding;
     let speeds = k.inputs.speed + k.inputs.driven_speed();
@@ -120,7 +120,7 @@ pub(super) fn keeps_sliding(k: &Context) -> Option<Finding> {
     )
 }
 
-/// The pair ahead stays in contact; a method that follows every pair needs no such condition.
+/// The pair ahead stays in contact. Methods with load sharing do not need this condition.
 pub(super) fn pair_ahead(k: &Context) -> Option<Finding> {
     if k.solution.method.shares_load() {
         return None;
@@ -155,7 +155,7 @@ pub(super) fn within_approach(k: &Context) -> Option<Finding> {
     )
 }
 
-/// Force and duration belong to one impact.
+/// Force and duration are consistent.
 pub(super) fn possible(k: &Context) -> Option<Finding> {
     const ROUNDING: f64 = 1e-9;
     let ratio = k.solution.impact?.impulse_ratio();
@@ -182,7 +182,7 @@ pub(super) fn printed_shorter(k: &Context) -> Option<Finding> {
     )
 }
 
-/// The friction coefficient of the case against the limit of sliding.
+/// The friction coefficient of the case is below the stick limit.
 pub(super) fn coulomb(k: &Context) -> Option<Finding> {
     let limit = k.solution.velocity?.stick_limit;
     let range = "μ of the case below stick_limit: sliding throughout";
@@ -216,7 +216,7 @@ pub(super) fn teeth(k: &Context) -> Option<Finding> {
     (model_of(k.inputs).model().check)(k)
 }
 
-/// The same for a deflection that the load gives.
+/// The range of the tooth compliance if the deflection comes from the load.
 pub(super) fn teeth_of_deflection(k: &Context) -> Option<Finding> {
     let is_computed = k.inputs.deflection.is_none();
     is_computed.then(|| teeth(k)).flatten()
@@ -234,7 +234,7 @@ pub(super) fn contact_small(k: &Context) -> Option<Finding> {
     )
 }
 
-/// The mesh follows the load at rest.
+/// The load changes slowly enough for a static balance.
 pub(super) fn at_rest(k: &Context) -> Option<Finding> {
     let solution = k.solution;
     let time = solution.static_load.as_ref()?.first_contact_angle? / k.inputs.driven_speed();
@@ -250,7 +250,7 @@ pub(super) fn at_rest(k: &Context) -> Option<Finding> {
     )
 }
 
-/// The start of the motion no longer matters at E.
+/// The start of the motion has no effect at E.
 pub(super) fn forgotten(k: &Context) -> Option<Finding> {
     const LEFT: f64 = 1e-3;
     let (inputs, geometry) = (k.inputs, &k.solution.geometry);

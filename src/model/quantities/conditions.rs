@@ -1,9 +1,9 @@
-//! Conditions on the inputs, by which rows choose formulas and words.
+//! Conditions on the inputs that select formulas and texts of rows.
 
 use crate::model::grade::Origin;
 use crate::model::inputs::{Drive, InertiaModel, Inputs, Method};
 
-/// In every case.
+/// Always true.
 #[must_use]
 pub const fn always(_: &Inputs) -> bool {
     true
@@ -27,13 +27,13 @@ pub fn in_motion(inputs: &Inputs) -> bool {
     inputs.method == Method::Dynamic
 }
 
-/// A method in which every pair carries its share of the load: `static` or `dynamic`.
+/// A method with load sharing: `static` or `dynamic`.
 #[must_use]
 pub fn shared_load(inputs: &Inputs) -> bool {
     inputs.method.shares_load()
 }
 
-/// Method `auto`, which may choose any other method.
+/// Method `auto`, which can choose any other method.
 #[must_use]
 pub fn auto(inputs: &Inputs) -> bool {
     inputs.method == Method::Auto
@@ -69,31 +69,31 @@ pub fn edge_given(inputs: &Inputs) -> bool {
     inputs.driven.tip_radius.is_some()
 }
 
-/// The driven tip is rounded, and the method follows the rounding.
+/// The driven tip is rounded, and the method includes the rounding.
 #[must_use]
 pub fn driven_rounded(inputs: &Inputs) -> bool {
     edge_given(inputs) && !paper(inputs)
 }
 
-/// The driver's tip is rounded, and the method follows the rounding.
+/// The driver's tip is rounded, and the method includes the rounding.
 #[must_use]
 pub fn driver_rounded(inputs: &Inputs) -> bool {
     inputs.driver.tip_radius.is_some() && !paper(inputs)
 }
 
-/// A gear has a base pitch deviation of its own, given or by its grade.
+/// A gear has its own base pitch deviation or flank tolerance class.
 #[must_use]
 pub fn own_base_pitch(inputs: &Inputs) -> bool {
     inputs.has_own_base_pitch()
 }
 
-/// The driver's grade gives its base pitch deviation.
+/// The driver's flank tolerance class gives its base pitch deviation.
 #[must_use]
 pub fn driver_graded(inputs: &Inputs) -> bool {
     inputs.base_pitch_of(&inputs.driver).1 == Origin::Grade
 }
 
-/// The driver has a base pitch deviation of its own in a field.
+/// The case gives the driver's own base pitch deviation.
 #[must_use]
 pub fn driver_pitch_given(inputs: &Inputs) -> bool {
     inputs.driver.base_pitch.is_some()
@@ -105,19 +105,19 @@ pub fn driver_inertia_given(inputs: &Inputs) -> bool {
     inputs.driver.inertia.is_some()
 }
 
-/// The driver's moment of inertia is that of its outline.
+/// The driver's moment of inertia comes from its outline.
 #[must_use]
 pub fn driver_outline(inputs: &Inputs) -> bool {
     !driver_inertia_given(inputs) && inputs.inertia_taken() == InertiaModel::Outline
 }
 
-/// The driven gear's grade gives its base pitch deviation.
+/// The driven gear's flank tolerance class gives its base pitch deviation.
 #[must_use]
 pub fn driven_graded(inputs: &Inputs) -> bool {
     inputs.base_pitch_of(&inputs.driven).1 == Origin::Grade
 }
 
-/// The driven gear has a base pitch deviation of its own in a field.
+/// The case gives the driven gear's own base pitch deviation.
 #[must_use]
 pub fn driven_pitch_given(inputs: &Inputs) -> bool {
     inputs.driven.base_pitch.is_some()
@@ -129,7 +129,7 @@ pub fn driven_inertia_given(inputs: &Inputs) -> bool {
     inputs.driven.inertia.is_some()
 }
 
-/// The driven gear's moment of inertia is that of its outline.
+/// The driven gear's moment of inertia comes from its outline.
 #[must_use]
 pub fn driven_outline(inputs: &Inputs) -> bool {
     !driven_inertia_given(inputs) && inputs.inertia_taken() == InertiaModel::Outline

@@ -1,11 +1,11 @@
-//! The deflection of the pairs ahead: its formula, and the values behind it.
+//! The formula of the deflection of the pairs ahead, and its steps.
 
 use crate::model::Context;
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::explanation::Formula::{Made, Text, Words};
 use crate::model::explanation::{Step, step};
 
-/// The deflection, by its two parts where the pairs ahead displace the incoming one.
+/// The deflection, in two parts if the pairs ahead displace the incoming pair.
 pub(super) fn deflection(k: &Context) -> String {
     if is_coupled(k) {
         "δ_F - δ_E".to_owned()
@@ -27,7 +27,7 @@ fn ahead_alone(k: &Context) -> String {
     }
 }
 
-/// The displacement of the incoming pair by them.
+/// The displacement of the incoming pair by the pairs ahead.
 fn displaced(k: &Context) -> String {
     if place(k, 2).is_some() {
         "q_EF F/b of the pair at F and the same of the pairs further on".to_owned()
@@ -44,7 +44,7 @@ fn coupling_at_start(k: &Context) -> Option<f64> {
     teeth.coupling(&place(0)?, &place(1)?, 1).ok()
 }
 
-/// Eqs. 3 and 4 with as many pairs as carry the load.
+/// Eqs. 3 and 4 with the number of loaded pairs.
 fn shared(k: &Context) -> String {
     let pairs: Vec<String> = STEPS
         .iter()
@@ -58,7 +58,8 @@ fn shared(k: &Context) -> String {
     }
 }
 
-/// The point of the line of action this many base pitches after E, if a pair is in contact there.
+/// The point of the line of action `pitches` base pitches after E. `None` without a pair in contact
+/// there.
 fn place(k: &Context, pitches: u32) -> Option<ContactPlace> {
     let geometry = &k.solution.geometry;
     let along = (0..pitches).fold(geometry.start, |along, _| along + geometry.base_pitch);
@@ -66,7 +67,7 @@ fn place(k: &Context, pitches: u32) -> Option<ContactPlace> {
     before_end.then(|| ContactPlace::on_line_of_action(geometry, along))
 }
 
-/// Compliance of the pair this many base pitches after E, under the mesh force.
+/// Compliance of the pair `pitches` base pitches after E, under the mesh force.
 fn ahead(k: &Context, pitches: u32) -> Option<f64> {
     let solution = k.solution;
     let elasticity = k.inputs.elasticity();

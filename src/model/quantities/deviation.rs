@@ -1,4 +1,4 @@
-//! Rows of the deviations that bring a tooth into contact early.
+//! Rows of the deviations that make a tooth early.
 
 use super::conditions::{
     always, at_rest, deflection_used, driven_graded, driven_pitch_given, driver_graded,
@@ -263,14 +263,14 @@ fn own_error(k: &Context) -> String {
 pub(super) const STEPS: &[Step] = &[
     step(
         "f_pT1",
-        "single pitch deviation of the driver's grade, rounded as the standard rounds it",
+        "single pitch deviation of the driver's flank tolerance class, rounded by ISO 1328-1",
         "um",
         Words("(0.001 d + 0.4 m + 5) 2^((A1 - 5)/2) um, d and m in mm"),
         |k| k.inputs.graded_pitch(&k.inputs.driver),
     ),
     step(
         "f_pT2",
-        "single pitch deviation of the driven gear's grade, rounded as the standard rounds it",
+        "single pitch deviation of the driven gear's flank tolerance class, rounded by ISO 1328-1",
         "um",
         Words("(0.001 d + 0.4 m + 5) 2^((A2 - 5)/2) um, d and m in mm"),
         |k| k.inputs.graded_pitch(&k.inputs.driven),

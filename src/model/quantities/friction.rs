@@ -1,4 +1,4 @@
-//! Rows of the friction ratio and of its limits.
+//! Rows of the friction ratio and its limits.
 
 use super::conditions::{always, driven_rounded, paper};
 use super::{PLAIN, Quantity, Variant, checks};
@@ -89,7 +89,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
-/// The end of the impact D' by the formulas of the page; the solver avoids their differences.
+/// The end D' of the impact by the formulas of the page. The solver avoids their differences.
 struct End {
     turn: f64,
     chord: f64,

@@ -1,4 +1,4 @@
-//! Rows of the geometry, the load and the steps on the way to them.
+//! Rows of the geometry and the load, with their steps.
 
 use super::checks;
 use super::conditions::{always, distance_given, driven_rounded, driver_rounded, power_given};

@@ -1,4 +1,4 @@
-//! Rows of the impact: force, energy, duration, and the values behind them.
+//! Rows of the impact: force, energy and duration, with their steps.
 
 use super::conditions::{always, paper, shared_load};
 use super::{PLAIN, Quantity, Variant, checks};
@@ -210,7 +210,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
-/// The least or the greatest of the force of the case and the forces of all models in range.
+/// The least or the greatest force of the case's model and all models in range, as a formula.
 fn over_models(k: &Context, choice: &str) -> String {
     let forces = StiffnessModels::others(k.inputs)
         .filter(|models| spread_force(k.inputs, models).is_some())

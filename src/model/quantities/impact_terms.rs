@@ -1,4 +1,4 @@
-//! Rows of the values behind the impact force: masses, compliance, energies.
+//! Rows of the terms of the impact force: masses, compliance and energies.
 
 use super::conditions::{
     always, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline,
@@ -176,7 +176,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
-/// Moment of inertia of a gear whose inertia the case does not give.
+/// Formula of the moment of inertia of a gear without a given inertia.
 fn inertia(k: &Context, gear: usize) -> String {
     let n = gear + 1;
     let is_outline = [driver_outline, driven_outline][gear](k.inputs);

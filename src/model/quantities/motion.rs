@@ -1,4 +1,4 @@
-//! Rows of the motion: the load that the pairs share with inertia.
+//! Rows of the motion: load sharing with inertia.
 
 use super::{PLAIN, Quantity, checks, of_driver};
 use crate::model::Context;

@@ -1,4 +1,4 @@
-//! Rows of the first contact D and the velocities there.
+//! Rows of the first contact D and its velocities.
 
 use super::conditions::{always, driven_rounded, edge_given, paper};
 use super::{PLAIN, Quantity, Variant, checks};
@@ -252,7 +252,7 @@ fn angle_at_tip(k: &Context) -> Option<f64> {
     Some((tip * sine).atan2(geometry.centre_distance - tip * cosine))
 }
 
-/// N₁'D, of a rounded tip N₁'C, in m.
+/// N₁'D, or N₁'C for a rounded tip, in m.
 fn centre_curvature(k: &Context) -> Option<f64> {
     Some(k.solution.position?.contact.curvature_driver + k.solution.geometry.driven.edge)
 }

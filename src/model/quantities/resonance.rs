@@ -88,7 +88,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
-/// The pair runs below its main resonance.
+/// The speed is below the main resonance.
 fn subcritical(k: &Context) -> Option<Finding> {
     const RESONANCE: f64 = 0.85;
     let ratio = k.solution.resonance?.ratio();

@@ -1,5 +1,5 @@
-//! Rows of whine: harmonics of the transmission error and dynamic factors of a pair in
-//! which no tooth deviates.
+//! Rows of whine: harmonics of the transmission error and dynamic factors of a pair without base
+//! pitch deviations.
 
 use super::motion::AT_BACK;
 use super::{PLAIN, Quantity, checks};
@@ -32,7 +32,7 @@ const PERIODIC: Formula = Found(
     STEADY,
 );
 
-/// The row of a harmonic of the transmission error: its order, the order in words, and its
+/// The row of a harmonic of the static transmission error: its order, the order in words, and its
 /// frequency.
 macro_rules! at_rest {
     ($order:literal, $word:literal, $frequency:literal) => {
@@ -69,7 +69,7 @@ macro_rules! at_rest {
     };
 }
 
-/// The same in the steady motion.
+/// The row of a harmonic in the steady motion.
 macro_rules! in_motion {
     ($order:literal, $word:literal, $frequency:literal) => {
         Quantity {

@@ -1,17 +1,16 @@
-//! A curve looked at more closely where it is bent, and the fewest of those places that tell it.
+//! Adaptive sampling of a curve, and selection of the fewest samples that represent it.
 
 use super::Resolution;
 
-/// Of what is allowed: what may lie between two places that were looked at, and what may be left
-/// out of those.
+/// Division of the tolerance: for errors between the samples, and for the omission of samples.
 const BETWEEN: f64 = 0.2;
 const LEFT_OUT: f64 = 1.0 - BETWEEN;
-/// No piece is halved more often.
+/// Limit of the halvings of a piece.
 const MOST_HALVINGS: u32 = 16;
-/// Places of a piece before it is halved.
+/// Number of intervals of a piece before halving.
 const PLACES: usize = 4;
 
-/// A curve looked at in some places, in their order.
+/// The samples of a curve, in order.
 pub(super) struct Look<T> {
     samples: Vec<Sample<T>>,
     allowed: f64,
@@ -24,7 +23,7 @@ struct Sample<T> {
     value: T,
 }
 
-/// A part of the curve by its ends, and five heights at equal distances.
+/// A part of the curve: both ends and five equally spaced heights.
 #[derive(Clone, Copy)]
 struct Part {
     from: f64,
@@ -33,15 +32,15 @@ struct Part {
 }
 
 impl<T> Look<T> {
-    /// Look at the curve between each two of the ends, until what lies between two looks is known
-    /// well enough, in no more places than `most`.
+    /// Samples the curve between the ends until the estimated error between samples is within the
+    /// tolerance, at most `most` places.
     pub(super) fn along(
         ends: &[f64],
         allowed: f64,
         most: usize,
         at: impl FnMut(f64) -> (f64, T),
     ) -> Look<T> {
-        // Two halves: a single part that is alike on both sides could hide its bends.
+        // Begins with two halves, because a symmetric part could hide its bends.
         let halves = [
             ends[0],
             f64::midpoint(ends[0], ends[ends.len() - 1]),
@@ -85,13 +84,13 @@ impl<T> Look<T> {
         }
     }
 
-    /// Whether what lies between two looks is known well enough everywhere.
+    /// Whether the samples are dense enough everywhere.
     pub(super) fn resolution(&self) -> Resolution {
         self.resolution
     }
 
-    /// Both ends, the highest place, and between them no more than are needed. Heights that are no
-    /// numbers tell nothing: with one of them all are kept.
+    /// Both ends, the highest sample, and the fewest samples between them. Keeps all samples if a
+    /// height is not finite.
     pub(super) fn needed(self) -> impl Iterator<Item = T> {
         let keeps = if self.samples.iter().all(|sample| sample.height.is_finite()) {
             self.kept()
@@ -105,7 +104,7 @@ impl<T> Look<T> {
             .map(|(_, sample)| sample.value)
     }
 
-    /// The places of the samples that are needed, in their order.
+    /// The indices of the needed samples, in order.
     fn kept(&self) -> Vec<usize> {
         let last = self.samples.len() - 1;
         let height = |at: &usize| self.samples[*at].height;
@@ -120,7 +119,7 @@ impl<T> Look<T> {
         kept
     }
 
-    /// The furthest sample, up to `most`, to which a straight line passes all between them.
+    /// The farthest sample, up to `most`, for which a straight line represents all samples between.
     fn furthest(&self, from: usize, most: usize) -> usize {
         let start = &self.samples[from];
         let (mut steepest, mut flattest, mut furthest) =
@@ -142,7 +141,7 @@ impl<T> Look<T> {
     }
 }
 
-/// Every so many of the ends and the last, where they leave more than `most` pieces.
+/// Every n-th of the ends and the last one, if the ends have more than `most` pieces.
 fn fewer(ends: &[f64], most: usize) -> Option<Vec<f64>> {
     let pieces = ends.len() - 1;
     (pieces > most).then(|| {
@@ -151,19 +150,19 @@ fn fewer(ends: &[f64], most: usize) -> Option<Vec<f64>> {
     })
 }
 
-/// A look on its way.
+/// The state of the sampling.
 struct Looking<T, F> {
     at: F,
     samples: Vec<Sample<T>>,
     allowed: f64,
-    /// Places beyond those of the pieces.
+    /// Places left after the initial pieces.
     rest: usize,
     resolution: Resolution,
     limited: Resolution,
 }
 
 impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
-    /// The height at a place.
+    /// Samples a place and returns its height.
     fn sample(&mut self, place: f64) -> f64 {
         let (height, value) = (self.at)(place);
         self.samples.push(Sample {
@@ -174,7 +173,7 @@ impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
         height
     }
 
-    /// From a place whose height is known to another; its height.
+    /// Samples a piece from a place with a known height. Returns the height at `to`.
     fn piece(&mut self, (from, height): (f64, f64), to: f64) -> f64 {
         let inner = [0.25, 0.5, 0.75].map(|part| self.sample(from + (to - from) * part));
         let last = self.sample(to);
@@ -189,9 +188,9 @@ impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
         last
     }
 
-    /// Look at both halves of a part of which too little is known.
+    /// Samples both halves of a part whose error is too large.
     fn closer(&mut self, part: Part, halvings: u32) {
-        // What is no number is not looked at more closely.
+        // Does not refine parts that are not finite.
         let is_bent = part.unknown() > BETWEEN * self.allowed;
         if halvings == 0 || !is_bent {
             return;
@@ -229,9 +228,8 @@ impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
 }
 
 impl Part {
-    /// How far the curve may lie off the lines between its five heights: an eighth of the second
-    /// difference where that is the same all along, up to half of it where it is not and the curve
-    /// has a bend.
+    /// Estimated greatest distance of the curve from the lines between its five heights: an eighth
+    /// of the second difference if it is constant, up to half of it if it varies because of a bend.
     fn unknown(&self) -> f64 {
         let bends = [1, 2, 3]
             .map(|at| self.heights[at - 1] - 2.0 * self.heights[at] + self.heights[at + 1]);
