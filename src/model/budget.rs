@@ -14,9 +14,6 @@ pub const MOTION_WORK: u64 = 2_000_000;
 /// Work of the search for the time of a contact event: about thirty evaluations of the series.
 pub const EVENT_WORK: u64 = 8;
 
-/// Work of the compliance of a tooth, whose profile is integrated.
-pub const TOOTH_WORK: u64 = 8;
-
 /// Oscillations of the mesh during a motion. The steps of slower motions exceed [`MOTION_BYTES`]:
 /// Table 1 with 71.6 N m fills them at 0.25 rpm, with 3e5 oscillations. The limit refuses such a
 /// motion before it begins.

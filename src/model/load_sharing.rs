@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::budget::{MOTION_WORK, Meter};
+use super::compliance::flanks::Flanks;
 use super::dynamic::steady::{Steady, steady};
 use super::dynamic::{Dynamic, MotionInputs, dynamic};
 use super::mesh::{Mesh, MeshInputs};
@@ -106,7 +107,7 @@ fn within_reach(
         }
     }
     asked.note(Stage::Mesh, |_| false);
-    on_mesh(&inputs, solution, |mesh| {
+    on_mesh(&inputs, solution, earlier_flanks(asked), |mesh| {
         run(
             mesh,
             solution.reduced_mass,
@@ -115,6 +116,15 @@ fn within_reach(
             go_on,
         )
     })
+}
+
+/// The compliance of the teeth from an earlier mesh of the same gears.
+fn earlier_flanks<'a>(asked: &Request<'a>) -> Option<&'a Arc<Flanks>> {
+    let earlier = asked.earlier?;
+    let is_same = asked.kept(Stage::Geometry).is_some()
+        && asked.inputs.elasticity() == earlier.inputs.elasticity();
+    let mesh = earlier.solution.mesh.as_ref().filter(|_| is_same)?;
+    Some(mesh.flanks())
 }
 
 /// Whether every wanted result on the mesh is an earlier one.
@@ -136,27 +146,28 @@ fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
 }
 
 /// What `find` finds on the mesh of a pair with the geometry, the load and the deviation of the
-/// solution, of which the pair may differ in its reliefs.
+/// solution; only the reliefs may differ. `flanks` is the compliance of its teeth, if known.
 ///
 /// # Errors
 /// Those of [`Mesh::new`] and of `find`.
 pub(super) fn on_mesh<T>(
     inputs: &MeshInputs,
     solution: &Solution,
+    flanks: Option<&Arc<Flanks>>,
     find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
     const FURTHER: f64 = 16.0;
     let deviation = &solution.deviation;
     let mut reach = first_reach(inputs, solution);
-    let mut known = solution.mesh.as_ref().map(|mesh| Arc::clone(mesh.flanks()));
+    let mut flanks = flanks.map(Arc::clone);
     loop {
         let (force, error) = (solution.mesh_force, deviation.equivalent_error);
         let geometry = &solution.geometry;
-        let mesh = Arc::new(match &known {
+        let mesh = Arc::new(match &flanks {
             Some(flanks) => Mesh::of_flanks(inputs, geometry, flanks, (force, error), reach)?,
             None => Mesh::new(inputs, geometry, force, error, reach)?,
         });
-        known.get_or_insert_with(|| Arc::clone(mesh.flanks()));
+        flanks.get_or_insert_with(|| Arc::clone(mesh.flanks()));
         match find(&mesh) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => reach *= FURTHER,
             found => return found,

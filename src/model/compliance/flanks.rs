@@ -157,12 +157,6 @@ impl Flanks {
         })
     }
 
-    /// Number of evaluations of tooth compliances.
-    #[must_use]
-    pub fn evaluations(&self) -> usize {
-        self.driver.series.evaluations() + self.driven.series.evaluations()
-    }
-
     /// Places between the ends at which a load begins or stops to move off the corner of a tip.
     /// `load` gives the distances of the load points from N₁ and N₂ and the half-width of the
     /// contact.

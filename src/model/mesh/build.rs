@@ -8,7 +8,7 @@ use super::couplings::{Couplings, Way};
 use super::inputs::MeshInputs;
 use super::zones::{End, LEVER, STIFFNESS, Zone, line_zones};
 use crate::model::Refusal;
-use crate::model::budget::{PAIRS, TOOTH_WORK};
+use crate::model::budget::PAIRS;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::geometry::Geometry;
@@ -44,11 +44,7 @@ impl Mesh {
         reach: f64,
     ) -> Result<Mesh, Refusal> {
         let flanks = Arc::new(Flanks::new(&inputs.elasticity, geometry)?);
-        let mesh = Mesh::of_flanks(inputs, geometry, &flanks, (force, error), reach)?;
-        Ok(Mesh {
-            work: mesh.work + TOOTH_WORK * flanks.evaluations() as u64,
-            ..mesh
-        })
+        Mesh::of_flanks(inputs, geometry, &flanks, (force, error), reach)
     }
 
     /// The same with the compliance of the teeth computed before: reliefs, load and reach leave it
