@@ -14,6 +14,25 @@ pub(super) type Terms<const N: usize> = [[f64; N]; TERMS];
 static COSINES: LazyLock<[f64; 4 * TERMS]> =
     LazyLock::new(|| from_fn(|k| (k as f64 * PI / (2 * TERMS) as f64).cos()));
 
+/// The coefficients of the powers in each Chebyshev polynomial.
+static POLYNOMIALS: LazyLock<[[f64; TERMS]; TERMS]> = LazyLock::new(|| {
+    let (mut before, mut polynomial) = ([0.0; TERMS], [0.0; TERMS]);
+    polynomial[0] = 1.0;
+    from_fn(|order| {
+        let found = polynomial;
+        // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
+        let scale = if order == 0 { 1.0 } else { 2.0 };
+        polynomial = from_fn(|power: usize| {
+            let lower = power
+                .checked_sub(1)
+                .map_or(0.0, |lower| scale * found[lower]);
+            lower - before[power]
+        });
+        before = found;
+        found
+    })
+});
+
 /// Number of terms of a piece.
 pub const TERMS: usize = 16;
 
@@ -39,16 +58,24 @@ pub(super) fn interpolate<const N: usize, E>(
     Ok(terms_of(&values))
 }
 
-/// The Chebyshev coefficients from the values at these points.
+/// The Chebyshev coefficients from the values at these points. The points are symmetric: terms of
+/// even order need the sums of opposite values, terms of odd order their differences.
 pub(super) fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
     let cosines = &*COSINES;
     let mut terms = [[0.0; N]; TERMS];
-    for (point, found) in values.iter().enumerate() {
+    for (point, (value, opposite)) in values.iter().zip(values.iter().rev()).enumerate() {
+        if point == TERMS / 2 {
+            break;
+        }
+        let parts: [[f64; N]; 2] = [
+            from_fn(|function| value[function] + opposite[function]),
+            from_fn(|function| value[function] - opposite[function]),
+        ];
         for (order, sums) in terms.iter_mut().enumerate() {
             let weight = cosines[order * (2 * point + 1) % cosines.len()];
             sums.iter_mut()
-                .zip(found)
-                .for_each(|(sum, value)| *sum += value * weight);
+                .zip(&parts[order % 2])
+                .for_each(|(sum, part)| *sum += part * weight);
         }
     }
     for (order, sums) in terms.iter_mut().enumerate() {
@@ -72,23 +99,15 @@ pub(super) fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> 
 /// Converts Chebyshev coefficients to powers: Σ c_n T_n(t) = Σ a_k t^k.
 pub(super) fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
     let mut powers = [[0.0; N]; TERMS];
-    let (mut before, mut polynomial) = ([0.0; TERMS], [0.0; TERMS]);
-    polynomial[0] = 1.0;
-    for (order, terms) in terms.iter().enumerate() {
-        for (sums, coefficient) in powers.iter_mut().zip(polynomial) {
-            sums.iter_mut()
+    for (order, (terms, polynomial)) in terms.iter().zip(&*POLYNOMIALS).enumerate() {
+        // T_n is even or odd.
+        for power in (order % 2..=order).step_by(2) {
+            let coefficient = polynomial[power];
+            powers[power]
+                .iter_mut()
                 .zip(terms)
                 .for_each(|(sum, term)| *sum += coefficient * term);
         }
-        // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
-        let scale = if order == 0 { 1.0 } else { 2.0 };
-        let next = from_fn(|power: usize| {
-            power
-                .checked_sub(1)
-                .map_or(0.0, |lower| scale * polynomial[lower])
-                - before[power]
-        });
-        (before, polynomial) = (polynomial, next);
     }
     powers
 }
