@@ -1,16 +1,17 @@
-//! The mesh of the back flanks: that of the working flanks in a mirror, along which pairs go from
-//! the end of the path of contact to its start.
+//! The mesh of the back flanks: the mirrored mesh of the working flanks. Its pairs move from the
+//! end of the path of contact to the start.
 
 use std::sync::{Arc, OnceLock};
 
 use super::Mesh;
 use crate::model::geometry::{Geometry, PairShape};
 
-/// The mesh of the back flanks, reversed once for all meshes that differ in speed and deviation.
+/// The mesh of the back flanks, computed once for all meshes that differ only in speed and
+/// deviation.
 #[derive(Debug, Default)]
 pub(super) struct Back(OnceLock<Mesh>);
 
-/// Nothing but a cache: meshes are equal whatever it has.
+/// This is a cache, which does not affect the equality of meshes.
 impl PartialEq for Back {
     fn eq(&self, _: &Back) -> bool {
         true
@@ -18,18 +19,18 @@ impl PartialEq for Back {
 }
 
 impl Mesh {
-    /// The mesh of the back flanks as a function of the way of a back pair since B' in the mirror,
-    /// in m; no back flank deviates.
+    /// The mesh of the back flanks as a function of the path of a back pair since B' in the mirror,
+    /// in m. Back flanks have no deviation.
     ///
     /// # Formula
     /// ```text
     /// s' = EB − σ,   k'(s') = k(σ),   S'(s') = S(σ),   Q'_kj(s') = Q_jk(σ)
     /// ```
-    /// where σ is the way since E' in the mirror. The driver turns on, so a back pair goes from B',
-    /// where the driver's tip meets the root of the driven gear, to E'.
+    /// σ is the path since E' in the mirror. The driver keeps its direction of rotation, so a back
+    /// pair moves from B', where the driver's tip meets the root of the driven gear, to E'.
     ///
     /// # Valid for
-    /// Teeth that are symmetric, with the same reliefs on both flanks.
+    /// Symmetric teeth with the same reliefs on both flanks.
     #[must_use]
     pub fn back(&self) -> Mesh {
         let back = self.back.0.get_or_init(|| self.reversed());
@@ -40,7 +41,7 @@ impl Mesh {
         }
     }
 
-    /// The way s' of a back pair while the incoming pair is at E, from 0 to a base pitch, in m.
+    /// The path s' of a back pair with the incoming pair at E, from 0 to a base pitch, in m.
     #[must_use]
     pub fn back_place(&self) -> f64 {
         self.back_place
@@ -62,17 +63,17 @@ impl Mesh {
     }
 }
 
-/// The way s' of a back pair while the incoming pair is at E, from 0 to a base pitch, in m.
+/// The path s' of a back pair with the incoming pair at E, from 0 to a base pitch, in m.
 ///
 /// # Formula
 /// ```text
 /// s' = s + EB − σ_0 + k p_b,   σ_0 = 2 EP + p_b/2 + r_b1 ψ_1 − r_b2 ψ_2
 /// ψ = π/(2 z) + 2 x tan α/z + inv α − inv α_w
 /// ```
-/// where ψ is half the angle of a tooth on its working pitch circle: the flanks of a tooth of the
-/// driver cross the two lines of action at the same distance from N1 when the tooth is 2 EP + 2
-/// `r_b1` ψ_1 on. The backlash is shared equally: half of it is taken from the teeth of each gear,
-/// and each gear turns half of it until the back flanks meet, so that σ_0 does not depend on it.
+/// ψ is half the angle of a tooth on its working pitch circle. The flanks of a driver's tooth cross
+/// the two lines of action at the same distance from N1 after a rotation by 2 EP + 2 `r_b1` ψ_1.
+/// Each gear has half of the backlash and turns by half of it until the back flanks touch, so that
+/// σ_0 does not depend on the backlash.
 pub(super) fn back_place(shape: &PairShape, geometry: &Geometry) -> f64 {
     let involute = |angle: f64| angle.tan() - angle;
     let alpha = shape.pressure_angle;
@@ -95,10 +96,10 @@ mod tests {
     use crate::model::{Stage, Stages, solve};
     use crate::numeric::root;
 
-    /// The back flank of a tooth of the driver, turned with its working flank, crosses the other line
-    /// of action where the mesh has it.
+    /// The back flank of a driver's tooth, turned with its working flank, crosses the other line of
+    /// action at the place in the mesh.
     #[test]
-    fn the_back_flanks_are_where_turned_involutes_cross_the_other_line_of_action() {
+    fn the_back_flanks_agree_with_turned_involutes() {
         let involute = |angle: f64| angle.tan() - angle;
         for (teeth, shifts, more) in [
             ((20, 30), (0.0, 0.0), None),

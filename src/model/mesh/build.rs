@@ -14,27 +14,29 @@ use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::geometry::Geometry;
 use crate::model::relief::Relief;
 use crate::numeric::quadrature;
-/// Displacement of a pair by the force on another, in m²/N: of the places of the rear pair and of
-/// the front one, and the pitches between them.
+/// Displacement of a pair by a unit force on another, in m²/N, from the places of the rear pair and
+/// of the front pair and the pitches between them.
 type Neighbour<'a> = &'a dyn Fn(&ContactPlace, &ContactPlace, i32) -> Result<f64, Refusal>;
 
 impl Mesh {
-    /// The mesh up to where the gaps before E and after B exceed `reach`, in m.
+    /// The mesh in the range where the gaps before E and after B are at most `reach`, in m.
     ///
     /// # Formula
     /// ```text
-    /// x + e_k − S(s_k) = Σ_j Q_kj F_j/b  where F_k > 0,   s_k = s + k pb,   Q_kk = q1(r1) + q2(r2) + qH(F0)
+    /// x + e_k − S(s_k) = Σ_j Q_kj F_j/b  if F_k > 0,   s_k = s + k pb
+    /// Q_kk = q1(r1) + q2(r2) + qH(F0)
     /// ```
-    /// where S is the normal gap with the reliefs of both flanks, x the displacement of the driver
-    /// ahead along the line of action, and e_k the equivalent error, Δf without reliefs for the
-    /// incoming pair and 0 for every other. Q_kj is the displacement of the pair k by the force on
-    /// the pair j, up to [`PITCHES`](crate::model::field::PITCHES) away; where the model of the teeth has none, the pairs are
-    /// independent springs. On the line of action both flanks are met where the
-    /// line crosses them; before E the driven tip is the load point, after B the driver's. A tip
-    /// keeps its flank's own radius of curvature, or that of its edge where the case gives one.
+    /// S is the normal gap with the reliefs of both flanks, x the displacement of the driver ahead
+    /// along the line of action, and e_k the equivalent error: Δf without reliefs for the incoming
+    /// pair, 0 for all other pairs. Q_kj is the displacement of the pair k by the force on the pair
+    /// j, up to [`PITCHES`](crate::model::field::PITCHES) away. With a tooth model without coupling
+    /// the pairs are independent springs. On the line of action the load points are the crossings
+    /// of the line with both flanks. Before E the load point is the driven tip, after B the
+    /// driver's tip. A sharp tip has the radius of curvature of its flank, a rounded tip that of
+    /// its edge.
     ///
     /// # Errors
-    /// A [`Refusal`] where no compliance can be computed, the run-out interferes, or more pairs may
+    /// A [`Refusal`] if a compliance cannot be computed, the run-out interferes, or more pairs may
     /// touch at a time than the [budget](crate::model::budget) allows.
     pub fn new(
         inputs: &MeshInputs,
@@ -47,8 +49,8 @@ impl Mesh {
         Mesh::of_flanks(inputs, geometry, &flanks, (force, error), reach)
     }
 
-    /// The same with the compliance of the teeth computed before: reliefs, load and reach leave it
-    /// alone.
+    /// Like [`Mesh::new`], with a known compliance of the teeth, which does not depend on reliefs,
+    /// load and reach.
     ///
     /// # Errors
     /// Those of [`Mesh::new`].
@@ -67,7 +69,7 @@ impl Mesh {
         Mesh::with_neighbours(inputs, geometry, flanks, load, reach, &neighbour)
     }
 
-    /// The same with the couplings by `neighbour`.
+    /// Like [`Mesh::new`], with the couplings from `neighbour`.
     ///
     /// # Errors
     /// Those of [`Mesh::new`].
@@ -161,7 +163,7 @@ impl Mesh {
         Ok(mesh.with_mean_stiffness())
     }
 
-    /// The same mesh without coupling: the force on a pair displaces no other pair.
+    /// The mesh without coupling.
     #[must_use]
     pub fn uncoupled(&self) -> Mesh {
         let alone = Mesh {
@@ -179,7 +181,7 @@ impl Mesh {
         }
     }
 
-    /// Refuse compliances that are not positive definite.
+    /// Refuses compliances that are not positive definite.
     fn check_couplings(&self) -> Result<(), Refusal> {
         if self.couplings.is_none() {
             return Ok(());
@@ -195,7 +197,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// ∫ of the stiffness of all pairs on the line of action together over a base pitch, in N.
+    /// ∫ of the stiffness of all pairs on the line of action over a base pitch, in N.
     fn stiffness_on_line(&self) -> f64 {
         if self.couplings.is_none() {
             let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= self.length;
@@ -224,7 +226,7 @@ fn length_of(zones: &[Zone]) -> f64 {
     zones.last().map_or(0.0, |zone| zone.to) - zones.first().map_or(0.0, |zone| zone.from)
 }
 
-/// Refuses more pairs at a time than the methods follow. The pairs may touch over so many base
+/// Refuses more pairs in contact than a set can contain. `pitches` is the length of contact in base
 /// pitches.
 fn check_pairs(pitches: f64) -> Result<(), Refusal> {
     let pairs = 1 + pitches as usize;
@@ -242,7 +244,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn more_pairs_than_a_set_of_pairs_can_name_are_refused() {
+    fn more_pairs_than_a_set_can_contain_are_refused() {
         assert_eq!(check_pairs(63.9), Ok(()));
         let refusal = check_pairs(64.0).unwrap_err();
         assert_eq!(refusal.code(), "too-many-pairs");

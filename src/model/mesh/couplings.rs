@@ -1,37 +1,37 @@
-//! How the force on one pair displaces the pairs a few pitches behind and ahead of it.
+//! Displacements of pairs by forces on the pairs a few pitches behind and ahead.
 
 use crate::model::Refusal;
 use crate::model::pair_forces::PITCHES;
 use crate::numeric::chebyshev::Series;
 
-/// Displacement of a pair by the force on another over the place of the rear one of the two.
+/// Displacement of a pair by a unit force on another, as a function of the place of the rear pair.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Couplings {
-    /// For each number of pitches between them, in order.
+    /// One list for each number of pitches between the pairs, in order.
     stretches: [Vec<Stretch>; PITCHES],
 }
 
-/// A part of the way on which the load points of both pairs move smoothly.
+/// A part of the path in which the load points of both pairs move smoothly.
 #[derive(Debug, Clone, PartialEq)]
 struct Stretch {
     to: f64,
     series: Series<1>,
 }
 
-/// Where pairs may touch, in m.
+/// The range in which pairs may touch, in m.
 #[derive(Debug, Clone)]
 pub(super) struct Way {
     /// First and last place of a pair.
     pub(super) ends: (f64, f64),
-    /// Places at which the load points of a pair begin to move in another way.
+    /// Places where the motion of a pair's load points has a bend.
     pub(super) bends: Vec<f64>,
     /// p_b.
     pub(super) base_pitch: f64,
 }
 
 impl Couplings {
-    /// The couplings by `coupling`, in m/N, of two pairs by the place of the rear one and the
-    /// pitches between them; `own` is the compliance of one pair. `None` if the pairs are
+    /// The couplings by `coupling`, in m/N, of two pairs from the place of the rear pair and the
+    /// pitches between them. `own` is the compliance of one pair. `None` if the pairs are
     /// independent springs.
     ///
     /// # Errors
@@ -63,8 +63,8 @@ impl Couplings {
         Ok((!is_empty).then_some(Couplings { stretches }))
     }
 
-    /// The displacement in m/N of two pairs with `between` others between them where the rear pair
-    /// is at `s`, smoothly on from `inside`.
+    /// The displacement in m/N of two pairs with `between` pairs between them and the rear pair at
+    /// `s`. On a border, `inside` selects the side.
     pub(super) fn at(&self, between: usize, s: f64, inside: f64) -> f64 {
         let stretches = &self.stretches[between];
         let index = stretches.partition_point(|stretch| stretch.to < inside);
@@ -72,8 +72,8 @@ impl Couplings {
         stretch.map_or(0.0, |stretch| stretch.series.one(0, s))
     }
 
-    /// The couplings of the pairs of the back flanks, whose places are those of these pairs back
-    /// from `length`, in m; the rear one of two pairs is then the front one.
+    /// The couplings of the back flanks, whose places run backwards from `length`, in m. The rear
+    /// and the front pair are then exchanged.
     pub(super) fn reversed(&self, length: f64, base_pitch: f64) -> Couplings {
         let mut pitches = 0.0;
         let stretches = self.stretches.each_ref().map(|stretches| {
@@ -88,7 +88,7 @@ impl Couplings {
         Couplings { stretches }
     }
 
-    /// How often the coupling was computed.
+    /// Number of evaluations of the coupling.
     pub(super) fn evaluations(&self) -> usize {
         let all = self.stretches.iter().flatten();
         all.map(|stretch| stretch.series.evaluations()).sum()
@@ -96,8 +96,8 @@ impl Couplings {
 }
 
 impl Way {
-    /// Where the rear pair of two begins or ends, or one of the two passes a bend; none if the way
-    /// has no room for both.
+    /// Places where the rear pair begins or ends, or one of both pairs passes a bend. Empty if the
+    /// range is too short for both pairs.
     fn borders(&self, pitches: i32) -> Vec<f64> {
         let apart = f64::from(pitches) * self.base_pitch;
         let (from, to) = (self.ends.0, self.ends.1 - apart);
@@ -132,7 +132,7 @@ fn series(
     own: f64,
     coupling: impl Fn(f64) -> Result<f64, Refusal>,
 ) -> Result<Series<1>, Refusal> {
-    /// Of the compliance of one pair.
+    /// Relative to the compliance of one pair.
     const REST: f64 = 1e-13;
     Series::of(from, to, &|_, _| [REST * own], &|s| {
         coupling(s).map(|found| [found])

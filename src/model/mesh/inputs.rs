@@ -1,14 +1,14 @@
-//! What the mesh reads of a case.
+//! Inputs of the mesh.
 
 use crate::model::compliance::Elasticity;
 use crate::model::geometry::PairShape;
 use crate::model::inputs::Inputs;
 use crate::model::relief::Reliefs;
 
-/// What the mesh depends on, apart from geometry, mesh force and error.
+/// Inputs of the mesh besides geometry, mesh force and error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshInputs {
-    /// Shape of the pair; swapped, it is that of the run-out.
+    /// Shape of the pair. For the run-out, the gears are swapped.
     pub shape: PairShape,
     /// Elasticity of the pair.
     pub elasticity: Elasticity,
@@ -18,12 +18,12 @@ pub struct MeshInputs {
     pub tip_radii: [Option<f64>; 2],
     /// Speed of the driver ω₁, in rad/s.
     pub speed: f64,
-    /// Friction coefficient, 0 where the case gives none.
+    /// Friction coefficient; 0 if the case gives none.
     pub friction: f64,
 }
 
 impl Inputs {
-    /// What the mesh depends on.
+    /// Inputs of the mesh.
     #[must_use]
     pub fn mesh(&self) -> MeshInputs {
         MeshInputs {
@@ -48,13 +48,13 @@ impl MeshInputs {
         self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
     }
 
-    /// The same at another speed of the driver, in rad/s.
+    /// The inputs at another speed of the driver, in rad/s.
     #[must_use]
     pub fn at_speed(self, speed: f64) -> MeshInputs {
         MeshInputs { speed, ..self }
     }
 
-    /// The same with the gears swapped.
+    /// The inputs with the gears swapped.
     pub(super) fn swapped(&self) -> MeshInputs {
         let MeshInputs {
             shape,

@@ -1,4 +1,4 @@
-//! Spring and sliding of one pair, at a place and as polynomials over a piece of its way.
+//! Spring and sliding of one pair, at a place and as polynomials over a part of its path.
 
 use super::Mesh;
 use super::zones::{GAP, LEVER, STIFFNESS};
@@ -6,15 +6,15 @@ use crate::numeric::chebyshev::TERMS;
 use crate::numeric::polynomial::Polynomial;
 
 impl Mesh {
-    /// Stiffness and gap of a pair, its error counted.
+    /// Stiffness and gap of a pair, including its error.
     pub(in crate::model) fn spring(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
         let at = s + f64::from(ahead) * self.base_pitch;
         let [stiffness, gap] = self.zones[zone].series.at(at);
         (stiffness, gap - self.error_of(ahead))
     }
 
-    /// Stiffness and gap of a pair over the way from `s` up by `length`, its error counted, as
-    /// polynomials of the part of it.
+    /// Stiffness and gap of a pair from `s` to `s + length`, including its error, as polynomials
+    /// from 0 to 1.
     pub(in crate::model) fn spring_along(
         &self,
         ahead: i32,
@@ -30,7 +30,7 @@ impl Mesh {
         [stiffness, gap]
     }
 
-    /// Its gap alone, over the same way.
+    /// The gap of a pair, see [`Mesh::spring_along`].
     pub(in crate::model) fn gap_along(
         &self,
         ahead: i32,
@@ -45,8 +45,8 @@ impl Mesh {
         gap
     }
 
-    /// Arm of the friction force over the driver's base radius, and sliding velocity, over the same
-    /// way.
+    /// Arm of the friction force over the driver's base radius, and sliding velocity, as
+    /// polynomials, see [`Mesh::spring_along`].
     pub(in crate::model) fn slide_along(
         &self,
         ahead: i32,
@@ -60,13 +60,13 @@ impl Mesh {
         [lever, sliding.scaled(self.driver_speed)]
     }
 
-    /// How far up from `s` those polynomials serve, within the zone.
+    /// Length from `s` on in which these polynomials are valid, within the zone.
     pub(in crate::model) fn serves_until(&self, ahead: i32, zone: usize, s: f64) -> f64 {
         let (at, least) = self.above(ahead, s);
         s + (self.zones[zone].series.serves_until(at, least) - at)
     }
 
-    /// The place of a pair, and the distance below which two places are the same.
+    /// The place of a pair, and the distance below which two places are equal.
     pub(in crate::model) fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
         (
             s + f64::from(ahead) * self.base_pitch,

@@ -1,4 +1,4 @@
-//! How coupled pairs share a displacement between two borders of the mesh, as polynomials.
+//! Load sharing of coupled pairs between two borders of the mesh, as polynomials.
 
 use std::array::from_fn;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,17 +7,17 @@ use crate::model::pair_forces::{Compliances, PITCHES, Touching};
 use crate::numeric::chebyshev::{Series, TERMS};
 use crate::numeric::polynomial::Polynomial;
 
-/// Functions that are evaluated side by side.
+/// Number of functions evaluated together.
 const LANES: usize = 4;
 
-/// The shares of a mesh that were needed so far. Every motion on the mesh reads the same ones: they
-/// depend on neither speed nor deviation.
+/// Cached shares of a mesh. All motions on the mesh use them, because they do not depend on speed
+/// and deviation.
 #[derive(Debug, Default)]
 pub(super) struct Sharing {
     known: Mutex<Vec<Known>>,
 }
 
-/// Nothing but a cache: meshes are equal whatever it has.
+/// This is a cache, which does not affect the equality of meshes.
 impl PartialEq for Sharing {
     fn eq(&self, _: &Sharing) -> bool {
         true
@@ -32,8 +32,8 @@ struct Known {
 }
 
 impl Sharing {
-    /// The shares of pairs that stand in these zones while some of them touch, computed by `new` if
-    /// they are not known.
+    /// The shares of the pairs in these zones for a set of touching pairs. Calls `new` if they are
+    /// not cached.
     pub(super) fn of(
         &self,
         zones: &[usize],
@@ -57,36 +57,36 @@ impl Sharing {
     }
 }
 
-/// How the pairs share a displacement while some of them touch.
+/// The shares of pairs in a displacement for a set of touching pairs.
 ///
 /// # Formula
 /// ```text
 /// F_k = Σ_j M_kj (x − g_j)  of a touching pair,   x − g_k − Σ_j M_kj (x − g_j)  of a pair apart
 /// ```
-/// where j are the touching pairs, g their gaps, M = Q⁻¹ b of the touching pairs, and M = Q Q⁻¹ of
-/// a pair apart.
+/// j are the touching pairs and g their gaps. M = Q⁻¹ b for a touching pair, and M = Q Q⁻¹ for
+/// another pair.
 #[derive(Debug)]
 pub struct Shares {
     /// The touching pairs.
     pub touching: Vec<usize>,
-    /// Where the row of each pair begins among the functions; none for a pair that no touching pair
+    /// Index of the first function of each pair's row. `None` for a pair that no touching pair
     /// displaces.
     rows: Vec<Option<usize>>,
     functions: Vec<Series<LANES>>,
 }
 
-/// Shows the compliances of all pairs at a place of the rearmost one.
+/// Passes the compliances of all pairs at a place of the rearmost pair.
 type AtPlace<'a> = &'a dyn Fn(f64, &mut dyn FnMut(&Compliances<'_>));
 
 impl Shares {
-    /// The shares of so many pairs while the rearmost goes from one of the `ends` to the other.
+    /// The shares of `pairs` pairs while the rearmost pair moves between the `ends`.
     pub(super) fn of(
         pairs: usize,
         (from, to): (f64, f64),
         touching: Touching,
         compliances: AtPlace<'_>,
     ) -> Shares {
-        /// Of the size of a function.
+        /// Relative to the size of a function.
         const REST: f64 = 1e-13;
         let touching: Vec<usize> = touching.pairs().collect();
         let (rows, count) = rows(pairs, &touching);
@@ -104,7 +104,8 @@ impl Shares {
             .fold(0.0f64, |most, value| most.max(value.abs()));
         let stiffness = touching.len() * touching.len();
         for (at, size) in sizes.as_flattened_mut().iter_mut().enumerate() {
-            // Forces come first; a pair apart is displaced by a part of the others' displacement.
+            // Forces come first. The displacement of another pair is a part of the displacement of
+            // the touching pairs.
             *size = REST * if at < stiffness { largest } else { 1.0 };
         }
         let functions = Series::groups(from, to, &sizes, &|at, values| {
@@ -121,19 +122,19 @@ impl Shares {
         }
     }
 
-    /// How often the compliances were computed for it.
+    /// Number of evaluations of the compliances.
     #[must_use]
     pub fn evaluations(&self) -> usize {
         self.functions.first().map_or(0, Series::evaluations)
     }
 
-    /// What the functions take, in bytes.
+    /// Memory of the functions, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.functions.iter().map(Series::bytes).sum()
     }
 
-    /// Where the functions end that serve from a place of the rearmost pair up.
+    /// End of the functions that are valid from a place of the rearmost pair on.
     #[must_use]
     pub fn serves_until(&self, (at, least): (f64, f64)) -> f64 {
         self.functions
@@ -141,7 +142,7 @@ impl Shares {
             .map_or(f64::INFINITY, |functions| functions.serves_until(at, least))
     }
 
-    /// All functions over the way from a place of the rearmost pair up by `length`.
+    /// All functions from a place of the rearmost pair over `length`.
     #[must_use]
     pub fn along(&self, place: (f64, f64), length: f64) -> Vec<[Polynomial<TERMS>; LANES]> {
         let functions = self.functions.iter();
@@ -150,7 +151,7 @@ impl Shares {
             .collect()
     }
 
-    /// The row of a pair among all functions: one for each touching pair.
+    /// The row of a pair among all functions, with one function for each touching pair.
     #[must_use]
     pub fn row_along<'a>(
         &self,
@@ -161,7 +162,7 @@ impl Shares {
         Some(&along.as_flattened()[row..row + self.touching.len()])
     }
 
-    /// The same at one place of the rearmost pair.
+    /// The row of a pair at one place of the rearmost pair.
     #[must_use]
     pub fn row_at(&self, pair: usize, at: f64) -> Option<Vec<f64>> {
         let row = self.rows[pair]?;
@@ -170,8 +171,7 @@ impl Shares {
     }
 }
 
-/// Where the row of each pair begins, those of the touching pairs first, and how many functions
-/// there are.
+/// First function of each pair's row, touching pairs first, and the number of functions.
 fn rows(pairs: usize, touching: &[usize]) -> (Vec<Option<usize>>, usize) {
     let mut rows = vec![None; pairs];
     let is_near = |pair: usize| {
@@ -188,7 +188,7 @@ fn rows(pairs: usize, touching: &[usize]) -> (Vec<Option<usize>>, usize) {
     (rows, count)
 }
 
-/// The rows of all pairs at a place; NaN if the compliances are not positive definite.
+/// The rows of all pairs at a place. NaN if the compliances are not positive definite.
 fn fill(
     compliances: &Compliances<'_>,
     touching: &[usize],
@@ -200,7 +200,7 @@ fn fill(
         values.fill(f64::NAN);
         return;
     };
-    // Columns of the inverse, some at a time.
+    // Computes several columns of the inverse together.
     for columns in (0..size).step_by(LANES) {
         let mut inverse = vec![[0.0; LANES]; size];
         for lane in 0..LANES.min(size - columns) {

@@ -1,4 +1,5 @@
-//! The zones of a mesh: on the line of action, and beyond both its ends, where a tip is in contact.
+//! The zones of a mesh: the line of action, and the ranges before and after it with contact of a
+//! tip.
 
 use super::inputs::MeshInputs;
 use crate::model::Refusal;
@@ -12,7 +13,7 @@ use crate::model::tip_gap::{TipContact, angle_at_curvature, gap, tip_at};
 use crate::numeric::chebyshev::Series;
 use crate::numeric::root;
 
-/// No tip is followed further from its end of the path of contact, in rad.
+/// Greatest angle of a tip beyond its end of the path of contact, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
 
 pub(super) const STIFFNESS: usize = 0;
@@ -20,7 +21,7 @@ pub(super) const GAP: usize = 1;
 pub(super) const LEVER: usize = 2;
 pub(super) const SLIDING: usize = 3;
 
-/// A part of the way on which everything is smooth.
+/// A part of the path in which all functions are smooth.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Zone {
     pub(super) from: f64,
@@ -30,7 +31,8 @@ pub(super) struct Zone {
 }
 
 impl Zone {
-    /// The zone of the back flanks, on which pairs go from `length` back, and slide the other way.
+    /// The zone of the back flanks, with pairs that move backwards from `length` and slide in the
+    /// opposite direction.
     pub(super) fn reversed(&self, length: f64) -> Zone {
         let mut signs = [1.0; 4];
         signs[SLIDING] = -1.0;
@@ -42,19 +44,18 @@ impl Zone {
     }
 }
 
-/// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the
-/// run-out.
+/// The pair at one end of its path of contact: the run-in, or with swapped gears the run-out.
 pub(super) struct End {
     pub(super) inputs: MeshInputs,
     pub(super) geometry: Geometry,
     pub(super) flanks: Flanks,
-    /// −1 where s falls with the distance from the path of contact.
+    /// −1 if s falls with the distance from the path of contact.
     pub(super) side: f64,
 }
 
-/// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen
-/// digits of their sizes; a gap grows from `edge`, with as many digits as the way from there and
-/// the relief have.
+/// Adds the zones between the borders, in which the four functions of `f` are smooth, with a
+/// relative error of 1e-13. The precision of a gap, which grows from `edge`, is that of the
+/// distance from `edge` and of the relief.
 fn push_zones(
     borders: &mut Vec<f64>,
     (size, edge, relief): ([f64; 4], f64, &Relief),
@@ -83,8 +84,8 @@ fn push_zones(
     Ok(())
 }
 
-/// The zones of the line of action; the places at which the load on a flank begins or ends to be
-/// moved off the corner of the tip.
+/// The zones of the line of action, and the places where the load on a flank begins or stops to
+/// move off the corner of the tip.
 pub(super) fn line_zones(
     inputs: &MeshInputs,
     geometry: &Geometry,
@@ -142,7 +143,7 @@ pub(super) fn line_zones(
 }
 
 impl End {
-    /// The other end, with the gears swapped: there the driver's tip meets the driven flank.
+    /// The other end, with the gears swapped: the driver's tip touches the driven flank.
     pub(super) fn swapped(&self) -> Result<End, Refusal> {
         let inputs = self.inputs.swapped();
         let geometry = geometry(&inputs.shape).map_err(|refusal| match refusal {
@@ -157,7 +158,7 @@ impl End {
         })
     }
 
-    /// The angle up to which gaps below `reach` stand, and whether the tip's circle ends there.
+    /// The angle up to which gaps are below `reach`, and whether the circle of the tip ends there.
     pub(super) fn angle_of_reach(&self, reach: f64) -> (f64, bool) {
         let circle = angle_at_curvature(&self.geometry, self.geometry.end);
         let whole = if circle.is_finite() {
@@ -173,8 +174,8 @@ impl End {
         }
     }
 
-    /// The zones from the end of the path of contact at `edge` to the angle `reach`; the places at
-    /// which the load on a flank begins or ends to be moved off the corner of the tip.
+    /// The zones from the end of the path of contact at `edge` to the angle `reach`, and the places
+    /// where the load on a flank begins or stops to move off the corner of the tip.
     pub(super) fn zones(
         &self,
         relief: &Relief,
@@ -228,7 +229,7 @@ impl End {
         (tip.curvature_driver, tip.load_arm_driven(&self.geometry))
     }
 
-    /// Where the tip touches at an angle from the end of the path of contact.
+    /// The contact place of the tip at an angle from the end of the path of contact.
     pub(super) fn place(&self, angle: f64) -> ContactPlace {
         self.place_of(&tip_at(&self.geometry, angle))
     }
@@ -268,7 +269,7 @@ impl End {
         ])
     }
 
-    /// After B the driver's own arm is that of its tip.
+    /// After B the arm of the driver is that of its tip.
     fn lever_of_tip(&self, tip: &TipContact) -> f64 {
         tip.normal_length_driven / self.geometry.driven.base
     }
@@ -285,7 +286,7 @@ impl End {
             .map(move |end| angle_at_curvature(&geometry, end))
     }
 
-    /// The angle, `whole` at the most, at which the contact leaves the arc of a rounded tip.
+    /// The angle, at most `whole`, at which the contact leaves the arc of a rounded tip.
     fn end_of_rounding(&self, whole: f64) -> f64 {
         let arm = |angle: f64| tip_at(&self.geometry, angle).normal_radius_driven;
         if self.geometry.driven.edge > 0.0 && arm(whole) < 0.0 {
@@ -295,7 +296,7 @@ impl End {
         }
     }
 
-    /// Where the tip all but rolls: there friction turns round.
+    /// The angle at which the tip rolls without sliding and friction reverses.
     fn angle_of_rolling(&self, reach: f64) -> Option<f64> {
         let sliding = |angle: f64| tip_at(&self.geometry, angle).sliding_arm;
         (sliding(0.0) * sliding(reach) < 0.0).then(|| root::between(0.0, reach, sliding))
