@@ -35,51 +35,53 @@ pub use settings::{MotionInputs, Settings};
 use step::{Course, Step};
 use watch::Watch;
 
-/// Measured over the reference pairs, the peak force then keeps the tolerance with room to spare.
+/// Part of the tolerance for one step. Measured over the reference pairs, the peak force then meets
+/// the tolerance with a margin.
 const SHARE_OF_A_STEP: f64 = 0.3;
 
-/// What the incoming tooth carries, with inertia.
+/// Load of the incoming tooth with inertia.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dynamic {
-    /// Driven gear's angle before E at the first contact, in rad, where that is before E.
+    /// Driven gear's angle before E at the first contact, in rad. `None` without contact before E.
     pub first_contact_angle: Option<f64>,
-    /// Driver's angle after B at the last contact, in rad, where that is after B.
+    /// Driver's angle after B at the last contact, in rad. `None` without contact after B.
     pub last_contact_angle: Option<f64>,
     /// Greatest force of the incoming tooth before E, in N.
     pub peak_approach_force: f64,
-    /// Its greatest force anywhere, in N.
+    /// Greatest force of the incoming tooth, in N.
     pub peak_force: f64,
-    /// From a first contact before E to the first least force after the first peak, or to the loss
-    /// of contact, in s.
+    /// Time from a first contact before E to the first minimum of the force after the first peak,
+    /// or to the loss of contact, in s.
     pub impact_duration: Option<f64>,
-    /// The gap that is left between the incoming tooth and the flank before E, at the least, in m,
-    /// where it does not touch.
+    /// Least gap between the incoming tooth and the flank before E, in m. `None` if the tooth
+    /// touches before E.
     pub least_gap: Option<f64>,
-    /// Whether no pair at all is in contact at some moment from one base pitch before E until the
-    /// incoming tooth leaves.
+    /// Whether at any time no pair is in contact, from one base pitch before E until the incoming
+    /// tooth leaves.
     pub contact_lost: bool,
-    /// What the back flanks carry meanwhile; where the case gives a backlash.
+    /// Load of the back flanks. `None` if the case gives no backlash.
     pub rattle: Option<Rattle>,
-    /// Work of friction on the incoming tooth, in J; where the case gives a friction coefficient.
+    /// Work of friction on the incoming tooth, in J. `None` if the case gives no friction
+    /// coefficient.
     pub friction_work: Option<f64>,
-    /// From the first contact through E to the last, its peaks and valleys among them.
+    /// Stations from the first contact through E to the last contact, including peaks and valleys.
     pub stations: Vec<MeshStation>,
-    /// Whether the stations are as close to each other as the curve needs.
+    /// Whether the stations are as dense as the curve needs.
     pub resolution: Resolution,
-    /// What it cost.
+    /// Computational effort.
     pub effort: Effort,
 }
 
-/// Counts of a run.
+/// Counters of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Effort {
     /// Steps.
     pub steps: u64,
-    /// Coefficients of the power series of the motion, and places at which a series was looked at.
+    /// Coefficients of the power series of the motion, and evaluations of series.
     pub evaluations: u64,
     /// Contacts made and lost.
     pub events: u64,
-    /// All of it in units of the [budget](super::budget).
+    /// Total work in units of the [budget](super::budget).
     pub work: u64,
 }
 
@@ -89,24 +91,24 @@ pub struct Effort {
 /// ```text
 /// me x'' + c x' + Σ w_k F_k(x, s) − Σ w_m B_m(x, s) = F0,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
 /// x + e_k − S_k = Σ_j Q_kj F_j/b,   −x − j_bn − S_m = Σ_j Q_mj B_j/b
-/// c = 2 ζ √(k me) while a pair is in contact, else 0;   k the mean stiffness of the mesh
+/// c = 2 ζ √(k me) while a pair is in contact, otherwise 0;   k the mean stiffness of the mesh
 /// ```
-/// with the forces F of the working flanks and, where the case gives a backlash j_bn, B of the back
-/// flanks ([`Mesh::back`]). The motion goes from the static balance `warmup_cycles` base pitches
-/// before E, where no pair deviates, until the incoming tooth has left. Within a step the pairs in
-/// contact stay the same ones, so that the equation is linear, its coefficients are polynomials and
-/// every step is a power series, see [`taylor`](crate::numeric::taylor); it ends where a pair
-/// touches or leaves, or passes from one zone of the mesh into the next.
+/// F are the forces of the working flanks and B, if the case gives a backlash j_bn, the forces of
+/// the back flanks ([`Mesh::back`]). The motion starts in static balance `warmup_cycles` base
+/// pitches before E, without deviation of any pair, and ends after the incoming tooth has left.
+/// Within a step the same pairs are in contact. The equation is then linear with polynomial
+/// coefficients, and the step is a power series, see [`taylor`](crate::numeric::taylor). A step
+/// ends when a pair gains or loses contact, or passes into the next zone of the mesh.
 ///
 /// # Source
 /// The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, with corner contact by the
 /// gap S(u).
 ///
 /// # Errors
-/// [`Refusal::BeyondReach`] where the gears move apart further than the mesh is known,
-/// [`Refusal::TooSlow`] where the mesh swings too often on the way, [`Refusal::MotionTooLong`] or
-/// [`Refusal::MotionTooLarge`] where the steps exceed the [budget](super::budget) of work or of
-/// memory, [`Refusal::Stopped`] where `go_on` says no.
+/// [`Refusal::BeyondReach`] if the gears separate beyond the computed range of the mesh,
+/// [`Refusal::TooSlow`] if the mesh oscillates too often during the motion,
+/// [`Refusal::MotionTooLong`] or [`Refusal::MotionTooLarge`] if the steps exceed the
+/// [budget](super::budget) of work or of memory, [`Refusal::Stopped`] if `go_on` returns false.
 pub fn dynamic(
     mesh: &Mesh,
     settings: &Settings,
@@ -128,9 +130,9 @@ pub fn dynamic(
     })
 }
 
-/// What `find` finds of the motion on the working flanks; where the driver falls behind to the
-/// back flanks and `find` therefore has nothing, of the motion on both. So the back flanks cost
-/// nothing while they stay apart.
+/// The result of `find` for the motion on the working flanks. If the driver reaches the back flanks
+/// and `find` returns `None`, the result for the motion on both flanks. Back flanks that do not
+/// touch cost no time.
 fn across_backlash<T>(
     mesh: &Mesh,
     settings: &Settings,
@@ -143,19 +145,19 @@ fn across_backlash<T>(
     }
 }
 
-/// How near the incoming tooth comes to a touch before E.
+/// The approach of the incoming tooth to contact before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
-    /// The most by which the driver is further ahead than the tooth's gap is wide, in m: above 0
-    /// the tooth touches, below it is the gap that is left.
+    /// Greatest difference of the driver's lead and the tooth's gap, in m. Above 0 the tooth
+    /// touches. A negative value is the gap that is left.
     pub lead: f64,
-    /// Whether no pair at all is in contact at some moment from one base pitch before E to E.
+    /// Whether at any time no pair is in contact, from one base pitch before E to E.
     pub contact_lost: bool,
 }
 
-/// The approach of the incoming tooth to E: the run of [`dynamic`] so far, step by step the same
-/// until the tooth touches, but that the tooth stands off. So the lead grows and falls smoothly
-/// with what the flanks lack, through 0 as well. Its work is counted in `meter`.
+/// The approach of the incoming tooth to E: the run of [`dynamic`] without contact of the incoming
+/// tooth, with equal steps until the tooth would touch. The lead is therefore a smooth function of
+/// the relief, also through 0. `meter` counts the work.
 ///
 /// # Errors
 /// Those of [`dynamic`].
@@ -189,36 +191,36 @@ pub fn approach(
     })
 }
 
-/// A run on its way.
+/// The state of a run.
 struct Run<'a> {
     motion: &'a Motion<'a>,
     borders: Vec<f64>,
-    /// The border that comes next.
+    /// Index of the next border.
     next: usize,
     t: f64,
     y: State,
-    /// The pairs that touch.
+    /// The touching pairs.
     touching: Vec<PairName>,
-    /// The pairs of the window that have touched or left where it stands.
+    /// The pairs of the window that have just gained or lost contact.
     turned: Touching,
-    /// Whether the next step begins where one begins in every base pitch.
+    /// Whether the next step begins at a place where a step begins in every base pitch.
     is_even: bool,
-    /// What the last terms of a step's series may be, in m.
+    /// Permitted size of the last terms of a step's series, in m.
     allowed: f64,
     laps: Laps,
     watch: Watch,
     effort: Effort,
     meter: &'a Meter,
-    /// Where the incoming tooth stands off, the most by which the driver was further ahead than its
-    /// gap is wide, in m.
+    /// Greatest difference of the driver's lead and the gap of the incoming tooth, in m, for a run
+    /// without its contact.
     lead: Option<f64>,
-    /// Whether the driver has fallen behind to back flanks that are not followed.
+    /// Whether the driver has reached back flanks that the motion does not include.
     misses_back: bool,
 }
 
 impl<'a> Run<'a> {
     fn begin(motion: &'a Motion<'a>, tolerance: f64, meter: &'a Meter) -> Result<Run<'a>, Refusal> {
-        /// Borders that are found and sorted in the time of one series.
+        /// Number of borders sorted in the time of one series.
         const BORDERS: usize = 8;
         let mesh = motion.mesh;
         let (start, (_, end)) = (motion.start(), mesh.ends());
@@ -254,8 +256,8 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Goes on to the next border, or to where the warm-up ends if it repeats itself; not where
-    /// the driver falls behind to back flanks that are not followed.
+    /// Advances to the next border, or to the end of the warm-up if it repeats. Returns false if
+    /// the driver reaches back flanks that the motion does not include.
     fn goes_on(&mut self, go_on: &dyn Fn(f64) -> bool) -> Result<bool, Refusal> {
         if !go_on(self.part_done()) {
             return Err(Refusal::Stopped);
@@ -269,13 +271,13 @@ impl<'a> Run<'a> {
         self.next >= self.borders.len() || self.watch.is_over(self.motion)
     }
 
-    /// How much of the way is done, from 0 to 1.
+    /// The computed part of the motion, from 0 to 1.
     fn part_done(&self) -> f64 {
         let (from, to) = (self.borders[0], self.motion.mesh.length);
         ((self.motion.place(self.t) - from) / (to - from)).clamp(0.0, 1.0)
     }
 
-    /// Go on to the next border.
+    /// Advances to the next border.
     fn cross_window(&mut self) -> Result<(), Refusal> {
         let (from, to) = (self.borders[self.next - 1], self.borders[self.next]);
         self.next += 1;
@@ -292,8 +294,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Once a base pitch of the warm-up is as the one before, the others are too: go on where the
-    /// last of them ends.
+    /// Skips the rest of the warm-up after a base pitch that equals the base pitch before.
     fn skip_what_repeats(&mut self) {
         let (mesh, s) = (self.motion.mesh, self.borders[self.next - 1]);
         if self.misses_back || !self.laps.repeats(self.motion, s, &self.y, &self.touching) {
@@ -315,7 +316,8 @@ impl<'a> Run<'a> {
             .for_each(|pair| *pair = pair.moved(-(pitches as i32)));
     }
 
-    /// One step, to `end` at most; the pairs that touch after it, and the step.
+    /// Advances by one step, at most to `end`. Returns the pairs that touch afterwards, and the
+    /// step.
     fn advance(
         &mut self,
         window: &Window,
@@ -337,7 +339,7 @@ impl<'a> Run<'a> {
         if event.is_some() {
             step = step.cut(part);
         }
-        // A step to a border ends on it, whatever the rounding of the sum.
+        // A step to a border ends exactly on the border, independent of rounding.
         self.t = if event.is_none() && step.length >= end - self.t {
             end
         } else {
@@ -375,7 +377,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// A pair touches or leaves.
+    /// A pair gains or loses contact.
     fn turn(&mut self, window: &Window, touching: Touching, event: Event) -> Touching {
         self.effort.events += 1;
         self.turned = self.turned.with(event.pair);

@@ -1,5 +1,5 @@
-//! What acts on the driver while the same pairs touch, and what a motion keeps of it: a base pitch
-//! later it is the same.
+//! Stiffness and load of a step with the same touching pairs, cached because they repeat after a
+//! base pitch.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -9,26 +9,26 @@ use crate::model::mesh::Mesh;
 use crate::model::pair_forces::Touching;
 use crate::numeric::polynomial::Polynomial;
 
-/// Places that lie no further apart, over the base pitch, are the same.
+/// Places within this distance, relative to the base pitch, are equal.
 pub(super) const ALIKE: f64 = 1e-9;
 
-/// What acts over a way, as polynomials of the part of it.
+/// Stiffness, load and leads over a stretch, as polynomials of the part of the stretch.
 #[derive(Debug, Clone)]
 pub(super) struct Acting {
     /// Stiffness of the touching pairs, in N/m.
     pub(super) stiffness: Polynomial<TERMS>,
-    /// The load with the forces that the gaps take from it, in N.
+    /// The load and the forces from the gaps, in N.
     pub(super) load: Polynomial<TERMS>,
-    /// Of every pair.
+    /// Leads of all pairs.
     pub(super) leads: Vec<Lead>,
 }
 
-/// What acts between two borders of the mesh, step by step, as far as a motion has met it there.
+/// Cached stiffness and load between two borders of the mesh.
 #[derive(Debug)]
 pub(super) struct Crossing {
-    /// How many pairs are of the working flanks, and the zones of all pairs.
+    /// The number of working pairs, then the zones of all pairs.
     zones: Vec<usize>,
-    /// The incoming pair among them, which alone deviates.
+    /// Index of the incoming pair, the only pair with a deviation.
     incoming: Option<usize>,
     known: RefCell<Vec<Known>>,
 }
@@ -39,18 +39,18 @@ struct Known {
     acting: Rc<Acting>,
 }
 
-/// A part of the way on which the same pairs touch.
+/// A part of the motion with the same touching pairs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stretch {
     pub(super) touching: Touching,
-    /// Where the rearmost pair begins it, in m.
+    /// Place of the rearmost pair at the beginning, in m.
     pub(super) from: f64,
     /// Its length, in m.
     pub(super) way: f64,
 }
 
 impl Crossing {
-    /// What acts over a stretch, computed by `new` if it is not known.
+    /// Stiffness and load of a stretch. Calls `new` if they are not cached.
     pub(super) fn acting(
         &self,
         stretch: Stretch,
@@ -77,7 +77,7 @@ impl Crossing {
     }
 }
 
-/// The crossings of a motion.
+/// The cached crossings of a motion.
 #[derive(Debug, Default)]
 pub(super) struct Crossings(RefCell<Vec<Rc<Crossing>>>);
 

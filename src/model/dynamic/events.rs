@@ -1,22 +1,21 @@
-//! Contacts made and lost within a step.
+//! Gains and losses of contact within a step.
 
 use super::lead::Lead;
 use super::step::{Course, Step};
 use crate::model::pair_forces::Touching;
 
-/// A pair that touches or leaves.
+/// A gain or loss of contact of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Event {
-    /// The pair's place in the window.
+    /// The pair's index in the window.
     pub(super) pair: usize,
-    /// After what part of the step.
+    /// The part of the step before the event.
     pub(super) part: f64,
 }
 
-/// The first event of a step, where there is one: what a pair keeps, pressed where it touches,
-/// apart where it does not, is a polynomial over the step, so that no event hides. Those that have
-/// `turned` where the step begins stand at 0 there, within rounding: several of them may turn as
-/// one. A pair that stands off has no events.
+/// The first event of a step. The lead of a pair is a polynomial over the step, so that no event is
+/// missed. Pairs in `turned` begin the step with a lead of 0 within rounding; several of them can
+/// change together. The pair `standing_off` has no events.
 pub(super) fn first(
     course: &Course<'_>,
     (step, range): (&Step, (f64, f64)),

@@ -1,34 +1,33 @@
-//! Whether the warm-up has come to repeat itself: before the incoming tooth is near, every base
-//! pitch is like the one before.
+//! Detects a warm-up that repeats: before the incoming tooth is near, all base pitches are alike.
 
 use super::acting::ALIKE;
 use super::motion::{Motion, State};
 use super::pair::PairName;
 
-/// A change, over the state's scale, that is none.
+/// A relative change of the state below this value is rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// The state a base pitch ago.
+/// The state one base pitch before.
 pub(super) struct Laps {
-    /// Where the next base pitch begins, in units of them.
+    /// Start of the next base pitch, in base pitches.
     next: f64,
     start: f64,
     last: Option<Lap>,
-    /// The change that counts as none, over the state's scale.
+    /// Relative change of the state that counts as none.
     allowed: f64,
 }
 
 struct Lap {
     y: State,
     touching: Vec<PairName>,
-    /// How far it is from the one before.
+    /// Relative change since the lap before.
     moved: f64,
 }
 
 impl Laps {
-    /// The warm-up begins at `start`, in m.
+    /// A warm-up that begins at `start`, in m.
     pub(super) fn new(start: f64, tolerance: f64) -> Laps {
-        /// Of the tolerance: it lets a state that draws near go no further than rounding would.
+        /// Part of the tolerance that limits the error of a converging state.
         const PART: f64 = 1e-3;
         Laps {
             next: 1.0,
@@ -38,9 +37,9 @@ impl Laps {
         }
     }
 
-    /// Whether the state at `s`, in m, is that of a base pitch ago, drawing nearer with each of
-    /// them at least by half: what it would still move in all is then less than it moved last.
-    /// Contacts that differ are no repetition.
+    /// Whether the state at `s`, in m, equals the state one base pitch before. For a converging
+    /// state, whose changes fall by half or more with each base pitch, the sum of all further
+    /// changes is less than the last change. Different contacts are not a repetition.
     pub(super) fn repeats(
         &mut self,
         motion: &Motion<'_>,

@@ -1,39 +1,39 @@
-//! By how much a pair is pressed or apart over a step, as a function of the displacement.
+//! The lead of a pair over a step as a function of the displacement: force or overlap.
 
 use crate::numeric::bernstein::{Bernstein, first_fall, sign_changes};
 use crate::numeric::chebyshev;
 use crate::numeric::polynomial::Polynomial;
 
-/// Terms of a step's series: as many as take the least time, at tolerances from 1e-3 to 1e-11.
+/// Number of terms of a step's series, the fastest choice at tolerances from 1e-3 to 1e-11.
 pub(super) const TERMS: usize = 28;
 
-/// Terms of the incoming tooth's force, all that its stiffness times its deflection has.
+/// Number of terms of the incoming tooth's force, the product of stiffness and deflection.
 pub(super) const FORCE_TERMS: usize = TERMS + chebyshev::TERMS;
 
-/// What is known of the mesh over a step.
+/// A value of the mesh over a step.
 pub(super) type Along = Polynomial<{ chebyshev::TERMS }>;
 
 /// The product of two polynomials of the mesh.
 pub(super) type Product = Polynomial<{ 2 * chebyshev::TERMS }>;
 
-/// By how much a pair presses (if it touches) or would overlap (if it does not): the sign changes
-/// where the pair touches or leaves.
+/// The force of a touching pair, or the overlap of another pair. A pair gains or loses contact
+/// where its sign changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(
     clippy::large_enum_variant,
     reason = "the few leads of a step are read at once"
 )]
 pub(super) enum Lead {
-    /// x less this gap, in m, of a pair that is a spring of its own.
+    /// x minus this gap, in m, for a pair that is an independent spring.
     Gap(Along),
-    /// `slope · x − offset` of a coupled pair: its force in N if it touches, else by how much it
-    /// would overlap, in m.
+    /// `slope · x − offset` of a coupled pair: its force in N if it touches, otherwise its overlap
+    /// in m.
     Shared { slope: Along, offset: Product },
 }
 
 impl Lead {
-    /// When it first falls below 0, times `sign`, as a part of the step. If it `turned` at the
-    /// beginning, it is 0 there within rounding.
+    /// The first part of the step where the lead times `sign` falls below 0. If the pair `turned`
+    /// at the beginning, the lead is 0 there within rounding.
     pub(super) fn first_fall(
         &self,
         ahead: &Polynomial<TERMS>,
@@ -46,7 +46,7 @@ impl Lead {
         }
     }
 
-    /// The most by which it is above 0 over a step, where that is more than `least`.
+    /// The greatest value of the lead over a step, or `least` if that is greater.
     pub(super) fn most(&self, ahead: &Polynomial<TERMS>, least: f64) -> f64 {
         match self {
             Lead::Gap(gap) => most(&ahead.plus(-1.0, gap), least),
@@ -54,7 +54,7 @@ impl Lead {
         }
     }
 
-    /// The lead with a displacement.
+    /// The lead for a displacement.
     pub(super) fn over(&self, ahead: &Polynomial<TERMS>) -> Polynomial<FORCE_TERMS> {
         match self {
             Lead::Gap(gap) => Polynomial::ZERO.plus(1.0, ahead).plus(-1.0, gap),
@@ -64,7 +64,7 @@ impl Lead {
         }
     }
 
-    /// The same over a part of the step.
+    /// The lead over a part of the step.
     pub(super) fn stretched(&self, part: f64) -> Lead {
         match self {
             Lead::Gap(gap) => Lead::Gap(gap.stretched(part)),
@@ -75,8 +75,8 @@ impl Lead {
         }
     }
 
-    /// Whether it keeps its sign wherever in its range the displacement is: above 0 of a pair that
-    /// touches, below 0 of one apart.
+    /// Whether the lead keeps its sign for all displacements in the range: above 0 for a touching
+    /// pair, below 0 for another pair.
     pub(super) fn is_clear(&self, touches: bool, (least, most): (f64, f64)) -> bool {
         let (low, high) = match self {
             Lead::Gap(gap) => {
@@ -97,7 +97,7 @@ impl Lead {
     }
 }
 
-/// How far a polynomial may be from its value at 0.
+/// Greatest difference of a polynomial from its value at 0.
 fn variation<const N: usize>(polynomial: &Polynomial<N>) -> f64 {
     let varying = polynomial.0[1..].iter();
     varying.map(|coefficient| coefficient.abs()).sum()
@@ -111,7 +111,7 @@ fn fall<const N: usize>(kept: &Polynomial<N>, turned: bool) -> Option<f64> {
     }
 }
 
-/// Whether the value at 0 is none against how the polynomial varies.
+/// Whether the value at 0 is rounding compared with the variation of the polynomial.
 fn is_rounding<const N: usize>(kept: &Polynomial<N>) -> bool {
     const ROUNDING: f64 = 1e-9;
     kept.0[0].abs() <= ROUNDING * variation(kept)

@@ -23,27 +23,28 @@ pub(super) type State = Vector2<f64>;
 pub(super) struct Motion<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) mass: f64,
-    /// c while a pair touches, in kg/s.
+    /// Damping c while a pair touches, in kg/s.
     pub(super) damping: f64,
-    /// Of the mean stiffness, in rad/s.
+    /// Natural frequency with the mean stiffness, in rad/s.
     frequency: f64,
     decay: f64,
     warmup_cycles: u32,
-    /// By how much the driver falls behind until the back flanks meet, in m; infinite if the case
-    /// gives no backlash.
+    /// Distance that the driver falls behind until the back flanks touch, in m; infinite if the
+    /// case gives no backlash.
     pub(super) backlash: f64,
-    /// The mesh of the back flanks where they are followed.
+    /// The mesh of the back flanks if the motion includes them.
     pub(super) back: Option<Mesh>,
-    /// The sharing of coupled pairs that this motion needed.
+    /// Cached load sharing of coupled pairs.
     sharing: RefCell<Vec<Rc<Sharing>>>,
     crossings: Crossings,
-    /// Places at which shares were computed, by this motion or by another on the same mesh.
+    /// Number of places where shares were computed, by this motion or another motion on the same
+    /// mesh.
     looks: Cell<u64>,
-    /// What shares and crossings take, in bytes.
+    /// Memory of shares and crossings, in bytes.
     bytes: Cell<usize>,
 }
 
-/// How coupled pairs share a displacement that stand in some zones.
+/// Load sharing of coupled pairs in given zones.
 #[derive(Debug)]
 struct Sharing {
     flank: Flank,
@@ -51,19 +52,18 @@ struct Sharing {
     known: RefCell<Vec<(Touching, Arc<Shares>)>>,
 }
 
-/// What stays the same between two borders: the pairs that may touch, and the zones in which they
-/// stand.
+/// The values that are constant between two borders: the pairs that may touch, and their zones.
 #[derive(Debug, Clone)]
 pub(super) struct Window {
-    /// From where to where the incoming pair goes, in m.
+    /// First and last place of the incoming pair, in m.
     pub(super) ends: (f64, f64),
-    /// Those of the working flanks, then those of the back flanks.
+    /// The pairs of the working flanks, then those of the back flanks.
     pub(super) pairs: Vec<Standing>,
-    /// How many of them are of the working flanks.
+    /// Number of working pairs.
     working: usize,
-    /// Of both sides. None if the pairs are independent springs.
+    /// Load sharing of both sides. `None` if the pairs are independent springs.
     sharing: [Option<Rc<Sharing>>; 2],
-    /// What acts between its ends.
+    /// Cached stiffness and load of this window.
     pub(super) crossing: Rc<Crossing>,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The same with the back flanks.
+    /// The motion with the back flanks.
     pub(super) fn with_back(self) -> Motion<'a> {
         Motion {
             back: Some(self.mesh.back()),
@@ -99,13 +99,13 @@ impl<'a> Motion<'a> {
         self.backlash.is_finite()
     }
 
-    /// Whether a displacement of the driver ahead reaches back flanks that are not followed.
+    /// Whether a displacement of the driver reaches back flanks that the motion does not include.
     pub(super) fn misses_back(&self, ahead: f64) -> bool {
         self.back.is_none() && ahead < -self.backlash
     }
 
-    /// The places of the incoming pair from `from` to `to` between which all that is known of the
-    /// pairs is smooth.
+    /// Places of the incoming pair from `from` to `to`. Between two of them all values of the pairs
+    /// are smooth.
     pub(super) fn borders(&self, from: f64, to: f64) -> Vec<f64> {
         let mut borders = self.mesh.borders(from, to);
         if let Some(back) = &self.back {
@@ -119,8 +119,8 @@ impl<'a> Motion<'a> {
         borders
     }
 
-    /// Where the incoming pair stands at the start. Where not a bit of a start one base pitch
-    /// earlier would be left, no more than that one is run.
+    /// Place of the incoming pair at the start. If damping removes the effect of the start within
+    /// one base pitch, limits the warm-up to two base pitches.
     pub(super) fn start(&self) -> f64 {
         const FORGOTTEN: f64 = 42.0;
         let pitch = self.mesh.base_pitch;
@@ -133,33 +133,33 @@ impl<'a> Motion<'a> {
         -f64::from(pitches) * pitch
     }
 
-    /// Time at which the incoming pair stands at `s`; 0 at E.
+    /// Time with the incoming pair at `s`; 0 at E.
     pub(super) fn time(&self, s: f64) -> f64 {
         s / self.mesh.speed
     }
 
-    /// Where the incoming pair stands.
+    /// Place of the incoming pair at a time.
     pub(super) fn place(&self, t: f64) -> f64 {
         t * self.mesh.speed
     }
 
-    /// Half the period of the mean stiffness, in s.
+    /// Half a period with the mean stiffness, in s.
     pub(super) fn half_swing(&self) -> f64 {
         0.5 * TAU / self.frequency
     }
 
-    /// A step over which no series converges, in s.
+    /// A step length at which no series converges, in s.
     pub(super) fn longest_step(&self) -> f64 {
         8.0 / self.frequency
     }
 
-    /// The size of a state: what the force yields at rest, and the rate of a swing of that size.
+    /// Scale of a state: the static deflection, and the rate of an oscillation with this amplitude.
     pub(super) fn scale(&self) -> State {
         let deflection = self.mesh.force / self.mesh.mean_stiffness;
         State::new(deflection, deflection * self.frequency)
     }
 
-    /// Refuse a way on which the mesh swings too often.
+    /// Refuses a motion with too many oscillations.
     pub(super) fn check_pace(&self, way: f64) -> Result<(), Refusal> {
         let swings = self.time(way) * self.frequency / TAU;
         if swings > MOTION_SWINGS {
@@ -172,10 +172,10 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// What stays the same while the incoming pair goes from one place to the other.
+    /// The constant values while the incoming pair moves between two places.
     ///
     /// # Errors
-    /// [`Refusal::TooManyPairs`] where both sides have more pairs than a set of pairs can name.
+    /// [`Refusal::TooManyPairs`] if both sides have more pairs than a set can contain.
     pub(super) fn window(&self, from: f64, to: f64) -> Result<Window, Refusal> {
         let inside = f64::midpoint(from, to);
         let mut pairs = standing(self.mesh, Flank::Working, inside);
@@ -206,7 +206,7 @@ impl<'a> Motion<'a> {
         })
     }
 
-    /// The pairs of the working flanks while some of the window's pairs touch.
+    /// The pairs of the working flanks for a set of touching pairs.
     pub(super) fn working_side<'w>(&'w self, window: &'w Window, touching: Touching) -> Side<'w> {
         let touching = touching.before(window.working);
         Side {
@@ -220,7 +220,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The same of the back flanks where they are followed.
+    /// The pairs of the back flanks, if the motion includes them.
     pub(super) fn back_side<'w>(
         &'w self,
         window: &'w Window,
@@ -239,8 +239,8 @@ impl<'a> Motion<'a> {
         })
     }
 
-    /// The sharing of pairs in these zones: a base pitch later it is the same. None if the pairs
-    /// are independent springs.
+    /// The load sharing of pairs in these zones, which repeats after a base pitch. `None` if the
+    /// pairs are independent springs.
     fn sharing(&self, mesh: &Mesh, pairs: &[Standing]) -> Option<Rc<Sharing>> {
         let flank = pairs.first().filter(|_| mesh.is_coupled())?.flank;
         let mut all = self.sharing.borrow_mut();
@@ -260,7 +260,7 @@ impl<'a> Motion<'a> {
         Some(sharing)
     }
 
-    /// How coupled pairs share a displacement; none if none touches or all are independent springs.
+    /// The load sharing of coupled pairs. `None` if no pair touches or all are independent springs.
     fn shares(
         &self,
         mesh: &Mesh,
@@ -280,23 +280,23 @@ impl<'a> Motion<'a> {
         Some(shares)
     }
 
-    /// Counts what is kept beside the steps, in bytes.
+    /// Counts memory besides the steps, in bytes.
     pub(super) fn keep(&self, bytes: usize) {
         self.bytes.set(self.bytes.get() + bytes);
     }
 
-    /// Places at which shares were computed since the last call.
+    /// Number of places where shares were computed since the last call.
     pub(super) fn take_looks(&self) -> u64 {
         self.looks.take()
     }
 
-    /// What shares and crossings take, in bytes.
+    /// Memory of shares and crossings, in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.bytes.get()
     }
 }
 
-/// The pairs that may touch while the incoming one stands at a place, in m.
+/// The pairs that may touch with the incoming pair at a place, in m.
 fn standing(mesh: &Mesh, flank: Flank, inside: f64) -> Vec<Standing> {
     let standing = mesh.standing(inside).map(|(ahead, zone)| {
         let (_, sliding) = mesh.slide(ahead, zone, inside);
@@ -311,7 +311,7 @@ fn standing(mesh: &Mesh, flank: Flank, inside: f64) -> Vec<Standing> {
 }
 
 impl Window {
-    /// The named pairs, as a set; none where one of them is not there any more.
+    /// The named pairs as a set. `None` if a pair is no longer in the window.
     pub(super) fn touching(&self, names: &[PairName]) -> Option<Touching> {
         names.iter().try_fold(Touching::NONE, |set, &name| {
             Some(set.with(self.index_of(name)?))
@@ -324,12 +324,12 @@ impl Window {
         pairs.map(Standing::name).collect()
     }
 
-    /// The place of the incoming pair in the window, where it is there.
+    /// The index of the incoming pair in the window.
     pub(super) fn incoming(&self) -> Option<usize> {
         self.index_of(PairName::working(0))
     }
 
-    /// Those of the touching pairs that are of the working flanks.
+    /// The touching pairs of the working flanks.
     pub(super) fn working(&self, touching: Touching) -> Touching {
         touching.before(self.working)
     }

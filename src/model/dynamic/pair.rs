@@ -1,25 +1,25 @@
-//! A pair of teeth in the motion: its flanks, its name and where it stands.
+//! A pair of flanks in the motion: its side, its name and its place.
 
 /// A side of the teeth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Flank {
     /// The flanks that transmit the torque.
     Working,
-    /// The flanks that meet where the driver falls behind by the backlash.
+    /// The flanks that touch if the driver falls behind by the backlash.
     Back,
 }
 
-/// A pair of flanks and where it is.
+/// Side and number of a pair of flanks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PairName {
     pub(super) flank: Flank,
-    /// How many base pitches it is ahead of the incoming pair, or of the back pair that is next
-    /// to B' in the mirror.
+    /// Number of base pitches ahead of the incoming pair, or of the back pair next to B' in the
+    /// mirror.
     pub(super) ahead: i32,
 }
 
 impl PairName {
-    /// The pair of working flanks that many base pitches ahead of the incoming one.
+    /// The pair of working flanks `ahead` base pitches ahead of the incoming pair.
     pub(super) fn working(ahead: i32) -> PairName {
         PairName {
             flank: Flank::Working,
@@ -27,7 +27,7 @@ impl PairName {
         }
     }
 
-    /// The pair that many base pitches further ahead.
+    /// The pair `pitches` base pitches farther ahead.
     pub(super) fn moved(self, pitches: i32) -> PairName {
         PairName {
             ahead: self.ahead + pitches,
@@ -40,11 +40,11 @@ impl PairName {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Standing {
     pub(super) flank: Flank,
-    /// How many base pitches it is ahead of the incoming one.
+    /// Number of base pitches ahead of the incoming pair.
     pub(super) ahead: i32,
-    /// The zone of the mesh in which it stands.
+    /// The zone of the mesh.
     pub(super) zone: usize,
-    /// Which way the driven flank slides on the driver's.
+    /// Sign of the sliding velocity of the driven flank on the driver's.
     pub(super) direction: f64,
 }
 

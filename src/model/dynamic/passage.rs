@@ -13,14 +13,14 @@ pub(super) struct Record {
 /// The steps of a window in which the incoming pair may touch.
 pub(super) struct Passage {
     pub(super) window: Window,
-    /// The incoming pair's place in the window.
+    /// The incoming pair's index in the window.
     pub(super) incoming: usize,
     pub(super) records: Vec<Record>,
 }
 
 impl Passage {
-    /// Keeps a step. The list grows by a quarter, so that its old and its new room together stay
-    /// below 2.25 times the budget. Returns the bytes by which it grew.
+    /// Stores a step. The list grows by a quarter, so that the old and the new list together use
+    /// less than 2.25 times the budget. Returns the growth in bytes.
     pub(super) fn keep(&mut self, record: Record) -> usize {
         const LEAST: usize = 16;
         let room = self.records.capacity();

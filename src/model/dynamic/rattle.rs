@@ -1,28 +1,28 @@
-//! The strikes of the back flanks.
+//! Strikes of the back flanks.
 
 use super::step::{Course, Step};
 use crate::numeric::bernstein::extremes;
 
-/// What the back flanks carry where the driver falls behind by the backlash.
+/// Strikes and force of the back flanks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rattle {
-    /// How often back flanks touch while none did before.
+    /// Number of times that back flanks touch after none touched.
     pub strikes: u32,
     /// Greatest force of a pair of back flanks, in N.
     pub force: f64,
 }
 
-/// The back flanks on the way.
+/// Observes the back flanks during a run.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RattleWatch {
     found: Rattle,
     touches: bool,
-    /// What was found when the incoming pair last left.
+    /// The results when the incoming pair last lost contact.
     at_leave: Option<Rattle>,
 }
 
 impl RattleWatch {
-    /// One that begins where back flanks touch or not.
+    /// An observer for a run that begins with or without touching back flanks.
     pub(super) fn from(touches: bool) -> RattleWatch {
         RattleWatch {
             touches,
@@ -30,7 +30,7 @@ impl RattleWatch {
         }
     }
 
-    /// A step, which counts or only leads to those that do.
+    /// Observes a step. `counts` is false for steps of the warm-up.
     pub(super) fn see(&mut self, course: &Course<'_>, step: &Step, counts: bool) {
         let touches = course.back_pairs().next().is_some();
         if counts {
@@ -43,7 +43,7 @@ impl RattleWatch {
         self.touches = touches;
     }
 
-    /// The incoming pair leaves: later steps count only if it touches and leaves again.
+    /// The incoming pair loses contact. Later steps count only if the pair touches again.
     pub(super) fn leave(&mut self) {
         self.at_leave = Some(self.found);
     }

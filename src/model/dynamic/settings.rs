@@ -1,22 +1,22 @@
-//! How a motion is computed.
+//! Settings of a motion.
 
 use crate::model::inputs::Inputs;
 use crate::model::spacing::Spacing;
 
-/// What a run is asked for.
+/// Settings of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Mass at the line of action m_e, in kg.
     pub mass: f64,
     /// Damping ratio ζ.
     pub damping_ratio: f64,
-    /// Base pitches before E at which the run starts.
+    /// Number of base pitches before E at which the run starts.
     pub warmup_cycles: u32,
-    /// Normal backlash j_bn, in m; without it the back flanks are far away.
+    /// Normal backlash j_bn, in m. With `None` the back flanks never touch.
     pub backlash: Option<f64>,
-    /// Relative error that the peak force may have.
+    /// Permitted relative error of the peak force.
     pub tolerance: f64,
-    /// Stations between the first contact and E, and again from there to the last.
+    /// Stations between the first contact and E, and between E and the last contact.
     pub spacing: Spacing,
 }
 
@@ -30,7 +30,7 @@ pub struct MotionInputs {
 }
 
 impl MotionInputs {
-    /// Selects those of the method `dynamic` from the inputs of a solve.
+    /// Selects the inputs of the method `dynamic` from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> MotionInputs {
         MotionInputs {
@@ -39,7 +39,7 @@ impl MotionInputs {
         }
     }
 
-    /// Selects those of the steady motion, which has neither warm-up nor stations.
+    /// Selects the inputs of the steady motion, which has neither warm-up nor stations.
     #[must_use]
     pub fn steady(inputs: &Inputs) -> MotionInputs {
         MotionInputs {
@@ -48,7 +48,7 @@ impl MotionInputs {
         }
     }
 
-    /// Selects those of the approach, which has no stations.
+    /// Selects the inputs of the approach, which has no stations.
     #[must_use]
     pub fn approach(inputs: &Inputs) -> MotionInputs {
         MotionInputs {
@@ -68,7 +68,7 @@ impl MotionInputs {
 }
 
 impl Settings {
-    /// Those of a case, with the mass at the line of action, in kg.
+    /// The settings of a case, with the mass at the line of action, in kg.
     #[must_use]
     pub fn of(inputs: &Inputs, mass: f64) -> Settings {
         Settings {
@@ -81,7 +81,7 @@ impl Settings {
         }
     }
 
-    /// The same without warm-up and stations.
+    /// The settings without warm-up and stations.
     fn without_warmup(self) -> Settings {
         Settings {
             warmup_cycles: 0,
@@ -89,7 +89,7 @@ impl Settings {
         }
     }
 
-    /// The same with a single interval of stations.
+    /// The settings with a single interval of stations.
     fn without_stations(self) -> Settings {
         Settings {
             spacing: Spacing::Even(1),

@@ -1,5 +1,5 @@
-//! The pairs of one side of the teeth over a step: those of the working flanks, or those of the
-//! back flanks across the backlash.
+//! The pairs of one side of the teeth over a step: the working flanks, or the back flanks across
+//! the backlash.
 
 #[cfg(test)]
 mod tests;
@@ -13,25 +13,25 @@ use crate::model::pair_forces::Touching;
 use crate::numeric::chebyshev;
 use crate::numeric::polynomial::Polynomial;
 
-/// The pairs of a side, and what acts on them while the same ones touch.
+/// The pairs of a side, with stiffness and load for a set of touching pairs.
 #[derive(Clone)]
 pub(super) struct Side<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) pairs: &'a [Standing],
-    /// The pairs of this side that touch.
+    /// The touching pairs of this side.
     pub(super) touching: Touching,
-    /// How coupled pairs share a displacement; none if each is a spring of its own.
+    /// Load sharing of coupled pairs. `None` if each pair is an independent spring.
     pub(super) shares: Option<Arc<Shares>>,
-    /// The place of a pair that is no pitch ahead, less that of the incoming pair, in m.
+    /// Place of the pair with the number 0 minus that of the incoming pair, in m.
     pub(super) offset: f64,
-    /// By how much the driver falls behind until the flanks meet, in m.
+    /// Distance that the driver falls behind until the flanks touch, in m.
     pub(super) backlash: f64,
-    /// 1 where the pairs carry as the driver gets ahead, −1 where they do as it falls behind.
+    /// 1 if the pairs carry when the driver gets ahead, −1 if they carry when it falls behind.
     pub(super) sign: f64,
 }
 
 impl Side<'_> {
-    /// Until which place of the incoming pair what is known from `s` on is one polynomial each.
+    /// The place of the incoming pair up to which every function is one polynomial, from `s` on.
     pub(super) fn serves_until(&self, s: f64) -> f64 {
         let own = s + self.offset;
         let pairs = self
@@ -44,14 +44,14 @@ impl Side<'_> {
         });
         let end = pairs.chain(shares).fold(f64::INFINITY, f64::min) - self.offset;
         if self.offset > 0.0 {
-            // The difference of two places may round a short piece to nothing.
+            // Rounding of the two places can make the length of a short piece 0.
             end.max(s + 64.0 * f64::EPSILON * (s.abs() + self.offset))
         } else {
             end
         }
     }
 
-    /// Adds the stiffness and the load of the pairs that touch, and shows every pair's lead.
+    /// Adds stiffness and load of the touching pairs, and the leads of all pairs.
     pub(super) fn add(
         &self,
         (s, way): (f64, f64),
@@ -93,7 +93,7 @@ impl Side<'_> {
         }
     }
 
-    /// The lead of a pair that is a spring of its own.
+    /// The lead of a pair that is an independent spring.
     fn lead_of_gap(&self, gap: Along) -> Lead {
         if self.sign > 0.0 {
             return Lead::Gap(gap);
@@ -106,7 +106,7 @@ impl Side<'_> {
         }
     }
 
-    /// Stiffness in N/m, and by how much the driver must be displaced until the pair touches, in m.
+    /// Stiffness in N/m, and displacement of the driver at which the pair touches, in m.
     fn spring_along(&self, pair: &Standing, s: f64, way: f64) -> [Along; 2] {
         let own = s + self.offset;
         let [spring, mut gap] = self.mesh.spring_along(pair.ahead, pair.zone, own, way);
@@ -114,7 +114,7 @@ impl Side<'_> {
         [spring, gap]
     }
 
-    /// By how much the driver must be displaced until a pair touches, in m.
+    /// Displacement of the driver at which a pair touches, in m.
     pub(super) fn gap_along(&self, pair: &Standing, s: f64, way: f64) -> Along {
         let own = s + self.offset;
         let mut gap = self.mesh.gap_along(pair.ahead, pair.zone, own, way);
@@ -127,8 +127,8 @@ impl Side<'_> {
         pairs.map(|pair| self.gap_along(pair, s, way)).collect()
     }
 
-    /// Slope and offset over the displacement ahead: of the force of a touching pair, or of the
-    /// overlap of one apart, by its row of the shares.
+    /// Slope and offset over the displacement, by a row of the shares: for the force of a touching
+    /// pair, or for the overlap of another pair.
     fn share(&self, pair: usize, row: Option<&[Along]>, gaps: &[Along]) -> (Along, Product) {
         let (mut slope, mut offset) = (Along::ZERO, Product::ZERO);
         let touching = self.shares.iter().flat_map(|shares| &shares.touching);
@@ -146,7 +146,7 @@ impl Side<'_> {
         (slope.scaled(self.sign), offset)
     }
 
-    /// The part of a pair's force, or of its stiffness, that turns the driver.
+    /// The part of a pair's force or stiffness that turns the driver.
     pub(super) fn turning<const N: usize>(
         &self,
         pair: &Standing,
@@ -167,7 +167,7 @@ impl Side<'_> {
         )
     }
 
-    /// What a pair keeps over a step until it turns.
+    /// The lead of a pair over a step.
     pub(super) fn lead_along(&self, pair: usize, s: f64, way: f64) -> Lead {
         let Some(shares) = &self.shares else {
             return self.lead_of_gap(self.gap_along(&self.pairs[pair], s, way));
@@ -179,7 +179,7 @@ impl Side<'_> {
         Lead::Shared { slope, offset }
     }
 
-    /// Force of a pair over a step in which it touches, in N.
+    /// Force of a touching pair over a step, in N.
     pub(super) fn force_along(
         &self,
         pair: usize,
@@ -194,7 +194,7 @@ impl Side<'_> {
         displaced.plus(-1.0, &gap).times(&stiffness)
     }
 
-    /// Power of friction at a pair over such a step, over the coefficient, in W.
+    /// Friction power of a touching pair over a step, divided by the friction coefficient, in W.
     pub(super) fn rubbing_along(
         &self,
         pair: usize,
@@ -212,17 +212,17 @@ impl Side<'_> {
         direction * power.integral()
     }
 
-    /// By how much the driver must be displaced until a pair touches, in m.
+    /// Displacement of the driver at which a pair touches, in m.
     pub(super) fn gap(&self, pair: usize, s: f64) -> f64 {
         self.spring(pair, s).1
     }
 
-    /// By how much a displacement ahead is beyond a pair's gap, in m.
+    /// Difference of the displacement and the gap of a pair, in m.
     pub(super) fn overlap(&self, pair: usize, s: f64, ahead: f64) -> f64 {
         self.sign * ahead - self.gap(pair, s)
     }
 
-    /// Force of a pair that touches while the driver is so far ahead, in N.
+    /// Force of a touching pair for a displacement of the driver, in N.
     pub(super) fn force(&self, pair: usize, s: f64, ahead: f64) -> f64 {
         let Some(shares) = &self.shares else {
             let (stiffness, gap) = self.spring(pair, s);
@@ -236,7 +236,7 @@ impl Side<'_> {
             .sum()
     }
 
-    /// Forces of all pairs that touch, in N.
+    /// Sum of the forces of all touching pairs, in N.
     pub(super) fn total(&self, s: f64, ahead: f64) -> f64 {
         let touching = (0..self.pairs.len()).filter(|&pair| self.touching.has(pair));
         touching.map(|pair| self.force(pair, s, ahead)).sum()
@@ -248,7 +248,7 @@ impl Side<'_> {
         (stiffness, gap + self.backlash)
     }
 
-    /// How many base pitches ahead the rearmost pair is.
+    /// Number of base pitches that the rearmost pair is ahead.
     pub(super) fn rearmost(&self) -> i32 {
         self.pairs.first().map_or(0, |pair| pair.ahead)
     }

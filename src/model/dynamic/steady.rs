@@ -1,5 +1,4 @@
-//! The motion that every base pitch repeats where all pairs are alike: the steady state that
-//! whines.
+//! The steady motion of equal pairs, which repeats with every base pitch and causes whine.
 
 use super::laps::Laps;
 use super::lead::FORCE_TERMS;
@@ -17,14 +16,13 @@ use crate::model::pair_forces::Touching;
 use crate::numeric::bernstein::extremes;
 use crate::numeric::polynomial::Polynomial;
 
-/// Base pitches after which the motion may repeat itself: contact that is lost and found may double
-/// the period.
+/// Greatest number of base pitches in a period. Loss of contact can double the period.
 const PERIODS: usize = 4;
 
-/// Base pitches after which a motion that does not repeat itself counts as chaotic.
+/// Number of base pitches after which a motion without repetition counts as chaotic.
 const MOST_LAPS: u32 = 4000;
 
-/// The greatest relative error of the motion's steps here.
+/// Greatest relative error of the steps of a steady motion.
 const TOLERANCE: f64 = 1e-6;
 
 /// The steady motion of a pair without deviations.
@@ -36,17 +34,17 @@ pub struct Steady {
     pub mesh_force: f64,
     /// Greatest force of a tooth, in N.
     pub tooth_force: f64,
-    /// Whether no pair touches at some moment.
+    /// Whether at any time no pair touches.
     pub contact_lost: bool,
-    /// What the back flanks carry over the period; where the case gives a backlash.
+    /// Load of the back flanks over the period. `None` if the case gives no backlash.
     pub rattle: Option<Rattle>,
-    /// Base pitches after which the motion repeats itself.
+    /// Number of base pitches in a period.
     pub periods: u32,
-    /// Base pitches until it did.
+    /// Number of base pitches before the repetition.
     pub laps: u32,
-    /// What it took, in units of the [budget](crate::model::budget).
+    /// Work in units of the [budget](crate::model::budget).
     pub work: u64,
-    /// Where it begins a base pitch.
+    /// State at the beginning of a base pitch.
     pub start: Start,
 }
 
@@ -65,23 +63,23 @@ impl Start {
     }
 }
 
-/// The motion of a mesh in which no pair deviates, once it repeats itself; from rest, or from the
+/// The periodic motion of a mesh without base pitch deviations, from static balance or from the
 /// steady motion at another speed.
 ///
 /// # Formula
 /// ```text
 /// me x'' + c x' + Σ w_k F_k(x, s) = F0,   e_k = 0,   x(t + p T_z) = x(t),   p from 1 to 4
 /// ```
-/// followed base pitch by base pitch until displacement, rate and touching pairs are those of p
-/// base pitches before.
+/// The motion is computed for one base pitch after the other until displacement, rate and touching
+/// pairs equal those of p base pitches before.
 ///
 /// # Source
 /// The oscillator of [`dynamic`](super::dynamic); period doubling: Kahraman & Singh 1990.
 ///
 /// # Errors
-/// [`Refusal::NoSteadyMotion`] where it never repeats itself, [`Refusal::MotionTooLong`] where the
-/// steps exceed the budget of the meter, [`Refusal::BeyondReach`] where the gears move apart
-/// further than the mesh is known, [`Refusal::Stopped`] where `go_on` says no.
+/// [`Refusal::NoSteadyMotion`] if the motion does not repeat, [`Refusal::MotionTooLong`] if the
+/// steps exceed the budget of the meter, [`Refusal::BeyondReach`] if the gears separate beyond the
+/// computed range of the mesh, [`Refusal::Stopped`] if `go_on` returns false.
 pub fn steady(
     mesh: &Mesh,
     settings: &Settings,
@@ -95,7 +93,7 @@ pub fn steady(
     })
 }
 
-/// The same; none where the driver reaches back flanks that are not followed.
+/// Like [`steady`]. `None` if the driver reaches back flanks that the motion does not include.
 fn repeated(
     motion: &Motion<'_>,
     settings: &Settings,
@@ -132,12 +130,13 @@ fn repeated(
     Err(Refusal::NoSteadyMotion { pitches: MOST_LAPS })
 }
 
-/// After how many base pitches the motion repeats itself, if it does; the last start first.
+/// The number of base pitches in a period. `None` without repetition. `before` begins with the last
+/// start.
 fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32> {
-    /// Over the state's scale.
+    /// Relative to the scale of the state.
     const NONE: f64 = 1e-9;
-    /// A motion that repeats itself after several base pitches so nearly repeats itself after
-    /// fewer.
+    /// With a repetition after several base pitches, a nearly equal state after fewer counts as the
+    /// period.
     const NEARLY: f64 = 1e-6;
     let scale = motion.scale();
     let moved = |then: &Start| {
@@ -154,7 +153,7 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
     Some(first as u32 + 1)
 }
 
-/// A run round and round over one base pitch.
+/// A run that repeats one base pitch.
 struct Round<'a> {
     motion: &'a Motion<'a>,
     windows: Vec<Window>,
@@ -213,7 +212,7 @@ impl<'a> Round<'a> {
         }
     }
 
-    /// Follows one base pitch and shows every step.
+    /// Runs one base pitch and shows every step.
     fn lap(&mut self, mut show: impl FnMut(&Window, Touching, &Step)) -> Result<(), Refusal> {
         let run = &mut self.run;
         for window in &self.windows {
@@ -240,7 +239,7 @@ impl<'a> Round<'a> {
         Ok(())
     }
 
-    /// Follows the periods once more and reads off what they show.
+    /// Runs the periods once more and measures the results.
     fn measured(mut self, periods: u32, laps: u32) -> Result<Steady, Refusal> {
         let start = self.start();
         let mut seen = Seen::new(self.motion, RattleWatch::from(start.is_at_back()));
@@ -264,7 +263,7 @@ impl<'a> Round<'a> {
     }
 }
 
-/// The balance at rest at the beginning of a base pitch.
+/// The static balance at the beginning of a base pitch.
 fn at_rest(mesh: &Mesh, borders: &[f64]) -> Result<Start, Refusal> {
     let inside = 0.5 * borders.get(1).copied().unwrap_or(mesh.base_pitch);
     let pairs = mesh.pair_set(0.0, inside);
@@ -282,12 +281,12 @@ fn at_rest(mesh: &Mesh, borders: &[f64]) -> Result<Start, Refusal> {
     })
 }
 
-/// What the steps of a period show.
+/// The results from the steps of a period.
 struct Seen<'a> {
     motion: &'a Motion<'a>,
     period: f64,
     fourier: Fourier,
-    /// How far the driver is ahead and behind, in m.
+    /// Greatest distances of the driver ahead and behind, in m.
     ahead: f64,
     behind: f64,
     mesh_force: f64,

@@ -1,4 +1,4 @@
-//! Steps of the motion while the same pairs touch, by the power series of the displacement.
+//! Steps of the motion with the same touching pairs, by the power series of the displacement.
 
 use std::rc::Rc;
 
@@ -12,54 +12,54 @@ use crate::numeric::bernstein::Bernstein;
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::taylor::{Oscillator, convergent_part};
 
-/// What acts while the same pairs stay in contact.
+/// Stiffness and load for a set of touching pairs.
 #[derive(Clone)]
 pub(super) struct Course<'a> {
     pub(super) motion: &'a Motion<'a>,
     pub(super) window: &'a Window,
     touching: Touching,
     working: Side<'a>,
-    /// None where no back flank is within reach.
+    /// `None` if no back flank is within reach.
     back: Option<Side<'a>>,
 }
 
-/// A step with what acts over it.
+/// A step with its stiffness and load.
 pub(super) struct Taken {
     pub(super) step: Step,
     pub(super) acting: Rc<Acting>,
-    /// Whether it ends where a pair passes on to another polynomial: a base pitch later a step ends
-    /// there again.
+    /// Whether the step ends where a pair passes to another polynomial. A step of the next base
+    /// pitch ends at the same place.
     pub(super) ends_even: bool,
 }
 
 /// A step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Step {
-    /// When it begins, in s.
+    /// Start time, in s.
     pub(super) t: f64,
-    /// How long it takes, in s.
+    /// Duration, in s.
     pub(super) length: f64,
-    /// Displacement of the driver ahead over the part of the step, in m.
+    /// Displacement of the driver as a function of the part of the step, in m.
     pub(super) ahead: Polynomial<TERMS>,
 }
 
 impl Step {
-    /// Displacement and rate after a part of it.
+    /// Displacement and rate after a part of the step.
     pub(super) fn state(&self, part: f64) -> State {
         State::new(self.ahead.at(part), self.ahead.slope(part) / self.length)
     }
 
-    /// Between what values the displacement stays, in m.
+    /// Bounds of the displacement, in m.
     pub(super) fn range(&self) -> (f64, f64) {
         Bernstein::of(&self.ahead).bounds()
     }
 
-    /// When it ends, in s.
+    /// End time, in s.
     pub(super) fn end(&self) -> f64 {
         self.t + self.length
     }
 
-    /// The first part of it, as a step.
+    /// The first part of the step, as a step.
     pub(super) fn cut(&self, part: f64) -> Step {
         Step {
             length: part * self.length,
@@ -84,7 +84,7 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// How many pairs may touch.
+    /// Number of pairs that may touch.
     pub(super) fn pairs(&self) -> usize {
         self.window.pairs.len()
     }
@@ -93,12 +93,12 @@ impl<'a> Course<'a> {
         self.touching.has(pair)
     }
 
-    /// The step from a state on, as long as its series converges, to `end` at most and on one
-    /// polynomial of every pair. The last terms of the series are `allowed` to be as large as that,
-    /// in m. A step that `begins_even` may be known from the last base pitch.
+    /// The step from a state on: as long as its series converges, at most to `end`, and on one
+    /// polynomial of every pair. The last terms of the series are at most `allowed`, in m. A step
+    /// that `begins_even` can use the cache of the last base pitch.
     ///
     /// # Errors
-    /// [`Refusal::Unsettled`] where the series has no numbers.
+    /// [`Refusal::Unsettled`] if the series is not finite.
     pub(super) fn step(
         &self,
         t: f64,
@@ -124,7 +124,7 @@ impl<'a> Course<'a> {
                 ends_even: length >= whole,
             });
         }
-        // Steps to an end are of one length, and the last of them is no splinter.
+        // Divides the rest into steps of equal length, so that the last step is not very short.
         let part = if length < whole {
             part
         } else {
@@ -148,14 +148,14 @@ impl<'a> Course<'a> {
         })
     }
 
-    /// Until when what is known of the pairs from a time on is one polynomial each.
+    /// The time up to which every function of the pairs is one polynomial.
     fn serves_until(&self, t: f64) -> f64 {
         let s = self.motion.place(t);
         let ends = self.sides().map(|side| side.serves_until(s));
         self.motion.time(ends.fold(f64::INFINITY, f64::min))
     }
 
-    /// What acts over a length of time, from the last base pitch if the motion has met it there.
+    /// Stiffness and load over a time interval, from the cache of the last base pitch if possible.
     fn known_acting(&self, t: f64, length: f64) -> Rc<Acting> {
         let mesh = self.motion.mesh;
         let stretch = Stretch {
@@ -171,7 +171,7 @@ impl<'a> Course<'a> {
         })
     }
 
-    /// What acts over a length of time.
+    /// Stiffness and load over a time interval.
     fn acting(&self, t: f64, length: f64) -> Acting {
         let mut acting = Acting {
             stiffness: Polynomial::ZERO,
@@ -187,7 +187,7 @@ impl<'a> Course<'a> {
         acting
     }
 
-    /// The equation of motion over a length of time, which is its unit.
+    /// The equation of motion over a time interval, scaled to the length 1.
     fn oscillator(&self, acting: &Acting, length: f64) -> Oscillator<TERMS> {
         let Motion { mass, damping, .. } = *self.motion;
         let damping = if self.touching.is_none() {
@@ -203,7 +203,7 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// The pairs of back flanks that touch.
+    /// The touching pairs of the back flanks.
     pub(super) fn back_pairs(&self) -> impl Iterator<Item = usize> {
         self.window.back(self.touching)
     }
@@ -212,7 +212,7 @@ impl<'a> Course<'a> {
         std::iter::once(&self.working).chain(&self.back)
     }
 
-    /// The side of a pair, and its index there.
+    /// The side of a pair, and the index of the pair on this side.
     pub(super) fn side_of(&self, pair: usize) -> (&Side<'a>, usize) {
         let working = self.working.pairs.len();
         match &self.back {
@@ -221,44 +221,44 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Where the incoming pair is at the beginning of a step, and how far it goes, in m.
+    /// Place of the incoming pair at the beginning of a step, and its path in the step, in m.
     pub(super) fn way_of(&self, step: &Step) -> (f64, f64) {
         let speed = self.motion.mesh.speed;
         (self.motion.place(step.t), speed * step.length)
     }
 
-    /// What a pair keeps over a step until it turns.
+    /// The lead of a pair over a step.
     pub(super) fn lead_along(&self, pair: usize, step: &Step) -> Lead {
         let (side, index) = self.side_of(pair);
         let (s, way) = self.way_of(step);
         side.lead_along(index, s, way)
     }
 
-    /// Force of a pair over a step in which it touches, in N.
+    /// Force of a touching pair over a step, in N.
     pub(super) fn force_along(&self, pair: usize, step: &Step) -> Polynomial<FORCE_TERMS> {
         let (side, index) = self.side_of(pair);
         side.force_along(index, &step.ahead, self.way_of(step))
     }
 
-    /// Power of friction at a pair over such a step, over the coefficient, in W.
+    /// Friction power of a touching pair over a step, divided by the friction coefficient, in W.
     pub(super) fn rubbing_along(&self, pair: usize, step: &Step) -> f64 {
         let (side, index) = self.side_of(pair);
         side.rubbing_along(index, &step.ahead, self.way_of(step))
     }
 
-    /// By how much the driver must be displaced until a pair touches, in m.
+    /// Displacement of the driver at which a pair touches, in m.
     pub(super) fn gap(&self, pair: usize, t: f64) -> f64 {
         let (side, index) = self.side_of(pair);
         side.gap(index, self.motion.place(t))
     }
 
-    /// Force of a pair that touches while the driver is so far ahead, in N.
+    /// Force of a touching pair for a displacement of the driver, in N.
     pub(super) fn force(&self, pair: usize, t: f64, ahead: f64) -> f64 {
         let (side, index) = self.side_of(pair);
         side.force(index, self.motion.place(t), ahead)
     }
 
-    /// Forces of all pairs of working flanks together, in N.
+    /// Sum of the forces of all working flanks, in N.
     pub(super) fn total(&self, t: f64, ahead: f64) -> f64 {
         self.working.total(self.motion.place(t), ahead)
     }

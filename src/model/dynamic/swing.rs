@@ -1,22 +1,22 @@
-//! How the incoming tooth's force rises and falls over the steps of a run.
+//! Rise and fall of the incoming tooth's force over the steps of a run.
 
 use super::lead::FORCE_TERMS;
 use super::step::Step;
 use crate::numeric::bernstein::sign_changes;
 use crate::numeric::polynomial::Polynomial;
 
-/// A step in which the incoming tooth carries.
+/// A step in which the incoming tooth carries load.
 pub(super) struct Swing {
-    /// When it begins and how long it takes, in s.
+    /// Start time and duration, in s.
     begin: f64,
     length: f64,
     force: Polynomial<FORCE_TERMS>,
-    /// The parts of the step after which the force turns.
+    /// Parts of the step at the turning points of the force.
     turns: Vec<f64>,
 }
 
-/// A stretch on which the force rises throughout or falls throughout: when its step begins and when
-/// it ends, in s, and by how much it rises, in N.
+/// A stretch with a monotonic force: start time of its step and end time, in s, and rise of the
+/// force, in N.
 pub(super) struct Phase {
     step: f64,
     end: f64,
@@ -24,7 +24,7 @@ pub(super) struct Phase {
 }
 
 impl Swing {
-    /// The swing of a force over a step, in N.
+    /// The rise and fall of a force over a step, in N.
     pub(super) fn of(step: &Step, force: &Polynomial<FORCE_TERMS>) -> Swing {
         Swing {
             begin: step.t,
@@ -34,7 +34,7 @@ impl Swing {
         }
     }
 
-    /// Whether it lies before E, where a step ends within rounding.
+    /// Whether the step is before E. A step ends at E within rounding.
     pub(super) fn is_before_start(&self) -> bool {
         self.begin + 0.5 * self.length < 0.0
     }
@@ -43,7 +43,7 @@ impl Swing {
         self.begin + part * self.length
     }
 
-    /// When the force neither grows nor falls, in s.
+    /// Times of the turning points of the force, in s.
     pub(super) fn turns(&self) -> impl Iterator<Item = f64> {
         self.turns.iter().map(|&part| self.time(part))
     }
@@ -69,7 +69,7 @@ impl Swing {
     }
 }
 
-/// When the force is least for the first time after its first peak, or the contact is lost; `peak`
+/// Time of the first minimum of the force after its first peak, or of the loss of contact. `peak`
 /// is the greatest force of all phases, in N.
 pub(super) fn end_of_first_impact(phases: &[Phase], peak: f64) -> Option<f64> {
     const ROUNDING: f64 = 1e-12;

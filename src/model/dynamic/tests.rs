@@ -1,4 +1,4 @@
-//! The motion against what is known of it: the linear oscillator, and the balance of energies.
+//! Tests of the motion against the linear oscillator and the balance of energy.
 
 use std::rc::Rc;
 
@@ -16,7 +16,7 @@ use crate::model::{Solution, Stage, Stages, solve};
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::quadrature;
 
-/// A pair that strikes, with its load at rest.
+/// A pair that strikes, with its static balance.
 pub(super) fn at_rest(adjust: impl FnOnce(&mut Inputs)) -> (Inputs, Solution) {
     let mut inputs = standard_pair(20, 30, 5e-3);
     inputs.base_pitch_deviation = 12e-6;
@@ -27,7 +27,7 @@ pub(super) fn at_rest(adjust: impl FnOnce(&mut Inputs)) -> (Inputs, Solution) {
     (inputs, solution)
 }
 
-/// A pair that strikes, its mesh, and how it is run.
+/// A pair that strikes, its mesh, and its settings.
 fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let (inputs, solution) = at_rest(adjust);
     let error = solution.deviation.equivalent_error;
@@ -42,7 +42,7 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     (mesh, settings(&inputs, solution.reduced_mass))
 }
 
-/// The same pair with teeth that displace their neighbours.
+/// The pair with coupled teeth.
 fn coupled(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let (inputs, solution) = at_rest(adjust);
     let flanks = Flanks::new(&inputs.elasticity(), &solution.geometry).unwrap();
@@ -85,7 +85,7 @@ pub(super) fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings, meter: &'a Me
 }
 
 #[test]
-fn a_step_takes_what_acts_from_the_step_a_base_pitch_before() {
+fn a_step_reuses_stiffness_and_load_of_the_base_pitch_before() {
     for (mesh, settings) in [struck(|_| ()), coupled(|_| ())] {
         let (motion, pitch) = (Motion::new(&mesh, &settings), mesh.base_pitch);
         let borders = mesh.borders(-4.0 * pitch, -3.0 * pitch);
@@ -106,11 +106,11 @@ fn a_step_takes_what_acts_from_the_step_a_base_pitch_before() {
     }
 }
 
-/// While one pair of a stiffness that hardly changes touches, the motion is the damped oscillator's
-/// closed form.
+/// With one touching pair of nearly constant stiffness, the motion is the closed form of the damped
+/// oscillator.
 #[test]
-fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
-    // A rack of a gear pair: so large that neither stiffness nor place change within a few swings.
+fn a_pair_of_constant_stiffness_follows_the_linear_oscillator() {
+    // The speed is so low that neither stiffness nor place change within a few oscillations.
     let (mesh, settings) = struck(|inputs| inputs.speed = 1e-9);
     let motion = Motion::new(&mesh, &settings);
     let middle = 0.5 * mesh.length;
@@ -137,8 +137,8 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     let damped = (frequency * frequency - decay * decay).sqrt();
     let (mut y, mut time) = (State::new(balance.displacement + swing, 0.0), 0.0);
     let allowed = 1e-13 * balance.displacement;
-    // The time itself is so large that its last digit would be felt; the equation sees only that
-    // the gears stand still.
+    // At large times the last digit of the time has an effect. In the equation the gears stand
+    // still.
     for number in 1..=20 {
         let taken = course.step(start, &y, start + 1.0, (allowed, true));
         let step = taken.ok().unwrap().step;
@@ -158,7 +158,8 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     }
 }
 
-/// Work of the mean force and of the moving mesh goes into motion, springs, damper and friction.
+/// The work of the mean force and of the moving mesh equals the energy of motion, springs, damper
+/// and friction.
 #[test]
 fn energies_balance_to_the_tolerance() {
     for (damping_ratio, torque, friction) in [
@@ -189,8 +190,8 @@ fn energies_balance_to_the_tolerance() {
     }
 }
 
-/// The coupled equation once more, with the forces by the linear complementarity problem at every
-/// place: Runge-Kutta steps of fixed length that know no events.
+/// The coupled equation in Runge-Kutta steps of fixed length without events, with the forces of the
+/// linear complementarity problem at every place.
 fn plain_peak(mesh: &Mesh, settings: &Settings, steps: u32) -> f64 {
     let damping = 2.0 * settings.damping_ratio * (mesh.mean_stiffness * settings.mass).sqrt();
     let forces = |t: f64, x: f64| {
@@ -225,7 +226,7 @@ fn plain_peak(mesh: &Mesh, settings: &Settings, steps: u32) -> f64 {
 }
 
 #[test]
-fn plain_steps_with_coupled_pairs_come_to_the_same_peak() {
+fn plain_steps_with_coupled_pairs_give_the_same_peak() {
     for (friction, deviation) in [(0.0, 12e-6), (0.0, 40e-6)] {
         let (mesh, settings) = coupled(|inputs| {
             inputs.friction_coefficient = Some(friction);
@@ -245,7 +246,7 @@ fn plain_steps_with_coupled_pairs_come_to_the_same_peak() {
     }
 }
 
-/// Slowly turning gears carry what coupled pairs share at rest.
+/// At low speed the forces are those of the static balance of coupled pairs.
 #[test]
 fn slow_coupled_gears_carry_the_static_load() {
     let (mesh, settings) = coupled(|inputs| {
@@ -270,7 +271,7 @@ fn slow_coupled_gears_carry_the_static_load() {
     );
 }
 
-/// A motion ends with the work that it is given, and the refusal has its steps and its part.
+/// A motion stops at its limit of work. The refusal has the number of steps and the computed part.
 #[test]
 fn a_motion_that_exceeds_its_work_is_refused_with_what_is_done() {
     let (mesh, settings) = struck(|_| ());
@@ -286,8 +287,7 @@ fn a_motion_that_exceeds_its_work_is_refused_with_what_is_done() {
 }
 
 impl Watch {
-    /// What the energies leave unexplained over all kept steps, and how much energy was turned
-    /// over, in J.
+    /// The unexplained energy over all stored steps, and the converted energy, in J.
     pub(super) fn energies(&self, motion: &Motion<'_>, mesh: &Mesh) -> (f64, f64) {
         let (mut unexplained, mut turned_over) = (0.0, 0.0);
         self.each_step(motion, |course, step| {
@@ -301,7 +301,7 @@ impl Watch {
     }
 }
 
-/// ∫ of `f` from 0 to 1, on halves of halves.
+/// ∫ of `f` from 0 to 1, with repeated halving.
 fn over_halves(times: u32, f: &dyn Fn(f64) -> f64) -> f64 {
     if times == 0 {
         return quadrature::unit_interval(f);
@@ -311,7 +311,7 @@ fn over_halves(times: u32, f: &dyn Fn(f64) -> f64) -> f64 {
 }
 
 impl Course<'_> {
-    /// Energy of the motion and of the springs that touch, in J.
+    /// Energy of the motion and of the loaded springs, in J.
     fn stored(&self, motion: &Motion<'_>, step: &Step, part: f64) -> f64 {
         let (t, y) = (step.t + part * step.length, step.state(part));
         let springs = (0..self.pairs()).filter(|&pair| self.touches(pair));
@@ -323,8 +323,7 @@ impl Course<'_> {
         0.5 * motion.mass * y[1] * y[1] + springs.map(spring).sum::<f64>()
     }
 
-    /// Power that the mean force, the moving mesh and friction put in, less what the damper takes,
-    /// in W.
+    /// Power from the mean force, the moving mesh and friction minus the damping power, in W.
     fn power(&self, motion: &Motion<'_>, mesh: &Mesh, step: &Step, part: f64) -> f64 {
         let rate = step.state(part)[1];
         let touching = (0..self.pairs()).filter(|&pair| self.touches(pair));
@@ -345,7 +344,7 @@ impl Course<'_> {
         mesh.force * rate - damped + moved + rubbed
     }
 
-    /// What friction at a pair adds to the force that drives, in N.
+    /// Contribution of friction at a pair to the driving force, in N.
     fn friction(&self, pair: usize, step: &Step, part: f64) -> f64 {
         let (side, index) = self.side_of(pair);
         let (s, way) = self.way_of(step);
@@ -353,10 +352,11 @@ impl Course<'_> {
         side.sign * (1.0 - turning.at(part)) * self.force_along(pair, step).at(part)
     }
 
-    /// Power that the moving mesh puts in at a pair: its gap closes on a spring that is pressed,
-    /// and its stiffness changes, in W.
+    /// Power from the moving mesh at a pair, in W: its gap closes on a loaded spring, and its
+    /// stiffness changes.
     fn mesh_power(&self, pair: usize, step: &Step, part: f64) -> f64 {
-        // d(k p²/2)/dt at rest is k p p' + k' p²/2, and the rate of the force is k p' + k' p.
+        // At a fixed displacement d(k p²/2)/dt is k p p' + k' p²/2, and the rate of the force is k
+        // p' + k' p.
         let still = Step {
             ahead: Polynomial::ZERO.plus(step.ahead.at(part), &Polynomial([1.0])),
             ..*step
@@ -371,7 +371,7 @@ impl Course<'_> {
 }
 
 #[test]
-fn no_peak_falls_between_two_stations() {
+fn the_stations_include_every_peak() {
     for stations in [Some(8), Some(64), None] {
         let inputs = Inputs {
             stations,

@@ -1,4 +1,4 @@
-//! What is read off a run: the incoming tooth's contacts, peaks and stations.
+//! Results of a run: the incoming tooth's contacts, peaks and stations.
 
 use std::cell::Cell;
 
@@ -14,17 +14,17 @@ use crate::model::pair_forces::Touching;
 use crate::model::spacing::{Resolution, Spacing};
 use crate::model::stations::MeshStation;
 
-/// Times the contents of a list, its room at most while it grows: twice the contents in the new
-/// place and once in the old.
+/// Memory of a growing list, relative to its contents: twice the contents in the new place and once
+/// in the old.
 const GROWTH: usize = 3;
 
 /// Records of a run.
 #[derive(Default)]
 pub(super) struct Watch {
     passages: Vec<Passage>,
-    /// Whether the steps now belong to the last of them.
+    /// Whether the current steps belong to the last passage.
     is_passing: bool,
-    /// Whether steps are not kept.
+    /// Whether steps are not stored.
     forgets: bool,
     bytes: usize,
     touches: Vec<f64>,
@@ -32,23 +32,23 @@ pub(super) struct Watch {
     most_ahead: f64,
     contact_lost: bool,
     rattle: RattleWatch,
-    /// Places at which the series were looked at.
+    /// Number of evaluations of series.
     looks: Cell<u64>,
 }
 
-/// How the incoming tooth's force rose and fell in a run.
+/// Rise and fall of the incoming tooth's force in a run.
 struct Swings {
-    /// Its greatest force, in N.
+    /// Greatest force, in N.
     peak: f64,
-    /// Its greatest force before E, in N.
+    /// Greatest force before E, in N.
     peak_before_start: f64,
-    /// When it neither grew nor fell, in s.
+    /// Times of the turning points, in s.
     turns: Vec<f64>,
     phases: Vec<Phase>,
 }
 
 impl Watch {
-    /// One that keeps no steps and sees only whether contact is lost.
+    /// An observer that stores no steps and detects only loss of contact.
     pub(super) fn of_contact_alone() -> Watch {
         Watch {
             forgets: true,
@@ -56,7 +56,7 @@ impl Watch {
         }
     }
 
-    /// From now on the steps belong to this window.
+    /// The following steps belong to this window.
     pub(super) fn enter(&mut self, window: &Window) {
         self.is_passing = !self.forgets && window.incoming().is_some();
         if let Some(incoming) = window.incoming().filter(|_| self.is_passing) {
@@ -70,7 +70,7 @@ impl Watch {
         }
     }
 
-    /// Keep a step, in which the driver is never more than `most` ahead.
+    /// Stores a step. `most` is the greatest displacement of the driver in this step.
     pub(super) fn keep(&mut self, course: &Course<'_>, touching: Touching, step: Step, most: f64) {
         let motion = course.motion;
         self.most_ahead = self.most_ahead.max(most);
@@ -82,17 +82,17 @@ impl Watch {
         }
     }
 
-    /// Room of the kept steps, in bytes, with the room that lists take beyond their contents.
+    /// Memory of the stored steps, in bytes, with the capacity of the lists.
     pub(super) fn bytes(&self) -> usize {
         self.bytes
     }
 
-    /// Whether no pair at all touched at some moment since one base pitch before E.
+    /// Whether at any time since one base pitch before E no pair touched.
     pub(super) fn contact_lost(&self) -> bool {
         self.contact_lost
     }
 
-    /// The incoming pair touches or leaves.
+    /// The incoming pair gains or loses contact.
     pub(super) fn turn(&mut self, t: f64, touches: bool) {
         self.bytes += GROWTH * size_of::<f64>();
         if touches {
@@ -103,8 +103,8 @@ impl Watch {
         }
     }
 
-    /// Whether the incoming pair has left for good: past B, apart, and further apart than the
-    /// driver ever was ahead.
+    /// Whether the incoming pair has finally left: after B, without contact, and with a gap greater
+    /// than the driver's greatest lead.
     pub(super) fn is_over(&self, motion: &Motion<'_>) -> bool {
         let last = |passage| Some((passage, Passage::records(passage).last()?));
         let Some((passage, record)) = self.passages.iter().rev().find_map(last) else {
@@ -117,7 +117,7 @@ impl Watch {
             && gap - record.step.state(1.0)[0] > 2.0 * self.most_ahead
     }
 
-    /// What the incoming tooth carried.
+    /// The results for the incoming tooth.
     pub(super) fn finish(
         &self,
         motion: &Motion<'_>,
@@ -162,7 +162,7 @@ impl Watch {
         })
     }
 
-    /// Every kept step with its passage, in order.
+    /// Every stored step with its passage, in order.
     fn records(&self) -> impl Iterator<Item = (&Passage, &Record)> + Clone {
         let of = |passage| {
             Passage::records(passage)
@@ -172,7 +172,7 @@ impl Watch {
         self.passages.iter().flat_map(of)
     }
 
-    /// Show every kept step, with what acts in it.
+    /// Shows every stored step with its stiffness and load.
     #[cfg(test)]
     pub(super) fn each_step(&self, motion: &Motion<'_>, mut show: impl FnMut(&Course<'_>, &Step)) {
         for (passage, record) in self.records() {
@@ -180,8 +180,8 @@ impl Watch {
         }
     }
 
-    /// The steps in which the incoming tooth carries, with what acts in them and its place in the
-    /// window.
+    /// The steps with load on the incoming tooth, with stiffness, load and the index of the pair in
+    /// the window.
     fn carried<'a>(
         &'a self,
         motion: &'a Motion<'a>,
@@ -194,8 +194,8 @@ impl Watch {
             })
     }
 
-    /// The most by which the driver is further ahead before E than the gap of an incoming tooth
-    /// that does not touch is wide, in m.
+    /// Greatest difference of the driver's lead and the gap of the incoming tooth before E, in m,
+    /// for a tooth without contact.
     fn lead(&self, motion: &Motion<'_>) -> f64 {
         let before = self.records().filter(|(passage, record)| {
             record.step.t < 0.0 && !record.touching.has(passage.incoming)
@@ -238,9 +238,9 @@ impl Watch {
         motion.mesh.friction() * rubbed.sum::<f64>()
     }
 
-    /// Stations from the first contact to E and from there to the last; where their number is
-    /// given, one wherever the force turns as well, so that none of its peaks falls between two of
-    /// them.
+    /// Stations from the first contact to E and from E to the last contact. If their number is
+    /// given, adds a station at every turning point of the force, so that the stations include
+    /// every peak.
     fn stations(
         &self,
         motion: &Motion<'_>,
@@ -258,7 +258,7 @@ impl Watch {
             };
             let (times, resolution) = spacing.stations(&ends, peak, CURVE_WORK, |t| {
                 self.looks.set(self.looks.get() + 1);
-                // Heights decide where their number is not given.
+                // Without a given number, the heights decide.
                 let moment = (!is_given).then(|| self.moment(motion, t)).flatten();
                 (moment.map_or(f64::NAN, |moment| moment.force(t)), t)
             });
@@ -280,8 +280,8 @@ impl Watch {
         (stations, resolution)
     }
 
-    /// The times between which the force is smooth, turns nowhere, and no swing has room to hide
-    /// in.
+    /// Times between which the force is smooth, has no turning point, and has no hidden
+    /// oscillation.
     fn ends(&self, motion: &Motion<'_>, turns: &[f64], (from, to): (f64, f64)) -> Vec<f64> {
         let bends = self
             .records()
@@ -306,8 +306,8 @@ impl Watch {
         knots.windows(2).flat_map(between).chain([to]).collect()
     }
 
-    /// The stations and those where the force neither grows nor falls, but for what stands beside
-    /// one of them anyhow.
+    /// The stations and the turning points of the force. Omits turning points very close to a
+    /// station.
     fn with_turns(
         &self,
         motion: &Motion<'_>,
@@ -353,7 +353,7 @@ impl Watch {
         })
     }
 
-    /// What the kept steps say of a time.
+    /// The motion at a time from the stored steps.
     fn moment<'a>(&'a self, motion: &'a Motion<'a>, t: f64) -> Option<Moment<'a>> {
         let begins = |record: &Record| record.step.t <= t;
         let has_begun = |passage: &Passage| passage.records.first().is_some_and(begins);
@@ -369,7 +369,7 @@ impl Watch {
     }
 }
 
-/// So many of the times, evenly chosen, the first and the last among them.
+/// At most `most` of the times, evenly selected, with the first and the last time.
 fn at_most(most: usize, times: Vec<f64>) -> (Vec<f64>, Resolution) {
     if times.len() <= most {
         return (times, Resolution::Full);
@@ -382,7 +382,7 @@ fn at_most(most: usize, times: Vec<f64>) -> (Vec<f64>, Resolution) {
 /// The motion at a time.
 struct Moment<'a> {
     course: Course<'a>,
-    /// The incoming pair's place in the window.
+    /// The incoming pair's index in the window.
     incoming: usize,
     state: State,
 }

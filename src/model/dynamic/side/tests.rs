@@ -1,5 +1,5 @@
-//! The motion across the backlash: against plain steps that know no events and a mesh of their own,
-//! and by the balance of energies.
+//! Tests of the motion across the backlash against steps without events on an independent mesh, and
+//! by the balance of energy.
 
 use crate::model::compliance::ContactPlace;
 use crate::model::compliance::flanks::Flanks;
@@ -13,18 +13,18 @@ use crate::model::pair_forces::PairSet;
 use crate::model::static_load;
 use crate::model::{Stage, Stages, solve};
 
-/// A pair that rattles, from what the case has to the motion; the mesh of its back flanks is that
-/// of the gears swapped.
+/// A pair that rattles, with mesh and settings. The mesh of its back flanks comes from swapped
+/// gears.
 struct Rattling {
     mesh: Mesh,
     back: Mesh,
     settings: Settings,
 }
 
-/// Changes a case.
+/// A change of a case.
 type Adjust<'a> = &'a dyn Fn(&mut Inputs);
 
-/// Four pairs: springs of their own and coupled, with reliefs and unequal gears.
+/// Four pairs: independent springs and coupled springs, with reliefs and unequal gears.
 fn rattling() -> Vec<(&'static str, Rattling)> {
     let light = |inputs: &mut Inputs| {
         inputs.drive = Drive::Torque(3.0);
@@ -73,7 +73,7 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
     let of = |inputs: &MeshInputs, geometry, error, turned: bool| {
         let flanks = Flanks::new(&inputs.elasticity, geometry).unwrap();
         let neighbour = |rear: &ContactPlace, front: &ContactPlace, pitches: i32| {
-            // In the mirror the rear pair is the front one, and the gears are swapped.
+            // In the mirror the rear pair is the front pair, and the gears are swapped.
             let radii = if turned {
                 [front.radius_driven, rear.radius_driver]
             } else {
@@ -102,12 +102,12 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
     }
 }
 
-/// The equation once more, with the forces by the complementarity problem of each side, in
-/// Runge-Kutta steps that end where the touching pairs change or a pair passes a border of a mesh.
+/// The equation in Runge-Kutta steps with the forces of the complementarity problem of each side.
+/// Steps end where the touching pairs change or a pair passes a border of a mesh.
 struct Plain<'a> {
     pair: &'a Rattling,
     damping: f64,
-    /// Places of the incoming pair, the next one last.
+    /// Borders in reverse order of the incoming pair's motion.
     borders: Vec<f64>,
     /// A place before the next border.
     inside: f64,
@@ -165,7 +165,7 @@ impl Plain<'_> {
             .map(|(pairs, displaced)| pairs.forces(displaced))
     }
 
-    /// Which pairs carry.
+    /// The pairs in contact.
     fn touching(&self, t: f64, x: f64) -> [Vec<i32>; 2] {
         self.sides(t, x).map(|(pairs, displaced)| {
             let forces = pairs.forces(displaced);
@@ -194,7 +194,7 @@ impl Plain<'_> {
         y + h / 6.0 * (one + 2.0 * (two + three) + four)
     }
 
-    /// Goes on to a time in steps of `length` at most.
+    /// Advances to a time in steps of at most `length`.
     fn go_to(&mut self, end: f64, length: f64) {
         let speed = self.pair.mesh.speed;
         while self.t < end {
@@ -226,7 +226,8 @@ impl Plain<'_> {
                         same = middle;
                     }
                 }
-                // Damping jumps where the last pair leaves: up to there, then across.
+                // Damping jumps when the last pair loses contact: one step to this time, then one
+                // across.
                 h = if same > 1e-6 * length { same } else { other };
             }
             self.y = self.stepped(h);
@@ -241,7 +242,7 @@ impl Plain<'_> {
     }
 }
 
-/// The worst difference of the displacement over its scale, and the plain run.
+/// Greatest difference of the displacement relative to its scale, and the run with plain steps.
 fn compared<'a>(pair: &'a Rattling, found: &Dynamic, part: f64) -> (f64, Plain<'a>) {
     let scale = pair.mesh.force / pair.mesh.mean_stiffness;
     let mut plain = Plain::new(pair);
@@ -255,7 +256,7 @@ fn compared<'a>(pair: &'a Rattling, found: &Dynamic, part: f64) -> (f64, Plain<'
 }
 
 #[test]
-fn plain_steps_across_the_backlash_come_to_the_same_motion_and_strikes() {
+fn plain_steps_across_the_backlash_give_the_same_motion_and_strikes() {
     for (name, pair) in rattling() {
         let found = dynamic(&pair.mesh, &pair.settings, &|_| true).unwrap();
         let rattle = found.rattle.unwrap();
@@ -267,8 +268,8 @@ fn plain_steps_across_the_backlash_come_to_the_same_motion_and_strikes() {
     }
 }
 
-/// Work of the mean force and of the moving meshes goes into motion, springs and damper, with the
-/// back flanks too.
+/// The work of the mean force and of the moving meshes equals the energy of motion, springs and
+/// damper, also with back flanks.
 #[test]
 fn energies_balance_across_the_backlash() {
     for friction in [0.0, 0.08] {
@@ -297,7 +298,7 @@ fn energies_balance_across_the_backlash() {
 }
 
 #[test]
-fn a_backlash_that_is_not_reached_changes_no_bit() {
+fn a_backlash_that_does_not_close_changes_no_bit() {
     let (_, pair) = rattling().swap_remove(1);
     let far = |backlash| {
         let settings = Settings {
@@ -318,9 +319,9 @@ fn a_backlash_that_is_not_reached_changes_no_bit() {
     );
 }
 
-/// The steady motion across the backlash is the one to which plain steps settle.
+/// Plain steps converge to the steady motion across the backlash.
 #[test]
-fn the_steady_motion_strikes_as_the_motion_after_a_long_warm_up() {
+fn the_steady_motion_has_the_strikes_of_a_motion_after_a_long_warm_up() {
     let (name, pair) = rattling().swap_remove(0);
     let mesh = pair.mesh.without_error();
     let steady = steady(
