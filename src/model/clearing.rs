@@ -22,7 +22,7 @@ const MOST: f64 = 8.0;
 /// Inputs of the required additional tip relief, besides deviation, load and masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClearingInputs {
-    /// Tip relief that the driven gear has, in m.
+    /// Given tip relief of the driven gear, in m.
     pub tip_relief: f64,
     /// How the method tests a relief.
     pub trial: Trial,
@@ -31,11 +31,11 @@ pub struct ClearingInputs {
 /// How a method tests whether a relief prevents contact before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trial {
-    /// By the deviation alone.
+    /// By the deviation.
     Deviation,
     /// By the printed equations, with this shape of the pair.
     Printed(PairShape),
-    /// By the load at rest.
+    /// By the static balance.
     AtRest(MeshInputs),
     /// By the motion.
     InMotion(MeshInputs, MotionInputs),
@@ -60,7 +60,7 @@ impl ClearingInputs {
 /// Result of the search for the required additional tip relief.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clearing {
-    /// Tip relief that the driven gear has, in m.
+    /// Given tip relief of the driven gear, in m.
     pub given: f64,
     /// The required additional tip relief, in m. `None` without contact before E, or with the
     /// reason `withheld`.
@@ -144,7 +144,7 @@ impl Search {
         }
     }
 
-    /// The least relief in addition to the one given, in m, by the load at rest or by a motion.
+    /// The least additional relief, in m, by the static balance or by a motion.
     fn least(
         &self,
         given: f64,

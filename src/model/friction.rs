@@ -8,7 +8,7 @@ use super::{Impact, Velocity};
 /// Inputs of the friction ratio, besides geometry, masses and the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionInputs {
-    /// `paper` takes Eq. 34 as printed.
+    /// `paper` uses Eq. 34 as printed.
     pub method: Method,
     /// Speed of the driver ω₁, in rad/s.
     pub speed: f64,
@@ -28,7 +28,7 @@ impl FrictionInputs {
 /// Change of the velocities between D and D'.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
-    /// |change of ΔV_τ|/|change of ΔV_n|, Eqs. 44, 45, 64; absent where D' does not exist.
+    /// |change of ΔV_τ|/|change of ΔV_n|, Eqs. 44, 45, 64. `None` if D' does not exist.
     pub ratio: Option<f64>,
 }
 
@@ -40,13 +40,13 @@ pub struct Friction {
 /// ```
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 29-45 and 64. Corrected: m_red in kg in Eq. 31; Eq. 34 finds O₁D' with the
-/// chord for Eq. 36's arc; Eq. 42 is the law of cosines; Eqs. 44 and 45 are the changes between D
-/// and D'. In the method `paper` D' is that of Eq. 34, although the angle at O₁ in its triangle is
-/// not Δθ; in `exact` it is the driven tip at u − ω₂ T_S, not past E.
+/// Zhou & Chen 2014, Eqs. 29-45 and 64. Corrected: m_red in kg in Eq. 31; in Eq. 34, O₁D' follows
+/// from the chord instead of the arc of Eq. 36; Eq. 42 is the law of cosines; Eqs. 44 and 45 are
+/// the changes between D and D'. The method `paper` uses D' of Eq. 34, although the angle at O₁ in
+/// its triangle is not Δθ. `exact` uses the driven tip at u − ω₂ T_S, at most at E.
 ///
 /// # Valid for
-/// A kinematic ratio: it is not bounded by Coulomb's coefficient.
+/// The ratio is kinematic. Coulomb's coefficient does not limit it.
 #[must_use]
 pub fn friction(
     inputs: &FrictionInputs,
@@ -70,7 +70,8 @@ pub fn friction(
     Friction { ratio }
 }
 
-/// |change of ΔV_τ|/|change of ΔV_n| to the end of the impact, the driven gear having gained `gained` rad/s.
+/// |change of ΔV_τ|/|change of ΔV_n| to the end of the impact. The driven gear gains `gained`
+/// rad/s.
 fn changes_ratio((driver_speed, driven_speed): (f64, f64), end: &TipContact, gained: f64) -> f64 {
     let normal = driven_speed * end.normal_radius_drop - gained * end.normal_radius_driven;
     let sliding = driven_speed * end.normal_length_growth - driver_speed * end.curvature_growth
@@ -78,8 +79,8 @@ fn changes_ratio((driver_speed, driven_speed): (f64, f64), end: &TipContact, gai
     (sliding / normal).abs()
 }
 
-/// D' where the tip has turned by `turn` from D, but not past E; its changes are those since D.
-/// They are taken from D on a short way, and between two increments from E on a long one.
+/// D' after a rotation of the tip by `turn` from D, at most at E, with the changes since D. For a
+/// short path they are increments from D, for a long path differences of two increments from E.
 fn tip_after(
     geometry: &Geometry,
     from_contact: &Geometry,
@@ -99,12 +100,11 @@ fn tip_after(
     }
 }
 
-/// D' by Eq. 34, the pair seen from D: the driven tip where O₁D' closes the triangle O₁DD' with the
-/// angle Δθ = i `turn` at O₁ and the chord of `turn` as DD'. `None` where the triangle does not
-/// close.
+/// D' by Eq. 34, relative to D: the driven tip where O₁D' closes the triangle O₁DD' with the angle
+/// Δθ = i `turn` at O₁ and the chord of `turn` as DD'. `None` if the triangle does not close.
 ///
-/// Close to the pitch point r_a2 is next to i O₁D, and the chord next to what the triangle needs
-/// across O₁D: their difference is taken from small terms.
+/// Near the pitch point r_a2 is nearly i O₁D, and the chord nearly the needed length across O₁D.
+/// Small terms give their difference without cancellation.
 fn printed_end(from_contact: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
     let at_driver = turn * from_contact.ratio;
     let chord = 2.0 * from_contact.driven.tip * (turn / 2.0).sin();
@@ -131,7 +131,7 @@ fn tip_excess(from_contact: &Geometry, tip: &TipContact) -> f64 {
     (along - across) / (from_contact.driven.tip + ratio * tip.radius_driver)
 }
 
-/// x − sin x, by its series where the difference would lose digits.
+/// x − sin x. Uses the series if the difference would lose digits.
 fn below_angle(angle: f64) -> f64 {
     const SMALL: f64 = 0.5;
     if angle.abs() > SMALL {
@@ -150,7 +150,7 @@ mod tests {
     use super::below_angle;
 
     #[test]
-    fn series_meets_the_difference() {
+    fn the_series_agrees_with_the_difference() {
         assert!((below_angle(0.5) / (0.5 - 0.5f64.sin()) - 1.0).abs() < 1e-14);
         assert!((below_angle(0.5000001) / below_angle(0.4999999) - 1.0).abs() < 2e-6);
         assert!((below_angle(1e-3) / (1e-9 / 6.0) - 1.0 + 5e-8).abs() < 1e-12);

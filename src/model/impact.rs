@@ -24,8 +24,8 @@ pub struct Impact {
     pub energy: f64,
     /// Energy of the sliding W_f, whole width, in J.
     pub sliding_energy: f64,
-    /// What the durations and the half-width are computed from when they are read: a study of the
-    /// force does not compute them.
+    /// Values for the durations and the half-width, which are computed on demand: a study of the
+    /// force does not need them.
     terms: Terms,
 }
 
@@ -70,8 +70,8 @@ impl Impact {
     /// ```
     ///
     /// # Source
-    /// Zhou & Chen 2014, Eq. 32, the reduced mass of Eq. 33 in kg. Hertz's duration for two spheres
-    /// is 4.53398 times as long; the prefactor is lost in print.
+    /// Zhou & Chen 2014, Eq. 32, with the reduced mass of Eq. 33 in kg. Hertz's duration for two
+    /// spheres is 4.53398 times as long, because the paper omits the prefactor.
     #[must_use]
     pub fn duration_printed(&self) -> f64 {
         let Terms {
@@ -95,7 +95,7 @@ impl Impact {
         PI * (self.effective_mass * self.pair_compliance / self.terms.width).sqrt()
     }
 
-    /// (2/π) F_S T_S/(M ΔV_n): 2 for the elastic spring, below 1 impossible.
+    /// (2/π) F_S T_S/(M ΔV_n): 2 for the elastic spring, impossible below 1.
     #[must_use]
     pub fn impulse_ratio(&self) -> f64 {
         2.0 / PI * self.force * self.duration() / (self.effective_mass * self.terms.approach)
@@ -105,9 +105,9 @@ impl Impact {
 /// Inputs of force, energy and duration of an impact, besides geometry, masses, place and velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpactInputs {
-    /// `paper` takes Eq. 32 as printed.
+    /// `paper` uses Eq. 32 as printed.
     pub method: Method,
-    /// The teeth that strike.
+    /// Elasticity of the pair.
     pub compliance: ComplianceInputs,
     /// 1/E' of the pair, in 1/Pa.
     pub give: f64,
@@ -132,15 +132,15 @@ impl ImpactInputs {
 /// ```text
 /// Ek = M ΔVn²/2,  Wf = M ΔVτ²/2,  FS = ΔVn √(b M/qs),  qs = q1 + q2 + qH(FS)
 /// ```
-/// with the Hertz half-width in q_H solved together with F_S.
+/// The Hertz half-width in q_H and F_S are solved together.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 50-57. Corrected: Eq. 53 is inverted (δ_s = F_S q_s/b, then Eq. 57 holds);
-/// the pair of Eq. 54 is the one in contact at D, whose driven tooth is loaded at its tip. The
-/// energies are of the whole width.
+/// Zhou & Chen 2014, Eqs. 50-57. Corrected: Eq. 53 is inverted (δ_s = F_S q_s/b, which agrees with
+/// Eq. 57). The pair of Eq. 54 is the pair in contact at D, with the load at the tip of the driven
+/// tooth. The energies apply to the whole width.
 ///
 /// # Errors
-/// [`Refusal::HertzWidthTooLarge`] where Eq. 55 has no answer.
+/// [`Refusal::HertzWidthTooLarge`] if Eq. 55 has no solution.
 pub fn impact(
     inputs: &ImpactInputs,
     geometry: &Geometry,
@@ -173,6 +173,6 @@ pub fn impact(
     })
 }
 
-/// What Eq. 32 lacks of Hertz's duration: 2.868265699 π^(2/5), where the first factor is
-/// 2 (15/16)^(2/5) ∫₀¹ dx/√(1 − x^(5/2)).
+/// The factor of Hertz's duration that Eq. 32 omits: 2.868265699 π^(2/5). The first factor is 2
+/// (15/16)^(2/5) ∫₀¹ dx/√(1 − x^(5/2)).
 pub const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;

@@ -1,4 +1,4 @@
-//! What a solve needs to know of a gear pair, in SI units.
+//! Inputs of a solve, in SI units.
 
 use super::stage::{Stage, Stages};
 
@@ -27,7 +27,8 @@ pub struct Gear {
     pub poisson: f64,
     /// Density ρ, in kg/m³.
     pub density: f64,
-    /// Moment of inertia of all that turns with the gear, in kg m²; without it computed.
+    /// Moment of inertia of all parts that turn with the gear, in kg m². `None` to compute the
+    /// moment.
     pub inertia: Option<f64>,
     /// Material removed at the tip, in m.
     pub tip_relief: f64,
@@ -41,14 +42,15 @@ pub struct Gear {
     pub tip_chamfer: f64,
     /// Radius of the tip's edge, in m.
     pub tip_radius: Option<f64>,
-    /// Base pitch deviation f_pb of this gear, in m; without it by its grade, or the common one.
+    /// Base pitch deviation f_pb of this gear, in m. `None` to use its flank tolerance class or the
+    /// common value.
     pub base_pitch: Option<f64>,
     /// Flank tolerance class of ISO 1328-1:2013.
     pub grade: Option<u32>,
 }
 
-/// A full-depth gear without shift, relief and bore, of which nothing else is given yet: teeth,
-/// width and material are zero, which no check lets through.
+/// A full-depth gear without shift, relief and bore. Teeth, width and material are zero, which
+/// every check refuses.
 impl Default for Gear {
     fn default() -> Gear {
         Gear {
@@ -76,7 +78,7 @@ impl Default for Gear {
     }
 }
 
-/// What drives the pair.
+/// The given drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive {
     /// Power on the driver, in W.
@@ -85,23 +87,23 @@ pub enum Drive {
     Torque(f64),
 }
 
-/// How much of the physics is taken in.
+/// The method of the computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
-    /// Zhou & Chen 2014 as printed, without its misprints.
+    /// Zhou & Chen 2014 as printed, with misprints corrected.
     Paper,
-    /// The exact contact position and the spring's own duration.
+    /// The exact contact position and the duration of the spring.
     Exact,
-    /// The load shared by every pair in contact, corner contact included.
+    /// The load shared by all pairs in contact, corner contact included.
     Static,
-    /// The same with inertia.
+    /// The shared load with inertia.
     Dynamic,
-    /// The cheapest of `exact`, `static` and `dynamic` that is good enough.
+    /// The fastest of `exact`, `static` and `dynamic` within the tolerance.
     Auto,
 }
 
 impl Method {
-    /// Every method, cheapest first, and the choice among them.
+    /// Every method, fastest first, then `auto`.
     pub const ALL: [Method; 5] = [
         Method::Paper,
         Method::Exact,
@@ -109,17 +111,17 @@ impl Method {
         Method::Dynamic,
         Method::Auto,
     ];
-    /// The methods that answer in a microsecond.
+    /// The methods with a solution in microseconds.
     pub const CLOSED_FORM: [Method; 2] = [Method::Paper, Method::Exact];
 
-    /// Whether every pair in contact takes its share of the load, so that reliefs act along the
-    /// flanks and a deflection that the case gives is not needed.
+    /// Whether all pairs in contact share the load. Reliefs then act along the flanks, and the
+    /// method ignores a given deflection.
     #[must_use]
     pub fn shares_load(self) -> bool {
         matches!(self, Method::Static | Method::Dynamic)
     }
 
-    /// The stages that the method has.
+    /// The stages of the method.
     #[must_use]
     pub fn stages(self) -> Stages {
         const IMPACT: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
@@ -134,12 +136,12 @@ impl Method {
         }
     }
 
-    /// The stages that decide whether the tooth strikes, beyond those that every solve has.
+    /// The stages that decide whether the tooth strikes, besides those of every solve.
     #[must_use]
     pub fn deciding_stages(self) -> Stages {
         match self {
             Method::Exact => Stages::NONE,
-            // The printed equations bring a tooth in on time whose deviation is above 0 yet.
+            // The printed equations can give no contact although the total deviation is above 0.
             Method::Paper => Stages::of(Stage::Position),
             Method::Static => Stages::of(Stage::Static),
             Method::Dynamic | Method::Auto => Stages::of(Stage::Dynamic),
@@ -159,7 +161,7 @@ impl Method {
     }
 }
 
-/// A tooth compliance by its name; `compliance::tooth` has the list.
+/// A tooth compliance by its name, see the list in `compliance::tooth`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ToothCompliance(&'static str);
 
@@ -175,7 +177,7 @@ impl ToothCompliance {
     }
 }
 
-/// A contact compliance by its name; `compliance::contact` has the list.
+/// A contact compliance by its name, see the list in `compliance::contact`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ContactCompliance(&'static str);
 
@@ -191,10 +193,10 @@ impl ContactCompliance {
     }
 }
 
-/// The body whose moment of inertia a gear has.
+/// The body for the moment of inertia of a gear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InertiaModel {
-    /// The gear's true outline.
+    /// The outline of the gear.
     Outline,
     /// A disc up to the base circle, Eq. 47.
     BaseCircle,
@@ -205,12 +207,12 @@ impl InertiaModel {
     pub const ALL: [InertiaModel; 2] = [InertiaModel::Outline, InertiaModel::BaseCircle];
 }
 
-/// How a relief grows from its start to its full amount.
+/// Shape of a relief from its start to its full amount.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReliefShape {
-    /// In proportion to the way.
+    /// Proportional to the distance.
     Linear,
-    /// With its square.
+    /// Proportional to the square of the distance.
     Parabolic,
 }
 
@@ -219,20 +221,20 @@ impl ReliefShape {
     pub const ALL: [ReliefShape; 2] = [ReliefShape::Linear, ReliefShape::Parabolic];
 }
 
-/// A gear pair in operation: all that a solve reads.
+/// A gear pair in operation: all inputs of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inputs {
     /// Module m, in m.
     pub module: f64,
     /// Pressure angle α, in rad.
     pub pressure_angle: f64,
-    /// Centre distance a, in m; without it the mesh has no backlash.
+    /// Centre distance a, in m; `None` for a mesh without backlash.
     pub centre_distance: Option<f64>,
     /// Gear 1.
     pub driver: Gear,
     /// Gear 2.
     pub driven: Gear,
-    /// Base pitch deviation f_pb of a gear without its own, in m.
+    /// Base pitch deviation f_pb of a gear without its own value, in m.
     pub base_pitch_deviation: f64,
     /// Normal backlash j_bn, in m.
     pub backlash: f64,
@@ -240,43 +242,43 @@ pub struct Inputs {
     pub drive: Drive,
     /// Speed of the driver ω₁, in rad/s.
     pub speed: f64,
-    /// Coulomb friction coefficient μ, to stand beside the kinematic ratio.
+    /// Coulomb friction coefficient μ.
     pub friction_coefficient: Option<f64>,
-    /// How much of the physics is taken in.
+    /// The method.
     pub method: Method,
-    /// Combined deflection δ, in m; without it computed from the load.
+    /// Combined deflection δ, in m; `None` to compute it from the load.
     pub deflection: Option<f64>,
-    /// Compliance of the teeth; without it chosen by its range.
+    /// Compliance of the teeth; `None` to select it by its range.
     pub tooth_compliance: Option<ToothCompliance>,
     /// Compliance of the contact.
     pub contact_compliance: ContactCompliance,
     /// Body of a gear without a given inertia.
     pub inertia: InertiaModel,
-    /// How tip and root reliefs grow along the path of contact.
+    /// Shape of tip and root reliefs along the path of contact.
     pub relief_shape: ReliefShape,
-    /// Damping ratio ζ of the mesh, of its mean stiffness.
+    /// Damping ratio ζ of the mesh with its mean stiffness.
     pub damping_ratio: f64,
-    /// Base pitches that pass before the incoming tooth reaches E.
+    /// Number of base pitches before the incoming tooth reaches E.
     pub warmup_cycles: u32,
-    /// Relative error that the peak force of the method `dynamic` may have. A promise where the
-    /// motion is damped: without damping and with contact lost it is chaotic, and a small error
-    /// grows with every base pitch.
+    /// Permitted relative error of the peak force in the method `dynamic`. The bound applies to
+    /// damped motion: without damping and with loss of contact the motion is chaotic, and small
+    /// errors grow with every base pitch.
     pub tolerance: f64,
-    /// Relative error against the method `dynamic` that the method `auto` may leave.
+    /// Permitted relative error of the method `auto` against the method `dynamic`.
     pub within: f64,
-    /// Intervals between D and E; without a number as many as the curve needs.
+    /// Intervals between D and E; `None` for as many as the curve needs.
     pub stations: Option<usize>,
-    /// What the curve may lie off the straight lines between its stations, over its peak, where
-    /// their number is not given.
+    /// Permitted distance of the curve from the straight lines between its stations, relative to
+    /// its peak, if their number is not given.
     pub station_tolerance: f64,
-    /// Geometry and position in double-double arithmetic.
+    /// Whether geometry and position use double-double arithmetic.
     pub accurate: bool,
-    /// Stages of the limited and the selected quantities, which the method `auto` must compute.
+    /// Stages of the limited and selected quantities, which the method `auto` must compute.
     pub needs: Stages,
 }
 
-/// What a case stands for that says nothing: no size, no gears, no load, which no check lets
-/// through, and the model's usual settings.
+/// Inputs without size, gears and load, which every check refuses, and with the default settings of
+/// the model.
 impl Default for Inputs {
     fn default() -> Inputs {
         Inputs {
@@ -309,7 +311,7 @@ impl Default for Inputs {
 }
 
 impl Inputs {
-    /// The same, with these stages of quantities among those that the method `auto` must compute.
+    /// The inputs with more stages that the method `auto` must compute.
     #[must_use]
     pub fn needing(self, stages: impl IntoIterator<Item = Stage>) -> Inputs {
         let needs = stages.into_iter().fold(self.needs, Stages::with);
@@ -337,7 +339,7 @@ impl Inputs {
         }
     }
 
-    /// The deflection that the case gives, where the method takes it, in m.
+    /// The given deflection if the method uses it, in m.
     #[must_use]
     pub fn deflection_taken(&self) -> Option<f64> {
         self.deflection.filter(|_| !self.method.shares_load())

@@ -1,5 +1,5 @@
-//! The methods in which every pair in contact takes its share of the load: as much of the mesh as
-//! they need, then `static` and `dynamic`.
+//! The methods with load sharing: computes the mesh in the needed range, then `static` and
+//! `dynamic`.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use super::static_load::{StaticInputs, StaticLoad, static_load};
 use super::static_spectrum::{StaticSpectrum, static_spectrum};
 use super::{Outcome, Refusal, Solution};
 
-/// What the wanted methods found.
+/// The results of the wanted methods.
 struct Shared {
     mesh: Arc<Mesh>,
     static_load: Option<StaticLoad>,
@@ -36,8 +36,8 @@ const ON_MESH: [Stage; 5] = [
     Stage::SteadyMotion,
 ];
 
-/// Add to the solution what the wanted stages find. Whether the tooth strikes is then what the last
-/// of them says.
+/// Adds the results of the wanted stages to the solution. The last of these methods decides whether
+/// the tooth strikes.
 ///
 /// # Errors
 /// Those of [`Mesh::new`], [`static_load`] and [`dynamic`].
@@ -84,9 +84,9 @@ pub(super) fn share(
     Ok(())
 }
 
-/// The mesh is computed no further than the pairs yield: where that was not far enough, again and
-/// further. An earlier mesh that reaches further serves earlier results alone, since another reach
-/// changes the last digits of new ones.
+/// Computes the mesh for the deflection of the pairs, and again with a larger range if this was not
+/// enough. An earlier mesh with a larger range is used only with earlier results, because the range
+/// changes the last digits of new results.
 fn within_reach(
     solution: &Solution,
     asked: &Request<'_>,
@@ -127,7 +127,7 @@ fn earlier_flanks<'a>(asked: &Request<'a>) -> Option<&'a Arc<Flanks>> {
     Some(mesh.flanks())
 }
 
-/// Whether every wanted result on the mesh is an earlier one.
+/// Whether every wanted result on the mesh exists already.
 fn all_kept(asked: &Request<'_>) -> bool {
     let mut wanted = ON_MESH
         .into_iter()
@@ -136,7 +136,7 @@ fn all_kept(asked: &Request<'_>) -> bool {
     wanted.peek().is_some() && wanted.all(|stage| asked.kept(stage).is_some())
 }
 
-/// Up to what gaps the mesh is computed at first, in m.
+/// The first range of gaps of the mesh, in m.
 fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
     const TIMES: f64 = 8.0;
     let deviation = &solution.deviation;
@@ -145,8 +145,8 @@ fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
     TIMES * yields
 }
 
-/// What `find` finds on the mesh of a pair with the geometry, the load and the deviation of the
-/// solution; only the reliefs may differ. `flanks` is the compliance of its teeth, if known.
+/// The result of `find` on the mesh of a pair with geometry, load and deviation of the solution.
+/// Only the reliefs may differ. `flanks` is the compliance of its teeth, if known.
 ///
 /// # Errors
 /// Those of [`Mesh::new`] and of `find`.
@@ -175,7 +175,7 @@ pub(super) fn on_mesh<T>(
     }
 }
 
-/// The wanted stages on this mesh, as far as nothing earlier holds.
+/// Runs the wanted stages on this mesh and reuses valid earlier results.
 fn run(
     mesh: &Arc<Mesh>,
     mass: f64,
@@ -228,7 +228,7 @@ fn run(
     })
 }
 
-/// The steady motion, or why there is none.
+/// The steady motion, or the reason why there is none.
 fn steady_motion(
     mesh: &Arc<Mesh>,
     mass: f64,
@@ -241,7 +241,7 @@ fn steady_motion(
     late(mesh, steady(mesh, &settings, None, &meter, go_on))
 }
 
-/// The result of a stage that decides nothing: its refusal leaves the other results as they are.
+/// The result of a stage whose refusal does not affect other results.
 fn late<T>(mesh: &Mesh, found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
     match found {
         Err(Refusal::Stopped) => Err(Refusal::Stopped),
@@ -250,14 +250,14 @@ fn late<T>(mesh: &Mesh, found: Result<T, Refusal>) -> Result<Result<T, Refusal>,
     }
 }
 
-/// Stages on their way.
+/// The state of a run of stages.
 struct Stretch<'a> {
     asked: &'a Request<'a>,
     ran: Stages,
 }
 
 impl Stretch<'_> {
-    /// A stage's result where it is wanted: the earlier one where that still holds.
+    /// The result of a wanted stage: the earlier result if it is valid, otherwise a new one.
     fn stage<T>(
         &mut self,
         stage: Stage,

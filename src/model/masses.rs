@@ -42,11 +42,11 @@ impl Masses {
     /// ```
     ///
     /// # Source
-    /// Zhou & Chen 2014, Eq. 46. Corrected: Eq. 46 divides by the width and so gives kg/m where a
-    /// mass is meant. [`Inertia::of`] gives J.
+    /// Zhou & Chen 2014, Eq. 46. Corrected: Eq. 46 divides by the width and so gives kg/m instead
+    /// of kg. [`Inertia::of`] gives J.
     ///
     /// # Errors
-    /// [`Refusal::BoreTooLarge`] where a bore leaves no body.
+    /// [`Refusal::BoreTooLarge`] if a bore is larger than the body.
     pub fn of<T: Real>(inputs: &MassInputs, geometry: &Geometry<T>) -> Result<Masses, Refusal> {
         let [driver, driven] = &inputs.bodies;
         let driver = Inertia::of(driver, &geometry.driver)?;
@@ -69,7 +69,7 @@ impl Masses {
     }
 
     /// Effective mass of Eq. 50, M = J₁ J₂/(J₁ r_b2'² + J₂ r_b1²), in kg: the reduced mass with the
-    /// driven gear's arm at D in place of its base radius.
+    /// driven gear's arm at D instead of its base radius.
     #[must_use]
     pub fn effective(&self, geometry: &Geometry, tip: &TipContact) -> f64 {
         let arm = tip.normal_radius_driven / geometry.driven.base;

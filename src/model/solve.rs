@@ -1,4 +1,4 @@
-//! A solve: runs the wanted stages, and keeps the earlier results that are still valid.
+//! A solve: runs the wanted stages and reuses valid earlier results.
 
 mod by_choice;
 mod by_method;
@@ -13,22 +13,22 @@ use by_method::solve_by_method;
 pub use repeat::{Change, differ_in_load_alone, solve_repeated};
 pub use setup::Setup;
 
-/// Solve the pair, running only the wanted stages and what they need.
+/// Solves the pair. Runs only the wanted stages and the stages that they need.
 ///
-/// Geometry, load and deviation always run, since they tell the outcome. Where a small difference
-/// decides, geometry and position are computed in double-double arithmetic, asked for or not.
+/// Geometry, load and deviation always run, because they decide the outcome. If small differences
+/// decide, geometry and position use double-double arithmetic, requested or not.
 ///
 /// # Errors
-/// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be
-/// computed, the rest is given and [`Solution::withheld`] says why.
+/// A [`Refusal`] if the pair cannot mesh, or D does not exist. If only the force cannot be
+/// computed, the solution has the other results and the reason in [`Solution::withheld`].
 pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
     solve_while(inputs, wanted, &|_| true)
 }
 
-/// The same, asked now and then whether to go on, with the part that is done, from 0 to 1.
+/// Like [`solve`]. Calls `go_on` from time to time with the computed part, from 0 to 1.
 ///
 /// # Errors
-/// Those of [`solve`], and [`Refusal::Stopped`] where `go_on` says no.
+/// Those of [`solve`], and [`Refusal::Stopped`] if `go_on` returns false.
 pub fn solve_while(
     inputs: &Inputs,
     wanted: Stages,
@@ -37,8 +37,8 @@ pub fn solve_while(
     solve_after(inputs, wanted, None, go_on)
 }
 
-/// The same after an earlier solve: what still holds of it is kept, and [`Solution::ran`] tells
-/// what was not.
+/// Like [`solve_while`] after an earlier solve. Reuses valid earlier results; [`Solution::ran`]
+/// lists the stages that ran.
 ///
 /// # Errors
 /// Those of [`solve_while`].

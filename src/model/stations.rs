@@ -13,10 +13,11 @@ use super::spacing::{Resolution, Spacing};
 use super::tip_gap::{gap_without, tip_at};
 use super::velocity::{VelocityInputs, velocity};
 
-/// The gap in closed form may lose this factor of its digits before the quadrature serves.
+/// Greatest loss of precision of the closed-form gap, as a factor. Beyond it the quadrature
+/// computes the gap.
 const LOSS: f64 = 1e4;
 
-/// A force below this part of the forces of all pairs is the rounding of their balance, and 0.
+/// A force below this part of the sum of all forces is rounding and counts as 0.
 const ROUNDING: f64 = 1e-12;
 
 /// Inputs of the impacts between D and E, besides geometry, masses and D.
@@ -42,7 +43,7 @@ impl StationsInputs {
     }
 }
 
-/// A place between D and E at which the impact is computed as if it were D.
+/// A station between D and E. The impact is computed as if D were at this place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
     /// Driver's angle before E, in rad.
@@ -59,13 +60,13 @@ pub struct Station {
     pub impact_force: f64,
     /// Gap S(u) between tip and flank without deviation, in m; Δ at D, 0 at E.
     pub gap: f64,
-    /// Pair compliance q_s at the impact force, in m²/N; none at E, where there is no force.
+    /// Pair compliance q_s at the impact force, in m²/N. `None` at E, where the force is 0.
     pub pair_compliance: Option<f64>,
     /// Normal kinetic energy E_k of the whole width, in J.
     pub impact_energy: f64,
 }
 
-/// A place of the incoming tooth from its first contact through E to its last.
+/// A station of the incoming tooth between its first contact and its last contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshStation {
     /// Driver's angle before E, in rad; below 0 after E.
@@ -74,28 +75,28 @@ pub struct MeshStation {
     pub roll_angle_driven: f64,
     /// Force of the incoming tooth, in N.
     pub force: f64,
-    /// Its part of the forces of all pairs.
+    /// Part of the sum of all forces.
     pub load_share: f64,
     /// Displacement of the driver ahead along the line of action, in m.
     pub transmission_error: f64,
-    /// Approach velocity of the incoming pair without load, −dS/dt, in m/s; below 0 where tip and
-    /// flank part.
+    /// Approach velocity of the incoming pair without load, −dS/dt, in m/s; below 0 when tip and
+    /// flank separate.
     pub normal_velocity: f64,
-    /// Its sliding velocity, in m/s.
+    /// Sliding velocity of the incoming pair, in m/s.
     pub sliding_velocity: f64,
-    /// Its gap S without deviation and load, reliefs included, in m.
+    /// Gap S of the incoming pair without deviation and load, with reliefs, in m.
     pub gap: f64,
-    /// Its compliance q_s at the force along the line of action, in m²/N.
+    /// Compliance q_s of the pair at the force along the line of action, in m²/N.
     pub pair_compliance: f64,
-    /// Time since E, in s; in the method `dynamic` alone.
+    /// Time since E, in s; only in the method `dynamic`.
     pub time: Option<f64>,
-    /// How fast the displacement grows, in m/s; in the method `dynamic` alone.
+    /// Rate of the displacement, in m/s; only in the method `dynamic`.
     pub rate: Option<f64>,
 }
 
 impl MeshStation {
-    /// Stations from `first` to E, which is at 0, and from there to `last`; where the first is not
-    /// before E, from it.
+    /// Stations from `first` to E, which is at 0, and from E to `last`. Without contact before E,
+    /// only from `first` to `last`.
     pub(super) fn through_start(
         first: f64,
         last: f64,
@@ -109,7 +110,7 @@ impl MeshStation {
         (all, before.and(after))
     }
 
-    /// The station at which the incoming pair stands `s` after E.
+    /// The station with the incoming pair at `s` after E.
     pub(super) fn at(
         mesh: &Mesh,
         s: f64,
@@ -137,12 +138,11 @@ impl MeshStation {
     }
 }
 
-/// The impact at stations over the driven gear's angle, from D (first) to E (last, force 0). A
-/// station whose force cannot be computed is left out, and the first refusal stands beside the
-/// rest.
+/// The impact at stations over the driven gear's angle, from D (first) to E (last, force 0). Omits
+/// stations without a force and returns the first refusal with the other stations.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 corrected to the law of cosines: as printed, O₁J would lie
+/// Zhou & Chen 2014, Eqs. 58-60. Eq. 60 is corrected to the law of cosines: as printed, O₁J is
 /// inside the base circle.
 #[must_use]
 pub fn stations(
@@ -180,10 +180,10 @@ pub fn stations(
     (found, refused.or(resolution.refusal()))
 }
 
-/// The impact as if it happened at the driven gear's angle `angle` before E, in rad.
+/// The impact as if it occurred at the driven gear's angle `angle` before E, in rad.
 ///
 /// # Errors
-/// The [`Refusal`] of the stage that has no force there.
+/// The [`Refusal`] of the stage that cannot compute the force.
 pub fn station(
     inputs: &StationsInputs,
     geometry: &Geometry,

@@ -1,4 +1,4 @@
-//! How fast the tip approaches the flank and slides on it.
+//! Approach velocity and sliding velocity of the tip on the flank.
 
 use super::inputs::Inputs;
 use super::tip_gap::TipContact;
@@ -29,7 +29,7 @@ pub struct Velocity {
     pub sliding: f64,
     /// Time from D to E, u/ω₂, in s.
     pub transit_time: f64,
-    /// Friction coefficient below which sliding goes on throughout the impact, ΔV_τ/(2 ΔV_n).
+    /// Friction coefficient below which sliding continues throughout the impact, ΔV_τ/(2 ΔV_n).
     pub stick_limit: f64,
 }
 
@@ -40,12 +40,12 @@ pub struct Velocity {
 /// ΔVn = ω1 rb1 − ω2 rb2' = ω2 (rb2 − rb2')
 /// ΔVτ = ω2 N2'D − ω1 N1'D = ω2 (N2'D − i ρ1)
 /// ```
-/// where both arms come from [`tip_at`](super::tip_gap::tip_at) as increments; as differences of
-/// finished products both velocities would lose their digits close to E and to the pitch point.
+/// Both arms are increments from [`tip_at`](super::tip_gap::tip_at). Differences of the products
+/// would lose digits near E and the pitch point.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is corrected to the law of cosines: as printed, ΔV_n at E
-/// would be 1.32 m/s for its Table 1 where it must be 0. Eq. 22 is ΔV_Dτ, whatever its label.
+/// is 1.32 m/s for Table 1 instead of 0. Eq. 22 is ΔV_Dτ although its label differs.
 #[must_use]
 pub fn velocity(inputs: &VelocityInputs, tip: &TipContact) -> Velocity {
     let driven_speed = inputs.driven_speed;

@@ -7,9 +7,9 @@ use crate::model::inputs::{Gear, Inputs, Method};
 pub struct GeometryInputs {
     /// Shape of the pair.
     pub shape: PairShape,
-    /// Bore radii of driver and driven gear, in m: a thin wall needs more digits.
+    /// Bore radii of driver and driven gear, in m. A thin wall needs double-double arithmetic.
     pub bores: [f64; 2],
-    /// Whether the case calls for double-double arithmetic.
+    /// Whether the case requests double-double arithmetic.
     pub is_accurate: bool,
 }
 

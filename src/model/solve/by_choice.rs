@@ -7,9 +7,8 @@ use crate::model::request::Earlier;
 use crate::model::stage::{Stage, Stages};
 use crate::model::{Choice, Refusal, Solution};
 
-/// Solve with the method that the closed form calls for, or with the motion as a trial where it
-/// cannot tell; with the one taken before where nothing has changed since. The least relief is that
-/// of the method that was taken.
+/// Solves with the method that the closed form suggests, or decides by a trial motion. Reuses the
+/// earlier choice for equal inputs. The required relief is that of the chosen method.
 pub(super) fn solve_by_choice(
     inputs: &Inputs,
     wanted: Stages,
@@ -46,8 +45,8 @@ pub(super) fn solve_by_choice(
     })
 }
 
-/// The method that is taken, solved. Where `static` is, it stands for `dynamic` where that is
-/// wanted. One that is too slow to be followed in time is at rest.
+/// Solves by the chosen method. If `static` is chosen, its results replace the wanted results of
+/// `dynamic`. Uses static balance if the speed is too low for a motion.
 fn chosen(
     inputs: &Inputs,
     wanted: Stages,
@@ -97,7 +96,7 @@ fn chosen(
     })
 }
 
-/// The motion, or the load at rest on the same mesh where inertia turns out to add little.
+/// The motion, or the static balance on the same mesh if the effect of inertia is small.
 fn decided(
     inputs: &Inputs,
     choice: Choice,
@@ -128,7 +127,7 @@ fn decided(
     )
 }
 
-/// What is wanted of the load at rest, which stands for the motion.
+/// The wanted stages with `static` instead of `dynamic`.
 fn at_rest(wanted: Stages) -> Stages {
     if wanted.has(Stage::Dynamic) {
         wanted.and(Stages::of(Stage::Static))

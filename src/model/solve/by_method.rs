@@ -1,4 +1,4 @@
-//! A solve by one method: the stages in their order.
+//! A solve by one method: runs the stages in order.
 
 use std::cell::Cell;
 
@@ -21,8 +21,8 @@ use crate::numeric::Real;
 
 use super::setup::Setup;
 
-/// Solves by the method of the inputs, which is not `auto`; an earlier solve by another method is
-/// of no use.
+/// Solves by the method of the inputs, which is not `auto`. Ignores an earlier solve by another
+/// method.
 ///
 /// # Errors
 /// Those of [`solve_after`](super::solve_after).
@@ -46,17 +46,17 @@ pub(super) fn solve_by_method(
     .run(go_on)
 }
 
-/// The stages that every solve has.
+/// The stages of every solve.
 const BEGUN: Stages = Stages::of(Stage::Deviation).with(Stage::Masses);
 
-/// A solve on its way.
+/// The state of a solve.
 pub(super) struct Solving<'a> {
     asked: Request<'a>,
     setup: &'a Setup,
 }
 
 impl<'a> Solving<'a> {
-    /// One that begins with the load.
+    /// A solve that begins with the load.
     pub(super) fn from_load(inputs: &'a Inputs, wanted: Stages, setup: &'a Setup) -> Solving<'a> {
         Solving {
             asked: Request {
@@ -69,8 +69,7 @@ impl<'a> Solving<'a> {
         }
     }
 
-    /// Puts the stages from the load on in place of those of a solution, which keeps its geometry
-    /// and masses.
+    /// Recomputes the stages from the load on in place. Geometry and masses of the solution stay.
     pub(super) fn repeat(&self, solution: &mut Solution) -> Result<(), Refusal> {
         let inputs = self.asked.inputs;
         solution.mesh_force = mesh_force(&LoadInputs::of(inputs), &solution.geometry);
@@ -97,7 +96,7 @@ impl<'a> Solving<'a> {
     }
 }
 
-/// Whether the deviation brings the tooth in early.
+/// Whether the deviation makes the tooth early.
 fn outcome(deviation: &Deviation<TwoFloat>) -> Outcome {
     if deviation.total.rounded() > 0.0 {
         Outcome::CornerContact
@@ -107,7 +106,7 @@ fn outcome(deviation: &Deviation<TwoFloat>) -> Outcome {
 }
 
 impl Solving<'_> {
-    /// What brings the tooth in early.
+    /// The deviation that makes the tooth early.
     fn deviation(
         &self,
         geometry: &Geometry,
@@ -132,7 +131,7 @@ impl Solving<'_> {
         Ok(solution)
     }
 
-    /// The required relief, once the outcome is known.
+    /// The required relief, after the outcome is known.
     fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
         let held = self
             .asked
@@ -219,7 +218,7 @@ impl Solving<'_> {
 
     fn geometry(&self, ran: &mut Stages) -> Result<Geometry, Refusal> {
         *ran = ran.with(Stage::Geometry);
-        // More digits may be behind the same rounded ones.
+        // The earlier result can differ beyond its rounded digits.
         self.asked.note(Stage::Geometry, |_| false);
         let inputs = GeometryInputs::of(self.asked.inputs);
         let plain = geometry::geometry::<f64>(&inputs.shape);
@@ -229,8 +228,7 @@ impl Solving<'_> {
         rounded.map_or(plain, Ok)
     }
 
-    /// Geometry in double-double arithmetic, where it is asked for or small differences call for
-    /// it.
+    /// Geometry in double-double arithmetic if it is requested or if small differences need it.
     fn precise(&self, plain: &Geometry) -> Result<Option<&Geometry<TwoFloat>>, Refusal> {
         let known = &self.setup.precise;
         if known.get().is_none() {
@@ -240,7 +238,7 @@ impl Solving<'_> {
         Ok(known.get().and_then(Option::as_ref))
     }
 
-    /// D, and everything after it.
+    /// D and all later stages.
     fn locate(&self, solution: &mut Solution) -> Result<(), Refusal> {
         let found = if let Some(earlier) = self.asked.kept(Stage::Position) {
             Ok(earlier.position)
@@ -266,7 +264,7 @@ impl Solving<'_> {
                 solution.withheld = self.strike(solution, &position).err();
             }
             Ok(None) => solution.outcome = Outcome::NoCornerContact,
-            // The methods that share the load do not need it.
+            // Methods with load sharing do not need the velocity.
             Err(refusal) if self.asked.inputs.method.shares_load() => {
                 solution.stages = solution.stages.without(Stage::Position);
                 solution.withheld = Some(refusal);
@@ -276,7 +274,7 @@ impl Solving<'_> {
         Ok(())
     }
 
-    /// The stages from the velocity on, as far as they are wanted and can be computed.
+    /// The wanted stages from the velocity on that can be computed.
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
         let (inputs, tip) = (self.asked.inputs, &position.contact);
         let setup = self.setup;
@@ -340,7 +338,7 @@ impl Solving<'_> {
         Ok(())
     }
 
-    /// A stage's result: the earlier one where it still holds, else a new one where it is wanted.
+    /// The result of a stage: the earlier result if it is valid, otherwise a new one if wanted.
     fn stage<T: PartialEq>(
         &self,
         done: &mut Done<'_>,
@@ -364,13 +362,13 @@ impl Solving<'_> {
     }
 }
 
-/// The stages that a solution has, and those of them that ran.
+/// The stages of a solution, and the stages that ran.
 struct Done<'a> {
     stages: &'a mut Stages,
     ran: &'a mut Stages,
 }
 
-/// The impact force alone, where there is one.
+/// The impact force, if the tooth strikes.
 fn force(inputs: &Inputs) -> Option<f64> {
     let solution = solve_by_method(inputs, Stages::of(Stage::Impact), None, &|_| true).ok()?;
     Some(solution.impact?.force)

@@ -1,4 +1,4 @@
-//! A closed-form solve repeated in place with another load or other deviations, as studies do.
+//! Repeats a closed-form solve in place with other load or deviations, as studies do.
 
 use super::by_method::Solving;
 use super::setup::Setup;
@@ -6,14 +6,14 @@ use crate::model::inputs::{Drive, Inputs, Method};
 use crate::model::stage::Stages;
 use crate::model::{Refusal, Solution};
 
-/// Solves again in place, if `inputs` differ from those of the solution in nothing but load and
-/// deviations and the wanted stages have a closed form. The results are those of
-/// [`solve`](super::solve) to the last bit, without its comparisons of the other stages' inputs.
-/// `setup` keeps what all repeats share; it is empty for the first. `None` if more differs; inputs,
-/// solution and setup then stay.
+/// Solves again in place if `inputs` differ from those of the solution only in load and deviations
+/// and the wanted stages have a closed form. The results have the bits of [`solve`](super::solve)
+/// without the comparisons of the other stages' inputs. `setup` stores the common values of all
+/// repeats and is empty at first. Returns `None` if more differs; inputs, solution and setup then
+/// stay unchanged.
 ///
 /// # Errors
-/// Those of [`solve`](super::solve); the solution is then of no use.
+/// Those of [`solve`](super::solve). The solution is then invalid.
 pub fn solve_repeated(
     (before, change): (&mut Inputs, Change),
     solution: &mut Solution,
@@ -42,17 +42,16 @@ pub fn solve_repeated(
     Some(Solving::from_load(inputs, wanted, setup).repeat(solution))
 }
 
-/// How the inputs of a solve differ from those of the one before.
+/// The difference between the inputs of a solve and the previous inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Change {
-    /// In load and deviations alone.
+    /// Only load and deviations differ.
     LoadAlone,
-    /// To be found by comparison.
+    /// A comparison must find the difference.
     Unknown,
 }
 
-/// Whether inputs differ in nothing but load and deviations, so that
-/// [`solve_repeated`] serves.
+/// Whether inputs differ only in load and deviations, as [`solve_repeated`] needs.
 #[must_use]
 pub fn differ_in_load_alone(one: &Inputs, other: &Inputs) -> bool {
     let mut same_load = one.clone();
@@ -60,7 +59,7 @@ pub fn differ_in_load_alone(one: &Inputs, other: &Inputs) -> bool {
     same_load == *other
 }
 
-/// What the stages of load and deviation read of the inputs, and no other stage with a closed form.
+/// The inputs of the stages load and deviation, which no other closed-form stage reads.
 struct LoadAndDeviation {
     drive: Drive,
     deflection: Option<f64>,
@@ -122,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn load_and_deviations_are_read_by_their_own_stages_alone() {
+    fn only_their_own_stages_read_load_and_deviations() {
         let before = pair();
         for edit in edits() {
             let mut after = before.clone();
@@ -139,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_repeated_solve_is_a_plain_one() {
+    fn a_repeated_solve_has_the_bits_of_a_plain_one() {
         for method in Method::CLOSED_FORM {
             let mut before = Inputs { method, ..pair() };
             let mut solution = solve(&before, Stages::CLOSED_FORM).unwrap();

@@ -1,5 +1,4 @@
-//! What a closed-form solve computes before load and deviations enter, each part where it is first
-//! wanted.
+//! Values that a closed-form solve computes before load and deviations, each on first use.
 
 use std::cell::OnceCell;
 
@@ -14,8 +13,8 @@ use crate::model::position::{GapSeries, PositionInputs};
 use crate::model::velocity::VelocityInputs;
 use crate::model::{Geometry, Refusal};
 
-/// What a closed-form solve computes before load and deviations enter. The parts belong to one
-/// geometry, which their users hand over.
+/// Values that a closed-form solve computes before load and deviations. All belong to one geometry,
+/// which the caller passes.
 #[derive(Debug, Clone)]
 pub struct Setup {
     pub(super) position: PositionInputs,
@@ -23,7 +22,7 @@ pub struct Setup {
     /// With the compliance.
     pub(super) impact: ImpactInputs,
     pub(super) friction: FrictionInputs,
-    /// Geometry in double-double arithmetic, where it is called for.
+    /// Geometry in double-double arithmetic if it is needed.
     pub(super) precise: OnceCell<Option<Geometry<TwoFloat>>>,
     series: OnceCell<GapSeries>,
     teeth: OnceCell<Result<Teeth, Refusal>>,
@@ -54,7 +53,7 @@ impl Setup {
         known.as_ref().map_err(|refusal| *refusal)
     }
 
-    /// The deflection by the load.
+    /// The deflection from the load.
     pub(super) fn deflected(
         &self,
         given: &GivenDeviations,
