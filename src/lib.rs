@@ -23,7 +23,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`system`] | what differs between operating systems |
+//! | [`system`] | interfaces that differ between operating systems |
 //! | [`numeric`] | root finding, series and quadrature, independent of gears |
 //! | [`model`] | the computation: one stage per file, without files, threads or printing |
 //! | [`case`](mod@case) | the case file: fields, units, reading, checking, saving |

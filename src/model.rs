@@ -139,7 +139,7 @@ pub struct Solution {
     pub deviation: Deviation,
     /// Intermediate results for the next solve.
     kept: Kept,
-    /// Where the tip first touches the flank.
+    /// The first contact of the tip with the flank.
     pub position: Option<Position>,
     /// Velocities at D.
     pub velocity: Option<Velocity>,

@@ -91,7 +91,7 @@ impl Dimension {
 /// The reason why a text is not a value of the wanted dimension: the cause and the fix.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ParseError {
-    /// What is wrong.
+    /// The cause.
     pub cause: String,
     /// How to fix it.
     pub fix: String,

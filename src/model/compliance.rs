@@ -132,7 +132,7 @@ impl TeethCompliance {
     }
 }
 
-/// Where two flanks touch: the load radii and the reduced curvature, in m.
+/// Contact of two flanks: the load radii and the reduced curvature, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPlace {
     /// Radius of the load point on the driver.

@@ -132,8 +132,8 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     })
 }
 
-/// Geometry of the pair in double-double arithmetic, where the case calls for it, or where the
-/// small differences of `plain` do; `None` stands for a geometry that f64 cannot compute.
+/// Geometry of the pair in double-double arithmetic, if the case requests it or small differences
+/// of `plain` need it. `plain` is `None` if f64 cannot compute the geometry.
 ///
 /// # Errors
 /// Those of [`geometry`].

@@ -49,7 +49,7 @@ pub struct Quantity {
     pub stage: Stage,
     /// The value in SI. `None` if the solution has no value.
     pub value: fn(&Solution) -> Option<f64>,
-    /// What the quantity is and what it is used for.
+    /// Meaning and use of the quantity.
     pub meaning: &'static str,
     /// How the value is computed.
     pub formula: Formula,
@@ -57,7 +57,7 @@ pub struct Quantity {
     pub source: &'static str,
     /// The equations with printing errors that the quantity uses.
     pub corrections: &'static [&'static str],
-    /// What the formula assumes.
+    /// The assumptions of the formula.
     pub assumptions: &'static str,
     /// Ranges of validity.
     pub checks: &'static [Check],
@@ -166,14 +166,14 @@ impl Quantity {
         self.key == "equivalent_error" && method.shares_load()
     }
 
-    /// What the quantity is in a case with these inputs.
+    /// Meaning and use of the quantity in a case with these inputs.
     #[must_use]
     pub fn meaning_in(&self, inputs: &Inputs) -> &'static str {
         self.variant(inputs)
             .map_or(self.meaning, |variant| variant.meaning)
     }
 
-    /// What the formula assumes in a case with these inputs.
+    /// The assumptions of the formula in a case with these inputs.
     #[must_use]
     pub fn assumptions_in(&self, inputs: &Inputs) -> &'static str {
         self.variant(inputs)

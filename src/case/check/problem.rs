@@ -12,7 +12,7 @@ use crate::model::{QUANTITIES, Quantity, Refusal};
 pub struct Problem {
     /// The field's key, or an unknown key as written.
     pub field: String,
-    /// What is wrong.
+    /// The cause.
     pub cause: String,
     /// How to fix it.
     pub fix: String,

@@ -29,7 +29,7 @@ pub struct Fault {
     pub column: usize,
     /// The field's key, an unknown key as written, or `toml` if the text is not TOML.
     pub field: String,
-    /// What is wrong.
+    /// The cause.
     pub cause: String,
     /// How to fix it.
     pub fix: String,

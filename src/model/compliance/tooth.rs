@@ -1,4 +1,4 @@
-//! The list of tooth compliances: a new model is one file in this folder and one entry of
+//! The list of tooth compliances. A new model needs one file in this folder and one entry in
 //! [`MODELS`].
 
 pub mod beam;
@@ -28,29 +28,30 @@ pub struct ToothModel {
     pub name: &'static str,
     /// The index in a symbol such as F_fit,log.
     pub index: &'static str,
-    /// What the form says of the model, without a full stop.
+    /// Help text in the form, without a full stop.
     pub help: &'static str,
     /// The range, in words.
     pub range: &'static str,
     /// Whether the pair is in the range.
     pub covers: fn(&Inputs) -> bool,
-    /// Why a pair outside the range is outside, as the end of a sentence.
+    /// The reason why a pair is outside the range, as the end of a sentence.
     pub why_outside: fn(&Inputs) -> String,
     /// Compares a pair with the range, for an explanation.
     pub check: fn(&Context) -> Option<Finding>,
-    /// The note on a pair outside the range: its code and its message.
+    /// The note for a pair outside the range: its code and its message.
     pub outside: fn(&Inputs, &Geometry) -> Option<(&'static str, String)>,
-    /// The code of the note that the range chose this model.
+    /// The code of the note if the range determined this model.
     pub chosen: &'static str,
-    /// Whether the compliance depends on the root of the tooth, and so on the dedendum.
+    /// Whether the compliance depends on the root of the tooth, and therefore on the dedendum.
     pub reads_root: bool,
-    /// Whether the model includes the contact, so that the case's contact compliance is not used.
+    /// Whether the model includes the contact, so that the contact compliance of the case is not
+    /// used.
     pub has_contact: bool,
     /// Whether the force on a tooth displaces its neighbours, see [`Tooth::neighbour`].
     pub has_coupling: bool,
-    /// q_1, q_2 and the steps before them; q_H as well if the model includes the contact.
+    /// The steps of q_1 and q_2, and of q_H if the model includes the contact.
     pub steps: &'static [Step],
-    /// The compliance itself.
+    /// Computation of the compliance.
     pub compliance: Compliance,
 }
 
@@ -58,14 +59,14 @@ type ByRadius = fn(&ElasticGear, &Circles, f64) -> Result<f64, Refusal>;
 type Line = fn(&ElasticGear, &Circles) -> Result<StiffnessLine, Refusal>;
 type Build = fn(&ElasticGear, &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal>;
 
-/// Computes the compliance of one tooth, contact excluded, per unit width, in m²/N.
+/// The form of a compliance function for one tooth, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy)]
 pub enum Compliance {
     /// Computed from the radius of the load point at each call.
     AtRadius(ByRadius),
     /// The stiffness is linear in the radius of the load point.
     Line(Line),
-    /// From an object that is built once per gear and then read at each radius.
+    /// Uses an object that is built once per gear and evaluated at each radius.
     PerGear(Build),
 }
 
@@ -75,9 +76,9 @@ const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
 /// The stiffness of a tooth, linear in the height of the load point above the reference circle.
 #[derive(Debug, Clone, Copy)]
 pub struct StiffnessLine {
-    /// At the reference circle, in N/(µm mm).
+    /// Stiffness at the reference circle, in N/(µm mm).
     pub at_reference: f64,
-    /// What it gains per unit of height, in N/(µm mm).
+    /// Increase per unit of height, in N/(µm mm).
     pub per_height: f64,
     /// Radius of the reference circle, in m.
     pub reference: f64,
@@ -89,7 +90,7 @@ impl StiffnessLine {
     /// Compliance of the tooth loaded at a radius, in m²/N.
     ///
     /// # Errors
-    /// [`Refusal::HeightOutsideFit`] where the stiffness is not above 0.
+    /// [`Refusal::HeightOutsideFit`] if the stiffness is not above 0.
     pub fn compliance(&self, radius: f64) -> Result<f64, Refusal> {
         let height = (radius - self.reference) / self.height;
         let stiffness =
@@ -110,7 +111,7 @@ pub trait LoadedTooth: Debug + Send + Sync {
     /// A [`Refusal`] outside the range of the model.
     fn at(&self, gear: &ElasticGear, radius: f64) -> Result<f64, Refusal>;
 
-    /// The contact's part of the tooth loaded at a radius; `None` for a model without contact.
+    /// The contact law of the tooth loaded at a radius. `None` for a model without contact.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
@@ -118,8 +119,8 @@ pub trait LoadedTooth: Debug + Send + Sync {
         Ok(None)
     }
 
-    /// See [`Tooth::neighbour`], with the radii of load and displacement; 0 for a model of single
-    /// teeth.
+    /// See [`Tooth::neighbour`], with the radii of load and displacement. 0 for a model without
+    /// coupling.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
@@ -132,13 +133,13 @@ pub trait LoadedTooth: Debug + Send + Sync {
         Ok(0.0)
     }
 
-    /// See [`Tooth::last_radius`]; infinite for a model that knows no corner.
+    /// See [`Tooth::last_radius`]. Infinite for a model without a corner.
     fn last_radius(&self, _half_width: f64) -> f64 {
         f64::INFINITY
     }
 }
 
-/// One tooth of a gear, ready for any load point.
+/// One tooth of a gear, prepared for any load point.
 #[derive(Debug, Clone)]
 pub struct Tooth {
     gear: ElasticGear,
@@ -157,7 +158,7 @@ impl Tooth {
     /// The tooth of a gear by a model.
     ///
     /// # Errors
-    /// Those of the model, where it builds an object for the gear.
+    /// Those of the model if it builds an object for the gear.
     pub fn of(
         model: ToothCompliance,
         gear: &ElasticGear,
@@ -195,7 +196,7 @@ impl Tooth {
         }
     }
 
-    /// The contact's part of the tooth loaded at a radius; `None` for a model without contact.
+    /// The contact law of the tooth loaded at a radius. `None` for a model without contact.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
@@ -208,10 +209,10 @@ impl Tooth {
 
     /// Displacement of another tooth's flank at radius `measured`, along its own line of force, for
     /// a load of 1 N/m on this tooth at radius `loaded`, in m²/N. The other tooth is `pitches`
-    /// ahead, to the side that the force pushes to; teeth behind count below 0.
+    /// ahead in the direction of the force; teeth behind have negative numbers.
     ///
-    /// The twist of the body about its bore is left out; without a bore, so is its shift. 0 for a
-    /// model of single teeth, for the loaded tooth itself, and for teeth more than
+    /// Excludes the twist of the body about its bore, and without a bore the shift of the body. 0
+    /// for a model without coupling, for the loaded tooth itself, and for teeth more than
     /// [`PITCHES`](crate::model::field::PITCHES) away.
     ///
     /// # Errors
@@ -223,14 +224,14 @@ impl Tooth {
         }
     }
 
-    /// Whether the model knows the corner of the tip, so that [`Tooth::last_radius`] may be finite.
+    /// Whether the model has the corner of the tip, so that [`Tooth::last_radius`] can be finite.
     #[must_use]
     pub fn has_corner(&self) -> bool {
         matches!(self.serves, Serves::Built(_))
     }
 
-    /// Radius in m of the load whose pressure over ± `half_width` ends at the corner of the tip: a
-    /// load further out counts as this one. Infinite for a model that knows no corner.
+    /// Radius in m of the load whose pressure over ± `half_width` ends at the corner of the tip. A
+    /// load farther out acts at this radius. Infinite for a model without a corner.
     #[must_use]
     pub fn last_radius(&self, half_width: f64) -> f64 {
         match &self.serves {
@@ -240,7 +241,7 @@ impl Tooth {
     }
 }
 
-/// The models that are tried in turn where a case names none.
+/// The models in order of preference if the case names none.
 #[must_use]
 pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
     if inputs.method == Method::Paper {
@@ -250,8 +251,8 @@ pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
     }
 }
 
-/// The tooth compliance of a pair: the choice of the case, else the first of the [`preferences`]
-/// that covers the pair; if none does, the beam, whose refusal says why.
+/// The tooth compliance of a pair: the choice of the case, or the first of the [`preferences`] that
+/// covers the pair. If none covers the pair, the beam, whose refusal gives the reason.
 #[must_use]
 pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     let by_range = || {
@@ -263,7 +264,7 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     inputs.tooth_compliance.unwrap_or_else(by_range)
 }
 
-/// A tooth compliance that is quick to build, if that of the pair needs an elastic field.
+/// A tooth compliance that is quick to build, if the model of the pair needs an elastic field.
 #[must_use]
 pub fn without_field(inputs: &Inputs) -> Option<ToothCompliance> {
     let has_field = model_of(inputs) == ToothCompliance::FINITE_ELEMENT;

@@ -1,4 +1,4 @@
-//! The kept steps of a run, window by window.
+//! The stored steps of a run, window by window.
 
 use super::motion::{Motion, Window};
 use super::step::{Course, Step};

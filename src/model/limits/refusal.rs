@@ -218,7 +218,7 @@ pub enum Refusal {
             neighbouring tooth more than the loaded tooth)"
     )]
     IndefiniteCompliance,
-    /// Friction alone locks the gears.
+    /// Friction locks the gears.
     #[error(
         "the friction locks the gears: the coefficient is {friction} and must be below {limit:.4}, \
             r_b1 over the greatest arm"

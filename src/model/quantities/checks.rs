@@ -26,7 +26,7 @@ pub(super) fn end(k: &Context) -> Option<Finding> {
     )
 }
 
-/// A pair carries the load while the next one comes into contact.
+/// A pair carries the load when the next pair starts contact.
 pub(super) fn contact_ratio(k: &Context) -> Option<Finding> {
     let ratio = k.solution.geometry.contact_ratio;
     Finding::new(

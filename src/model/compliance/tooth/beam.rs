@@ -1,4 +1,4 @@
-//! Tooth compliance by the potential-energy method, with the fillet's foundation.
+//! Tooth compliance by the potential-energy method, with the foundation of the fillet.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,7 +13,7 @@ use crate::model::inputs::{Gear, Inputs, ToothCompliance};
 use crate::model::profile::{Profile, Rack, Section};
 use crate::numeric::{quadrature, root};
 
-/// The row of the list.
+/// The entry of the list.
 pub const MODEL: ToothModel = ToothModel {
     name: "beam",
     index: "beam",
@@ -32,7 +32,7 @@ pub const MODEL: ToothModel = ToothModel {
 };
 
 impl ToothCompliance {
-    /// Potential-energy method on the true profile, with the fillet's foundation.
+    /// Potential-energy method on the true profile, with the foundation of the fillet.
     pub const BEAM: ToothCompliance = ToothCompliance::named(MODEL.name);
 }
 
@@ -57,7 +57,7 @@ const STEPS: &[Step] = &[
     },
 ];
 
-/// Tolerance of the quadrature, relative.
+/// Relative tolerance of the quadrature.
 const TOLERANCE: f64 = 1e-11;
 
 /// Compliance of one tooth loaded at a radius, contact excluded, in m²/N.
@@ -67,32 +67,32 @@ const TOLERANCE: f64 = 1e-11;
 /// q = ∫ ((x_F − x)² cos² a1/I + sin² a1/A) (1 − ν²)/E + 1.2 cos² a1/(G A) dx + q_f
 /// I = 2 hx³/3,  A = 2 hx,  G = E/(2 (1 + ν)),  x_F = r_b/cos a1
 /// ```
-/// per unit width, where the force acts at the angle a₁ to the normal of the tooth's centre line, x
-/// runs along it from the root to the point x_F where the force crosses it, and h_x is half the
-/// thickness at x. Where the force crosses below the junction of fillet and involute, the sections
-/// between are subtracted with the thickness of the involute.
+/// q is per unit width. The force acts at the angle a₁ to the normal of the tooth's centre line. x
+/// runs along the centre line from the root to the point x_F, where the force crosses it. h_x is
+/// half of the thickness at x. If the force crosses below the junction of fillet and involute, the
+/// sections between are subtracted with the thickness of the involute.
 ///
 /// # Source
 /// Weber & Banaschek 1953 ("Formänderung und Profilrücknahme bei gerad- und schrägverzahnten
-/// Rädern"): plane strain, up to the crossing of force and centre line; the deformation between the
-/// flank and that point belongs to the contact. Integrated over the true profile: the involute and
+/// Rädern"): plane strain, up to the crossing of force and centre line. The deformation between the
+/// flank and this point belongs to the contact. Integrated over the true profile: the involute and
 /// the trochoidal fillet of the cutting rack. q_f: see `foundation`.
 ///
 /// # Valid for
-/// Any tooth number, shift and pressure angle that leave a tooth; linear elasticity of one tooth on
-/// its own body, without the twist of the body about its bore. It is 4 to 22 % softer than the
-/// elastic field for bodies with r_f/r_h from 2 to 5 within the range of the foundation, and 50 to
-/// 200 % on thin rims and on the thick teeth of small gears.
+/// Any tooth number, shift and pressure angle that leave a tooth. Linear elasticity of one tooth on
+/// its own body, without the twist of the body about its bore. The compliance is 4 to 22 % above
+/// the elastic field for bodies with r_f/r_h from 2 to 5 within the range of the foundation, and 50
+/// to 200 % above it on thin rims and on the thick teeth of small gears.
 ///
 /// # Errors
-/// [`Refusal::PointedTip`] where no tooth is left at the load point, [`Refusal::BelowFormCircle`]
-/// where the load point lies on the fillet, [`Refusal::CutThrough`] where the undercut leaves no
-/// neck.
+/// [`Refusal::PointedTip`] if the tooth has no thickness at the load point,
+/// [`Refusal::BelowFormCircle`] if the load point is on the fillet, [`Refusal::CutThrough`] if the
+/// undercut leaves no neck.
 pub fn tooth(gear: &ElasticGear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
     tooth_within(gear, circles, radius, TOLERANCE)
 }
 
-/// The same, by a quadrature of some relative tolerance.
+/// [`tooth`] with a given relative tolerance of the quadrature.
 fn tooth_within(
     gear: &ElasticGear,
     circles: &Circles,
@@ -154,7 +154,7 @@ impl Beam {
     /// Roll angle of the involute at the height of the crossing, for a load at the roll angle
     /// `roll`.
     fn crossing_roll(&self, profile: &Profile, roll: f64) -> f64 {
-        // Where the force is normal to the centre line, the section at the load has this height.
+        // If the force is normal to the centre line, the section at the load has this height.
         let normal = roll - profile.load_angle(roll);
         let other = normal.max(2.0 * normal - roll);
         root::between(other, roll, |roll| {
@@ -162,8 +162,8 @@ impl Beam {
         })
     }
 
-    /// What a section adds to the compliance times E, per parameter; without bound where none is
-    /// left.
+    /// Compliance times E of a section per unit of the profile parameter. Infinite if the section
+    /// has no thickness.
     fn energy(&self, section: &Section) -> f64 {
         let half = section.half_thickness.max(0.0);
         let arm = (self.crossing - section.along) * self.cosine;
@@ -175,21 +175,21 @@ impl Beam {
     }
 }
 
-/// What a strain of plane stress loses in plane strain: 1 − ν².
+/// Ratio of the strain in plane strain to that in plane stress: 1 − ν².
 fn plane_strain(poisson: f64) -> f64 {
     1.0 - poisson * poisson
 }
 
-/// r_f/r_bore that stands for a gear without a bore.
+/// r_f/r_bore for a gear without a bore.
 const SOLID_BODY: f64 = 3.0;
 /// ν of the coefficients of the foundation.
 const FOUNDATION_POISSON: f64 = 0.3;
-/// Range of r_f/r_bore in which they were fitted.
+/// Fitted range of r_f/r_bore.
 const FOUNDATION_BODY: (f64, f64) = (1.4, 7.0);
-/// Range of the half tooth angle at the root in which they were fitted, in rad.
+/// Fitted range of the half tooth angle at the root, in rad.
 const FOUNDATION_ANGLE: (f64, f64) = (0.01, 0.12);
 
-/// Whether the beam has an answer at both tips.
+/// Whether the beam has a compliance at both tips.
 fn covers(inputs: &Inputs) -> bool {
     let answers = |gear: &Gear| {
         let gear = ElasticGear::of(inputs, gear);
@@ -250,7 +250,7 @@ fn outside(inputs: &Inputs, geometry: &Geometry) -> Option<(&'static str, String
     Some(("foundation-outside-range", message))
 }
 
-/// Where a gear lies in the range of the foundation.
+/// The position of a gear in the range of the foundation.
 struct Foundation {
     body: f64,
     angle: f64,
@@ -289,15 +289,16 @@ impl Foundation {
 /// ```
 /// q_T is the twist of the body about its bore, which belongs to the shaft, and q_V the shift of
 /// the body. u is the distance from the root circle to the line of force along the centre line. S =
-/// 2 θ r_f is the thickness at the root, θ half of the tooth's angle there, and h = r_f/r_bore.
+/// 2 θ r_f is the thickness at the root, θ half of the tooth's angle at the root, and h =
+/// r_f/r_bore.
 ///
 /// # Source
-/// Sainsot, Velex & Duverger 2004, J. Mech. Des. 126(4), 748-752, in plane strain with ν = 0.3: L is
-/// 6.82 to 6.94, and the half plane has 24 (1 − ν²)/π = 6.95 (in plane stress 24/π = 7.64).
+/// Sainsot, Velex & Duverger 2004, J. Mech. Des. 126(4), 748-752, in plane strain with ν = 0.3. L
+/// is 6.82 to 6.94; the half plane has 24 (1 − ν²)/π = 6.95 (in plane stress 24/π = 7.64).
 ///
 /// # Valid for
-/// h = 1.4..7 and θ = 0.01..0.12; outside, the nearest value of the range serves in L, M, P, Q and
-/// in q_T. A gear without a bore is computed with h = 3.
+/// h = 1.4..7 and θ = 0.01..0.12. Outside, L, M, P, Q and q_T use the nearest value of the range. A
+/// gear without a bore uses h = 3.
 fn foundation(profile: &Profile, gear: &ElasticGear, circles: &Circles, angle: f64) -> f64 {
     const L: [f64; 6] = [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045];
     const M: [f64; 6] = [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086];
@@ -340,7 +341,7 @@ mod tests {
     use crate::model::sample::standard_pair;
 
     #[test]
-    fn refuses_a_tooth_that_the_undercut_cuts_through() {
+    fn a_tooth_cut_through_by_the_undercut_is_refused() {
         let mut inputs = standard_pair(5, 44, 1e-3);
         inputs.tooth_compliance = Some(ToothCompliance::BEAM);
         inputs.driven.addendum = -0.5;
@@ -354,7 +355,7 @@ mod tests {
         }
     }
 
-    /// Over teeth of every kind, pointed and undercut ones too.
+    /// Tests teeth of all kinds, also pointed and undercut teeth.
     #[test]
     fn quadrature_is_converged_to_1e_10() {
         let mut solved = 0;
@@ -368,8 +369,8 @@ mod tests {
         assert!(solved > 1000, "{solved}");
     }
 
-    /// How many loads along the flank have a compliance; each must be that of a far finer
-    /// quadrature.
+    /// The number of loads along the flank with a compliance. Each compliance must agree with that
+    /// of a much finer quadrature.
     fn converged_loads(teeth: u32, degrees: f64, shift: f64) -> usize {
         let mut inputs = standard_pair(teeth, 60, 5e-3);
         inputs.tooth_compliance = Some(ToothCompliance::BEAM);

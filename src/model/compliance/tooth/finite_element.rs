@@ -13,7 +13,7 @@ use crate::model::field::cache::FieldGear;
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Inputs, ToothCompliance};
 
-/// The row of the list.
+/// The entry of the list.
 pub const MODEL: ToothModel = ToothModel {
     name: "finite-element",
     index: "fe",
@@ -96,7 +96,7 @@ fn at_one_module(k: &Context, law: ContactLaw) -> f64 {
     law.offset - law.slope * k.inputs.module.ln()
 }
 
-/// Why the first of the gears without a field has none.
+/// The refusal of the first gear without a field.
 fn refusal(inputs: &Inputs) -> Option<Refusal> {
     let gears = [&inputs.driver, &inputs.driven].map(|gear| ElasticGear::of(inputs, gear));
     gears.iter().find_map(|gear| field_gear(gear).check().err())
@@ -125,12 +125,12 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
 /// The field of a gear, built if no recent solve has built it.
 ///
 /// # Errors
-/// [`Refusal::NoField`] if the gear has none.
+/// [`Refusal::NoField`] if the gear has no field.
 pub fn field_of(gear: &ElasticGear) -> Result<Arc<Field>, Refusal> {
     field_gear(gear).field()
 }
 
-/// All of a gear that its field depends on.
+/// All inputs of a gear's field.
 #[must_use]
 pub fn field_gear(gear: &ElasticGear) -> FieldGear {
     FieldGear {
@@ -147,16 +147,16 @@ pub fn field_gear(gear: &ElasticGear) -> FieldGear {
 /// ```text
 /// q(r; a) = q(r) + q_H(r; m) + 2 (1 − ν²)/(π E) ln(m/a)
 /// ```
-/// where q is the displacement of the tooth's centre line along a force at radius r, and q_H the
-/// flank's beyond it under an elliptical pressure over ± a.
+/// q is the displacement of the tooth's centre line along a force at radius r. q_H is the
+/// additional displacement of the flank under an elliptical pressure over ± a.
 ///
 /// # Source
 /// [`Field`]: finite elements on half a pitch of the whole gear, in plane strain.
 ///
 /// # Valid for
-/// A flank above the form circle. A load within 0.02 modules of the tip's corner counts as one at
-/// that distance. Under the mesh force the distance is the half-width of the contact at the least,
-/// so that the pressure ends at the corner ([`Teeth::under`]); an impact keeps the 0.02 modules.
+/// A flank above the form circle. A load within 0.02 modules of the tip's corner acts at this
+/// distance. Under the mesh force the distance is at least the half-width of the contact, so that
+/// the pressure ends at the corner ([`Teeth::under`]). An impact uses the 0.02 modules.
 ///
 /// # Errors
 /// [`Refusal::NoField`] if the gear has no field.

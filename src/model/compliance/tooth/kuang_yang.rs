@@ -10,7 +10,7 @@ use crate::model::explanation::{Context, Finding, Step, four};
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Gear, Inputs, ToothCompliance};
 
-/// The row of the list.
+/// The entry of the list.
 pub const MODEL: ToothModel = ToothModel {
     name: "kuang-yang",
     index: "fit",
@@ -85,13 +85,13 @@ const STEPS: &[Step] = &[
 
 /// Tooth numbers that the fit of Eq. 56 covers.
 const TEETH: (u32, u32) = (12, 100);
-/// Greatest profile shift, either way, that the fit of Eq. 56 covers.
+/// Greatest absolute profile shift that the fit of Eq. 56 covers.
 const SHIFT: f64 = 0.6;
 
-/// The range of the fit, in words.
+/// The range of the fit as text.
 const RANGE: &str = "z 12..100, |x| <= 0.6, 20 deg full-depth steel teeth";
 
-/// Whether both gears lie in the range of the fit: tooth number, profile shift, 20° full depth,
+/// Whether both gears are in the range of the fit: tooth number, profile shift, 20° full depth,
 /// steel.
 fn covers(inputs: &Inputs) -> bool {
     const PRESSURE_ANGLE_DEGREES: f64 = 20.0;
@@ -146,11 +146,12 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
 /// Kuang & Yang 1992; Zhou & Chen 2014, Eq. 56. Contact excluded.
 ///
 /// # Valid for
-/// z = 12..100, |x| ≤ 0.6, 20° full-depth steel teeth. Being cubic in z it explodes outside.
+/// z = 12..100, |x| ≤ 0.6, 20° full-depth steel teeth. The cubic polynomials in z grow fast outside
+/// this range.
 ///
 /// # Errors
-/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; the line itself refuses a tooth so
-/// high that the fit falls below 0.
+/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]. The result refuses heights with a
+/// stiffness that is not above 0.
 pub fn tooth(gear: &ElasticGear, circles: &Circles) -> Result<StiffnessLine, Refusal> {
     let (gear, (least, most)) = (&gear.rack, TEETH);
     if !(least..=most).contains(&gear.teeth) {
@@ -205,7 +206,7 @@ mod tests {
     use crate::model::sample::standard_pair;
 
     #[test]
-    fn refuses_a_height_at_which_the_fit_has_no_stiffness() {
+    fn a_height_without_stiffness_is_refused() {
         let inputs = standard_pair(59, 15, 5e-3);
         let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
         let gear = inputs.elasticity().driver;
