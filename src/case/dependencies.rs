@@ -213,7 +213,6 @@ fn other_numbers(
 ) -> Vec<f64> {
     /// Factors for a centre distance and for other numbers that usually leave a valid pair.
     const FACTORS: [f64; 4] = [1.0002, 1.02, 0.8, 1.25];
-    /// Multiples of an example.
     const EXAMPLES: [f64; 4] = [1.0, 0.2, 1.5, 30.0];
     /// Part of the range for a field with the value 0.
     const SHARE: f64 = 1e-3;

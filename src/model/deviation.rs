@@ -377,7 +377,6 @@ impl Deviation {
 }
 
 impl<T: Real> Deviation<T> {
-    /// Rounded to f64.
     pub(super) fn rounded(self) -> Deviation {
         Deviation {
             equivalent_error: self.equivalent_error.rounded(),

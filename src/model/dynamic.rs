@@ -195,11 +195,9 @@ pub fn approach(
 struct Run<'a> {
     motion: &'a Motion<'a>,
     borders: Vec<f64>,
-    /// Index of the next border.
     next: usize,
     t: f64,
     y: State,
-    /// The touching pairs.
     touching: Vec<PairName>,
     /// The pairs of the window that have just gained or lost contact.
     turned: Touching,

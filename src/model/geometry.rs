@@ -272,7 +272,6 @@ impl Geometry {
 }
 
 impl<T: Real> Geometry<T> {
-    /// Rounded to f64.
     pub(super) fn rounded(self) -> Geometry {
         Geometry {
             ratio: self.ratio.rounded(),

@@ -15,7 +15,6 @@ pub struct Earlier<'a> {
     pub solution: &'a Solution,
 }
 
-/// A request for a solve.
 pub(super) struct Request<'a> {
     pub(super) inputs: &'a Inputs,
     pub(super) wanted: Stages,

@@ -114,7 +114,6 @@ pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal>
 }
 
 impl StaticLoad {
-    /// No contact.
     fn none() -> StaticLoad {
         StaticLoad {
             first_contact_angle: None,

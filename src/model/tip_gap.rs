@@ -271,7 +271,6 @@ impl TipContact {
 }
 
 impl<T: Real> TipContact<T> {
-    /// Rounded to f64.
     pub(super) fn rounded(self) -> TipContact {
         TipContact {
             angle: self.angle.rounded(),

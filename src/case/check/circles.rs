@@ -8,7 +8,6 @@ use crate::model::Inputs;
 use crate::model::inputs::Gear;
 use crate::numeric::decimal::significant;
 
-/// Digits of a coefficient in a message.
 const COEFFICIENT_DIGITS: usize = 4;
 
 /// The keys of the fields that determine the circles of one gear.
@@ -67,7 +66,6 @@ macro_rules! circle_fields {
     };
 }
 
-/// The circles of driver and driven gear.
 pub(super) static OF_GEARS: [CircleFields; 2] = [circle_fields!(driver), circle_fields!(driven)];
 
 impl Problem {

@@ -19,7 +19,6 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// A problem of a field.
     pub(in crate::case) fn new(
         field: &str,
         cause: impl Into<String>,

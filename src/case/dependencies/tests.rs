@@ -10,7 +10,6 @@ use crate::model::request::Earlier;
 use crate::model::solve::solve_after;
 use crate::model::{self, Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 
-/// A case and its solution.
 struct Solved {
     name: String,
     variant: &'static str,

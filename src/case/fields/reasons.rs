@@ -27,7 +27,6 @@ pub(super) const TIP_OF_DRIVER: &str = "the driver's tip ends contact at B; at r
 pub(super) const IN_TIME: &str = "only the method dynamic follows the motion in time";
 pub(super) const CURVE: &str = "changes only how closely the curve is sampled";
 
-/// Reasons for the root of a gear.
 pub(super) const ROOT: [Reason; 1] = [Partly(
     |inputs| !root_is_read(inputs),
     "the tooth compliance ignores the root; only the stiffness spread changes, because the spread \
@@ -40,13 +39,11 @@ pub(super) const WHOLE_RELIEF: [Reason; 1] = [Idle(
     "this method applies the full relief at the first contact and ignores length and shape",
 )];
 
-/// Reasons for the load.
 pub(super) const LOAD: [Reason; 1] = [Partly(
     |inputs| inputs.method != Method::Auto && inputs.deflection_taken().is_some(),
     "with the deflection given, the load changes F_0, not the impact",
 )];
 
-/// Reasons for the masses.
 pub(super) const MASS: [Reason; 1] = [Partly(
     |inputs| inputs.method == Method::Static,
     "the static load does not depend on mass; only the free impact changes, and with `beam` the \

@@ -18,11 +18,9 @@ const MOST: usize = 200;
 pub(super) struct Recovered {
     /// The text with broken lines blanked. All other bytes keep their places.
     pub(super) text: String,
-    /// The faults of the broken lines.
     pub(super) faults: Vec<Found>,
     /// Number of further errors.
     pub(super) more: usize,
-    /// The broken lines.
     pub(super) broken: String,
     /// Whether every table header is readable, so that the table of each key is known.
     pub(super) tables_known: bool,

@@ -34,7 +34,6 @@ impl Entry {
         self.name.trim_matches('"')
     }
 
-    /// The entry as a line.
     pub(super) fn line(&self) -> String {
         format!("{} = {}", self.name, self.value)
     }

@@ -28,7 +28,6 @@ pub(super) struct Reading {
     pub(super) case: Case,
     pub(super) places: Places,
     pub(super) faults: Vec<Found>,
-    /// Number of further faults.
     pub(super) more: usize,
 }
 

@@ -11,7 +11,6 @@ use super::refusal::Refusal;
 use crate::case::file::MOST_MODEL_BYTES;
 
 const ZIP: &[u8] = b"PK";
-/// Limit of the number of files in an archive.
 const MOST_FILES: usize = 1000;
 
 /// The text of a model.

@@ -81,7 +81,5 @@ pub(super) struct Keys {
     pub(super) root_relief_length: &'static str,
 }
 
-/// The keys of gear 1 of a case.
 pub(super) const DRIVER: Keys = keys!("driver");
-/// The keys of gear 2 of a case.
 pub(super) const DRIVEN: Keys = keys!("driven");

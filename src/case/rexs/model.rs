@@ -2,7 +2,6 @@
 
 use std::collections::HashSet;
 
-/// A model.
 #[derive(Debug, Default)]
 pub(super) struct Model {
     /// The REXS version, such as "1.4".
@@ -33,7 +32,6 @@ pub(super) struct Attribute {
     pub(super) value: String,
 }
 
-/// A relation of components.
 #[derive(Debug)]
 pub(super) struct Relation {
     /// Its type, such as "stage".

@@ -142,7 +142,6 @@ fn cylindrical(model: &Model, stage: &Component) -> Kind {
     }
 }
 
-/// The number of teeth of a gear.
 pub(super) const TEETH: Wanted = Wanted::number("number_of_teeth");
 
 const HELIX: [&str; 3] = [

@@ -5,7 +5,6 @@ use roxmltree::{Document, Node, ParsingOptions};
 use super::model::{Attribute, Component, LoadCase, Model, Relation};
 use super::refusal::Refusal;
 
-/// Limit of the number of nodes.
 const MOST_NODES: u32 = 4_000_000;
 
 pub(super) fn parse(text: &str) -> Result<Model, Refusal> {

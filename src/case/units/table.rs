@@ -18,19 +18,15 @@ pub(super) enum Scale {
 pub(super) struct Unit {
     /// The spelling that messages use.
     pub(super) symbol: &'static str,
-    /// Other spellings.
     pub(super) aliases: &'static [&'static str],
-    /// Its value in SI.
     pub(super) scale: Scale,
 }
 
 /// All units of a dimension, in the order of messages.
 pub(super) struct Family {
-    /// The dimension.
     pub(super) dimension: Dimension,
     /// The name of a value with its article.
     pub(super) name: &'static str,
-    /// Its units.
     pub(super) units: &'static [Unit],
 }
 

@@ -94,7 +94,6 @@ const fn put<const N: usize>(mut bytes: [u8; N], mut end: usize, text: &str) -> 
     (bytes, end)
 }
 
-/// The bytes as text.
 pub(super) const fn text(bytes: &'static [u8]) -> &'static str {
     match std::str::from_utf8(bytes) {
         Ok(text) => text,

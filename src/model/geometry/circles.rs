@@ -120,7 +120,6 @@ fn check_room(
 }
 
 impl<T: Real> Circles<T> {
-    /// Rounded to f64.
     pub(in crate::model) fn rounded(self) -> Circles {
         Circles {
             reference: self.reference.rounded(),

@@ -49,12 +49,10 @@ pub(super) fn common_base_pitch(inputs: &Inputs, _: &Solution) -> Option<Note> {
     })
 }
 
-/// The driver's grade.
 pub(super) fn grade_driver(inputs: &Inputs, _: &Solution) -> Option<Note> {
     grade("driver", inputs, &inputs.driver)
 }
 
-/// The driven gear's grade.
 pub(super) fn grade_driven(inputs: &Inputs, _: &Solution) -> Option<Note> {
     grade("driven", inputs, &inputs.driven)
 }

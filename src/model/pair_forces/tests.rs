@@ -2,7 +2,6 @@
 
 use super::*;
 
-/// A pseudo-random number from 0 to 1.
 fn random(state: &mut u64) -> f64 {
     *state = state
         .wrapping_mul(6_364_136_223_846_793_005)

@@ -265,7 +265,6 @@ pub(super) fn forgotten(k: &Context) -> Option<Finding> {
     )
 }
 
-/// The teeth stay in contact.
 pub(super) fn contact_kept(k: &Context) -> Option<Finding> {
     let lost = k.solution.dynamic.as_ref()?.contact_lost;
     let here = if lost {

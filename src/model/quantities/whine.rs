@@ -269,7 +269,6 @@ fn steady(solution: &Solution) -> Option<&Steady> {
     solution.steady.as_ref()?.as_ref().ok()
 }
 
-/// The teeth stay in contact.
 fn contact_kept(k: &Context) -> Option<Finding> {
     let steady = steady(k.solution)?;
     let here = match (steady.contact_lost, steady.periods) {

@@ -106,7 +106,6 @@ fn outcome(deviation: &Deviation<TwoFloat>) -> Outcome {
 }
 
 impl Solving<'_> {
-    /// The deviation that makes the tooth early.
     fn deviation(
         &self,
         geometry: &Geometry,

@@ -6,7 +6,6 @@ use super::{put, take_out};
 use crate::case::file::template::override_entry;
 use crate::case::{Override, Variant};
 
-/// The table of all variants.
 const VARIANTS: &str = "variants";
 
 /// Writes the variants into the text with the variants `before`.

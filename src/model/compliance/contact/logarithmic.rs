@@ -8,7 +8,6 @@ use crate::model::explanation::Formula::Text;
 use crate::model::explanation::Step;
 use crate::model::inputs::ContactCompliance;
 
-/// The entry of the list.
 pub(super) const MODEL: ContactModel = ContactModel {
     name: "logarithmic",
     index: "log",

@@ -11,7 +11,6 @@ use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
 use crate::model::profile::{Profile, Rack};
 
-/// The entry of the list.
 #[rustfmt::skip]
 pub(super) const MODEL: ContactModel = ContactModel {
     name: "weber",
