@@ -68,15 +68,15 @@ pub enum Reason {
 /// # Formula
 /// ```text
 /// exact:    T_S <= t_DE,  1 <= κ <= 2,  δ >= Δf  and  F0/F_S <= within
-/// static:   otherwise if most · T_n/(π t) <= within,  T_n = 2 π √(M q/b),  t = t_DE
-/// dynamic:  otherwise if  least · T_n/(π t) >  within
+/// static:   otherwise if  most · T_n/(π t) <= within,  T_n = 2 π √(M q/b),  t = t_DE
+/// dynamic:  otherwise if  least · T_n/(π t) > within
 /// ```
 /// A load transferred within a time t leaves an oscillation of at most T_n/(π t) of the load in a
 /// mesh with the period T_n: the response of an oscillator to a ramp. `Reason::part_felt` gives the
 /// least and the most part of this oscillation that `static` can miss, measured over 300 pairs.
 /// Between both bounds a trial motion decides. Without contact the method is `exact` if the gap at
-/// E is greater than this part of the deflection. Then t is the time in which two pairs share the
-/// load.
+/// E is greater than T_n/(π t) times the deflection, where t is the time in which two pairs share
+/// the load.
 ///
 /// A limit or a selected quantity can need a slower method ([`Inputs::needs`]).
 #[must_use]

@@ -263,7 +263,7 @@ impl Solving<'_> {
                 solution.withheld = self.strike(solution, &position).err();
             }
             Ok(None) => solution.outcome = Outcome::NoCornerContact,
-            // Methods with load sharing do not need the velocity.
+            // Methods with load sharing do not need the position.
             Err(refusal) if self.asked.inputs.method.shares_load() => {
                 solution.stages = solution.stages.without(Stage::Position);
                 solution.withheld = Some(refusal);

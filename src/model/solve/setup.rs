@@ -19,7 +19,7 @@ use crate::model::{Geometry, Refusal};
 pub struct Setup {
     pub(super) position: PositionInputs,
     pub(super) velocity: VelocityInputs,
-    /// With the compliance.
+    /// Inputs of the impact, with the elasticity.
     pub(super) impact: ImpactInputs,
     pub(super) friction: FrictionInputs,
     /// Geometry in double-double arithmetic if it is needed.
