@@ -107,7 +107,7 @@ impl Impact {
 pub struct ImpactInputs {
     /// `paper` uses Eq. 32 as printed.
     pub method: Method,
-    /// Elasticity of the pair.
+    /// Inputs of the compliance at the place of the impact.
     pub compliance: ComplianceInputs,
     /// 1/E' of the pair, in 1/Pa.
     pub give: f64,

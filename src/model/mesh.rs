@@ -1,5 +1,5 @@
-//! Gap and stiffness of every tooth pair along the line of action: what the methods `static` and
-//! `dynamic` share.
+//! Gap and stiffness of every tooth pair along the line of action, used by the methods `static` and
+//! `dynamic`.
 
 mod back;
 mod build;
@@ -20,7 +20,7 @@ pub use sharing::Shares;
 use sharing::Sharing;
 use zones::{GAP, SLIDING, STIFFNESS, Zone};
 
-/// The mesh as a function of s, the way of the incoming pair along the line of action since E, in
+/// The mesh as a function of s, the path of the incoming pair along the line of action since E, in
 /// m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
@@ -36,7 +36,7 @@ pub struct Mesh {
     driver_speed: f64,
     /// Equivalent error of the incoming pair without its reliefs, in m.
     pub error: f64,
-    /// Mean stiffness of the mesh over a base pitch, pairs on the line of action alone, in N/m.
+    /// Mean stiffness of the mesh over a base pitch, with the pairs on the line of action, in N/m.
     pub mean_stiffness: f64,
     /// Base radii, in m.
     pub base_radii: (f64, f64),
@@ -45,22 +45,22 @@ pub struct Mesh {
     friction: f64,
     pitch_point: f64,
     flanks: Arc<Flanks>,
-    /// Those of any speed: they have the sliding velocity per unit of it.
+    /// The zones for any speed: they contain the sliding velocity per unit of speed.
     zones: Arc<Vec<Zone>>,
-    /// None if the pairs are independent springs.
+    /// `None` if the pairs are independent springs.
     couplings: Option<Arc<Couplings>>,
-    /// How coupled pairs share a displacement.
+    /// Cached load sharing of coupled pairs.
     sharing: Arc<Sharing>,
     back_place: f64,
     back: Arc<Back>,
-    /// Up to what gaps it is known, in m.
+    /// Greatest gap in the computed range, in m.
     reach: f64,
     is_whole: bool,
     work: u64,
 }
 
 impl Mesh {
-    /// The same mesh while the driver turns at a speed, in rad/s.
+    /// The mesh at another speed of the driver, in rad/s.
     #[must_use]
     pub fn turning_at(self: &Arc<Mesh>, driver_speed: f64) -> Arc<Mesh> {
         if driver_speed.to_bits() == self.driver_speed.to_bits() {
@@ -73,7 +73,7 @@ impl Mesh {
         })
     }
 
-    /// The same in which no pair deviates.
+    /// The mesh without deviation of the incoming pair.
     #[must_use]
     pub fn without_error(&self) -> Mesh {
         Mesh {
@@ -82,50 +82,51 @@ impl Mesh {
         }
     }
 
-    /// The compliance of its teeth.
+    /// Compliance of the teeth.
     pub(super) fn flanks(&self) -> &Arc<Flanks> {
         &self.flanks
     }
 
-    /// What it took to compute, in units of the [budget](super::budget).
+    /// Work of the computation, in units of the [budget](super::budget).
     #[must_use]
     pub fn work(&self) -> u64 {
         self.work
     }
 
-    /// From where to where the incoming pair's gap is known, in m.
+    /// First and last place of the incoming pair with a computed gap, in m.
     #[must_use]
     pub fn ends(&self) -> (f64, f64) {
         let from = self.zones.first().map_or(0.0, |zone| zone.from);
         (from, self.zones.last().map_or(0.0, |zone| zone.to))
     }
 
-    /// Up to what gaps it is known, in m.
+    /// Greatest gap in the computed range, in m.
     pub(super) fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// Whether it reaches to the circles on which the tips end.
+    /// Whether the computed range extends to the ends of the tip circles.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.is_whole
     }
 
-    /// The friction coefficient, 0 where the case gives none.
+    /// The friction coefficient; 0 if the case gives none.
     #[must_use]
     pub fn friction(&self) -> f64 {
         self.friction
     }
 
-    /// Where the incoming pair passes the pitch point, in m, where it does.
+    /// Place of the incoming pair at the pitch point, in m. `None` if the path of contact does not
+    /// include the pitch point.
     #[must_use]
     pub fn pitch_point(&self) -> Option<f64> {
         Some(self.pitch_point).filter(|&point| point > 0.0 && point < self.length)
     }
 
-    /// The pairs that may touch while the incoming one stands at `s`; on a border, those of the
-    /// side where `inside` lies. Where `inside` itself is a place at which a pair is at E', this pair
-    /// is on the flank of its tooth and not on the arc of the tip.
+    /// The pairs that may touch with the incoming pair at `s`. On a border, `inside` selects the
+    /// side. If a pair is at E' for `inside` itself, the pair is on the flank of its tooth, not on
+    /// the arc of the tip.
     #[must_use]
     pub fn pair_set(&self, s: f64, inside: f64) -> PairSet {
         let inside = self.on_flank(inside);
@@ -138,14 +139,14 @@ impl Mesh {
         PairSet::new(pairs, couplings)
     }
 
-    /// Whether the force on a pair displaces others.
+    /// Whether the force on a pair displaces other pairs.
     #[must_use]
     pub fn is_coupled(&self) -> bool {
         self.couplings.is_some()
     }
 
-    /// Displacement of each of so many pairs from the one `first` pitches ahead on by the force on
-    /// the pairs 1, 2, .. pitches behind it, in m/N; empty if there are none.
+    /// Displacement of each of `count` pairs, beginning `first` pitches ahead, by a unit force on
+    /// the pairs 1, 2, .. pitches behind, in m/N. Empty without coupling.
     fn couplings_of(&self, first: i32, count: usize, s: f64, inside: f64) -> Vec<[f64; PITCHES]> {
         let Some(couplings) = &self.couplings else {
             return Vec::new();
@@ -161,8 +162,8 @@ impl Mesh {
         (0..count).map(behind).collect()
     }
 
-    /// How pairs share a displacement that stand in these zones, the rearmost first, while some of
-    /// them touch.
+    /// The load sharing of the pairs in these zones, the rearmost first, for a set of touching
+    /// pairs.
     pub(super) fn shares(&self, zones: &[usize], touching: Touching) -> Arc<Shares> {
         self.sharing.of(zones, touching, || {
             let ends = self.way_of(zones);
@@ -181,8 +182,7 @@ impl Mesh {
         })
     }
 
-    /// From where to where the rearmost of pairs goes while they, and no others, stand in these
-    /// zones, in m.
+    /// First and last place of the rearmost pair with exactly these pairs in these zones, in m.
     fn way_of(&self, zones: &[usize]) -> (f64, f64) {
         let (from, to) = self.ends();
         let none = (
@@ -196,7 +196,7 @@ impl Mesh {
         })
     }
 
-    /// Which pairs stand in which zone.
+    /// The pairs and their zones.
     pub(super) fn standing(&self, s: f64) -> impl Iterator<Item = (i32, usize)> {
         let (from, to) = self.ends();
         let first = ((from - s) / self.base_pitch).ceil() as i32;
@@ -204,7 +204,7 @@ impl Mesh {
         (first..=last).map(move |ahead| (ahead, self.zone(s + f64::from(ahead) * self.base_pitch)))
     }
 
-    /// The pair `ahead` while the incoming one stands at `s`, sliding the way it does at `inside`.
+    /// The pair `ahead` with the incoming pair at `s`. The sliding direction is that at `inside`.
     fn pair(&self, ahead: i32, zone: usize, s: f64, inside: f64) -> Pair {
         let way = f64::from(ahead) * self.base_pitch;
         let series = &self.zones[zone].series;
@@ -227,8 +227,8 @@ impl Mesh {
         }
     }
 
-    /// The incoming pair at `s`, without its error, and how its gap grows with s; at E' on the flank
-    /// of its tooth.
+    /// The incoming pair at `s` without its error, and the slope of its gap over s. At E' the pair
+    /// is on the flank of its tooth.
     #[must_use]
     pub fn incoming(&self, s: f64) -> (Place, f64) {
         let series = &self.zones[self.zone(self.on_flank(s))].series;
@@ -248,7 +248,7 @@ impl Mesh {
         if ahead == 0 { self.error } else { 0.0 }
     }
 
-    /// A place a little after `s`, if a pair is at E' there, else `s`.
+    /// A place slightly after `s` if a pair is at E' for `s`, otherwise `s`.
     fn on_flank(&self, s: f64) -> f64 {
         const AFTER: f64 = 1e-9;
         let pitches = (s / self.base_pitch).round();
@@ -265,8 +265,8 @@ impl Mesh {
             .min(self.zones.len() - 1)
     }
 
-    /// The places of the incoming pair from `from` to `to` at which some pair passes from one zone
-    /// into the next: between two of them all that is known of the mesh is smooth.
+    /// The places of the incoming pair from `from` to `to` at which a pair passes into another
+    /// zone. Between two of them all functions of the mesh are smooth.
     #[must_use]
     pub fn borders(&self, from: f64, to: f64) -> Vec<f64> {
         let edges = self
