@@ -21,7 +21,7 @@ pub enum Acting {
 }
 
 /// The reason for an unused field without its own reason.
-const NO_REASON: &str = "nothing that this case computes depends on it";
+const NO_REASON: &str = "no result of this case depends on it";
 
 impl Case {
     /// The inputs that can be read, enough for the relevance of fields, and all problems of the

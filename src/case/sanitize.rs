@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn ordinary_text_stays_as_it_is() {
+    fn ordinary_text_stays_unchanged() {
         assert_eq!(sanitize("Zähne, 歯車, α = 20°"), "Zähne, 歯車, α = 20°");
     }
 

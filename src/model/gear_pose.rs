@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn n1_and_n2_lie_on_the_base_circles() {
+    fn n1_and_n2_are_on_the_base_circles() {
         for (name, _, solution) in solved() {
             let geometry = solution.geometry;
             let centre = Point2::new(geometry.centre_distance, 0.0);

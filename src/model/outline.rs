@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn flanks_lie_on_the_involute() {
+    fn flanks_are_on_the_involute() {
         for (name, outline, inputs) in outlines() {
             for step in 0..=40 {
                 let point = outline.at(Piece::Flank, f64::from(step) / 40.0);

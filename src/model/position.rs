@@ -258,7 +258,7 @@ mod tests {
 
     /// A pair with a working pressure angle near 0: the parabola at E is far beyond D.
     #[test]
-    fn contact_is_found_where_the_parabola_is_far_beyond_it() {
+    fn the_contact_is_found_far_from_the_parabola() {
         let mut inputs = standard_pair(40, 40, 5e-3);
         let base = 0.1 * inputs.pressure_angle.cos();
         let angle = 3e-5f64;

@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn even_places_have_both_ends() {
+    fn even_places_include_both_ends() {
         assert_eq!(
             places(Spacing::Even(4), &[0.0, 1.2, 2.0], |_| 0.0),
             [0.0, 0.5, 1.0, 1.5, 2.0]

@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn the_solution_meets_the_equations_whatever_the_size() {
+    fn the_solution_satisfies_the_equations_at_every_size() {
         for size in [1, 2, 3, 4, 17, 64] {
             let mut rows = matrix(size);
             for row in &mut rows {

@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn groups_on_the_same_pieces_are_the_series_of_their_functions() {
+    fn groups_on_common_pieces_equal_their_functions() {
         let functions = |x: f64| [[x.sin(), (0.3 * x).exp()], [x.cos(), 1.0 / (3.0 + x)]];
         let found = Series::<2>::groups(-2.0, 7.0, &[[1e-14; 2]; 2], &|x, values| {
             values.copy_from_slice(&functions(x));
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn reversed_pieces_are_the_functions_from_the_other_end() {
+    fn reversed_pieces_equal_the_mirrored_functions() {
         let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp()]);
         let turned = found.reversed(5.0, [1.0, -1.0]);
         assert!((turned.start() + 2.0).abs() < 1e-15);

@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_are_the_functions_of_the_standard_library_to_the_last_digits() {
+    fn both_agree_with_the_standard_library_to_the_last_digits() {
         for power in 0..200 {
             let size = 0.5 * 0.9_f64.powi(power);
             for x in [size, -size] {

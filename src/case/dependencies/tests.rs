@@ -250,7 +250,7 @@ fn same(stage: Stage, one: &Solution, other: &Solution) -> bool {
 /// For every stage, case and change of a field, a solve that reuses earlier results has the bits of
 /// a fresh solve.
 #[test]
-fn results_are_reused_only_where_a_change_leaves_them_alone() {
+fn results_are_reused_only_if_a_change_does_not_affect_them() {
     let mut wrong: BTreeSet<String> = BTreeSet::new();
     for solved in solved_cases() {
         for (field, known) in FIELDS.iter().enumerate() {

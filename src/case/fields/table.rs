@@ -36,8 +36,8 @@ const fn text(key: &'static str, label: &'static str, help: &'static str) -> Fie
 }
 
 const PAIR: &[Field] = &[
-    text("title", "title", "A name for the case.").reasons(&[Beside("a name for people")]),
-    text("notes", "notes", "Sources of the data.").reasons(&[Beside("words for people")]),
+    text("title", "title", "A name for the case.").reasons(&[Beside("a title for reports")]),
+    text("notes", "notes", "Sources of the data.").reasons(&[Beside("notes for the reader")]),
     number!(
         "pair.module",
         "m",

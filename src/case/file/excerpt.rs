@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_lines_of_content_count() {
+    fn only_lines_with_content_are_counted() {
         let filler = "\n  # a = 1\n\t\r\n".repeat(MOST_LINES);
         for quotes in ["\"\"\"", "'''"] {
             let notes = format!(

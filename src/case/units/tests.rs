@@ -170,13 +170,13 @@ proptest! {
     }
 
     #[test]
-    fn a_shown_angle_is_read_again_within_the_last_place(value in 1e-6f64..10.0) {
+    fn a_shown_angle_parses_to_the_same_value_within_the_last_place(value in 1e-6f64..10.0) {
         let read = parse(&text(value, "deg"), Dimension::Angle, "deg").unwrap_or(f64::NAN);
         prop_assert!((read - value).abs() <= value * f64::EPSILON);
     }
 
     #[test]
-    fn no_text_makes_the_reader_panic(text in ".*") {
+    fn no_text_makes_the_parser_panic(text in ".*") {
         let _ = length(&text);
     }
 }

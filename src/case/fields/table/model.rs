@@ -131,7 +131,7 @@ pub(super) const MODEL: &[Field] = &[
             "method auto derives the tolerance from model.within",
         ),
         Idle(always, IN_TIME),
-        Partly(always, "changes results by no more than itself"),
+        Partly(always, "changes results by at most its own value"),
     ]),
     number!(
         "model.within",

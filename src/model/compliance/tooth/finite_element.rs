@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_of_one_gear_builds_its_field_alone_and_equal_gears_share_one() {
+    fn a_change_of_one_gear_builds_one_field_and_equal_gears_share_a_field() {
         let mut inputs = standard_pair(27, 27, 4e-3);
         let [driver, driven] = fields(&inputs);
         assert!(Arc::ptr_eq(&driver, &driven));
