@@ -1,5 +1,5 @@
-//! The headless commands: results to the output, everything else to the errors, and an exit code
-//! for scripts.
+//! The headless commands: results to the output, messages to the errors, and an exit code for
+//! scripts.
 
 mod arguments;
 mod cases;
@@ -23,11 +23,11 @@ use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// Where a command writes.
+/// The streams of a command.
 pub struct Streams<'a> {
-    /// Where results go.
+    /// Stream of the results.
     pub output: Box<dyn Write + 'a>,
-    /// Where everything else goes.
+    /// Stream of the messages.
     pub errors: Box<dyn Write + 'a>,
 }
 
@@ -43,7 +43,7 @@ impl Streams<'static> {
 }
 
 impl Streams<'_> {
-    /// One line for a person. That nobody reads it is no reason to fail.
+    /// Writes one message line. Ignores a closed error stream.
     fn say(&mut self, message: &str) {
         let _ = writeln!(self.errors, "{}", sanitize(message));
     }
@@ -58,10 +58,10 @@ pub fn refuse_workbench(streams: &mut Streams) -> Exit {
     Exit::Usage
 }
 
-/// The command line taken apart.
+/// Parses the command line.
 ///
 /// # Errors
-/// The exit code where there is nothing to run: after help, or for wrong usage.
+/// The exit code if there is nothing to run: after help, or for wrong usage.
 pub fn parse(
     arguments: impl IntoIterator<Item = OsString>,
     streams: &mut Streams,
@@ -97,7 +97,7 @@ pub fn parse(
         })
 }
 
-/// Whether the first word was meant to be a command, and which.
+/// The message for a first word that looks like a mistyped command.
 fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let first = arguments
         .get(1)?
@@ -122,14 +122,14 @@ fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     Some(format!("error: {first}: there is no such command: {fix}"))
 }
 
-/// Run a command to its end.
+/// Runs a command.
 pub fn run(command: &Command, streams: &mut Streams) -> Exit {
     let done = command.run(Arguments::command, streams);
     finish(done, streams)
 }
 
-/// The exit code, and a line for a failure that has none yet. A reader that closes the output
-/// (`| head -1`) is no failure.
+/// The exit code; reports a failure that is not reported yet. A reader that closes the output (`|
+/// head -1`) is not a failure.
 fn finish(done: Result<Exit, Failure>, streams: &mut Streams) -> Exit {
     let flushed = done.and_then(|exit| Ok(streams.output.flush().map(|()| exit)?));
     match flushed {
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn whatever_is_said_controls_no_terminal() {
+    fn messages_contain_no_control_characters() {
         let mut said = Vec::new();
         Streams {
             output: Box::new(io::sink()),

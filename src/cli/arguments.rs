@@ -1,4 +1,4 @@
-//! The command line as a whole: a case for the workbench, or a command.
+//! The arguments of the program: a case for the workbench, or a command.
 
 use super::commands::Command;
 use super::exit::Exit;
@@ -6,7 +6,7 @@ use clap::{Parser, ValueHint};
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
-/// The version; a release names its commit as well (`build.rs`).
+/// The version; a release includes its commit (`build.rs`).
 static VERSION: LazyLock<String> = LazyLock::new(|| {
     let version = env!("CARGO_PKG_VERSION");
     let commit = option_env!("TIPSTRIKE_COMMIT");
@@ -23,7 +23,7 @@ pub struct Arguments {
     /// Case to open in the workbench (default: the last case, or Table 1 of Zhou & Chen 2014)
     #[arg(value_hint = ValueHint::FilePath)]
     pub case: Option<PathBuf>,
-    /// What to do without the workbench.
+    /// The headless command; without one the workbench starts.
     #[command(subcommand)]
     pub command: Option<Command>,
 }

@@ -1,4 +1,4 @@
-//! Opens cases for a command and prints what is wrong with them.
+//! Opens cases for a command and reports their problems.
 
 use super::Streams;
 use super::exit::{Exit, Failure};
@@ -12,24 +12,24 @@ use crate::report::compare::Refused;
 use crate::report::pictures::Unsolved;
 use std::path::Path;
 
-/// A case that can be solved.
+/// A case that is ready to solve.
 pub(super) struct Opened {
-    /// As the user named it.
+    /// The name as the user gave it.
     pub(super) name: String,
     pub(super) document: Document,
     pub(super) inputs: Inputs,
-    /// What the command line changed.
+    /// The changes of the command line.
     edits: Edits,
 }
 
 impl Opened {
-    /// Lets the method `auto` compute these quantities, which the command names.
+    /// Tells method `auto` to compute these quantities, which the user names.
     pub(super) fn need(&mut self, quantities: impl IntoIterator<Item = &'static Quantity>) {
         let stages = quantities.into_iter().map(|quantity| quantity.stage);
         self.inputs = self.inputs.clone().needing(stages);
     }
 
-    /// Why a varied field changes no result, or only a part of what a user expects.
+    /// Why a varied field changes no result, or only some of them.
     pub(super) fn without_effect(&self, field: usize, inputs: &Inputs) -> Option<String> {
         let (name, key) = (&self.name, FIELDS[field].key);
         match relevance(field, inputs) {
@@ -42,7 +42,7 @@ impl Opened {
         }
     }
 
-    /// The case, to be solved for a report or a picture.
+    /// The case, to solve for a report or a picture.
     pub(super) fn unsolved(&self) -> Unsolved<'_> {
         Unsolved {
             name: &self.name,
@@ -51,27 +51,27 @@ impl Opened {
         }
     }
 
-    /// Say why the model refuses the case, at the field where the fix begins.
+    /// Reports a refusal of the model at the field that its fix names first.
     pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
         let problem = Problem::from(refusal).at_given(&self.document.case);
         self.report_problem(problem, streams);
         Exit::BadCase
     }
 
-    /// Report a problem of the case at its place.
+    /// Reports a problem of the case at its place.
     pub(super) fn report_problem(&self, problem: Problem, streams: &mut Streams) {
         streams.say(&placed(&self.document, problem, &self.edits));
     }
 }
 
-/// Read a case and change what the command line names.
+/// Reads a case and applies the changes of the command line.
 pub(super) fn open(path: &Path, edits: &Edits, streams: &mut Streams) -> Result<Opened, Exit> {
     let document = read(path, streams)?;
     changed(path.display().to_string(), document, edits, streams)
 }
 
-/// Read a case whose missing values may be among those that a study varies, each given as the place
-/// of its field and one of its values.
+/// Reads a case whose missing values may be among the varied fields. `varied` has the index of each
+/// field with one of its values.
 pub(super) fn open_varied(
     path: &Path,
     edits: &Edits,
@@ -81,7 +81,7 @@ pub(super) fn open_varied(
     let mut document = read(path, streams)?;
     for (field, value) in varied {
         if document.case.effective(*field).is_none() {
-            // A value that does not fit is reported with its point.
+            // An invalid value is reported later with its point.
             drop(document.case.set(FIELDS[*field].key, value));
         }
     }
@@ -104,7 +104,7 @@ pub(super) fn keep_varied(settings: &[Setting], varied: &[&str]) -> Result<(), F
     }
 }
 
-/// Reads a case whose values may be missing yet, or the only spur stage of a model.
+/// Reads a case that may lack values, or the only spur stage of a model.
 pub(super) fn read(path: &Path, streams: &mut Streams) -> Result<Document, Exit> {
     if rexs::is_model(path) {
         return Ok(read_model(path, None, streams)?.document);
@@ -112,7 +112,7 @@ pub(super) fn read(path: &Path, streams: &mut Streams) -> Result<Document, Exit>
     Document::read_draft(path).map_err(|error| unread(&error, streams))
 }
 
-/// Reads a stage of a model, and reports the stages and the fields that stay empty.
+/// Reads a stage of a model, and reports the stages and the empty fields.
 pub(super) fn read_model(
     path: &Path,
     stage: Option<&str>,
@@ -145,7 +145,7 @@ pub(super) fn read_model(
     Ok(imported)
 }
 
-/// A document as it is once the command line has changed its values.
+/// A document with the changes of the command line.
 pub(super) fn changed(
     name: String,
     mut document: Document,
@@ -180,7 +180,7 @@ pub(super) fn named(name: String, edits: &Edits) -> String {
     }
 }
 
-/// The problems of a case in the order of their places, each with its line.
+/// The problems of a case in the order of the file, each with its line.
 pub(super) fn refused(
     document: &Document,
     mut problems: Vec<Problem>,
@@ -194,7 +194,7 @@ pub(super) fn refused(
     problems.into_iter().map(placed).collect()
 }
 
-/// Puts the variant and the settings into the case, or returns what is wrong with them.
+/// Applies the variant and the settings to the case. Returns the problem of an invalid one.
 pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), String> {
     if let Some(name) = &edits.variant {
         let found = document.case.variant(name).cloned();
@@ -238,8 +238,8 @@ fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
     }
 }
 
-/// A problem at its place: a field that was set is wrong on the command line and not in the file;
-/// another may be wrong beside what was set.
+/// A problem at its place: on the command line for a changed field, otherwise in the file; a
+/// changed field may also contradict another field.
 fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
     let settings = &edits.settings;
     if let Some(setting) = settings
@@ -264,7 +264,7 @@ fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
     }
 }
 
-/// A problem with the key of the variant's override, where it has one.
+/// A problem with the key of the variant's override, if there is one.
 fn in_variant(document: &Document, problem: Problem, edits: &Edits) -> Problem {
     let variant = edits.variant.as_deref();
     let variant = variant.and_then(|name| document.case.variant(name).ok());

@@ -1,4 +1,4 @@
-//! The commands: each file has the options, the help and the run of one command.
+//! The commands. Each file contains the options, the help and the execution of one command.
 #![allow(
     rustdoc::broken_intra_doc_links,
     reason = "the help names tables of the case file, such as [limits]"
@@ -72,7 +72,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Runs the command. Completions and manual describe the whole program.
+    /// Runs the command. Completions and manual use the definition of the whole program.
     pub(super) fn run(
         &self,
         program: fn() -> clap::Command,

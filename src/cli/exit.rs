@@ -1,4 +1,4 @@
-//! How a command ends.
+//! Exit codes of the commands.
 
 use crate::case::Problem;
 use crate::case::file::SaveError;
@@ -6,26 +6,26 @@ use crate::study::batch::Stopped;
 use std::io;
 use std::process::ExitCode;
 
-/// How a command ended; of several, the greatest counts.
+/// The exit code of a command; of several, the greatest counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Exit {
-    /// All is done.
+    /// Success.
     Done = 0,
-    /// A case exceeds one of its limits, or has no value to hold against it.
+    /// A case exceeds one of its limits, or the limited quantity has no value.
     Exceeded = 1,
-    /// The command line is wrong.
+    /// Wrong usage of the command line.
     Usage = 2,
-    /// A case is wrong, or the model refuses it.
+    /// A case is invalid, or the model refuses it.
     BadCase = 3,
-    /// A case is of a newer format.
+    /// A case has a newer format.
     NewerFormat = 4,
     /// A file cannot be read or written.
     Unreadable = 5,
 }
 
 impl Exit {
-    /// Every way to end, and its meaning.
+    /// Every exit code with its meaning.
     pub(super) const MEANINGS: [(Exit, &'static str); 6] = [
         (Exit::Done, "done"),
         (
@@ -50,9 +50,9 @@ impl From<Exit> for ExitCode {
 
 /// Why a command stopped early.
 pub(super) enum Failure {
-    /// The command line is wrong, for this reason.
+    /// Wrong usage, with the reason.
     Usage(String),
-    /// The errors have the reason already.
+    /// The reason is already reported.
     Reported(Exit),
     /// A file cannot be written.
     File(SaveError),
@@ -63,7 +63,7 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// A value of this option is wrong.
+    /// Reports an invalid value of an option.
     pub(super) fn of_option(option: &str, value: &str, problem: &Problem) -> Failure {
         let Problem { cause, fix, .. } = problem;
         Failure::Usage(format!("{option} {value}: {cause}: {fix}"))

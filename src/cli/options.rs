@@ -11,7 +11,7 @@ use clap::{Args, ValueEnum, ValueHint};
 pub(super) use quantities::{Quantities, QuantityList};
 use std::path::PathBuf;
 
-/// The form in which a solve is printed.
+/// The format of a solve.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// Text in usual units
@@ -23,7 +23,7 @@ pub enum Format {
     Csv,
 }
 
-/// The form in which a list or a page is printed.
+/// The format of a list or a page.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Listing {
     /// Text
@@ -33,7 +33,7 @@ pub enum Listing {
     Json,
 }
 
-/// Format of a table with a row per point.
+/// The format of a table with one row per point.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum RowFormat {
     /// A header and one row per point
@@ -52,7 +52,7 @@ impl From<RowFormat> for TableFormat {
     }
 }
 
-/// How a study runs whose points can be divided among machines.
+/// Options of a study whose points can be divided among machines.
 #[derive(Debug, Args)]
 pub struct StudyOptions {
     /// Number of threads (default: one per core); does not change the output
@@ -66,14 +66,14 @@ pub struct StudyOptions {
     pub out: Option<PathBuf>,
 }
 
-/// A number of points or samples.
+/// Parses a number of points or samples.
 pub(super) fn count(text: &str) -> Result<usize, String> {
     text.trim()
         .parse()
         .map_err(|_| "write a whole number, such as 101".to_owned())
 }
 
-/// One line of wrong usage.
+/// A usage error with one line.
 fn misused(cause: String) -> Error {
     Error::raw(ErrorKind::ValueValidation, cause + "\n")
 }

@@ -1,4 +1,4 @@
-//! The output of a study: a stream, or a file that appears only once it is complete.
+//! The output of a study: a stream, or a file that appears only when it is complete.
 
 use super::exit::Failure;
 use crate::case::file::{Draft, SaveError, followed};
@@ -6,15 +6,15 @@ use crate::system::interrupt::Interrupt;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// Where the results of a study go.
+/// The destination of the results of a study.
 pub(super) enum Sink<'a> {
     Stream(&'a mut dyn Write),
-    /// Ctrl-C and SIGTERM stop the writing, so that the draft is removed.
+    /// Ctrl-C and SIGTERM stop the writing, so that the draft is deleted.
     File(Box<BufWriter<Draft>>, Interrupt),
 }
 
 impl<'a> Sink<'a> {
-    /// A file, or the stream where none is named or the name is `-`.
+    /// Opens a file, or the stream if no file is named or the name is `-`.
     pub(super) fn open(
         out: Option<&Path>,
         stream: &'a mut dyn Write,
@@ -29,7 +29,7 @@ impl<'a> Sink<'a> {
         }
     }
 
-    /// Puts a file into its place.
+    /// Replaces the target by the complete file.
     pub(super) fn finish(self) -> Result<(), Failure> {
         match self {
             Sink::Stream(_) => Ok(()),
@@ -42,7 +42,7 @@ impl<'a> Sink<'a> {
         }
     }
 
-    /// The failure of a write.
+    /// Converts an error of a write.
     pub(super) fn failure(&self, error: io::Error) -> Failure {
         match self {
             Sink::Stream(_) => Failure::Stream(error),
@@ -71,12 +71,12 @@ impl Write for Sink<'_> {
     }
 }
 
-/// Refuses a file that cannot be written, before work that takes long.
+/// Refuses a file that cannot be written before long work starts.
 pub(super) fn check_out(out: Option<&Path>) -> Result<(), SaveError> {
     Sink::open(out, &mut io::sink()).map(drop)
 }
 
-/// Refuses to write over one of the files that the command reads.
+/// Refuses to overwrite a file that the command reads.
 pub(super) fn keep_inputs(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
     let target = out.and_then(|out| followed(out).ok());
     let is_input = |input: &&Path| followed(input).is_ok_and(|input| Some(input) == target);
@@ -89,7 +89,7 @@ pub(super) fn keep_inputs(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Fa
     }
 }
 
-/// Writes results with `write` to a file, which appears once it is complete, or to the stream.
+/// Writes results with `write` to a file, which appears when it is complete, or to the stream.
 pub(super) fn write_to(
     out: Option<&Path>,
     stream: &mut dyn Write,

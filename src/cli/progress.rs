@@ -1,5 +1,4 @@
-//! What goes on while a command takes long: a progress bar on the error stream, where that is a
-//! terminal, and Ctrl-C.
+//! Progress of a long command: a bar on the error stream, if that is a terminal, and Ctrl-C.
 
 use crate::study::batch::Control;
 use crate::system::interrupt::Interrupt;
@@ -9,10 +8,10 @@ use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-/// How long nothing is shown.
+/// Delay before the bar appears.
 const QUIET: Duration = Duration::from_secs(1);
 
-/// The bar. What is not a terminal sees nothing of it.
+/// A progress bar; it is only shown on a terminal.
 pub(super) struct Bar {
     begun: Instant,
     shown: ProgressBar,
@@ -20,7 +19,7 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    /// A bar of so many of these.
+    /// A bar for parts with a name.
     pub(super) fn new(what: &'static str) -> Bar {
         let shown = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left") {
@@ -34,13 +33,13 @@ impl Bar {
         }
     }
 
-    /// The same with the rate.
+    /// A bar that also shows the rate.
     pub(super) fn with_rate(what: &'static str) -> Bar {
         let bar = Bar::new(what);
         let template = "{bar:30} {human_pos}/{human_len} {msg}, {rate}, {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
             let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
-                // A bar that cannot be written is left out.
+                // Errors of the bar are ignored.
                 let _ = write!(out, "{}/s", HumanCount(state.per_sec() as u64));
             };
             let style = style.with_key("rate", rate);
@@ -49,7 +48,7 @@ impl Bar {
         bar
     }
 
-    /// Shows how many are done of how many.
+    /// Shows the number of completed parts and their total.
     pub(super) fn set(&self, done: usize, of: usize) {
         if !self.is_up.get() {
             if self.begun.elapsed() < QUIET || !io::stderr().is_terminal() {
@@ -62,13 +61,13 @@ impl Bar {
         self.shown.set_position(done as u64);
     }
 
-    /// Leave no trace.
+    /// Removes the bar.
     pub(super) fn clear(&self) {
         self.shown.finish_and_clear();
     }
 
-    /// The same after a signal. After Ctrl-C the terminal has written `^C` behind the bar, which
-    /// fills its line, and so on the next one.
+    /// Removes the bar after a signal. After Ctrl-C the terminal appends `^C` to the bar, which
+    /// fills its line, so that the cursor is on the next line.
     pub(super) fn clear_after(&self, interrupt: &Interrupt) {
         const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
         self.clear();
@@ -78,8 +77,8 @@ impl Bar {
     }
 }
 
-/// Runs work that reports how many parts of how many are done, with a bar while it takes long. The
-/// work stops where the report returns false, and Ctrl-C then ends the program.
+/// Runs work that reports the number of completed parts and their total, with a bar during long
+/// work. The work stops if the report returns false, and Ctrl-C then ends the program.
 pub(super) fn follow<T>(
     what: &'static str,
     work: impl FnOnce(&dyn Fn(usize, usize) -> bool) -> T,
@@ -98,7 +97,7 @@ pub(super) fn follow<T>(
     done
 }
 
-/// A study that runs: its threads, its bar and Ctrl-C.
+/// A running study: its threads, its bar and Ctrl-C.
 pub(super) struct Running {
     bar: Bar,
     interrupt: Interrupt,
@@ -106,7 +105,7 @@ pub(super) struct Running {
 }
 
 impl Running {
-    /// A study of so many threads, whose points have this name.
+    /// A study with a number of threads; `what` is the name of its points.
     pub(super) fn new(what: &'static str, jobs: Option<u16>) -> Running {
         Running {
             bar: Bar::with_rate(what),
@@ -115,7 +114,7 @@ impl Running {
         }
     }
 
-    /// Runs a part of the study, and shows its progress.
+    /// Runs a part of the study and shows its progress.
     pub(super) fn run<T, E>(&self, study: impl FnOnce(&Control) -> Result<T, E>) -> Result<T, E> {
         let interrupt = &self.interrupt;
         let done = study(&Control {

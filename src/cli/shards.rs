@@ -1,4 +1,4 @@
-//! A part of a study as a file, for `gather`.
+//! Writes a shard of a study to a file for `gather`.
 
 use super::Streams;
 use super::exit::{Exit, Failure};
@@ -10,7 +10,7 @@ use crate::study::request::Request;
 use crate::study::shard::{Shard, ShardWriter};
 use std::io;
 
-/// Solves the points of a shard and writes it.
+/// Solves the points of a shard and writes them.
 pub(super) fn run(
     shard: Shard,
     request: &Request,
@@ -27,7 +27,7 @@ pub(super) fn run(
     }
 }
 
-/// Whether the shard came to its end.
+/// Writes the shard. Returns false if the study was stopped.
 fn body(
     shard: Shard,
     request: &Request,

@@ -149,7 +149,7 @@ fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
     let png = out.with_extension("png");
     let refused = run(&["plot", TABLE_1, "--out", png.to_str().unwrap()]);
     let words = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(words.contains("use the ending .svg"), "{words}");
+    assert!(words.contains("use the extension .svg"), "{words}");
     assert_eq!((refused.status.code(), png.exists()), (Some(2), false));
 }
 

@@ -1,4 +1,4 @@
-//! Each case held against its own limits.
+//! `check`: compares each case with its own limits.
 
 use crate::case::Case;
 use crate::case::sanitize::sanitize;
@@ -20,14 +20,14 @@ const AFTER_HELP: &str = "A limit on impact_force applies to the free impact in 
     quantity has no value, the verdict is `unknown` with the reason, and the exit code is 1. \
     JSON: one object per verdict, in SI units.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// Format of the output
@@ -86,7 +86,7 @@ fn tell(verdicts: &[Verdict], name: &str, out: &mut dyn Write) -> io::Result<()>
         .try_for_each(|verdict| writeln!(out, "{} {name}: {verdict}", verdict.standing.word()))
 }
 
-/// As far as the limits need it, and what the method itself finds beside them, where it does.
+/// Solves the stages of the limits and of their counterparts in the method.
 fn solve(case: &Case, inputs: &Inputs) -> Result<Solution, Refusal> {
     let needed = stages(case);
     let solution = model::solve(inputs, needed)?;

@@ -1,4 +1,4 @@
-//! Cases and their variants side by side.
+//! `compare`: cases and their variants side by side.
 
 use crate::case::{Document, Problem};
 use crate::cli::Streams;
@@ -21,7 +21,7 @@ const AFTER_HELP: &str = "A variant is a table [variants.NAME] of the case file 
     or variant keeps its column, with the reason. CSV: one row per quantity in SI units. JSON: \
     one object in SI units; missing values are absent.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
@@ -60,7 +60,7 @@ pub enum CompareFormat {
 }
 
 impl Options {
-    /// The changes of every case, on that variant or on the case itself.
+    /// The changes of every case, for a variant or for the case itself.
     fn edits(&self, variant: Option<&str>) -> Edits {
         let settings = self.settings.iter().cloned();
         Edits {

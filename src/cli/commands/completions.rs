@@ -1,11 +1,11 @@
-//! Writes a shell's completions.
+//! `completions`: writes shell completions.
 
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
 use clap::Args;
 use clap_complete::Shell;
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 pub struct Options {
     /// The shell
@@ -17,7 +17,7 @@ pub(super) fn run(
     mut program: clap::Command,
     streams: &mut Streams,
 ) -> Result<Exit, Failure> {
-    // The generator panics where its writer fails, so it writes to memory.
+    // The generator panics if its writer fails, and therefore writes to memory.
     let mut script = Vec::new();
     clap_complete::generate(options.shell, &mut program, "tipstrike", &mut script);
     streams.output.write_all(&script)?;

@@ -1,4 +1,4 @@
-//! A quantity of a case explained.
+//! `explain`: explains a quantity of a case.
 
 use crate::case::Document;
 use crate::cli::Streams;
@@ -11,10 +11,10 @@ use crate::report::explain::{explain, render, write_json};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// What the built-in case is called.
+/// The name of the built-in case.
 const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 pub struct Options {
     /// Name or symbol of the quantity; `tipstrike fields --results` lists all quantities
@@ -23,7 +23,7 @@ pub struct Options {
     /// The case file, - for standard input (default: Table 1 of Zhou & Chen 2014)
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: Option<PathBuf>,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// Format of the output

@@ -1,4 +1,4 @@
-//! Lists the fields of a case, or the quantities of the results.
+//! `fields`: lists the fields of a case, or the quantities of the results.
 
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
@@ -6,7 +6,7 @@ use crate::cli::options::Listing;
 use crate::report::fields;
 use clap::Args;
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 pub struct Options {
     /// List the quantities instead: the names for --only and [limits]

@@ -1,4 +1,4 @@
-//! The shards of a study put together into the output of the whole.
+//! `gather`: combines the shards of a study into the output of the whole study.
 
 use super::{sweep, tolerance};
 use crate::case::Problem;
@@ -17,7 +17,7 @@ use clap::{Args, ValueHint};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 pub struct Options {
     /// Files that --shard wrote, in any order

@@ -1,4 +1,4 @@
-//! Imports a spur stage of a REXS model as a commented case.
+//! `import`: imports a spur stage of a REXS model as a commented case.
 
 use super::new;
 use crate::cli::Streams;
@@ -11,7 +11,7 @@ const AFTER_HELP: &str = "REXS is the exchange format of gear programs such as F
     are read. Each value of the case has its source as a comment; standard error lists the stages of the model and each field \
     that stays empty, with the reason. Helical, planetary, bevel and other stages are refused.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {

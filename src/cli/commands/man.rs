@@ -1,4 +1,4 @@
-//! Writes a manual page.
+//! `man`: writes the manual page.
 
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
@@ -7,7 +7,7 @@ use clap::builder::Resettable;
 use clap_mangen::Man;
 use std::io::{self, Write};
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 pub struct Options {
     /// The page of this command
@@ -42,7 +42,7 @@ fn page(name: Option<&str>, program: clap::Command) -> Option<clap::Command> {
     let mut program = program.disable_help_subcommand(true);
     program.build();
     match name {
-        // The exit codes of the help have a section of their own here.
+        // The help ends with the exit codes, which have a separate section in the manual page.
         None => Some(program.after_help(Resettable::Reset)),
         Some(name) => program.find_subcommand(name).cloned(),
     }

@@ -1,4 +1,4 @@
-//! Writes a new case with every field and its help, or one of the examples.
+//! `new`: writes a new case with every field and its help, or one of the examples.
 
 use crate::case::file::{self, SaveError};
 use crate::case::units::System;
@@ -11,7 +11,7 @@ use clap::{Args, ValueHint};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 pub struct Options {
     /// Start from this example instead of an empty case

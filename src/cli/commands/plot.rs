@@ -1,4 +1,4 @@
-//! Writes a chart of a case, or its teeth, as a picture.
+//! `plot`: writes a chart of a case, or its teeth, as a picture.
 
 use crate::case::file;
 use crate::cli::Streams;
@@ -19,14 +19,14 @@ const AFTER_HELP: &str = "The chart shows the method of the case. If the method 
     shows method dynamic at the torque of the case, with the speed rising and falling. The \
     picture follows the light or dark setting of the browser.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// The chart to draw
@@ -44,7 +44,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     {
         let out = out.display();
         return Err(Failure::Usage(format!(
-            "--out {out}: a picture is SVG: use the ending .svg"
+            "--out {out}: a picture is SVG: use the extension .svg"
         )));
     }
     let opened = cases::open(&options.case, &options.changes.edits(), streams)?;
@@ -81,7 +81,7 @@ pub(super) fn solve(
     solved.map_err(|refusal| opened.refused(&refusal, streams))
 }
 
-/// Writes a picture or a page, over an older one, or to standard output.
+/// Writes a picture or a page to a file, which may exist, or to standard output.
 pub(super) fn write(
     out: Option<&Path>,
     text: &str,

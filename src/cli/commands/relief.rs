@@ -1,4 +1,4 @@
-//! The tip relief to specify for a case.
+//! `relief`: finds the tip relief to specify for a case.
 
 use crate::cli::Streams;
 use crate::cli::cases;
@@ -18,7 +18,7 @@ const AFTER_HELP: &str = "Corner contact counts before the start and after the e
     multiples of 0.5 um, lengths are round numbers. With method dynamic the motion must have no corner contact either. CSV has one row per choice \
     and point of the map, JSON is one object; both are in SI units.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
@@ -43,7 +43,7 @@ pub struct Options {
         allow_hyphen_values = true
     )]
     pub tolerance: f64,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// Format of the output

@@ -1,4 +1,4 @@
-//! Writes cases side by side as a page or as data, in the format of the file's ending.
+//! `report`: writes cases side by side as a page or as data, in the format of the file extension.
 
 use super::plot;
 use crate::cli::Streams;
@@ -14,14 +14,14 @@ const AFTER_HELP: &str = "The HTML page needs no other file: verdict, inputs, re
     teeth, limits, notes and the case files; one case prints on two A4 pages. Markdown has the \
     same without charts. CSV and JSON are those of `solve`, JSON with the stations.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
-    /// What differs from each case
+    /// The changes of each case
     #[command(flatten)]
     pub changes: Changes,
     /// File to write; the extension selects the format; replaces an existing file
@@ -32,7 +32,7 @@ pub struct Options {
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let Some(format) = Format::of(&options.out) else {
         return Err(Failure::Usage(format!(
-            "--out {}: the ending chooses the format: use {}",
+            "--out {}: the file extension selects the format: use {}",
             options.out.display(),
             Format::ENDINGS
         )));

@@ -1,11 +1,11 @@
-//! Writes the JSON Schema of a case file, or of the results.
+//! `schema`: writes the JSON Schema of a case file, or of the results.
 
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
 use crate::report::schema;
 use clap::Args;
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 pub struct Options {
     /// Write the schema of `solve --format json` instead

@@ -1,4 +1,4 @@
-//! The values of a field at which a condition changes.
+//! `seek`: finds the values of a field at which a condition changes.
 
 use crate::case::fields::FIELDS;
 use crate::cli::Streams;
@@ -20,7 +20,7 @@ const AFTER_HELP: &str = "A crossing is a value at which the condition changes, 
     are answers for the whole range. Without corner contact a quantity of the impact is below every limit. JSON is one object; its \
     numbers are in the unit of --vary, and those of the quantity in SI.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
@@ -37,7 +37,7 @@ pub struct Options {
     /// Number of points of the first scan; a finer scan finds narrower regions
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SCAN, value_parser = count)]
     pub points: usize,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// Format of the output

@@ -15,14 +15,14 @@ use std::path::PathBuf;
 const AFTER_HELP: &str = "CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
     one row per station. JSON: one object per case and line, in SI units; missing values are absent.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// Print only these quantities, by name or symbol, and run only the stages that they need;
@@ -55,7 +55,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     Ok(worst)
 }
 
-/// `--stations` is a field as well.
+/// The changes of the command line, including `--stations` as a field.
 fn edits(options: &Options) -> Edits {
     let stations = options
         .stations
@@ -94,7 +94,7 @@ fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Resul
     }
 }
 
-/// What was asked for by name must be there, where the model did not withhold it.
+/// Refuses a report that lacks a requested quantity if the model withheld results.
 fn in_full(report: Report) -> Result<Report, Refusal> {
     let missing = report.values().count() < report.selection.only.len();
     match report.solution.withheld {

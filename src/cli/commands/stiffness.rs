@@ -1,4 +1,4 @@
-//! The stiffness models over both flanks of a case beside finite elements.
+//! `stiffness`: compares the stiffness models over both flanks of a case with finite elements.
 
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
@@ -14,14 +14,14 @@ const AFTER_HELP: &str = "The finite elements are plane strain on the whole gear
     per gear and radius, in SI units; a cell is empty where a model does not cover the gear. JSON: one object in SI units; missing \
     values are absent, and gaps and refusal give the reason.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub edits: Edits,
     /// Number of radii on each flank, from the form circle to the tip
@@ -57,7 +57,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     Ok(Exit::Done)
 }
 
-/// A number of radii on a flank.
+/// Parses a number of radii on a flank.
 fn point_count(text: &str) -> Result<usize, String> {
     let range = LEAST_POINTS..=MOST_POINTS;
     let count = text.parse().ok().filter(|count| range.contains(count));

@@ -1,4 +1,4 @@
-//! A case solved over a grid of varied fields.
+//! `sweep`: solves a case over a grid of varied fields.
 
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
@@ -25,7 +25,7 @@ const AFTER_HELP: &str = "CSV has one row per point: the varied fields in the un
     `refused` and no values; standard error counts the refused points and gives the reason. JSON is one object per line and point. \
     Without --only the quantities are those of [limits], else the impact force of the method.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
@@ -43,7 +43,7 @@ pub struct Options {
     /// Use equal ratios between the points of a range instead of equal steps
     #[arg(long)]
     pub log: bool,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// Compute only these quantities, by name or symbol; `tipstrike fields --results` lists them
@@ -90,7 +90,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     Ok(report(&table, &refusals, &opened.name, streams))
 }
 
-/// Reports the refused points of a sweep that is written.
+/// Reports the refused points of a written sweep.
 pub(super) fn report(
     table: &SweepTable,
     refusals: &Refusals,
@@ -108,7 +108,7 @@ pub(super) fn report(
     }
 }
 
-/// The study for the files of its shards.
+/// The request for the shard files of the study.
 fn request(options: &Options, opened: &Opened, table: &SweepTable) -> Request {
     Request {
         name: opened.name.clone(),
@@ -160,7 +160,8 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     grid.axes.iter().filter_map(warning).collect()
 }
 
-/// The quantities that the user names, else the headline of every method of the grid.
+/// The quantities that the user names, otherwise the headline quantities of every method of the
+/// grid.
 fn quantities(options: &Options, grid: &Grid, opened: &Opened) -> Vec<&'static Quantity> {
     if !options.only.is_empty() {
         return distinct(options.only.iter().flatten().copied());

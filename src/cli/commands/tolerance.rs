@@ -1,4 +1,4 @@
-//! A case whose fields are spread around their values.
+//! `tolerance`: samples the distributions of a case.
 
 use crate::case::Problem;
 use crate::cli::Streams;
@@ -26,7 +26,7 @@ const AFTER_HELP: &str = "A distribution is a line of [spread]: the field in quo
     of the ranking (set b, and b:FIELD with the value of b in that field). JSON is one object in \
     SI units.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
@@ -43,7 +43,7 @@ pub struct Options {
     /// ranking). Each sample needs one solve per field, plus one
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub ranking: Option<usize>,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// Compute only these quantities and those of [limits], by name or symbol
@@ -94,15 +94,15 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     write(name_of(options.format), &whole, out, streams)
 }
 
-/// Writes a study in the format of that name, and reports its refused samples.
+/// Writes a study in a format, and reports its refused samples.
 pub(super) fn write(
     format: &str,
     whole: &ToleranceReport,
     out: Option<&Path>,
     streams: &mut Streams,
 ) -> Result<Exit, Failure> {
-    // Rows are written as they are made. The figures take their time, in which a signal must still
-    // end the program, and come before the file.
+    // Rows are written as they arrive. The figures take time, during which a signal must still end
+    // the program; therefore they are complete before the file is created.
     let mut figures = Vec::new();
     match format {
         "json" => whole.write_json(&mut figures),
@@ -117,7 +117,7 @@ pub(super) fn write(
     Ok(report(whole, streams))
 }
 
-/// Reports the refused samples of a study that is written.
+/// Reports the refused samples of a written study.
 fn report(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
     for refused in &whole.samples.refusals.0 {
         streams.say(&format!("{}: {}", whole.name, whole.refused(refused)));
@@ -129,7 +129,7 @@ fn report(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
     }
 }
 
-/// The study for the files of its shards.
+/// The request for the shard files of the study.
 fn request(options: &Options, opened: &Opened, study: &Tolerance) -> Request {
     Request {
         name: opened.name.clone(),

@@ -1,4 +1,4 @@
-//! Speed against accuracy of every method on one case.
+//! `trade`: measures accuracy against run time of every method on one case.
 
 use crate::cli::Streams;
 use crate::cli::cases;
@@ -16,14 +16,14 @@ const AFTER_HELP: &str = "Each setting is timed on this machine. Its total error
     the rest is numerical. Where no method finds corner contact, no setting is recommended. JSON is one object in SI units; missing \
     values are absent.";
 
-/// What the command line gives.
+/// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// What differs from the case
+    /// The changes of the case
     #[command(flatten)]
     pub edits: Edits,
     /// Greatest error of the recommended setting, such as 5% or 0.05 (default: model.within of
@@ -63,7 +63,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     Ok(Exit::Done)
 }
 
-/// A part of a whole: "5%" or 0.05.
+/// Parses a fraction: "5%" or 0.05.
 fn part(text: &str) -> Result<f64, String> {
     let (number, whole) = text
         .trim()

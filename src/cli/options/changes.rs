@@ -1,4 +1,4 @@
-//! What the command line changes in a case: a variant, fields and the method.
+//! Changes of the command line to a case: a variant, fields and the method.
 
 use std::ffi::OsStr;
 
@@ -33,7 +33,7 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// The variant and the fields; the method is a field, and the last one.
+    /// The variant and the fields; the method is the last field.
     #[must_use]
     pub fn edits(&self) -> Edits {
         let mut edits = self.edits.clone();
@@ -42,7 +42,7 @@ impl Changes {
     }
 }
 
-/// `--method` as a field.
+/// `--method` as a setting of a field.
 pub(in crate::cli) fn by_method(method: Option<Method>) -> Option<Setting> {
     method.map(|method| Setting::by("--method", "model.method", method.name()))
 }
@@ -50,16 +50,16 @@ pub(in crate::cli) fn by_method(method: Option<Method>) -> Option<Setting> {
 /// A field and its new value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Setting {
-    /// The field's key, or a limit's.
+    /// The key of the field or limit.
     pub key: String,
-    /// The text that a user would write.
+    /// The new text of the field.
     pub value: String,
-    /// The option that sets it.
+    /// The option of the setting.
     option: &'static str,
 }
 
 impl Setting {
-    /// A field as an option sets it.
+    /// The setting of a field by an option.
     #[must_use]
     pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
         Setting {
@@ -69,7 +69,7 @@ impl Setting {
         }
     }
 
-    /// The setting as on the command line.
+    /// The setting in the syntax of the command line.
     #[must_use]
     pub fn written(&self) -> String {
         match self.option {
@@ -82,7 +82,7 @@ impl Setting {
 /// The option that changes any field.
 const SET: &str = "--set";
 
-/// A field and its value, each on its own as it should be.
+/// Parser of a field and its value; checks each separately.
 #[derive(Clone)]
 pub(in crate::cli) struct Settings;
 
@@ -100,7 +100,7 @@ impl TypedValueParser for Settings {
     }
 }
 
-/// A setting whose value fits its field, whatever the case.
+/// Parses a setting and checks that the field accepts the value in some case.
 fn setting(text: &str) -> Result<Setting, String> {
     let (key, value) = text
         .split_once('=')
@@ -111,7 +111,7 @@ fn setting(text: &str) -> Result<Setting, String> {
     Ok(Setting::by(SET, key.trim(), value))
 }
 
-/// A number of stations that fits its field.
+/// Parses a number of stations.
 pub(in crate::cli) fn station_count(text: &str) -> Result<String, String> {
     setting(&format!("model.stations={text}")).map(|setting| setting.value)
 }
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
+    fn a_setting_is_split_at_the_first_equals_sign() {
         assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
         assert!(
             setting("pair.modul=5 mm")

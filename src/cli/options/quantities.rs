@@ -10,7 +10,7 @@ use super::misused;
 use crate::case::{Problem, unknown_quantity};
 use crate::model::{QUANTITIES, Quantity};
 
-/// A quantity by its name or its symbol.
+/// Parser of a quantity by its name or its symbol.
 #[derive(Clone)]
 pub(in crate::cli) struct Quantities;
 
@@ -42,7 +42,8 @@ impl TypedValueParser for Quantities {
     }
 }
 
-/// Quantities with commas between them; a comma may be part of a symbol, as in `F_d,max`.
+/// Parser of a comma-separated list of quantities; a comma may be part of a symbol, as in
+/// `F_d,max`.
 #[derive(Clone)]
 pub(in crate::cli) struct QuantityList;
 
@@ -65,7 +66,7 @@ impl TypedValueParser for QuantityList {
     }
 }
 
-/// The names in a list: a part that continues a symbol joins the part before it.
+/// The names in a list: a part that continues a symbol is joined with the previous part.
 fn names(list: &str) -> Vec<String> {
     let is_symbol = |name: &str| {
         let mut symbols = QUANTITIES.iter().map(|quantity| quantity.symbol);
