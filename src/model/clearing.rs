@@ -42,7 +42,7 @@ pub enum Trial {
 }
 
 impl ClearingInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> ClearingInputs {
         ClearingInputs {

@@ -97,7 +97,7 @@ pub struct ComplianceInputs {
 }
 
 impl ComplianceInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> ComplianceInputs {
         ComplianceInputs {

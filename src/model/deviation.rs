@@ -39,7 +39,7 @@ pub struct GivenDeviations {
 }
 
 impl DeviationInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> DeviationInputs {
         let given = GivenDeviations::of(inputs);
@@ -52,7 +52,7 @@ impl DeviationInputs {
 }
 
 impl GivenDeviations {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> GivenDeviations {
         GivenDeviations {

@@ -15,7 +15,7 @@ pub struct FrictionInputs {
 }
 
 impl FrictionInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> FrictionInputs {
         FrictionInputs {

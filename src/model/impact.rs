@@ -114,7 +114,7 @@ pub struct ImpactInputs {
 }
 
 impl ImpactInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> ImpactInputs {
         let compliance = ComplianceInputs::of(inputs);

@@ -11,7 +11,7 @@ pub struct LoadInputs {
 }
 
 impl LoadInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> LoadInputs {
         LoadInputs {

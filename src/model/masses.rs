@@ -15,7 +15,7 @@ pub struct MassInputs {
 }
 
 impl MassInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> MassInputs {
         MassInputs {

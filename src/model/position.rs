@@ -28,7 +28,7 @@ pub struct PositionInputs {
 }
 
 impl PositionInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> PositionInputs {
         PositionInputs {

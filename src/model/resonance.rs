@@ -13,7 +13,7 @@ pub struct ResonanceInputs {
 }
 
 impl ResonanceInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> ResonanceInputs {
         ResonanceInputs {

@@ -30,8 +30,8 @@ impl Spacing {
 
     /// The values of `at` at the stations from the first to the last of `ends`, including both.
     /// `at` also gives the height of the curve. The curve should have at most one turning point
-    /// between two of the ends. Other ends are sampled, at most `most` places in total, and become
-    /// stations only if the curve needs them.
+    /// between two of the ends. Samples the inner ends as well, at most `most` places in total.
+    /// Inner ends become stations only if the curve needs them.
     pub fn stations<T>(
         self,
         ends: &[f64],

@@ -22,7 +22,7 @@ pub struct StaticInputs {
 }
 
 impl StaticInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> StaticInputs {
         StaticInputs {

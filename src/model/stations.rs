@@ -32,7 +32,7 @@ pub struct StationsInputs {
 }
 
 impl StationsInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> StationsInputs {
         StationsInputs {

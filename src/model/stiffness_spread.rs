@@ -17,14 +17,14 @@ pub struct BandInputs {
     pub deviation: DeviationInputs,
     /// First contact.
     pub position: PositionInputs,
-    /// Velocities there.
+    /// Velocities at D.
     pub velocity: VelocityInputs,
     /// The impact.
     pub impact: ImpactInputs,
 }
 
 impl BandInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> BandInputs {
         BandInputs {

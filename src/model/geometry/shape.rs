@@ -14,7 +14,7 @@ pub struct GeometryInputs {
 }
 
 impl GeometryInputs {
-    /// Selects them from the inputs of a solve.
+    /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> GeometryInputs {
         GeometryInputs {
