@@ -53,7 +53,7 @@ pub struct Segment {
     pub state: State,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
     /// Every change of the state, in order.
