@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// The format of a solve.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub enum OutputFormat {
     /// Text in usual units
     #[default]
     Text,

@@ -18,7 +18,7 @@ pub fn is_picture(path: &Path) -> bool {
 
 /// The format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum ReportFormat {
     /// A page for browsers and printers.
     Html,
     /// A page as text.
@@ -29,19 +29,19 @@ pub enum Format {
     Json,
 }
 
-impl Format {
+impl ReportFormat {
     /// The extensions, as an error message lists them.
     pub const ENDINGS: &str = ".html, .md, .csv or .json";
 
     /// The format of a file extension.
     #[must_use]
-    pub fn of(path: &Path) -> Option<Format> {
+    pub fn of(path: &Path) -> Option<ReportFormat> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         Some(match ending.as_str() {
-            "html" | "htm" => Format::Html,
-            "md" | "markdown" => Format::Markdown,
-            "csv" => Format::Csv,
-            "json" | "jsonl" => Format::Json,
+            "html" | "htm" => ReportFormat::Html,
+            "md" | "markdown" => ReportFormat::Markdown,
+            "csv" => ReportFormat::Csv,
+            "json" | "jsonl" => ReportFormat::Json,
             _ => return None,
         })
     }
@@ -49,13 +49,13 @@ impl Format {
     /// Whether it is a page for a reader.
     #[must_use]
     pub const fn is_page(self) -> bool {
-        matches!(self, Format::Html | Format::Markdown)
+        matches!(self, ReportFormat::Html | ReportFormat::Markdown)
     }
 
     /// Whether it includes the stations.
     #[must_use]
     pub const fn has_stations(self) -> bool {
-        !matches!(self, Format::Csv)
+        !matches!(self, ReportFormat::Csv)
     }
 
     /// Renders the cases.
@@ -70,14 +70,14 @@ impl Format {
         };
         let mut bytes = Vec::new();
         match self {
-            Format::Html => return Page::of(subjects).html().map_err(io::Error::other),
-            Format::Markdown => return Ok(Page::of(subjects).markdown()),
-            Format::Csv => {
+            ReportFormat::Html => return Page::of(subjects).html().map_err(io::Error::other),
+            ReportFormat::Markdown => return Ok(Page::of(subjects).markdown()),
+            ReportFormat::Csv => {
                 for (at, report) in reports().enumerate() {
                     csv::write(report, at == 0, &mut bytes)?;
                 }
             }
-            Format::Json => {
+            ReportFormat::Json => {
                 for report in reports() {
                     json::write(report, &mut bytes)?;
                 }
@@ -96,7 +96,7 @@ impl Format {
 pub fn subject(
     report: Report,
     file: String,
-    format: Format,
+    format: ReportFormat,
     go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Result<Subject, Refusal> {
     if !format.is_page() {
@@ -113,7 +113,7 @@ pub fn subject(
         inputs: &report.inputs,
     };
     let studies = Studies::of(source.case, source.inputs, go_on).map_err(|_| Refusal::Stopped)?;
-    let speeds = (format == Format::Html).then(|| source.speeds(go_on));
+    let speeds = (format == ReportFormat::Html).then(|| source.speeds(go_on));
     // A pair without steady motion has no such chart.
     let speeds = match speeds {
         Some(Err(Refusal::Stopped)) => return Err(Refusal::Stopped),

@@ -25,7 +25,7 @@ struct Line<'a> {
 
 /// A value and its unit.
 #[derive(Serialize)]
-pub(super) struct Measured {
+pub(super) struct ValueWithUnit {
     value: Value,
     unit: &'static str,
     /// The subject of the value, if it differs from the result of the method.
@@ -40,10 +40,10 @@ enum Value {
     Flag(bool),
 }
 
-impl Measured {
+impl ValueWithUnit {
     /// A value of a quantity in SI.
-    pub(super) fn new(quantity: &Quantity, value: f64) -> Measured {
-        Measured {
+    pub(super) fn new(quantity: &Quantity, value: f64) -> ValueWithUnit {
+        ValueWithUnit {
             value: Value::of(quantity, value),
             unit: quantity.unit,
             of: None,
@@ -79,9 +79,9 @@ impl Serialize for Quantities<'_> {
             }
             _ => None,
         };
-        let measured = |quantity: &Quantity, value| Measured {
+        let measured = |quantity: &Quantity, value| ValueWithUnit {
             of: of(quantity),
-            ..Measured::new(quantity, value)
+            ..ValueWithUnit::new(quantity, value)
         };
         serializer.collect_map(
             self.0

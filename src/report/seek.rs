@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::json::{Measured, write_line};
+use super::json::{ValueWithUnit, write_line};
 use super::shown;
 use super::sweep::Reason;
 use crate::case::fields::FIELDS;
@@ -224,7 +224,7 @@ struct End {
     at: f64,
     state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    quantity: Option<Measured>,
+    quantity: Option<ValueWithUnit>,
 }
 
 impl End {
@@ -232,7 +232,8 @@ impl End {
         End {
             at: sample.at,
             state: name(&sample.state),
-            quantity: quantity.and_then(|quantity| Some(Measured::new(quantity, sample.value?))),
+            quantity: quantity
+                .and_then(|quantity| Some(ValueWithUnit::new(quantity, sample.value?))),
         }
     }
 }

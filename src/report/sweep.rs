@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use super::csv::{cell, write_rows};
-use super::json::{Measured, write_line};
+use super::json::{ValueWithUnit, write_line};
 use crate::case::Problem;
 use crate::model::Quantity;
 use crate::study::batch::{PointOutcome, Rows};
@@ -194,10 +194,8 @@ impl Serialize for Computed<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Computed(quantities, rows, row) = *self;
         let values = quantities.iter().zip(rows.values(row));
-        serializer.collect_map(
-            values.filter_map(|(quantity, value)| {
-                Some((quantity.key, Measured::new(quantity, value?)))
-            }),
-        )
+        serializer.collect_map(values.filter_map(|(quantity, value)| {
+            Some((quantity.key, ValueWithUnit::new(quantity, value?)))
+        }))
     }
 }

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 use super::layout::{WIDTH, flow};
 use crate::case::sanitize::sanitize;
 use crate::numeric::decimal::significant;
-use crate::study::trade::{Build, Differences, Measured, Setting, Subject, Trade, greatest};
+use crate::study::trade::{Build, Differences, MeasuredSetting, Setting, Subject, Trade, greatest};
 
 /// A trade study and its case.
 #[derive(Debug, Clone, Copy)]
@@ -116,7 +116,7 @@ pub fn conclusion(trade: &Trade) -> String {
 
 /// A setting with its error and time.
 #[must_use]
-pub fn summary(measured: &Measured) -> String {
+pub fn summary(measured: &MeasuredSetting) -> String {
     match (measured.total(), &measured.found) {
         (_, Err(refusal)) => format!("{}: {refusal}", measured.setting),
         (None, Ok(figures)) => format!("{}, {}", measured.setting, duration(figures.time.seconds)),
@@ -133,7 +133,7 @@ pub fn summary(measured: &Measured) -> String {
 
 /// The causes of the error of a setting, if it has an error.
 #[must_use]
-pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
+pub fn parts(trade: &Trade, measured: &MeasuredSetting) -> Option<String> {
     let figures = measured.found.as_ref().ok()?;
     let (numbers, curve) = table::parts(&figures.numerical);
     let model = greatest(&model_off(trade, &figures.taken));

@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub use answer::{Answer, Subject, stages};
 pub use build::Build;
 pub use clock::{Patience, Time};
-pub use results::{Differences, Figures, Measured, Model, Reference, Trade, greatest};
+pub use results::{Differences, Figures, MeasuredSetting, Model, Reference, Trade, greatest};
 pub use setting::{METHODS, STATIONS, Setting};
 
 use crate::model::inputs::Method;
@@ -23,7 +23,7 @@ use rounds::Rounds;
 
 /// The parameters of a trade study.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Question {
+pub struct TradeParameters {
     /// Accepted error of a setting, relative to the reference; also the tolerance of method `auto`.
     pub within: f64,
     /// How long each setting is timed.
@@ -47,18 +47,18 @@ struct References {
 /// case.
 pub fn trade(
     inputs: &Inputs,
-    question: &Question,
+    parameters: &TradeParameters,
     go_on: &dyn Fn() -> bool,
     show: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
     let inputs = &Inputs {
-        within: question.within,
+        within: parameters.within,
         ..inputs.clone()
     };
     let settings = settings(inputs);
-    let (mut trade, references) = References::find(inputs, question, settings.len(), go_on)?;
+    let (mut trade, references) = References::find(inputs, parameters, settings.len(), go_on)?;
     show(&trade);
-    let mut rounds = Rounds::begin(inputs, question.patience, go_on);
+    let mut rounds = Rounds::begin(inputs, parameters.patience, go_on);
     for setting in settings {
         let measured = references.measure(inputs, setting, &mut rounds)?;
         trade.settings.push(measured);
@@ -112,7 +112,7 @@ impl References {
     /// The reference, its check, and the finest setting of each method.
     fn find(
         inputs: &Inputs,
-        question: &Question,
+        parameters: &TradeParameters,
         planned: usize,
         go_on: &dyn Fn() -> bool,
     ) -> Result<(Trade, References), Refusal> {
@@ -144,13 +144,13 @@ impl References {
         // The capacity is exact, because a measurement stays in memory with its case.
         let settings = Vec::with_capacity(planned);
         let trade = Trade {
-            within: question.within,
+            within: parameters.within,
             planned,
             settings,
             part: 0.0,
             reference,
             models,
-            build: Build::measure(inputs, question.patience),
+            build: Build::measure(inputs, parameters.patience),
             cheapest: None,
         };
         Ok((trade, References { truth, best }))
@@ -162,13 +162,13 @@ impl References {
         inputs: &Inputs,
         setting: Setting,
         rounds: &mut Rounds<'_>,
-    ) -> Result<Measured, Refusal> {
+    ) -> Result<MeasuredSetting, Refusal> {
         let found = rounds.first(setting)?.map(|(answer, time)| {
             let taken = setting.taken(inputs, answer.method);
             self.figures(&answer, taken, time)
         });
         let is_current = setting == Setting::of(inputs);
-        Ok(Measured {
+        Ok(MeasuredSetting {
             setting,
             is_current,
             found,

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::{Position, Size};
 
-use super::benchmark::{Measured, Measuring};
+use super::benchmark::{BenchmarkProgress, Measuring};
 use super::commands::{self, Command};
 use super::jobs::{Explained, ExportFault, Job, ReliefAnswer};
 use super::keys::{Chord, Place};
@@ -48,7 +48,7 @@ pub enum Action {
     /// Progress of the solve with this serial, from 0 to 1.
     Solving(u64, f64),
     /// New results of a benchmark.
-    Measured(Box<Measured>),
+    Measured(Box<BenchmarkProgress>),
     /// The solved variants of a case.
     Compared(Box<Variants>),
     /// The next results of a study.

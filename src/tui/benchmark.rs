@@ -16,7 +16,7 @@ pub struct Measuring {
 
 /// Results of a running or finished benchmark.
 #[derive(Debug, Clone)]
-pub struct Measured {
+pub struct BenchmarkProgress {
     /// The serial of the benchmark.
     pub serial: u64,
     /// The results so far; `None` if they have not changed.

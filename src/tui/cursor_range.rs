@@ -2,7 +2,7 @@
 
 use super::panes::chart::Charts;
 use super::panes::chart::axes::Ruler;
-use super::panes::chart::curves::{Whose, curves};
+use super::panes::chart::curves::{CurveSource, curves};
 use super::panes::chart::{first_contact, last_contact, panels};
 use crate::case::units::{self, Dimension};
 use crate::model::Solution;
@@ -166,7 +166,7 @@ fn peak(scope: &CursorScope<'_>) -> Option<f64> {
     let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph]);
     let own = curves
         .iter()
-        .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
+        .find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
     let highest = own
         .pieces
         .iter()

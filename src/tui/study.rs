@@ -20,21 +20,21 @@ pub struct StudyRequest {
     /// The serial of the request.
     pub serial: u64,
     /// The study.
-    pub question: Question,
+    pub parameters: StudyParameters,
 }
 
 /// The parameters of a study.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Question {
+pub enum StudyParameters {
     /// Values over one or two fields.
-    Grid(GridQuestion),
+    Grid(GridParameters),
     /// The samples of `[spread]`.
-    Tolerance(Box<ToleranceQuestion>),
+    Tolerance(Box<ToleranceParameters>),
 }
 
 /// Values over one or two fields.
 #[derive(Debug, Clone, PartialEq)]
-pub struct GridQuestion {
+pub struct GridParameters {
     /// For a map the second field, then the first one; the first of these axes varies slowest.
     pub axes: Vec<Axis>,
     /// The curves; the active method comes first.
@@ -45,7 +45,7 @@ pub struct GridQuestion {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Layer {
     /// The method, or the baseline.
-    pub(crate) whose: Whose,
+    pub(crate) source: LayerSource,
     /// The case with that method.
     pub(crate) inputs: Inputs,
     /// The key of the quantity.
@@ -54,7 +54,7 @@ pub(crate) struct Layer {
 
 /// The origin of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Whose {
+pub(crate) enum LayerSource {
     /// The method of the case.
     Active(Method),
     /// Another method.
@@ -65,7 +65,7 @@ pub(crate) enum Whose {
 
 /// The distributions of a case.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ToleranceQuestion {
+pub struct ToleranceParameters {
     /// The name of the case.
     pub(crate) name: String,
     /// The case with its distributions.
@@ -186,13 +186,13 @@ impl Layer {
     }
 }
 
-impl Question {
+impl StudyParameters {
     /// The axes of a curve or a map.
     #[must_use]
     pub fn axes(&self) -> &[Axis] {
         match self {
-            Question::Grid(grid) => &grid.axes,
-            Question::Tolerance(_) => &[],
+            StudyParameters::Grid(grid) => &grid.axes,
+            StudyParameters::Tolerance(_) => &[],
         }
     }
 }
@@ -209,7 +209,7 @@ impl Study {
     pub fn start(&mut self, request: StudyRequest) {
         let shown = self.shown.as_ref().map(|shown| &shown.request);
         let before = self.request.as_ref().or(shown);
-        if before.is_none_or(|before| before.question.axes() != request.question.axes()) {
+        if before.is_none_or(|before| before.parameters.axes() != request.parameters.axes()) {
             self.cursor = None;
         }
         self.request = Some(request);
@@ -234,16 +234,16 @@ impl StudyResults {
     /// The quantity of the study: that of its first curve.
     #[must_use]
     pub fn quantity(&self) -> Option<&'static Quantity> {
-        match &self.request.question {
-            Question::Grid(grid) => grid.layers.first()?.quantity(),
-            Question::Tolerance(question) => Quantity::find(question.quantity),
+        match &self.request.parameters {
+            StudyParameters::Grid(grid) => grid.layers.first()?.quantity(),
+            StudyParameters::Tolerance(parameters) => Quantity::find(parameters.quantity),
         }
     }
 
     fn of(request: StudyRequest) -> StudyResults {
-        let layers = match &request.question {
-            Question::Grid(grid) => vec![LayerFound::default(); grid.layers.len()],
-            Question::Tolerance(_) => Vec::new(),
+        let layers = match &request.parameters {
+            StudyParameters::Grid(grid) => vec![LayerFound::default(); grid.layers.len()],
+            StudyParameters::Tolerance(_) => Vec::new(),
         };
         StudyResults {
             request,

@@ -13,7 +13,7 @@ pub mod ascii {
 }
 
 pub mod benchmark {
-    pub use crate::tui::benchmark::{End, Measured, Measuring};
+    pub use crate::tui::benchmark::{BenchmarkProgress, End, Measuring};
 }
 
 pub mod commands {
@@ -52,7 +52,7 @@ pub mod chart {
     pub use crate::tui::panes::chart::{first_contact, readout};
 
     pub mod curves {
-        pub use crate::tui::panes::chart::curves::{Whose, apart, curves, is_field};
+        pub use crate::tui::panes::chart::curves::{CurveSource, apart, curves, is_field};
     }
 
     pub mod raster {
@@ -115,7 +115,7 @@ pub mod store {
 }
 
 pub mod study {
-    pub use crate::tui::study::{End, Found, Question, StudyPart, StudyRequest};
+    pub use crate::tui::study::{End, Found, StudyParameters, StudyPart, StudyRequest};
 }
 
 pub mod tab {

@@ -15,7 +15,8 @@ use tipstrike::model::stiffness_spread::StiffnessModels;
 use tipstrike::model::{Inputs, Refusal, Stage, Stages, solve};
 use tipstrike::report::trade::{TradeReport, write, write_json};
 use tipstrike::study::trade::{
-    METHODS, Measured, Patience, Question, STATIONS, Setting, Subject, Trade, greatest, trade,
+    METHODS, MeasuredSetting, Patience, STATIONS, Setting, Subject, Trade, TradeParameters,
+    greatest, trade,
 };
 
 fn table_1() -> Inputs {
@@ -25,11 +26,11 @@ fn table_1() -> Inputs {
 }
 
 fn traded(inputs: &Inputs, within: f64) -> Trade {
-    let question = Question {
+    let parameters = TradeParameters {
         within,
         patience: Patience::ONCE,
     };
-    trade(inputs, &question, &|| true, &mut |_| ()).unwrap_or_else(|refusal| panic!("{refusal}"))
+    trade(inputs, &parameters, &|| true, &mut |_| ()).unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
 /// The trade study of Table 1, computed once for all tests.
@@ -38,7 +39,7 @@ fn traded_table_1() -> &'static Trade {
     &TRADE
 }
 
-fn of<'a>(trade: &'a Trade, setting: &Setting) -> &'a Measured {
+fn of<'a>(trade: &'a Trade, setting: &Setting) -> &'a MeasuredSetting {
     trade
         .settings
         .iter()
@@ -46,7 +47,7 @@ fn of<'a>(trade: &'a Trade, setting: &Setting) -> &'a Measured {
         .unwrap_or_else(|| panic!("no {setting}"))
 }
 
-fn numerical(measured: &Measured, subject: Subject) -> f64 {
+fn numerical(measured: &MeasuredSetting, subject: Subject) -> f64 {
     let figures = measured
         .found
         .as_ref()
@@ -259,7 +260,7 @@ fn errors_fall_with_stations_and_tolerance() {
 #[test]
 fn only_needed_subjects_count_if_a_method_lacks_some() {
     let trade = traded_table_1();
-    let is_fine = |measured: &&Measured| trade.model(&measured.setting).is_some();
+    let is_fine = |measured: &&MeasuredSetting| trade.model(&measured.setting).is_some();
     for measured in trade.settings.iter().filter(is_fine) {
         let figures = measured.found.as_ref().unwrap();
         let has_ratio = figures.numerical[Subject::FrictionRatio as usize].is_some();
@@ -287,7 +288,7 @@ fn the_cases_own_setting_is_there_and_marked() {
         ..table_1()
     };
     let trade = traded(&inputs, 0.05);
-    let own: Vec<&Measured> = trade
+    let own: Vec<&MeasuredSetting> = trade
         .settings
         .iter()
         .filter(|measured| measured.is_current)
@@ -355,7 +356,7 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
 #[test]
 fn a_trade_reports_its_progress_and_stops_on_request() {
     let (seen, asked) = (Cell::new(0), Cell::new(0u32));
-    let question = Question {
+    let parameters = TradeParameters {
         within: 0.05,
         patience: Patience::ONCE,
     };
@@ -363,13 +364,13 @@ fn a_trade_reports_its_progress_and_stops_on_request() {
         asked.set(asked.get() + 1);
         seen.get() < 5
     };
-    let stopped = trade(&table_1(), &question, &go_on, &mut |sofar| {
+    let stopped = trade(&table_1(), &parameters, &go_on, &mut |sofar| {
         assert!(sofar.settings.len() <= sofar.planned);
         seen.set(sofar.settings.len());
     });
     assert_eq!((stopped.err(), seen.get()), (Some(Refusal::Stopped), 5));
     assert!(asked.get() > 5);
-    let never = trade(&table_1(), &question, &|| false, &mut |_| {
+    let never = trade(&table_1(), &parameters, &|| false, &mut |_| {
         panic!("no benchmark")
     });
     assert_eq!(never.err(), Some(Refusal::Stopped));

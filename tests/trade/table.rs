@@ -11,7 +11,7 @@ use tipstrike::model::inputs::Method;
 use tipstrike::model::stiffness_spread::StiffnessModels;
 use tipstrike::report::trade::{duration, percent};
 use tipstrike::study::trade::{
-    Differences, METHODS, Patience, Question, Setting, Subject, Trade, greatest, trade,
+    Differences, METHODS, Patience, Setting, Subject, Trade, TradeParameters, greatest, trade,
 };
 
 /// Errors below this are rounding and may differ between machines.
@@ -76,12 +76,12 @@ fn path() -> PathBuf {
 
 /// Every case and its trade study, in the order of `cases`.
 pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
-    let question = Question {
+    let parameters = TradeParameters {
         within: 0.05,
         patience: *patience,
     };
     let made = |path: PathBuf| {
-        let found = trade(&inputs(&path), &question, &|| true, &mut |_| ());
+        let found = trade(&inputs(&path), &parameters, &|| true, &mut |_| ());
         let name = path
             .file_stem()
             .expect("a name")

@@ -15,7 +15,7 @@ use tipstrike::report::graphs::{GRAPHS, Graph};
 use tipstrike::study::speeds::speeds;
 use tipstrike::tui::testing::actions::{self, Action, Effect};
 use tipstrike::tui::testing::chart::Frame;
-use tipstrike::tui::testing::chart::curves::{self, Whose};
+use tipstrike::tui::testing::chart::curves::{self, CurveSource};
 use tipstrike::tui::testing::chart::{self, raster};
 use tipstrike::tui::testing::pane::Pane;
 use tipstrike::tui::testing::solver::{self, Answer};
@@ -743,12 +743,12 @@ fn assert_legends(desk: &Desk) {
             assert_eq!(alone[at].symbol(), screen[at].symbol(), "{at}\n{text}");
         }
         for curve in &curves {
-            let name = match curve.whose {
-                Whose::Active(method) => format!("⠒ {}", method.name()),
-                Whose::Other(method) => method.name().to_owned(),
-                Whose::Pinned(_) => "+ baseline".to_owned(),
-                Whose::Bound(symbol) => format!("╌ {symbol}"),
-                Whose::Model { model, .. } => model.name().to_owned(),
+            let name = match curve.source {
+                CurveSource::Active(method) => format!("⠒ {}", method.name()),
+                CurveSource::Other(method) => method.name().to_owned(),
+                CurveSource::Pinned(_) => "+ baseline".to_owned(),
+                CurveSource::Bound(symbol) => format!("╌ {symbol}"),
+                CurveSource::Model { model, .. } => model.name().to_owned(),
             };
             assert!(text.contains(&name), "{name} is missing\n{text}");
         }
@@ -935,7 +935,7 @@ fn the_mesh_stiffness_has_a_curve_for_every_model_with_that_of_the_case_on_top()
     let [.., field, own] = &curves[..] else {
         panic!("curves of several models");
     };
-    assert!(curves::is_field(field.whose) && !curves::is_field(own.whose));
+    assert!(curves::is_field(field.source) && !curves::is_field(own.source));
     // From E to the end of the path of contact, without the strike.
     let window = charts.window();
     assert!(window.from < 0.0 && window.to > 20.0, "{window:?}");

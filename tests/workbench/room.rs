@@ -4,7 +4,7 @@ use crate::harness;
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
 use tipstrike::report::graphs::GRAPHS;
-use tipstrike::tui::testing::chart::curves::{self, Whose};
+use tipstrike::tui::testing::chart::curves::{self, CurveSource};
 use tipstrike::tui::testing::results;
 
 const HYDRO: &str = include_str!("../../cases/hydro-speed-up.toml");
@@ -96,8 +96,11 @@ fn the_stiffness_model_of_the_case_is_drawn_on_top() {
         desk.keys(&["Esc", ":", "mesh stiff", "Enter"]);
         let graph = GRAPHS.iter().find(|graph| graph.by_model.is_some());
         let curves = curves::curves(&desk.app.charts(), graph.expect("a chart"));
-        let top = curves.last().expect("a curve").whose;
-        assert!(matches!(top, Whose::Model { is_own: true, .. }), "{top:?}");
+        let top = curves.last().expect("a curve").source;
+        assert!(
+            matches!(top, CurveSource::Model { is_own: true, .. }),
+            "{top:?}"
+        );
     }
 }
 

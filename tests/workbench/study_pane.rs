@@ -11,7 +11,7 @@ use tipstrike::model::inputs::Method;
 use tipstrike::tui::testing::actions::{Action, Effect};
 use tipstrike::tui::testing::commands::Command;
 use tipstrike::tui::testing::jobs::Job;
-use tipstrike::tui::testing::study::{End, Found, Question, StudyPart, StudyRequest};
+use tipstrike::tui::testing::study::{End, Found, StudyParameters, StudyPart, StudyRequest};
 use tipstrike::tui::testing::update::update;
 
 const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n\"operation.power\" = { \
@@ -65,7 +65,7 @@ fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
     desk.keys(&["Esc", "6", "b"]);
     let ends = |desk: &Desk| {
         let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-        let Question::Grid(grid) = &shown.request.question else {
+        let StudyParameters::Grid(grid) = &shown.request.parameters else {
             panic!("a curve")
         };
         let axis = &grid.axes[0];
@@ -284,7 +284,7 @@ fn a_study_interrupted_by_another_tab_is_requested_again() {
     let again = update(&mut desk.app, Action::Do(Command::Tab(0)));
     let again = requested(again).expect("the study of the first tab again");
     assert!(again.serial > first.serial);
-    assert_eq!(again.question, first.question);
+    assert_eq!(again.parameters, first.parameters);
 }
 
 #[test]
@@ -293,7 +293,7 @@ fn the_labels_of_a_map_are_round_and_whole() {
         let mut desk = study(size, "driven.tip_relief");
         desk.keys(&["s", "operation.speed", "Enter"]);
         let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-        for axis in shown.request.question.axes() {
+        for axis in shown.request.parameters.axes() {
             for point in &axis.points {
                 assert!(point.text.len() <= 6, "{}", point.text);
             }
@@ -387,7 +387,7 @@ fn the_wheel_scrolls_the_tolerance_and_the_zoom_keys_keep_the_hidden_range() {
     desk.go_to("operation.speed").keys(&["Esc", "6", "z"]);
     let ends = |desk: &Desk| {
         let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-        shown.request.question.axes()[0].with_unit(0)
+        shown.request.parameters.axes()[0].with_unit(0)
     };
     assert_eq!(ends(&desk), "1000 rpm");
     desk.keys(&["d"]);

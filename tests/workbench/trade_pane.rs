@@ -9,7 +9,7 @@ use tipstrike::study::trade::{Build, Setting};
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::actions::Progress;
-use tipstrike::tui::testing::benchmark::{End, Measured, Measuring};
+use tipstrike::tui::testing::benchmark::{BenchmarkProgress, End, Measuring};
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 
@@ -162,7 +162,7 @@ fn esc_stops_a_benchmark_and_keeps_its_results() {
     assert!(matches!(desk.effects("Esc")[..], [Effect::CancelWork]));
     update(
         &mut desk.app,
-        Action::Measured(Box::new(Measured {
+        Action::Measured(Box::new(BenchmarkProgress {
             serial,
             trade: None,
             end: Some(End::Stopped),
@@ -208,14 +208,14 @@ fn the_results_of_a_replaced_benchmark_are_ignored() {
         other => panic!("{other:?}"),
     });
     assert!(serials[0] < serials[1]);
-    let late = Measured {
+    let late = BenchmarkProgress {
         serial: serials[0],
         trade: None,
         end: Some(End::Stopped),
     };
     update(&mut desk.app, Action::Measured(Box::new(late)));
     assert!(desk.app.progress.is_some(), "the second one runs");
-    let failed = Measured {
+    let failed = BenchmarkProgress {
         serial: serials[1],
         trade: None,
         end: Some(End::Failed("no mesh".to_owned())),
@@ -240,7 +240,7 @@ fn a_measurement_ends_although_its_case_was_closed() {
     );
     update(
         &mut desk.app,
-        Action::Measured(Box::new(Measured {
+        Action::Measured(Box::new(BenchmarkProgress {
             serial,
             trade: None,
             end: Some(End::Stopped),

@@ -3,7 +3,7 @@
 use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, Format};
+use crate::cli::options::{Changes, OutputFormat};
 use crate::cli::output::{keep_inputs, write_to};
 use crate::cli::progress::follow;
 use crate::report::specification::ReliefReport;
@@ -48,7 +48,7 @@ pub struct Options {
     pub changes: Changes,
     /// Format of the output
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    pub format: OutputFormat,
     /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
@@ -81,9 +81,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         found: &found,
     };
     write_to(out, streams.output.as_mut(), |sink| match options.format {
-        Format::Text => report.write(sink),
-        Format::Json => report.write_json(sink),
-        Format::Csv => report.write_csv(sink),
+        OutputFormat::Text => report.write(sink),
+        OutputFormat::Json => report.write_json(sink),
+        OutputFormat::Csv => report.write_csv(sink),
     })?;
     Ok(Exit::Done)
 }

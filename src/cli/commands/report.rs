@@ -6,7 +6,7 @@ use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Changes;
 use crate::cli::progress::follow;
-use crate::report::export::{Format, subject};
+use crate::report::export::{ReportFormat, subject};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -30,11 +30,11 @@ pub struct Options {
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let Some(format) = Format::of(&options.out) else {
+    let Some(format) = ReportFormat::of(&options.out) else {
         return Err(Failure::Usage(format!(
             "--out {}: the file extension selects the format: use {}",
             options.out.display(),
-            Format::ENDINGS
+            ReportFormat::ENDINGS
         )));
     };
     let edits = options.changes.edits();

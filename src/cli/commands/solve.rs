@@ -3,7 +3,7 @@
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, Edits, Format, QuantityList, Setting, station_count};
+use crate::cli::options::{Changes, Edits, OutputFormat, QuantityList, Setting, station_count};
 use crate::model::Quantity;
 use crate::model::Refusal;
 use crate::report::{Report, Selection, csv, json, text};
@@ -34,7 +34,7 @@ pub struct Options {
     pub stations: Option<String>,
     /// Format of the output
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    pub format: OutputFormat,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
@@ -68,7 +68,7 @@ fn edits(options: &Options) -> Edits {
 
 fn selection(options: &Options) -> Selection {
     let only = distinct(options.only.iter().flatten().copied());
-    let whole_json = options.format == Format::Json && only.is_empty();
+    let whole_json = options.format == OutputFormat::Json && only.is_empty();
     Selection {
         only,
         stations: options.stations.is_some() || whole_json,
@@ -103,11 +103,16 @@ fn in_full(report: Report) -> Result<Report, Refusal> {
     }
 }
 
-fn print(report: &Report, format: Format, first: bool, out: &mut dyn Write) -> io::Result<()> {
+fn print(
+    report: &Report,
+    format: OutputFormat,
+    first: bool,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     match format {
-        Format::Text if first => text::write(report, out),
-        Format::Text => writeln!(out).and_then(|()| text::write(report, out)),
-        Format::Json => json::write(report, out),
-        Format::Csv => csv::write(report, first, out),
+        OutputFormat::Text if first => text::write(report, out),
+        OutputFormat::Text => writeln!(out).and_then(|()| text::write(report, out)),
+        OutputFormat::Json => json::write(report, out),
+        OutputFormat::Csv => csv::write(report, first, out),
     }
 }

@@ -3,7 +3,7 @@
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Edits, Format};
+use crate::cli::options::{Edits, OutputFormat};
 use crate::report::stiffness::{StiffnessReport, no_field, write, write_csv, write_json};
 use crate::study::stiffness::compare;
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
@@ -29,7 +29,7 @@ pub struct Options {
     pub points: usize,
     /// Format of the output
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    pub format: OutputFormat,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
@@ -43,9 +43,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         comparison: &comparison,
     };
     match options.format {
-        Format::Text => write(&report, streams.output.as_mut())?,
-        Format::Json => write_json(&report, streams.output.as_mut())?,
-        Format::Csv => {
+        OutputFormat::Text => write(&report, streams.output.as_mut())?,
+        OutputFormat::Json => write_json(&report, streams.output.as_mut())?,
+        OutputFormat::Csv => {
             write_csv(&comparison, streams.output.as_mut())?;
             for gear in &comparison.gears {
                 if let Some(sentence) = no_field(gear) {

@@ -4,7 +4,7 @@ use crate::case::Problem;
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, Format, QuantityList, StudyOptions, count};
+use crate::cli::options::{Changes, OutputFormat, QuantityList, StudyOptions, count};
 use crate::cli::output::{check_out, keep_inputs, write_to};
 use crate::cli::progress::Running;
 use crate::cli::shards;
@@ -51,7 +51,7 @@ pub struct Options {
     pub only: Vec<Vec<&'static Quantity>>,
     /// Format of the output
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    pub format: OutputFormat,
     /// How the study runs
     #[command(flatten)]
     pub running: StudyOptions,
@@ -149,11 +149,11 @@ fn request(options: &Options, opened: &Opened, study: &Tolerance) -> Request {
 }
 
 /// The name of a format on the command line.
-fn name_of(format: Format) -> &'static str {
+fn name_of(format: OutputFormat) -> &'static str {
     match format {
-        Format::Text => "text",
-        Format::Json => "json",
-        Format::Csv => "csv",
+        OutputFormat::Text => "text",
+        OutputFormat::Json => "json",
+        OutputFormat::Csv => "csv",
     }
 }
 

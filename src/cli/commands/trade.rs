@@ -6,7 +6,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::{Edits, Listing};
 use crate::cli::progress::follow;
 use crate::report::trade::{TradeReport, write, write_json};
-use crate::study::trade::{Patience, Question, Trade, trade};
+use crate::study::trade::{Patience, Trade, TradeParameters, trade};
 use clap::{Args, ValueHint};
 use std::cell::Cell;
 use std::path::PathBuf;
@@ -37,7 +37,7 @@ pub struct Options {
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let opened = cases::open(&options.case, &options.edits, streams)?;
-    let question = Question {
+    let parameters = TradeParameters {
         within: options.within.unwrap_or(opened.inputs.within),
         patience: Patience::STEADY,
     };
@@ -48,7 +48,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
             planned.set(sofar.planned);
         };
         let go_on = || report(done.get(), planned.get());
-        trade(&opened.inputs, &question, &go_on, &mut show)
+        trade(&opened.inputs, &parameters, &go_on, &mut show)
     });
     let trade = found.map_err(|refusal| opened.refused(&refusal, streams))?;
     let report = TradeReport {

@@ -8,7 +8,7 @@ use super::{TradeReport, model_off, table};
 use crate::case::fields::AUTO;
 use crate::model::inputs::Method;
 use crate::report::json::write_line;
-use crate::study::trade::{Differences, Measured, Setting, Subject, Trade};
+use crate::study::trade::{Differences, MeasuredSetting, Setting, Subject, Trade};
 
 #[derive(Serialize)]
 struct Line<'a> {
@@ -168,7 +168,7 @@ fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
     })
 }
 
-fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
+fn setting_line(trade: &Trade, measured: &MeasuredSetting) -> SettingLine {
     let Setting {
         method,
         stations,
@@ -203,7 +203,11 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
 }
 
 /// The three errors of a subject, if it has any.
-fn errors(trade: &Trade, measured: &Measured, subject: Subject) -> Option<serde_json::Value> {
+fn errors(
+    trade: &Trade,
+    measured: &MeasuredSetting,
+    subject: Subject,
+) -> Option<serde_json::Value> {
     let figures = measured.found.as_ref().ok()?;
     let model = model_off(trade, &figures.taken);
     let of = |differences: &Differences| differences[subject as usize];

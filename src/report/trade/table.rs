@@ -7,7 +7,7 @@ use crate::model::inputs::Method;
 use crate::model::stiffness_spread::StiffnessModels;
 use crate::report::layout::{WIDTH, flow, item};
 use crate::study::trade::{
-    Differences, METHODS, Measured, Model, Setting, Subject, Trade, greatest,
+    Differences, METHODS, MeasuredSetting, Model, Setting, Subject, Trade, greatest,
 };
 
 /// A method with a compliance, at the default fineness.
@@ -33,7 +33,7 @@ impl fmt::Display for Cell {
 /// The compliances, first that of the reference, each with its cell for each of [`METHODS`].
 #[must_use]
 pub fn compliances(trade: &Trade) -> Vec<(StiffnessModels, [Option<Cell>; METHODS.len()])> {
-    let cell = |measured: &Measured| {
+    let cell = |measured: &MeasuredSetting| {
         let figures = measured.found.as_ref();
         Cell {
             time: figures.map_or("refused".to_owned(), |figures| {
@@ -56,7 +56,7 @@ pub(super) fn by_compliance(trade: &Trade) -> Vec<String> {
     let title = "Time of a solve and greatest difference from the reference in %, by compliance and method, \
         with 64 stations and tolerance 1e-6. >: the compliance of the case.";
     let own = |models: StiffnessModels| {
-        let is_own = |measured: &&Measured| measured.is_current;
+        let is_own = |measured: &&MeasuredSetting| measured.is_current;
         let current = trade.settings.iter().find(is_own);
         current.is_some_and(|current| taken(current).models == Some(models))
     };
@@ -80,7 +80,7 @@ pub fn compliance_name(models: StiffnessModels) -> String {
 }
 
 /// The setting that the solve used.
-pub(super) fn taken(measured: &Measured) -> Setting {
+pub(super) fn taken(measured: &MeasuredSetting) -> Setting {
     let figures = measured.found.as_ref();
     figures.map_or(measured.setting, |figures| figures.taken)
 }
@@ -140,8 +140,8 @@ pub(super) fn settings(trade: &Trade) -> Vec<String> {
 }
 
 /// The settings of each compliance.
-fn by_models(trade: &Trade) -> Vec<(Option<StiffnessModels>, Vec<&Measured>)> {
-    let mut found: Vec<(Option<StiffnessModels>, Vec<&Measured>)> = Vec::new();
+fn by_models(trade: &Trade) -> Vec<(Option<StiffnessModels>, Vec<&MeasuredSetting>)> {
+    let mut found: Vec<(Option<StiffnessModels>, Vec<&MeasuredSetting>)> = Vec::new();
     for measured in &trade.settings {
         let models = measured.setting.models;
         match found.iter_mut().find(|(own, _)| *own == models) {
@@ -152,7 +152,7 @@ fn by_models(trade: &Trade) -> Vec<(Option<StiffnessModels>, Vec<&Measured>)> {
     found
 }
 
-fn lines(trade: &Trade, measured: &Measured) -> Vec<String> {
+fn lines(trade: &Trade, measured: &MeasuredSetting) -> Vec<String> {
     let setting = &measured.setting;
     let own = if measured.is_current { '>' } else { ' ' };
     let front = if measured.is_on_front { '*' } else { ' ' };
@@ -182,7 +182,7 @@ fn lines(trade: &Trade, measured: &Measured) -> Vec<String> {
 }
 
 /// The method, the method that `auto` chose, and whether the arithmetic is accurate.
-fn name(measured: &Measured) -> String {
+fn name(measured: &MeasuredSetting) -> String {
     let (method, took) = (measured.setting.method, taken(measured).method);
     let accurate = if measured.setting.accurate {
         ", accurate"

@@ -16,7 +16,7 @@ pub struct Trade {
     /// Number of settings to measure.
     pub planned: usize,
     /// The settings measured so far.
-    pub settings: Vec<Measured>,
+    pub settings: Vec<MeasuredSetting>,
     /// Progress of the measurement, from 0 to 1.
     pub part: f64,
     /// The reference, or the refusal.
@@ -59,7 +59,7 @@ pub struct Model {
 
 /// A setting with its time and errors.
 #[derive(Debug, Clone)]
-pub struct Measured {
+pub struct MeasuredSetting {
     /// The setting.
     pub setting: Setting,
     /// Whether it is the setting of the case.
@@ -124,7 +124,7 @@ impl Trade {
 
     /// The default setting of a method and compliance.
     #[must_use]
-    pub fn usual(&self, method: Method, models: StiffnessModels) -> Option<&Measured> {
+    pub fn usual(&self, method: Method, models: StiffnessModels) -> Option<&MeasuredSetting> {
         self.settings.iter().find(|measured| {
             let setting = &measured.setting;
             *setting == setting.usual_fineness()
@@ -136,7 +136,7 @@ impl Trade {
     /// The fastest setting that qualifies; `None` if no method finds corner contact: without a
     /// force, no setting can reduce its error.
     #[must_use]
-    pub fn recommended(&self) -> Option<&Measured> {
+    pub fn recommended(&self) -> Option<&MeasuredSetting> {
         let cheapest = self.cheapest.filter(|_| !self.is_without_contact());
         cheapest.and_then(|at| self.settings.get(at))
     }
@@ -155,7 +155,8 @@ impl Trade {
     /// Marks the settings that qualify, the settings on the front and the fastest setting, from the
     /// present times and errors.
     pub fn judge(&mut self) {
-        let points: Vec<Option<(f64, f64)>> = self.settings.iter().map(Measured::point).collect();
+        let points: Vec<Option<(f64, f64)>> =
+            self.settings.iter().map(MeasuredSetting::point).collect();
         for (measured, point) in self.settings.iter_mut().zip(&points) {
             measured.qualifies = measured.is_within(self.within);
             measured.is_on_front = point.is_some_and(|point| {
@@ -180,8 +181,8 @@ impl Trade {
 
     /// The fastest of the admitted settings that qualifies, see [`Trade::cheapest`].
     #[must_use]
-    pub fn cheapest_where(&self, admitted: impl Fn(&Setting) -> bool) -> Option<&Measured> {
-        let is_candidate = |measured: &&Measured| {
+    pub fn cheapest_where(&self, admitted: impl Fn(&Setting) -> bool) -> Option<&MeasuredSetting> {
+        let is_candidate = |measured: &&MeasuredSetting| {
             measured.qualifies
                 && auto::METHODS.contains(&measured.setting.method)
                 && admitted(&measured.setting)
@@ -190,12 +191,12 @@ impl Trade {
         let quickest =
             candidates().min_by(|one, other| one.seconds().total_cmp(&other.seconds()))?;
         let tied = candidates().filter(|measured| measured.ties(quickest));
-        let error = |measured: &Measured| measured.total().unwrap_or(f64::INFINITY);
+        let error = |measured: &MeasuredSetting| measured.total().unwrap_or(f64::INFINITY);
         tied.min_by(|one, other| error(one).total_cmp(&error(other)))
     }
 }
 
-impl Measured {
+impl MeasuredSetting {
     /// Time of a solve in s; infinite without a solve.
     #[must_use]
     pub fn seconds(&self) -> f64 {
@@ -215,8 +216,9 @@ impl Measured {
     }
 
     /// Whether the measurements do not show which setting is faster.
-    fn ties(&self, other: &Measured) -> bool {
-        let time = |measured: &Measured| measured.found.as_ref().ok().map(|figures| figures.time);
+    fn ties(&self, other: &MeasuredSetting) -> bool {
+        let time =
+            |measured: &MeasuredSetting| measured.found.as_ref().ok().map(|figures| figures.time);
         time(self)
             .zip(time(other))
             .is_some_and(|(one, other)| one.ties(&other))

@@ -14,7 +14,7 @@ use super::title::Title;
 use crate::case::Case;
 use crate::case::units::System;
 use crate::study::axis::Axis;
-use crate::tui::study::{End, Question, Study, StudyResults};
+use crate::tui::study::{End, Study, StudyParameters, StudyResults};
 use crate::tui::text;
 use crate::tui::theme::Look;
 use ratatui::symbols::Marker;
@@ -126,7 +126,7 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     let Some(shown) = &pane.study.shown else {
         return text::draw_words("Computing.", inner, buffer);
     };
-    let Question::Grid(grid) = &shown.request.question else {
+    let StudyParameters::Grid(grid) = &shown.request.parameters else {
         return draw_page(pane, shown, inner, buffer);
     };
     let lines = words::below(pane, shown, words::room(inner.width));
@@ -182,12 +182,12 @@ pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(u
 
 /// The first and the second axis.
 fn axes(shown: &StudyResults) -> (Option<&Axis>, Option<&Axis>) {
-    match &shown.request.question {
-        Question::Grid(grid) => {
+    match &shown.request.parameters {
+        StudyParameters::Grid(grid) => {
             let second = grid.axes.first().filter(|_| grid.axes.len() == 2);
             (grid.axes.last(), second)
         }
-        Question::Tolerance(_) => (None, None),
+        StudyParameters::Tolerance(_) => (None, None),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::report::export::{self as exports, Format};
+use crate::report::export::{self as exports, ReportFormat};
 use crate::report::pictures::{Picture, find};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
@@ -55,7 +55,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
         app.complain(format!(
             "not exported: no chart is visible. Keys 3 and 4 show the chart and the teeth; {} \
                 write the report",
-            Format::ENDINGS
+            ReportFormat::ENDINGS
         ));
         return Vec::new();
     }

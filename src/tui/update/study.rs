@@ -16,7 +16,8 @@ use crate::tui::panes::study::range::{MOST_ZOOM, RangeOf, Steps};
 use crate::tui::panes::study::{self, CURVE_POINTS, StudyCommand, map_points};
 use crate::tui::rows::{self, Row};
 use crate::tui::study::{
-    End, GridQuestion, Layer, Question, StudyKey, StudyPart, StudyRequest, ToleranceQuestion, Whose,
+    End, GridParameters, Layer, LayerSource, StudyKey, StudyParameters, StudyPart, StudyRequest,
+    ToleranceParameters,
 };
 use crate::tui::tab::Tab;
 
@@ -38,8 +39,8 @@ pub(super) fn request(app: &mut App) -> Vec<Effect> {
     if app.tab.study.key.as_ref() == Some(&key) {
         return Vec::new();
     }
-    let question = match question(app, quantity) {
-        Ok(question) => question,
+    let parameters = match parameters(app, quantity) {
+        Ok(parameters) => parameters,
         Err(obstacle) => {
             let effects = stop_running(app);
             (app.tab.study.obstacle, app.tab.study.key) = (Some(obstacle), Some(key));
@@ -48,13 +49,13 @@ pub(super) fn request(app: &mut App) -> Vec<Effect> {
     };
     (app.tab.study.obstacle, app.tab.study.key) = (None, Some(key));
     let request = app.tab.study.request.as_ref();
-    if request.is_some_and(|request| request.question == question) {
+    if request.is_some_and(|request| request.parameters == parameters) {
         return Vec::new();
     }
     forget_running(app);
     app.last_serial += 1;
     let serial = app.last_serial;
-    let request = StudyRequest { serial, question };
+    let request = StudyRequest { serial, parameters };
     app.tab.study.start(request.clone());
     app.studying = Some(serial);
     vec![Effect::Study(Box::new(request))]
@@ -112,7 +113,7 @@ fn quantity(app: &App) -> Option<&'static Quantity> {
 ///
 /// # Errors
 /// Returns the reason if there is no study.
-fn question(app: &App, quantity: Option<&'static Quantity>) -> Result<Question, String> {
+fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyParameters, String> {
     let tab = &app.tab;
     let inputs = tab
         .inputs()
@@ -148,16 +149,16 @@ fn question(app: &App, quantity: Option<&'static Quantity>) -> Result<Question, 
     if axes.len() > 1 {
         layers.truncate(1);
     }
-    Ok(Question::Grid(GridQuestion { axes, layers }))
+    Ok(StudyParameters::Grid(GridParameters { axes, layers }))
 }
 
-fn tolerance(app: &App, inputs: &Inputs, quantity: &Quantity) -> Result<Question, String> {
+fn tolerance(app: &App, inputs: &Inputs, quantity: &Quantity) -> Result<StudyParameters, String> {
     if app.tab.case.spread.is_empty() {
         return Err("The case has no [spread]: add a line [spread] and below it lines such as \
             \"deviations.base_pitch\" = { normal = \"4 um\" } to its file, and open it again. d shows the field over its range."
             .to_owned());
     }
-    Ok(Question::Tolerance(Box::new(ToleranceQuestion {
+    Ok(StudyParameters::Tolerance(Box::new(ToleranceParameters {
         name: app.tab.short_name(),
         case: app.tab.case.clone(),
         inputs: inputs.clone(),
@@ -179,7 +180,7 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     let answer = app.tab.answer.as_ref();
     let solved_by = answer.map_or(active, |answer| answer.active);
     let first = Layer {
-        whose: Whose::Active(active),
+        source: LayerSource::Active(active),
         inputs: inputs.clone(),
         quantity: quantity.key,
     };
@@ -190,7 +191,7 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
             ..inputs.clone()
         };
         Some(Layer {
-            whose: Whose::Other(method),
+            source: LayerSource::Other(method),
             inputs,
             quantity: own.key,
         })
@@ -201,7 +202,7 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     let pinned = app.baseline.as_ref().and_then(|baseline| {
         let answer = &baseline.answer;
         Some(Layer {
-            whose: Whose::Baseline,
+            source: LayerSource::Baseline,
             inputs: answer.inputs.clone(),
             quantity: counterpart(quantity, solved_by, answer.active)?.key,
         })

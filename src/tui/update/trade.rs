@@ -6,7 +6,7 @@ use crate::study::trade::Patience;
 use crate::tui::actions::Effect;
 use crate::tui::actions::Progress;
 use crate::tui::app::App;
-use crate::tui::benchmark::{End, Measured, Measuring, Traded};
+use crate::tui::benchmark::{BenchmarkProgress, End, Measuring, Traded};
 use crate::tui::layout::is_too_small;
 use crate::tui::pane::Pane;
 use crate::tui::panes::trade::{nearest, stepped};
@@ -60,8 +60,8 @@ pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
 }
 
 /// Adds results of the benchmark and reports its end.
-pub(super) fn measured(app: &mut App, measured: Measured) {
-    let Measured { serial, trade, end } = measured;
+pub(super) fn measured(app: &mut App, measured: BenchmarkProgress) {
+    let BenchmarkProgress { serial, trade, end } = measured;
     let is_shown = app
         .tab
         .traded

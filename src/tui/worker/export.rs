@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::case::file::{self, SaveError};
 use crate::model::Refusal;
-use crate::report::export::{self, Format};
+use crate::report::export::{self, ReportFormat};
 use crate::report::pictures::{NoPicture, Picture, Unsolved};
 use crate::tui::jobs::{ExportFault, Exporting};
 use crate::tui::store::at_home;
@@ -12,7 +12,7 @@ use crate::tui::store::at_home;
 /// The content of the file.
 enum Subject {
     Picture(Picture),
-    Report(Format),
+    Report(ReportFormat),
 }
 
 /// Solves the case and writes the file. Returns the full path.
@@ -36,14 +36,14 @@ pub(super) fn write(
 }
 
 fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Result<String, String> {
-    let format = Format::of(path);
+    let format = ReportFormat::of(path);
     let subject = match (exporting.picture, format) {
         (Some(picture), _) => Subject::Picture(picture),
         (None, Some(format)) => Subject::Report(format),
         (None, None) => {
             return Err(format!(
                 "unknown file extension: use {} for the report, or .svg for the picture",
-                Format::ENDINGS
+                ReportFormat::ENDINGS
             ));
         }
     };

@@ -4,9 +4,9 @@ use std::io;
 
 use super::latest::{Running, Send, Worker};
 use crate::model::Refusal;
-use crate::study::trade::{Question, Trade, trade};
+use crate::study::trade::{Trade, TradeParameters, trade};
 use crate::tui::actions::Action;
-use crate::tui::benchmark::{End, Measured, Measuring};
+use crate::tui::benchmark::{BenchmarkProgress, End, Measuring};
 
 /// Starts the worker.
 ///
@@ -24,14 +24,19 @@ pub(crate) fn start(send: Send) -> io::Result<Worker<Measuring>> {
 
 /// Runs the benchmark to its end and sends each step.
 pub fn measure(measuring: &Measuring, running: Running<'_>) {
-    let question = Question {
+    let parameters = TradeParameters {
         within: measuring.inputs.within,
         patience: measuring.patience,
     };
     let mut report = |sofar: &Trade| {
         (running.send)(of(measuring, Some(sofar.clone()), None));
     };
-    let found = trade(&measuring.inputs, &question, running.is_wanted, &mut report);
+    let found = trade(
+        &measuring.inputs,
+        &parameters,
+        running.is_wanted,
+        &mut report,
+    );
     let (trade, end) = match found {
         Ok(trade) => (Some(trade), End::Whole),
         Err(Refusal::Stopped) => (None, End::Stopped),
@@ -41,7 +46,7 @@ pub fn measure(measuring: &Measuring, running: Running<'_>) {
 }
 
 fn of(measuring: &Measuring, trade: Option<Trade>, end: Option<End>) -> Action {
-    Action::Measured(Box::new(Measured {
+    Action::Measured(Box::new(BenchmarkProgress {
         serial: measuring.serial,
         trade: trade.map(Box::new),
         end,
@@ -67,7 +72,10 @@ mod tests {
     }
 
     /// The messages of a benchmark while `go_on` returns true.
-    fn sent(measuring: &Measuring, go_on: &dyn Fn(&Measured) -> bool) -> Vec<Measured> {
+    fn sent(
+        measuring: &Measuring,
+        go_on: &dyn Fn(&BenchmarkProgress) -> bool,
+    ) -> Vec<BenchmarkProgress> {
         let (all, is_wanted) = (RefCell::new(Vec::new()), Cell::new(true));
         let send = |action| {
             if let Action::Measured(measured) = action {
@@ -106,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_stop_keeps_the_settings_measured_so_far() {
-        let count = |measured: &Measured| {
+        let count = |measured: &BenchmarkProgress| {
             let trade = measured.trade.as_ref();
             trade.map_or(0, |trade| trade.settings.len())
         };

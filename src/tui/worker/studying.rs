@@ -15,8 +15,8 @@ use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Size, Tolerance};
 use crate::tui::actions::Action;
 use crate::tui::study::{
-    End, Found, GridQuestion, Layer, LayerFound, Question, SAMPLES, StudyPart, StudyRequest,
-    ToleranceQuestion,
+    End, Found, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters, StudyPart,
+    StudyRequest, ToleranceParameters,
 };
 
 /// Time between two messages of a grid.
@@ -37,9 +37,9 @@ pub(crate) fn start(send: Send) -> io::Result<Worker<StudyRequest>> {
 
 /// Computes a study to its end and sends its results.
 pub fn study(request: &StudyRequest, running: Running<'_>) {
-    let done = match &request.question {
-        Question::Grid(grid) => solve_grid(request, grid, running),
-        Question::Tolerance(tolerance) => sample(request, tolerance, running),
+    let done = match &request.parameters {
+        StudyParameters::Grid(grid) => solve_grid(request, grid, running),
+        StudyParameters::Tolerance(tolerance) => sample(request, tolerance, running),
     };
     let end = match done {
         Ok(()) => End::Whole,
@@ -87,11 +87,11 @@ fn solve(
 
 fn solve_grid(
     request: &StudyRequest,
-    question: &GridQuestion,
+    parameters: &GridParameters,
     running: Running<'_>,
 ) -> Result<(), Unfinished> {
-    let grid = Grid::of(question.axes.clone()).map_err(Unfinished::Refused)?;
-    for (at, layer) in question.layers.iter().enumerate() {
+    let grid = Grid::of(parameters.axes.clone()).map_err(Unfinished::Refused)?;
+    for (at, layer) in parameters.layers.iter().enumerate() {
         solve_layer(&grid, layer, running, &mut |found| {
             (running.send)(action(request, Found::Points(found, at), None));
         })?;
@@ -132,7 +132,7 @@ fn solve_layer(
 
 fn sample(
     request: &StudyRequest,
-    question: &ToleranceQuestion,
+    parameters: &ToleranceParameters,
     running: Running<'_>,
 ) -> Result<(), Unfinished> {
     let size = Size {
@@ -140,11 +140,11 @@ fn sample(
         seed: 1,
         ranked: None,
     };
-    let only: Vec<&'static Quantity> = Quantity::find(question.quantity).into_iter().collect();
-    let study = Tolerance::of(&question.case, &question.inputs, &only, size)
+    let only: Vec<&'static Quantity> = Quantity::find(parameters.quantity).into_iter().collect();
+    let study = Tolerance::of(&parameters.case, &parameters.inputs, &only, size)
         .map_err(Unfinished::Refused)?;
     let batch = Batch {
-        inputs: &question.inputs,
+        inputs: &parameters.inputs,
         points: &study.design,
         quantities: &study.quantities,
     };
@@ -155,18 +155,18 @@ fn sample(
         let is_due = sent.elapsed() > PAGE_STEP && samples.outcomes.len() > 1;
         if is_due {
             sent = Instant::now();
-            (running.send)(action(request, page(question, &study, &samples), None));
+            (running.send)(action(request, page(parameters, &study, &samples), None));
         }
         true
     });
     if samples.outcomes.len() > 1 {
-        (running.send)(action(request, page(question, &study, &samples), None));
+        (running.send)(action(request, page(parameters, &study, &samples), None));
     }
     Ok(solved?)
 }
 
 /// The page of the samples so far; the ranking needs all samples.
-fn page(question: &ToleranceQuestion, study: &Tolerance, samples: &Samples) -> Found {
+fn page(parameters: &ToleranceParameters, study: &Tolerance, samples: &Samples) -> Found {
     let (solved, count) = (samples.outcomes.len(), study.design.count());
     let so_far = Tolerance {
         design: Design {
@@ -181,9 +181,9 @@ fn page(question: &ToleranceQuestion, study: &Tolerance, samples: &Samples) -> F
         ..study.clone()
     };
     let report = ToleranceReport {
-        name: &question.name,
-        case: &question.case,
-        method: question.inputs.method.name(),
+        name: &parameters.name,
+        case: &parameters.case,
+        method: parameters.inputs.method.name(),
         study: &so_far,
         samples,
     };

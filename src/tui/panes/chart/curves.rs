@@ -16,7 +16,7 @@ const ALIKE: f64 = 2e-3;
 
 /// The source of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Whose {
+pub enum CurveSource {
     /// The active method.
     Active(Method),
     /// Another method.
@@ -38,7 +38,7 @@ pub enum Whose {
 #[derive(Debug, Clone)]
 pub struct Curve {
     /// The source.
-    pub whose: Whose,
+    pub source: CurveSource,
     /// The column of the stations.
     pub(crate) column: &'static Column,
     /// The display unit.
@@ -68,9 +68,13 @@ pub fn curves(charts: &Charts, graph: &Graph) -> Vec<Curve> {
         .iter()
         .filter(|(method, _)| *method != answer.active)
         .filter_map(|(method, found)| {
-            drawn.curve(&answer.inputs, found.as_ref().ok()?, Whose::Other(*method))
+            drawn.curve(
+                &answer.inputs,
+                found.as_ref().ok()?,
+                CurveSource::Other(*method),
+            )
         });
-    let own = drawn.active(answer, Whose::Active(answer.active));
+    let own = drawn.active(answer, CurveSource::Active(answer.active));
     pinned
         .into_iter()
         .chain(others)
@@ -86,8 +90,8 @@ struct Drawn<'a> {
 }
 
 impl Drawn<'_> {
-    fn active(self, answer: &Answer, whose: Whose) -> Option<Curve> {
-        self.curve(&answer.inputs, answer.of(answer.active)?, whose)
+    fn active(self, answer: &Answer, source: CurveSource) -> Option<Curve> {
+        self.curve(&answer.inputs, answer.of(answer.active)?, source)
     }
 
     // The model of the case is last, on top of the others, and the elastic field is below it.
@@ -102,7 +106,7 @@ impl Drawn<'_> {
             let points = found.mesh_curve(at);
             let points = points.map(|(angle, value)| (angle.to_degrees(), Some(value / factor)));
             Curve {
-                whose: Whose::Model {
+                source: CurveSource::Model {
                     model,
                     is_own: model == own,
                 },
@@ -113,41 +117,44 @@ impl Drawn<'_> {
         };
         let mut curves: Vec<Curve> = found.models.iter().enumerate().map(curve).collect();
         curves.retain(|curve| !curve.pieces.is_empty());
-        curves.sort_by_key(|curve| (is_own(curve.whose), is_field(curve.whose)));
+        curves.sort_by_key(|curve| (is_own(curve.source), is_field(curve.source)));
         curves
     }
 
     fn pinned(self, base: &Answer, active: Method) -> Option<Curve> {
         let method = base.beside(active);
-        self.curve(&base.inputs, base.of(method)?, Whose::Pinned(method))
+        self.curve(&base.inputs, base.of(method)?, CurveSource::Pinned(method))
     }
 
     fn bound(self, answer: &Answer) -> Option<Curve> {
         let (solution, bound) = (answer.of(answer.active)?, self.graph.bound?);
         let symbol = bound.symbols[usize::from(solution.method.shares_load())];
-        self.with(&answer.inputs, solution, Whose::Bound(symbol), |row| {
-            (bound.value)(solution, row)
-        })
+        self.with(
+            &answer.inputs,
+            solution,
+            CurveSource::Bound(symbol),
+            |row| (bound.value)(solution, row),
+        )
     }
 
     // `None` if the method has no such column or no station.
-    fn curve(self, inputs: &Inputs, solution: &Solution, whose: Whose) -> Option<Curve> {
+    fn curve(self, inputs: &Inputs, solution: &Solution, source: CurveSource) -> Option<Curve> {
         let column = self.graph.column(solution.method)?;
-        self.with(inputs, solution, whose, |row| column.of(row))
+        self.with(inputs, solution, source, |row| column.of(row))
     }
 
     fn with(
         self,
         inputs: &Inputs,
         solution: &Solution,
-        whose: Whose,
+        source: CurveSource,
         value: impl Fn(Row) -> Option<f64>,
     ) -> Option<Curve> {
         let column = self.graph.column(solution.method)?;
         let unit = self.system.unit(column.shown);
         let pieces = curve_of(inputs, solution, unit, value);
         (!pieces.is_empty()).then_some(Curve {
-            whose,
+            source,
             column,
             unit,
             pieces,
@@ -158,12 +165,12 @@ impl Drawn<'_> {
 /// Whether it is the curve of the elastic field, which couples neighbouring teeth: the other models
 /// are compared with this curve.
 #[must_use]
-pub fn is_field(whose: Whose) -> bool {
-    matches!(whose, Whose::Model { model, .. } if model.model().has_coupling)
+pub fn is_field(source: CurveSource) -> bool {
+    matches!(source, CurveSource::Model { model, .. } if model.model().has_coupling)
 }
 
-fn is_own(whose: Whose) -> bool {
-    matches!(whose, Whose::Model { is_own: true, .. })
+fn is_own(source: CurveSource) -> bool {
+    matches!(source, CurveSource::Model { is_own: true, .. })
 }
 
 /// The curves without the parts that coincide with the active curve.
@@ -171,7 +178,7 @@ fn is_own(whose: Whose) -> bool {
 pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
     let Some(own) = curves
         .iter()
-        .find(|curve| matches!(curve.whose, Whose::Active(_)))
+        .find(|curve| matches!(curve.source, CurveSource::Active(_)))
         .cloned()
     else {
         return curves;
@@ -183,13 +190,13 @@ pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
             .fold(Span::NONE, Span::and)
             .length();
     let coincides = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
-    let shown = curves.into_iter().map(|curve| match curve.whose {
-        Whose::Other(_) | Whose::Pinned(_) => curve.without(coincides),
-        Whose::Active(_) | Whose::Bound(_) | Whose::Model { .. } => curve,
+    let shown = curves.into_iter().map(|curve| match curve.source {
+        CurveSource::Other(_) | CurveSource::Pinned(_) => curve.without(coincides),
+        CurveSource::Active(_) | CurveSource::Bound(_) | CurveSource::Model { .. } => curve,
     });
     // The legend names the baseline even if its curve coincides.
     shown
-        .filter(|curve| matches!(curve.whose, Whose::Pinned(_)) || !curve.pieces.is_empty())
+        .filter(|curve| matches!(curve.source, CurveSource::Pinned(_)) || !curve.pieces.is_empty())
         .collect()
 }
 
@@ -260,26 +267,29 @@ mod tests {
     #[test]
     fn parts_that_coincide_with_the_active_curve_are_not_drawn() {
         let column = &crate::report::stations::COLUMNS[6];
-        let curve = |whose, points: &[f64]| {
+        let curve = |source, points: &[f64]| {
             let points = points
                 .iter()
                 .enumerate()
                 .map(|(at, y)| (at as f64, *y))
                 .collect();
             Curve {
-                whose,
+                source,
                 column,
                 unit: column.shown,
                 pieces: vec![points],
             }
         };
         let own = curve(
-            Whose::Active(Method::Exact),
+            CurveSource::Active(Method::Exact),
             &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
         );
-        let same = curve(Whose::Other(Method::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
+        let same = curve(
+            CurveSource::Other(Method::Static),
+            &[0.0, 1.0, 2.0, 3.0, 4.0],
+        );
         let other = curve(
-            Whose::Other(Method::Paper),
+            CurveSource::Other(Method::Paper),
             &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0],
         );
         let shown = apart(vec![same, other, own]);
@@ -299,7 +309,7 @@ mod tests {
         let column = &crate::report::stations::COLUMNS[6];
         let pieces = vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]];
         let curve = Curve {
-            whose: Whose::Pinned(Method::Exact),
+            source: CurveSource::Pinned(Method::Exact),
             column,
             unit: column.shown,
             pieces,

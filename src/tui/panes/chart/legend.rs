@@ -9,7 +9,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
 use super::Charts;
-use super::curves::{Curve, Whose};
+use super::curves::{Curve, CurveSource};
 use super::raster;
 use super::readout::base_name;
 use crate::model::inputs::ToothCompliance;
@@ -206,20 +206,20 @@ fn model_name(model: ToothCompliance, is_own: bool) -> String {
 }
 
 fn name(charts: &Charts, curve: &Curve) -> Line<'static> {
-    let name = match curve.whose {
-        Whose::Active(method) | Whose::Other(method) => method.name().to_owned(),
-        Whose::Pinned(method) => base_name(charts, method),
-        Whose::Model { model, is_own } => model_name(model, is_own),
-        Whose::Bound(name) => symbol(name, charts.look.ascii).into_owned(),
+    let name = match curve.source {
+        CurveSource::Active(method) | CurveSource::Other(method) => method.name().to_owned(),
+        CurveSource::Pinned(method) => base_name(charts, method),
+        CurveSource::Model { model, is_own } => model_name(model, is_own),
+        CurveSource::Bound(name) => symbol(name, charts.look.ascii).into_owned(),
     };
-    let sample = match raster::marker(charts, curve.whose) {
+    let sample = match raster::marker(charts, curve.source) {
         Marker::Custom(letter) => letter.to_string(),
         Marker::Dot => "•".to_owned(),
         Marker::HalfBlock => "▀".to_owned(),
         _ => "⠒".to_owned(),
     };
     Line::from(vec![
-        Span::styled(sample, raster::style(charts, curve.whose)),
+        Span::styled(sample, raster::style(charts, curve.source)),
         Span::raw(format!(" {name}")),
     ])
 }

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::Charts;
 use super::axes::{self, Axes, Ruler};
-use super::curves::{self, Curve, Whose, curves};
+use super::curves::{self, Curve, CurveSource, curves};
 use super::legend::Legend;
 use super::{raster, whine};
 use crate::model::inputs::Method;
@@ -234,7 +234,12 @@ fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let Some(answer) = charts.answer else {
         return Some("No results yet.".to_owned());
     };
-    let is_main = |curve: &Curve| matches!(curve.whose, Whose::Active(_) | Whose::Model { .. });
+    let is_main = |curve: &Curve| {
+        matches!(
+            curve.source,
+            CurveSource::Active(_) | CurveSource::Model { .. }
+        )
+    };
     if curves.iter().any(is_main) {
         return None;
     }

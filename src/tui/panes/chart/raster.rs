@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
 use super::Charts;
-use super::curves::{Curve, Whose, is_field};
+use super::curves::{Curve, CurveSource, is_field};
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::report::charts::Point;
 use crate::tui::panes::plot::PlotArea;
@@ -17,38 +17,38 @@ const MANY: usize = 8;
 
 /// The marker of a curve.
 #[must_use]
-pub(crate) fn marker(charts: &Charts, whose: Whose) -> Marker {
+pub(crate) fn marker(charts: &Charts, source: CurveSource) -> Marker {
     let plain = charts.look.ascii;
-    match whose {
-        whose if is_main(whose) && plain => Marker::Custom('*'),
-        whose if is_main(whose) => charts.marker,
-        Whose::Model { model, .. } if Some(&model) == ToothCompliance::ALL.first() => {
+    match source {
+        source if is_main(source) && plain => Marker::Custom('*'),
+        source if is_main(source) => charts.marker,
+        CurveSource::Model { model, .. } if Some(&model) == ToothCompliance::ALL.first() => {
             Marker::Custom(if plain { 'x' } else { '×' })
         }
-        Whose::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
-        Whose::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
-        Whose::Model { .. } | Whose::Other(_) | Whose::Active(_) => {
+        CurveSource::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
+        CurveSource::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
+        CurveSource::Model { .. } | CurveSource::Other(_) | CurveSource::Active(_) => {
             Marker::Custom(if plain { 'o' } else { '∘' })
         }
-        Whose::Pinned(_) => Marker::Custom('+'),
-        Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
+        CurveSource::Pinned(_) => Marker::Custom('+'),
+        CurveSource::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
     }
 }
 
 /// Whether the others are compared with this curve.
-fn is_main(whose: Whose) -> bool {
-    matches!(whose, Whose::Active(_)) || is_field(whose)
+fn is_main(source: CurveSource) -> bool {
+    matches!(source, CurveSource::Active(_)) || is_field(source)
 }
 
 /// The style of a curve.
 #[must_use]
-pub(crate) fn style(charts: &Charts, whose: Whose) -> Style {
+pub(crate) fn style(charts: &Charts, source: CurveSource) -> Style {
     let theme = charts.look.theme;
-    let style = match whose {
-        whose if is_main(whose) => theme.active,
-        Whose::Active(_) | Whose::Other(_) | Whose::Model { .. } => theme.other,
-        Whose::Pinned(_) => theme.baseline,
-        Whose::Bound(_) => theme.rule,
+    let style = match source {
+        source if is_main(source) => theme.active,
+        CurveSource::Active(_) | CurveSource::Other(_) | CurveSource::Model { .. } => theme.other,
+        CurveSource::Pinned(_) => theme.baseline,
+        CurveSource::Bound(_) => theme.rule,
     };
     if charts.is_stale {
         style.patch(theme.faint)
@@ -75,7 +75,7 @@ pub fn draw(
         across,
         upright,
     };
-    let look = (marker(charts, curve.whose), style(charts, curve.whose));
+    let look = (marker(charts, curve.source), style(charts, curve.source));
     area.draw_pieces(&pieces, look, buffer);
 }
 

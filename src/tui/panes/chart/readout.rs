@@ -1,7 +1,7 @@
 //! The values of every curve at the cursor.
 
 use super::Charts;
-use super::curves::{Curve, Whose, curves};
+use super::curves::{Curve, CurveSource, curves};
 use crate::case::units;
 use crate::model::Interpolated;
 use crate::model::inputs::Method;
@@ -86,7 +86,7 @@ fn own(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(charts, graph);
     let own = curves
         .iter()
-        .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
+        .find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
     in_words(charts, &[Reading::of(charts, graph, own, cursor)?])
 }
 
@@ -116,25 +116,25 @@ fn in_words(charts: &Charts, readings: &[Reading]) -> Option<String> {
 // The value from the same evaluation as in the teeth pane, not from the drawn line, with its number
 // of significant digits.
 fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
-    if let Whose::Model { .. } = curve.whose {
+    if let CurveSource::Model { .. } = curve.source {
         let factor = units::factor(curve.unit).unwrap_or(1.0);
         let value = curve.at(0.0 - cursor.to_degrees())?;
         return Some((value * factor, curve.column.digits));
     }
-    let is_pinned = matches!(curve.whose, Whose::Pinned(_));
+    let is_pinned = matches!(curve.source, CurveSource::Pinned(_));
     let answer = if is_pinned {
         charts.baseline?
     } else {
         charts.answer?
     };
-    let method = if let Whose::Other(method) | Whose::Pinned(method) = curve.whose {
+    let method = if let CurveSource::Other(method) | CurveSource::Pinned(method) = curve.source {
         method
     } else {
         answer.active
     };
     let solution = answer.of(method)?;
     let interpolated = Interpolated::at(&answer.inputs, solution, cursor)?;
-    if let Whose::Bound(_) = curve.whose {
+    if let CurveSource::Bound(_) = curve.source {
         let digits = if matches!(interpolated, Interpolated::Between(_)) {
             DIGITS_BETWEEN
         } else {
@@ -176,12 +176,12 @@ impl Reading {
             .fold(0.0, f64::max);
         let is_zero = in_unit.abs() < ROUNDING * most;
         Some(Reading {
-            name: match curve.whose {
-                Whose::Active(_) => name(curve.column.symbol),
-                Whose::Other(method) => method.name().to_owned(),
-                Whose::Pinned(method) => base_name(charts, method),
-                Whose::Bound(bound) => name(bound),
-                Whose::Model { model, .. } => model.name().to_owned(),
+            name: match curve.source {
+                CurveSource::Active(_) => name(curve.column.symbol),
+                CurveSource::Other(method) => method.name().to_owned(),
+                CurveSource::Pinned(method) => base_name(charts, method),
+                CurveSource::Bound(bound) => name(bound),
+                CurveSource::Model { model, .. } => model.name().to_owned(),
             },
             column: curve.column,
             value: if is_zero { 0.0 } else { value },

@@ -15,7 +15,7 @@ use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::tui::panes::plot::{PlotArea, draw_axes, put_where_free};
 use crate::tui::scale::Span;
-use crate::tui::study::{Layer, LayerFound, Question, StudyResults, Whose};
+use crate::tui::study::{Layer, LayerFound, LayerSource, StudyParameters, StudyResults};
 
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
@@ -38,7 +38,7 @@ pub(super) fn draw(
     rooms: &Rooms,
     buffer: &mut Buffer,
 ) {
-    let Question::Grid(grid) = &shown.request.question else {
+    let StudyParameters::Grid(grid) = &shown.request.parameters else {
         return;
     };
     let layers: Vec<(&Layer, &LayerFound)> = grid.layers.iter().zip(&shown.layers).collect();
@@ -170,7 +170,7 @@ impl Plot<'_> {
         let pieces: Vec<Vec<(f64, f64)>> = pieces
             .map(|piece| piece.iter().copied().flatten().collect())
             .collect();
-        let look = look(self.pane, layer.whose);
+        let look = look(self.pane, layer.source);
         self.area.draw_pieces(&pieces, look, buffer);
     }
 
@@ -237,14 +237,14 @@ impl Plot<'_> {
 }
 
 /// The marker and the style of a curve.
-fn look(pane: &StudyPane<'_>, whose: Whose) -> (Marker, Style) {
+fn look(pane: &StudyPane<'_>, source: LayerSource) -> (Marker, Style) {
     let theme = pane.look.theme;
     let plain = pane.look.ascii;
-    match whose {
-        Whose::Active(_) if plain => (Marker::Custom('*'), theme.active),
-        Whose::Active(_) => (pane.marker, theme.active),
-        Whose::Baseline => (Marker::Custom('+'), theme.baseline),
-        Whose::Other(method) => {
+    match source {
+        LayerSource::Active(_) if plain => (Marker::Custom('*'), theme.active),
+        LayerSource::Active(_) => (pane.marker, theme.active),
+        LayerSource::Baseline => (Marker::Custom('+'), theme.baseline),
+        LayerSource::Other(method) => {
             let sign = match method {
                 Method::Paper => ['.', '·'],
                 Method::Static => ['x', '×'],
@@ -257,8 +257,8 @@ fn look(pane: &StudyPane<'_>, whose: Whose) -> (Marker, Style) {
 }
 
 /// The sign of a curve in the legend.
-fn sign(pane: &StudyPane<'_>, whose: Whose) -> String {
-    match look(pane, whose).0 {
+fn sign(pane: &StudyPane<'_>, source: LayerSource) -> String {
+    match look(pane, source).0 {
         Marker::Custom(sign) => sign.to_string(),
         _ => "━".to_owned(),
     }
@@ -279,15 +279,17 @@ fn draw_legend(
         }
     };
     for (layer, found) in layers {
-        if found.values.iter().all(Option::is_none) && !matches!(layer.whose, Whose::Active(_)) {
+        if found.values.iter().all(Option::is_none)
+            && !matches!(layer.source, LayerSource::Active(_))
+        {
             continue;
         }
-        let name = match layer.whose {
-            Whose::Active(method) | Whose::Other(method) => method.name(),
-            Whose::Baseline => "baseline",
+        let name = match layer.source {
+            LayerSource::Active(method) | LayerSource::Other(method) => method.name(),
+            LayerSource::Baseline => "baseline",
         };
-        let (_, style) = look(pane, layer.whose);
-        put(&format!("{} {name}", sign(pane, layer.whose)), style);
+        let (_, style) = look(pane, layer.source);
+        put(&format!("{} {name}", sign(pane, layer.source)), style);
     }
     put("● now", pane.look.theme.focus);
     put("▴ cursor", pane.look.theme.focus);

@@ -11,7 +11,9 @@ use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::study::refusals::Refused;
 use crate::tui::ascii::symbol;
-use crate::tui::study::{End, Layer, LayerFound, Question, SAMPLES, StudyResults, Whose};
+use crate::tui::study::{
+    End, Layer, LayerFound, LayerSource, SAMPLES, StudyParameters, StudyResults,
+};
 use crate::tui::text;
 
 /// The longest title that fits a width.
@@ -25,9 +27,9 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
         return "Study".to_owned();
     };
     let state = progress(shown);
-    let words = match &shown.request.question {
-        Question::Tolerance(_) => vec![format!("Tolerance{}", position(pane, shown))],
-        Question::Grid(grid) => {
+    let words = match &shown.request.parameters {
+        StudyParameters::Tolerance(_) => vec![format!("Tolerance{}", position(pane, shown))],
+        StudyParameters::Grid(grid) => {
             let fields = |label: fn(&Axis) -> String| -> Vec<String> {
                 grid.axes.iter().rev().map(label).collect()
             };
@@ -82,12 +84,12 @@ fn in_unit(axis: &Axis) -> String {
 
 /// The progress of an unfinished study.
 fn progress(shown: &StudyResults) -> String {
-    match (&shown.end, &shown.request.question) {
+    match (&shown.end, &shown.request.parameters) {
         (Some(End::Whole), _) => String::new(),
         (Some(End::Stopped), _) => ", stopped".to_owned(),
         (Some(End::Failed(_)), _) => ", failed".to_owned(),
-        (None, Question::Tolerance(_)) => format!(", {:.0} % solved", 100.0 * shown.part),
-        (None, Question::Grid(grid)) => {
+        (None, StudyParameters::Tolerance(_)) => format!(", {:.0} % solved", 100.0 * shown.part),
+        (None, StudyParameters::Grid(grid)) => {
             let points: usize = grid.axes.iter().map(|axis| axis.points.len()).product();
             let solved: usize = shown.layers.iter().map(|found| found.outcomes.len()).sum();
             let all = (points * grid.layers.len()).max(1);
@@ -114,7 +116,7 @@ pub(super) fn below(pane: &StudyPane<'_>, shown: &StudyResults, width: usize) ->
 
 /// The varied values at the cursor, and the value of each curve.
 pub(super) fn at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
-    let Question::Grid(grid) = &shown.request.question else {
+    let StudyParameters::Grid(grid) = &shown.request.parameters else {
         return String::new();
     };
     let (across, up) = axes(shown);
@@ -144,9 +146,9 @@ pub(super) fn at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
 }
 
 fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> Option<String> {
-    let name = match layer.whose {
-        Whose::Active(method) | Whose::Other(method) => method.name(),
-        Whose::Baseline => "baseline",
+    let name = match layer.source {
+        LayerSource::Active(method) | LayerSource::Other(method) => method.name(),
+        LayerSource::Baseline => "baseline",
     };
     let known = layer.quantity()?;
     let words = match (found.outcomes.get(at)?, found.values.get(at)?) {
@@ -188,8 +190,8 @@ fn refused(shown: &StudyResults) -> Option<String> {
 pub(super) fn hint(pane: &StudyPane<'_>) -> String {
     let shown = pane.study.shown.as_ref();
     let shown = shown.filter(|_| pane.study.obstacle.is_none());
-    match shown.map(|shown| (shown, &shown.request.question)) {
-        Some((shown, Question::Grid(_))) => {
+    match shown.map(|shown| (shown, &shown.request.parameters)) {
+        Some((shown, StudyParameters::Grid(_))) => {
             let line = at_cursor(pane, shown);
             if line.width() > room(pane.area.width) {
                 format!("{line}.")
@@ -199,7 +201,7 @@ pub(super) fn hint(pane: &StudyPane<'_>) -> String {
                 )
             }
         }
-        Some((_, Question::Tolerance(_))) => {
+        Some((_, StudyParameters::Tolerance(_))) => {
             format!("{SAMPLES} samples draw every field of [spread] from its distribution.")
         }
         None => "The study varies the focused field over a range.".to_owned(),

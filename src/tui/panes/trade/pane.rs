@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 
 use crate::model::Inputs;
 use crate::report::trade::compliances;
-use crate::study::trade::{Measured, Setting, Trade};
+use crate::study::trade::{MeasuredSetting, Setting, Trade};
 use crate::tui::benchmark::{TradeView, Traded};
 use crate::tui::panes::title::Title;
 use crate::tui::theme::Look;
@@ -28,8 +28,8 @@ pub(crate) struct TradePane<'a> {
 
 /// The settings that have an error and a time, the faster ones first.
 #[must_use]
-pub(crate) fn ordered(trade: &Trade) -> Vec<&Measured> {
-    let mut found: Vec<&Measured> = trade
+pub(crate) fn ordered(trade: &Trade) -> Vec<&MeasuredSetting> {
+    let mut found: Vec<&MeasuredSetting> = trade
         .settings
         .iter()
         .filter(|measured| measured.total().is_some())

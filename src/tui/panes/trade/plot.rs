@@ -8,7 +8,7 @@ use super::pane::{TradePane, ordered, own};
 use crate::model::inputs::Method;
 use crate::report::trade::percent;
 use crate::report::trade::plot::{Axis, shown, time};
-use crate::study::trade::{METHODS, Measured, Trade};
+use crate::study::trade::{METHODS, MeasuredSetting, Trade};
 use crate::tui::benchmark::Traded;
 
 /// Width of a number beside the vertical axis.
@@ -92,7 +92,7 @@ pub(super) fn draw_plot(
         LEVEL.repeat(field.width.into()),
         pane.look.theme.rule,
     );
-    let place = |measured: &Measured| {
+    let place = |measured: &MeasuredSetting| {
         Some((
             across.at(measured.seconds()).round() as u16,
             rows.at(measured.total()?),
@@ -106,7 +106,7 @@ pub(super) fn draw_plot(
     draw_front(pane, &front, field, buffer);
     let own = own(pane);
     // The selected setting and the setting of the case are drawn on top.
-    let weight = |measured: &Measured| {
+    let weight = |measured: &MeasuredSetting| {
         (
             traded.marked == Some(measured.setting),
             own == Some(measured.setting),
@@ -176,7 +176,7 @@ fn draw_front(pane: &TradePane<'_>, front: &[(u16, u16)], field: Rect, buffer: &
 /// selected or belongs to the case.
 fn draw_mark(
     pane: &TradePane<'_>,
-    measured: &Measured,
+    measured: &MeasuredSetting,
     (is_marked, is_own, is_on_front): (bool, bool, bool),
     (x, y): (u16, u16),
     field: Rect,
