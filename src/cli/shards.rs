@@ -18,8 +18,8 @@ pub(super) fn run(
     options: &StudyOptions,
     streams: &mut Streams,
 ) -> Result<Exit, Failure> {
-    let mut sink = Sink::open(options.out.as_deref(), streams.output.as_mut())?;
-    let running = Running::new("points", options.jobs);
+    let mut sink = Sink::open(options.destination.out.as_deref(), streams.output.as_mut())?;
+    let running = Running::new("points", options.threads.jobs);
     match body(shard, request, batch, &running, &mut sink) {
         Ok(true) => sink.finish().map(|()| Exit::Done),
         Ok(false) => Err(Failure::Interrupted),

@@ -5,14 +5,13 @@ use crate::case::sanitize::sanitize;
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, Listing};
+use crate::cli::options::{Cases, FormatOption, Listing};
 use crate::model::{self, Inputs, Refusal, Solution};
 use crate::report::verdict::{
     Standing, Verdict, refused, stages, stages_beside, verdicts, write_json,
 };
-use clap::{Args, ValueHint};
+use clap::Args;
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 const AFTER_HELP: &str = "A limit on impact_force applies to the free impact in every \
     method. With static and dynamic, the verdict also prints the force by the method; a separate \
@@ -24,23 +23,20 @@ const AFTER_HELP: &str = "A limit on impact_force applies to the free impact in 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case files; - is standard input
-    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub cases: Vec<PathBuf>,
-    /// The changes of the case
+    /// The cases
     #[command(flatten)]
-    pub changes: Changes,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Listing,
+    pub input: Cases,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<Listing>,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let edits = options.changes.edits();
+    let edits = options.input.changes.edits();
     let mut worst = Exit::Done;
-    for path in &options.cases {
+    for path in &options.input.cases {
         let exit = match cases::open(path, &edits, streams) {
-            Ok(opened) => check(&opened, options.format, streams)?,
+            Ok(opened) => check(&opened, options.output.format, streams)?,
             Err(exit) => exit,
         };
         worst = worst.max(exit);

@@ -4,7 +4,9 @@ use crate::case::{Document, Problem};
 use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Edits, QuantityList, Setting, Settings, by_method, methods};
+use crate::cli::options::{
+    Edits, FormatChoice, FormatOption, QuantityList, Setting, Settings, by_method, methods,
+};
 use crate::cli::progress::follow;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
@@ -40,16 +42,15 @@ pub struct Options {
     /// Compare only these quantities, by name or symbol; `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
     pub only: Vec<Vec<&'static Quantity>>,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: CompareFormat,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<CompareFormat>,
 }
 
 /// Format of a comparison.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum CompareFormat {
     /// Tables for a person
-    #[default]
     Text,
     /// One row per quantity
     Csv,
@@ -57,6 +58,10 @@ pub enum CompareFormat {
     Json,
     /// Tables in Markdown
     Md,
+}
+
+impl FormatChoice for CompareFormat {
+    const DEFAULT: &str = "text";
 }
 
 impl Options {
@@ -101,7 +106,12 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     if columns.is_empty() {
         return Ok(worst);
     }
-    write(&Comparison { columns, selection }, options.format, streams).map(|exit| exit.max(worst))
+    write(
+        &Comparison { columns, selection },
+        options.output.format,
+        streams,
+    )
+    .map(|exit| exit.max(worst))
 }
 
 fn write(

@@ -4,7 +4,7 @@ use crate::case::Document;
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, Listing, Quantities};
+use crate::cli::options::{Changes, FormatOption, Listing, Quantities};
 use crate::model::Quantity;
 use crate::model::{self, Stages};
 use crate::report::explain::{explain, render, write_json};
@@ -26,9 +26,9 @@ pub struct Options {
     /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Listing,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<Listing>,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
@@ -47,7 +47,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let solution = model::solve(inputs, Stages::of(options.quantity.stage))
         .map_err(|refusal| opened.refused(&refusal, streams))?;
     let page = explain(options.quantity, &document.case, inputs, &solution);
-    match options.format {
+    match options.output.format {
         Listing::Text => streams.output.write_all(render(&page, name).as_bytes())?,
         Listing::Json => write_json(&page, name, &mut streams.output)?,
     }

@@ -2,7 +2,7 @@
 
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::Listing;
+use crate::cli::options::{FormatOption, Listing};
 use crate::report::fields;
 use clap::Args;
 
@@ -12,14 +12,14 @@ pub struct Options {
     /// List the quantities instead: the names for --only and [limits]
     #[arg(long)]
     pub results: bool,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Listing,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<Listing>,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let out = streams.output.as_mut();
-    match (options.results, options.format) {
+    match (options.results, options.output.format) {
         (false, Listing::Text) => fields::write_fields(out),
         (false, Listing::Json) => fields::write_fields_json(out),
         (true, Listing::Text) => fields::write_quantities(out),

@@ -4,6 +4,7 @@ use super::{sweep, tolerance};
 use crate::case::Problem;
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::Destination;
 use crate::cli::output::{Sink, check_out, keep_inputs};
 use crate::report::sweep::{SweepTable, TableFormat};
 use crate::report::tolerance::ToleranceReport;
@@ -23,14 +24,14 @@ pub struct Options {
     /// Files that --shard wrote, in any order
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub files: Vec<PathBuf>,
-    /// File to write (default: standard output); replaces an existing file
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub out: Option<PathBuf>,
+    /// The file
+    #[command(flatten)]
+    pub destination: Destination,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let files: Vec<&Path> = options.files.iter().map(AsRef::as_ref).collect();
-    let out = options.out.as_deref();
+    let out = options.destination.out.as_deref();
     keep_inputs(out, &files)?;
     let shards = files.iter().map(|file| Complete::read(file));
     let shards = shards.collect::<Result<Vec<_>, _>>().and_then(in_order);

@@ -4,14 +4,14 @@ use crate::case::file;
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::Changes;
+use crate::cli::options::{CaseFile, Changes, Destination};
 use crate::cli::progress::follow;
 use crate::report::Report;
 use crate::report::pictures::{NoPicture, find, pictures};
+use clap::Args;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, ValueHint};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const AFTER_HELP: &str = "The chart shows the method of the case. If the method has no \
     such chart, the command draws another method: load_share of paper and exact shows static; \
@@ -23,23 +23,23 @@ const AFTER_HELP: &str = "The chart shows the method of the case. If the method 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: PathBuf,
+    /// The case
+    #[command(flatten)]
+    pub input: CaseFile,
     /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
     /// The chart to draw
     #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
     pub chart: String,
-    /// File to write (default: standard output); replaces an existing file
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub out: Option<PathBuf>,
+    /// The file
+    #[command(flatten)]
+    pub destination: Destination,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let ending = options.out.as_deref().and_then(Path::extension);
-    if let (Some(out), Some(ending)) = (&options.out, ending)
+    let ending = options.destination.out.as_deref().and_then(Path::extension);
+    if let (Some(out), Some(ending)) = (&options.destination.out, ending)
         && !ending.eq_ignore_ascii_case("svg")
     {
         let out = out.display();
@@ -47,9 +47,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
             "--out {out}: a picture is SVG: use the extension .svg"
         )));
     }
-    let opened = cases::open(&options.case, &options.changes.edits(), streams)?;
+    let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
     let text = draw(&opened, options, streams)?;
-    write(options.out.as_deref(), &text, streams)
+    write(options.destination.out.as_deref(), &text, streams)
 }
 
 fn draw(opened: &Opened, options: &Options, streams: &mut Streams) -> Result<String, Exit> {

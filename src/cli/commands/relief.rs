@@ -3,14 +3,13 @@
 use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, OutputFormat};
+use crate::cli::options::{CaseFile, Changes, Destination, FormatOption, OutputFormat};
 use crate::cli::output::{keep_inputs, write_to};
 use crate::cli::progress::follow;
 use crate::report::specification::ReliefReport;
 use crate::study::relief::demand;
 use crate::study::relief::{Demand, NoRelief, specify};
-use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use clap::Args;
 
 const AFTER_HELP: &str = "Corner contact counts before the start and after the end of the path of contact, at the greatest load, with \
     each relief off by the tolerance to either side. Among the reliefs without corner contact the command chooses the one with the \
@@ -22,9 +21,9 @@ const AFTER_HELP: &str = "Corner contact counts before the start and after the e
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: PathBuf,
+    /// The case
+    #[command(flatten)]
+    pub input: CaseFile,
     /// Loads that the relief must serve, in percent of the load of the case
     #[arg(
         long,
@@ -46,18 +45,18 @@ pub struct Options {
     /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: OutputFormat,
-    /// File to write (default: standard output); replaces an existing file
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub out: Option<PathBuf>,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<OutputFormat>,
+    /// The file
+    #[command(flatten)]
+    pub destination: Destination,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let out = options.out.as_deref();
-    keep_inputs(out, &[&options.case])?;
-    let opened = cases::open(&options.case, &options.changes.edits(), streams)?;
+    let out = options.destination.out.as_deref();
+    keep_inputs(out, &[&options.input.case])?;
+    let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
     let demand = Demand {
         loads: options.load,
         tolerance: options.tolerance,
@@ -80,10 +79,12 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         method: opened.inputs.method,
         found: &found,
     };
-    write_to(out, streams.output.as_mut(), |sink| match options.format {
-        OutputFormat::Text => report.write(sink),
-        OutputFormat::Json => report.write_json(sink),
-        OutputFormat::Csv => report.write_csv(sink),
+    write_to(out, streams.output.as_mut(), |sink| {
+        match options.output.format {
+            OutputFormat::Text => report.write(sink),
+            OutputFormat::Json => report.write_json(sink),
+            OutputFormat::Csv => report.write_csv(sink),
+        }
     })?;
     Ok(Exit::Done)
 }

@@ -4,7 +4,7 @@ use super::plot;
 use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::Changes;
+use crate::cli::options::Cases;
 use crate::cli::progress::follow;
 use crate::report::export::{ReportFormat, subject};
 use clap::{Args, ValueHint};
@@ -18,12 +18,9 @@ const AFTER_HELP: &str = "The HTML page needs no other file: verdict, inputs, re
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case files; - is standard input
-    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub cases: Vec<PathBuf>,
-    /// The changes of each case
+    /// The cases
     #[command(flatten)]
-    pub changes: Changes,
+    pub input: Cases,
     /// File to write; the extension selects the format; replaces an existing file
     #[arg(long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: PathBuf,
@@ -37,9 +34,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
             ReportFormat::ENDINGS
         )));
     };
-    let edits = options.changes.edits();
+    let edits = options.input.changes.edits();
     let (mut subjects, mut worst) = (Vec::new(), Exit::Done);
-    for path in &options.cases {
+    for path in &options.input.cases {
         let solved = cases::open(path, &edits, streams).and_then(|opened| {
             let report = plot::solve(&opened, format.has_stations(), streams)?;
             let file = opened.document.render();

@@ -4,7 +4,7 @@ use crate::case::fields::FIELDS;
 use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, Listing, count};
+use crate::cli::options::{CaseFile, Changes, Destination, FormatOption, Listing, Threads, count};
 use crate::cli::output::{keep_inputs, write_to};
 use crate::cli::progress::Running;
 use crate::numeric::decimal::shortest;
@@ -13,8 +13,7 @@ use crate::study::axis::{AxisRange, with_unit};
 use crate::study::condition::Condition;
 use crate::study::seek::USUAL_SCAN;
 use crate::study::seek::{Unfound, seek};
-use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use clap::Args;
 
 const AFTER_HELP: &str = "A crossing is a value at which the condition changes, with a bracket of 1e-9 of the value. `always` and `never` \
     are answers for the whole range. Without corner contact a quantity of the impact is below every limit. JSON is one object; its \
@@ -24,9 +23,9 @@ const AFTER_HELP: &str = "A crossing is a value at which the condition changes, 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: PathBuf,
+    /// The case
+    #[command(flatten)]
+    pub input: CaseFile,
     /// The field and its range, such as 'deviations.base_pitch=0..40 um'
     #[arg(long, value_name = "KEY=FROM..TO")]
     pub vary: String,
@@ -40,26 +39,26 @@ pub struct Options {
     /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Listing,
-    /// Number of threads (default: one per core); does not change the output
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub jobs: Option<u16>,
-    /// File to write (default: standard output); replaces an existing file
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub out: Option<PathBuf>,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<Listing>,
+    /// The threads
+    #[command(flatten)]
+    pub threads: Threads,
+    /// The file
+    #[command(flatten)]
+    pub destination: Destination,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let (range, condition) = question(options)?;
     let edits = options.changes.edits();
     let key = FIELDS[range.field].key;
-    let out = options.out.as_deref();
+    let out = options.destination.out.as_deref();
     cases::keep_varied(&edits.settings, &[key])?;
-    keep_inputs(out, &[&options.case])?;
+    keep_inputs(out, &[&options.input.case])?;
     let first = (range.field, with_unit(&shortest(range.from), &range.unit));
-    let mut opened = cases::open_varied(&options.case, &edits, &[first], streams)?;
+    let mut opened = cases::open_varied(&options.input.case, &edits, &[first], streams)?;
     opened.need(condition.quantity());
     if let Some(sentence) = opened.without_effect(range.field, &opened.inputs) {
         streams.say(&sentence);
@@ -67,7 +66,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     condition
         .check(opened.inputs.method)
         .map_err(|problem| Failure::of_option("--until", &options.until, &problem))?;
-    let running = Running::new("points", options.jobs);
+    let running = Running::new("points", options.threads.jobs);
     let found = running
         .run(|control| seek(&opened.inputs, &range, &condition, options.points, control))
         .map_err(|unfound| match unfound {
@@ -82,9 +81,11 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         condition: &condition,
         found: &found,
     };
-    write_to(out, streams.output.as_mut(), |sink| match options.format {
-        Listing::Text => report.write(sink),
-        Listing::Json => report.write_json(sink),
+    write_to(out, streams.output.as_mut(), |sink| {
+        match options.output.format {
+            Listing::Text => report.write(sink),
+            Listing::Json => report.write_json(sink),
+        }
     })?;
     Ok(Exit::Done)
 }

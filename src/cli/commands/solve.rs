@@ -3,14 +3,15 @@
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, Edits, OutputFormat, QuantityList, Setting, station_count};
+use crate::cli::options::{
+    Cases, Edits, FormatOption, OutputFormat, QuantityList, Setting, station_count,
+};
 use crate::model::Quantity;
 use crate::model::Refusal;
 use crate::report::{Report, Selection, csv, json, text};
 use crate::study::headline::distinct;
-use clap::{Args, ValueHint};
+use clap::Args;
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 const AFTER_HELP: &str = "CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
     one row per station. JSON: one object per case and line, in SI units; missing values are absent.";
@@ -19,12 +20,9 @@ const AFTER_HELP: &str = "CSV: one row per case and one column per quantity in S
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case files; - is standard input
-    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub cases: Vec<PathBuf>,
-    /// The changes of the case
+    /// The cases
     #[command(flatten)]
-    pub changes: Changes,
+    pub input: Cases,
     /// Print only these quantities, by name or symbol, and run only the stages that they need;
     /// `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
@@ -32,21 +30,26 @@ pub struct Options {
     /// Print the stations as well, in this many intervals between D and E, or auto
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
     pub stations: Option<String>,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: OutputFormat,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<OutputFormat>,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let edits = edits(options);
     let selection = selection(options);
     let (mut first, mut worst) = (true, Exit::Done);
-    for path in &options.cases {
+    for path in &options.input.cases {
         let report = cases::open(path, &edits, streams)
             .and_then(|opened| solve(&opened, &selection, streams));
         match report {
             Ok(report) => {
-                print(&report, options.format, first, streams.output.as_mut())?;
+                print(
+                    &report,
+                    options.output.format,
+                    first,
+                    streams.output.as_mut(),
+                )?;
                 first = false;
             }
             Err(exit) => worst = worst.max(exit),
@@ -61,14 +64,14 @@ fn edits(options: &Options) -> Edits {
         .stations
         .clone()
         .map(|value| Setting::by("--stations", "model.stations", &value));
-    let mut edits = options.changes.edits();
+    let mut edits = options.input.changes.edits();
     edits.settings.extend(stations);
     edits
 }
 
 fn selection(options: &Options) -> Selection {
     let only = distinct(options.only.iter().flatten().copied());
-    let whole_json = options.format == OutputFormat::Json && only.is_empty();
+    let whole_json = options.output.format == OutputFormat::Json && only.is_empty();
     Selection {
         only,
         stations: options.stations.is_some() || whole_json,

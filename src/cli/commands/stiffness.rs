@@ -3,12 +3,11 @@
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Edits, OutputFormat};
+use crate::cli::options::{CaseFile, Edits, FormatOption, OutputFormat};
 use crate::report::stiffness::{StiffnessReport, no_field, write, write_csv, write_json};
 use crate::study::stiffness::compare;
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
-use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use clap::Args;
 
 const AFTER_HELP: &str = "The finite elements are plane strain on the whole gear, as in tooth_compliance = \"finite-element\". CSV: one row \
     per gear and radius, in SI units; a cell is empty where a model does not cover the gear. JSON: one object in SI units; missing \
@@ -18,22 +17,22 @@ const AFTER_HELP: &str = "The finite elements are plane strain on the whole gear
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: PathBuf,
+    /// The case
+    #[command(flatten)]
+    pub input: CaseFile,
     /// The changes of the case
     #[command(flatten)]
     pub edits: Edits,
     /// Number of radii on each flank, from the form circle to the tip
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
     pub points: usize,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: OutputFormat,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<OutputFormat>,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let opened = cases::open(&options.case, &options.edits, streams)?;
+    let opened = cases::open(&options.input.case, &options.edits, streams)?;
     let comparison = compare(&opened.inputs, options.points)
         .map_err(|refusal| opened.refused(&refusal, streams))?;
     let Opened { name, document, .. } = &opened;
@@ -42,7 +41,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         title: document.case.title(),
         comparison: &comparison,
     };
-    match options.format {
+    match options.output.format {
         OutputFormat::Text => write(&report, streams.output.as_mut())?,
         OutputFormat::Json => write_json(&report, streams.output.as_mut())?,
         OutputFormat::Csv => {

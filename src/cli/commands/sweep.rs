@@ -3,7 +3,9 @@
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, QuantityList, RowFormat, StudyOptions, count};
+use crate::cli::options::{
+    CaseFile, Changes, FormatOption, QuantityList, RowFormat, StudyOptions, count,
+};
 use crate::cli::output::{Sink, keep_inputs};
 use crate::cli::progress::Running;
 use crate::cli::shards;
@@ -17,8 +19,7 @@ use crate::study::headline::{distinct, headline};
 use crate::study::refusals::Refusals;
 use crate::study::request::{PointsRequest, Request};
 use crate::study::sweep::Grid;
-use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use clap::Args;
 
 const AFTER_HELP: &str = "CSV has one row per point: the varied fields in the units of --vary, then the quantities in SI units, then the \
     outcome. A cell is empty where a quantity has no value, such as an impact force without corner contact. A refused point has the outcome \
@@ -29,9 +30,9 @@ const AFTER_HELP: &str = "CSV has one row per point: the varied fields in the un
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: PathBuf,
+    /// The case
+    #[command(flatten)]
+    pub input: CaseFile,
     /// Vary a field over a range, such as 'operation.speed=500..3000 rpm', or over a list, such as
     /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
     #[arg(long, required = true, value_name = "KEY=FROM..TO")]
@@ -49,9 +50,9 @@ pub struct Options {
     /// Compute only these quantities, by name or symbol; `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
     pub only: Vec<Vec<&'static Quantity>>,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: RowFormat,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<RowFormat>,
     /// How the study runs
     #[command(flatten)]
     pub running: StudyOptions,
@@ -60,14 +61,14 @@ pub struct Options {
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let grid = Grid::parse(&options.vary, &options.points, options.log)
         .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
-    let out = options.running.out.as_deref();
-    keep_inputs(out, &[&options.case])?;
+    let out = options.running.destination.out.as_deref();
+    keep_inputs(out, &[&options.input.case])?;
     let edits = options.changes.edits();
     let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
     cases::keep_varied(&edits.settings, &keys)?;
     let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
     let first: Vec<(usize, String)> = first.collect();
-    let mut opened = cases::open_varied(&options.case, &edits, &first, streams)?;
+    let mut opened = cases::open_varied(&options.input.case, &edits, &first, streams)?;
     opened.need(options.only.iter().flatten().copied());
     for sentence in idle(&grid, &opened) {
         streams.say(&sentence);
@@ -79,7 +80,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let table = SweepTable {
         grid: &grid,
         quantities: &quantities,
-        format: options.format.into(),
+        format: options.output.format.into(),
     };
     if let Some(shard) = options.running.shard {
         let request = request(options, &opened, &table);
@@ -177,10 +178,10 @@ fn write(
     table: &SweepTable,
     streams: &mut Streams,
 ) -> Result<Refusals, Failure> {
-    let out = options.running.out.as_deref();
+    let out = options.running.destination.out.as_deref();
     let mut sink = Sink::open(out, streams.output.as_mut())?;
     let batch = batch(opened, table);
-    let running = Running::new("points", options.running.jobs);
+    let running = Running::new("points", options.running.threads.jobs);
     let mut refusals = Refusals::default();
     let mut written = table.begin(&mut sink);
     let mut take = |rows| {

@@ -4,7 +4,7 @@ use crate::case::Problem;
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Changes, OutputFormat, QuantityList, StudyOptions, count};
+use crate::cli::options::{Changes, FormatOption, OutputFormat, QuantityList, StudyOptions, count};
 use crate::cli::output::{check_out, keep_inputs, write_to};
 use crate::cli::progress::Running;
 use crate::cli::shards;
@@ -49,16 +49,16 @@ pub struct Options {
     /// Compute only these quantities and those of [limits], by name or symbol
     #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
     pub only: Vec<Vec<&'static Quantity>>,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: OutputFormat,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<OutputFormat>,
     /// How the study runs
     #[command(flatten)]
     pub running: StudyOptions,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let out = options.running.out.as_deref();
+    let out = options.running.destination.out.as_deref();
     check_size(options)?;
     keep_inputs(out, &[&options.case])?;
     let mut opened = cases::open(&options.case, &options.changes.edits(), streams)?;
@@ -83,7 +83,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     }
     check_out(out)?;
     let solve = |control: &Control| study.run(&opened.inputs, control);
-    let samples = Running::new("solves", options.running.jobs).run(solve)?;
+    let samples = Running::new("solves", options.running.threads.jobs).run(solve)?;
     let whole = ToleranceReport {
         name: &opened.name,
         case: &opened.document.case,
@@ -91,7 +91,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         study: &study,
         samples: &samples,
     };
-    write(name_of(options.format), &whole, out, streams)
+    write(name_of(options.output.format), &whole, out, streams)
 }
 
 /// Writes a study in a format, and reports its refused samples.
@@ -139,7 +139,7 @@ fn request(options: &Options, opened: &Opened, study: &Tolerance) -> Request {
             .iter()
             .map(|known| known.key.to_owned())
             .collect(),
-        format: name_of(options.format).to_owned(),
+        format: name_of(options.output.format).to_owned(),
         points: PointsRequest::Tolerance {
             samples: study.design.samples,
             seed: study.design.seed,

@@ -3,13 +3,12 @@
 use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::options::{Edits, Listing};
+use crate::cli::options::{CaseFile, Edits, FormatOption, Listing};
 use crate::cli::progress::follow;
 use crate::report::trade::{TradeReport, write, write_json};
 use crate::study::trade::{Patience, Trade, TradeParameters, trade};
-use clap::{Args, ValueHint};
+use clap::Args;
 use std::cell::Cell;
-use std::path::PathBuf;
 
 const AFTER_HELP: &str = "Each setting is timed on this machine. Its total error is the greatest relative difference of first contact, \
     forces and curve from the finest setting of method dynamic. The model error is that of the finest setting of the same method; \
@@ -20,9 +19,9 @@ const AFTER_HELP: &str = "Each setting is timed on this machine. Its total error
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct Options {
-    /// Case file; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: PathBuf,
+    /// The case
+    #[command(flatten)]
+    pub input: CaseFile,
     /// The changes of the case
     #[command(flatten)]
     pub edits: Edits,
@@ -30,13 +29,13 @@ pub struct Options {
     /// the case)
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
     pub within: Option<f64>,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Listing,
+    /// The format
+    #[command(flatten)]
+    pub output: FormatOption<Listing>,
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let opened = cases::open(&options.case, &options.edits, streams)?;
+    let opened = cases::open(&options.input.case, &options.edits, streams)?;
     let parameters = TradeParameters {
         within: options.within.unwrap_or(opened.inputs.within),
         patience: Patience::STEADY,
@@ -56,7 +55,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         title: opened.document.case.title(),
         trade: &trade,
     };
-    match options.format {
+    match options.output.format {
         Listing::Text => write(&report, streams.output.as_mut())?,
         Listing::Json => write_json(&report, streams.output.as_mut())?,
     }
