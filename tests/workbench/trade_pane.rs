@@ -259,7 +259,7 @@ fn an_invalid_form_is_not_measured() {
     desk.fill("pair.module", "x");
     desk.keys(&["Esc", "5"]);
     assert!(desk.effects("m").is_empty());
-    assert!(desk.shows("the form is not valid"));
+    assert!(desk.shows("no benchmark: fix the fields"));
 }
 
 #[test]
