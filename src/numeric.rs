@@ -5,6 +5,7 @@ pub mod bernstein;
 pub mod chebyshev;
 pub mod decimal;
 pub mod extrapolated;
+pub mod lanes;
 pub mod near;
 pub mod polynomial;
 pub mod quadrature;

@@ -12,6 +12,8 @@ use super::geometry::{GearShape, Geometry};
 use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
 use super::profile::Rack;
 use super::tip_gap::TipContact;
+use crate::numeric::chebyshev::TERMS;
+use crate::numeric::lanes::Lanes;
 use contact::{ContactLaw, ContactSpring, HalfWidth, PairContact};
 use tooth::Tooth;
 
@@ -308,6 +310,37 @@ impl Teeth {
             .neighbour(earlier.radius_driven, later.radius_driven, -pitches)
             .map_err(Refusal::at_driven)?;
         Ok(driver + driven)
+    }
+
+    /// Whether the force on a pair displaces others.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.elasticity.tooth.model().has_coupling
+    }
+
+    /// The place on driver and driven gear by which [`Teeth::couplings`] names where a pair touches.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal> {
+        Ok([
+            self.driver.abscissa(place.radius_driver)?,
+            self.driven
+                .abscissa(place.radius_driven)
+                .map_err(Refusal::at_driven)?,
+        ])
+    }
+
+    /// The same as [`Teeth::coupling`] at several [places](Teeth::abscissas) at once.
+    #[must_use]
+    pub fn couplings(
+        &self,
+        later: [Lanes<TERMS>; 2],
+        earlier: [Lanes<TERMS>; 2],
+        pitches: i32,
+    ) -> Lanes<TERMS> {
+        self.driver.neighbours([earlier[0], later[0]], pitches)
+            + self.driven.neighbours([earlier[1], later[1]], -pitches)
     }
 
     /// Compliance of the pair at a place under a given force, in m²/N, with the load

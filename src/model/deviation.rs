@@ -7,7 +7,7 @@ use super::Refusal;
 use super::compliance::{ContactPlace, Elasticity, PairCompliance, Teeth};
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Method};
-use super::pair_forces::{PITCHES, Pair, PairSet, Place};
+use super::pair_forces::{PITCHES, Pair, PairSet};
 use crate::numeric::Real;
 
 /// Inputs of the deviation, besides geometry and mesh force.
@@ -326,12 +326,8 @@ fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Def
     for (ahead, place) in (0..).zip(places) {
         pairs.push(Pair {
             ahead,
-            place: Place {
-                stiffness: 1.0 / teeth.pair_at_load(place, mesh_force)?,
-                gap: if ahead == 0 { f64::INFINITY } else { 0.0 },
-                lever: 0.0,
-                sliding: 0.0,
-            },
+            stiffness: 1.0 / teeth.pair_at_load(place, mesh_force)?,
+            gap: if ahead == 0 { f64::INFINITY } else { 0.0 },
             weight: 1.0,
         });
         let mut behind = [0.0; PITCHES];

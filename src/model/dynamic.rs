@@ -324,18 +324,17 @@ impl<'a> Run<'a> {
     ) -> Result<(Touching, Step), Refusal> {
         let course = Course::new(self.motion, window, touching);
         let taken = course.step(self.t, &self.y, end, (self.allowed, self.is_even))?;
-        let (mut step, leads) = (taken.step, &taken.acting.leads);
+        let mut step = taken.step;
         self.effort.steps += 1;
         self.effort.evaluations += TERMS as u64;
         self.count(1 + window.pairs.len() as u64 + self.motion.take_looks())?;
         let range = step.range();
         self.misses_back |= self.motion.misses_back(range.0);
         let standing_off = self.lead.and(window.incoming());
-        let event = events::first(&course, (&step, range), leads, (self.turned, standing_off));
+        let event = events::first(&course, (&step, range), (self.turned, standing_off));
         self.is_even = taken.ends_even && event.is_none();
-        let part = event.map_or(1.0, |event| event.part);
-        if event.is_some() {
-            step = step.cut(part);
+        if let Some(event) = event {
+            step = step.cut(event.part);
         }
         // A step to a border ends exactly on the border, independent of rounding.
         self.t = if event.is_none() && step.length >= end - self.t {
@@ -347,7 +346,8 @@ impl<'a> Run<'a> {
             self.y = step.state(1.0);
             self.turned = Touching::NONE;
             if let (Some(lead), Some(incoming)) = (self.lead, standing_off) {
-                self.lead = Some(leads[incoming].stretched(part).most(&step.ahead, lead));
+                let overlap = course.lead_along(incoming, &step);
+                self.lead = Some(overlap.most(&step.ahead, lead));
             }
             self.watch.keep(&course, touching, step, range.1);
         }

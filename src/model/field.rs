@@ -19,6 +19,7 @@ use std::f64::consts::PI;
 
 pub use super::limits::field::FieldRefusal;
 use super::profile::Profile;
+use crate::numeric::lanes::Lanes;
 use boundary::Boundary;
 use fit::{Abscissa, CrossSeries, Flank, Interpolation, Series};
 use grading::Grading;
@@ -148,17 +149,35 @@ impl Field {
     /// 0 for the loaded tooth itself, and for teeth more than [`PITCHES`] away.
     #[must_use]
     pub fn cross(&self, loaded: f64, measured: f64, pitches: i32) -> f64 {
-        let at = |radius: f64| self.abscissas[1].at(self.flank.roll(radius));
+        let at = |radius: f64| Lanes([self.abscissa(radius)]);
+        let Lanes([found]) = self.cross_at([at(loaded), at(measured)], pitches);
+        found
+    }
+
+    /// The same by the [abscissas](Field::abscissa) of load and displacement, several side by side.
+    #[must_use]
+    pub fn cross_at<const L: usize>(
+        &self,
+        [loaded, measured]: [Lanes<L>; 2],
+        pitches: i32,
+    ) -> Lanes<L> {
         let series = self
             .cross
             .get((pitches.unsigned_abs() as usize).wrapping_sub(1));
-        series.map_or(0.0, |series| {
+        series.map_or(Lanes::all(0.0), |series| {
             if pitches < 0 {
-                series.at(at(loaded), at(measured))
+                series.at(loaded, measured)
             } else {
-                series.at(at(measured), at(loaded))
+                series.at(measured, loaded)
             }
         })
+    }
+
+    /// The place at a radius in which displacements of other teeth are smooth, from −1 at the tip's
+    /// load to 1 at the junction of fillet and involute.
+    #[must_use]
+    pub fn abscissa(&self, radius: f64) -> f64 {
+        self.abscissas[1].at(self.flank.roll(radius))
     }
 
     /// The radius of the load whose pressure over ± `half_width`, in m, ends at the tip's corner,

@@ -3,22 +3,23 @@
 
 mod back;
 mod build;
-mod couplings;
+pub(super) mod couplings;
 mod inputs;
 mod one_pair;
 mod sharing;
+mod within;
 mod zones;
 
 use std::sync::Arc;
 
 use super::compliance::flanks::Flanks;
-use super::pair_forces::{Compliances, PITCHES, Pair, PairSet, Place, Touching};
+use super::pair_forces::{OfPairs, PITCHES, Pair, PairSet, Place};
 use back::Back;
 use couplings::Couplings;
 pub use inputs::MeshInputs;
-pub use sharing::Shares;
 use sharing::Sharing;
-use zones::{GAP, SLIDING, STIFFNESS, Zone};
+pub use sharing::{Line, Meeting, Of, Shares};
+use zones::{GAP, LEVER, SLIDING, Zone};
 
 /// The mesh as a function of s, the path of the incoming pair along the line of action since E, in
 /// m.
@@ -130,7 +131,7 @@ impl Mesh {
     #[must_use]
     pub fn pair_set(&self, s: f64, inside: f64) -> PairSet {
         let inside = self.on_flank(inside);
-        let pairs: Vec<Pair> = self
+        let pairs: OfPairs<Pair> = self
             .standing(inside)
             .map(|(ahead, zone)| self.pair(ahead, zone, s, inside))
             .collect();
@@ -147,9 +148,15 @@ impl Mesh {
 
     /// Displacement of each of `count` pairs, beginning `first` pitches ahead, by a unit force on
     /// the pairs 1, 2, .. pitches behind, in m/N. Empty without coupling.
-    fn couplings_of(&self, first: i32, count: usize, s: f64, inside: f64) -> Vec<[f64; PITCHES]> {
+    fn couplings_of(
+        &self,
+        first: i32,
+        count: usize,
+        s: f64,
+        inside: f64,
+    ) -> OfPairs<[f64; PITCHES]> {
         let Some(couplings) = &self.couplings else {
-            return Vec::new();
+            return OfPairs::new();
         };
         let behind = |index: usize| {
             std::array::from_fn(|at| {
@@ -160,40 +167,6 @@ impl Mesh {
             })
         };
         (0..count).map(behind).collect()
-    }
-
-    /// The load sharing of the pairs in these zones, the rearmost first, for a set of touching
-    /// pairs.
-    pub(super) fn shares(&self, zones: &[usize], touching: Touching) -> Arc<Shares> {
-        self.sharing.of(zones, touching, || {
-            let ends = self.way_of(zones);
-            let inside = f64::midpoint(ends.0, ends.1);
-            Shares::of(zones.len(), ends, touching, &|at, find| {
-                let pairs = (0..).zip(zones);
-                let own = pairs.map(|(pair, &zone)| {
-                    let at = at + f64::from(pair) * self.base_pitch;
-                    self.zones[zone].series.one(STIFFNESS, at).recip()
-                });
-                find(&Compliances {
-                    own: &own.collect::<Vec<f64>>(),
-                    couplings: &self.couplings_of(0, zones.len(), at, inside),
-                });
-            })
-        })
-    }
-
-    /// First and last place of the rearmost pair with exactly these pairs in these zones, in m.
-    fn way_of(&self, zones: &[usize]) -> (f64, f64) {
-        let (from, to) = self.ends();
-        let none = (
-            to - zones.len() as f64 * self.base_pitch,
-            from + self.base_pitch,
-        );
-        let pairs = (0..).zip(zones);
-        pairs.fold(none, |(from, to), (pair, &zone)| {
-            let (zone, ahead) = (&self.zones[zone], f64::from(pair) * self.base_pitch);
-            (from.max(zone.from - ahead), to.min(zone.to - ahead))
-        })
     }
 
     /// The pairs and their zones.
@@ -208,22 +181,18 @@ impl Mesh {
     fn pair(&self, ahead: i32, zone: usize, s: f64, inside: f64) -> Pair {
         let way = f64::from(ahead) * self.base_pitch;
         let series = &self.zones[zone].series;
-        let [stiffness, gap, lever, sliding] = series.at(s + way);
-        let place = Place {
-            stiffness,
-            gap: gap - self.error_of(ahead),
-            lever,
-            sliding: self.driver_speed * sliding,
-        };
-        let direction = if self.friction > 0.0 {
-            series.one(SLIDING, inside + way).signum()
+        let [stiffness, gap] = series.at(s + way);
+        let weight = if self.friction > 0.0 {
+            let direction = series.one(SLIDING, inside + way).signum();
+            1.0 - self.friction * direction * series.one(LEVER, s + way)
         } else {
-            0.0
+            1.0
         };
         Pair {
             ahead,
-            place,
-            weight: 1.0 - self.friction * direction * lever,
+            stiffness,
+            gap: gap - self.error_of(ahead),
+            weight,
         }
     }
 
@@ -244,7 +213,8 @@ impl Mesh {
         )
     }
 
-    fn error_of(&self, ahead: i32) -> f64 {
+    /// Error of a pair, in m: the incoming one alone deviates.
+    pub(super) fn error_of(&self, ahead: i32) -> f64 {
         if ahead == 0 { self.error } else { 0.0 }
     }
 

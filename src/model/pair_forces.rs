@@ -1,13 +1,20 @@
 //! The tooth pairs at one position of the mesh and their forces.
 
+mod complementarity;
 mod compliances;
 #[cfg(test)]
 mod tests;
 mod touching;
 
+use smallvec::SmallVec;
+
 pub use super::field::PITCHES;
+use complementarity::Until;
 pub use compliances::Compliances;
 pub use touching::Touching;
+
+/// A value of each pair, without heap for as many pairs as usual.
+pub type OfPairs<T> = SmallVec<[T; 8]>;
 
 /// The contact place of a pair in the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +34,10 @@ pub struct Place {
 pub struct Pair {
     /// Number of base pitches ahead of the incoming pair; negative for pairs behind.
     pub ahead: i32,
-    /// Its place.
-    pub place: Place,
+    /// Stiffness b/q of the pair alone, in N/m.
+    pub stiffness: f64,
+    /// Normal gap of the unloaded flanks, reliefs and error of the pair included, in m.
+    pub gap: f64,
     /// The part of the force that turns the driver; 1 without friction.
     pub weight: f64,
 }
@@ -36,7 +45,7 @@ pub struct Pair {
 impl Pair {
     /// Force of a pair as an independent spring, in N.
     fn alone(&self, displacement: f64) -> f64 {
-        self.place.stiffness * (displacement - self.place.gap).max(0.0)
+        self.stiffness * (displacement - self.gap).max(0.0)
     }
 }
 
@@ -44,10 +53,10 @@ impl Pair {
 /// order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairSet {
-    pairs: Vec<Pair>,
+    pairs: OfPairs<Pair>,
     /// Displacement of each pair by a unit force on the pair 1, 2, .. pitches behind, in m/N. Empty
     /// if the pairs are independent springs.
-    couplings: Vec<[f64; PITCHES]>,
+    couplings: OfPairs<[f64; PITCHES]>,
 }
 
 /// The balance at a position of the mesh.
@@ -59,30 +68,22 @@ pub struct Balance {
     pub force: f64,
     /// Sum of the forces of all pairs, in N.
     pub total: f64,
-}
-
-/// End condition of the search upwards from the first touch.
-#[derive(Debug, Clone, Copy)]
-enum Until {
-    /// The sum of the forces that turn the driver, in N.
-    Total(f64),
-    /// The displacement, in m.
-    Displacement(f64),
-}
-
-/// For a fixed set of touching pairs: force (or, for a pair without contact, lead in m) = slope x −
-/// offset.
-struct Lines {
-    touching: Vec<usize>,
-    /// Slope and offset of each touching pair's force.
-    forces: Vec<[f64; 2]>,
+    /// Displacement under the forces minus the gap of the incoming pair, in m. `None` if the
+    /// incoming pair carries.
+    pub lead: Option<f64>,
 }
 
 impl PairSet {
     /// `pairs` begins with the rearmost pair and has no gaps in its order.
     #[must_use]
-    pub fn new(pairs: Vec<Pair>, couplings: Vec<[f64; PITCHES]>) -> PairSet {
-        PairSet { pairs, couplings }
+    pub fn new(
+        pairs: impl IntoIterator<Item = Pair>,
+        couplings: impl IntoIterator<Item = [f64; PITCHES]>,
+    ) -> PairSet {
+        PairSet {
+            pairs: pairs.into_iter().collect(),
+            couplings: couplings.into_iter().collect(),
+        }
     }
 
     /// The pairs, the rearmost first.
@@ -91,11 +92,11 @@ impl PairSet {
         &self.pairs
     }
 
-    /// The pairs without their gaps. Pairs that are not `kept` do not touch.
+    /// The pairs without their gaps.
     #[must_use]
-    pub fn of_no_gap(mut self, kept: impl Fn(i32) -> bool) -> PairSet {
+    pub fn of_no_gap(mut self) -> PairSet {
         for pair in &mut self.pairs {
-            pair.place.gap = if kept(pair.ahead) { 0.0 } else { f64::INFINITY };
+            pair.gap = 0.0;
         }
         self
     }
@@ -106,7 +107,7 @@ impl PairSet {
     pub fn widened(&self, more: impl Fn(i32) -> f64) -> PairSet {
         let mut pairs = self.pairs.clone();
         for pair in &mut pairs {
-            pair.place.gap += more(pair.ahead);
+            pair.gap += more(pair.ahead);
         }
         PairSet {
             pairs,
@@ -131,17 +132,24 @@ impl PairSet {
         if self.couplings.is_empty() {
             let displacement = self.of_springs(force);
             let force = |pair: &Pair| pair.alone(displacement);
+            let lead = |incoming: usize| displacement - self.pairs[incoming].gap;
             return Balance {
                 displacement,
                 force: incoming.map_or(0.0, |incoming| force(&self.pairs[incoming])),
                 total: self.pairs.iter().map(force).sum(),
+                lead: Some(incoming.map_or(f64::NEG_INFINITY, lead)).filter(|lead| *lead <= 0.0),
             };
         }
         let (displacement, forces) = self.shared(force);
+        let lead = |incoming: usize| {
+            let gap = self.pairs[incoming].gap;
+            (forces[incoming] <= 0.0).then(|| displacement - gap - self.pushed(incoming, &forces))
+        };
         Balance {
             displacement,
             force: incoming.map_or(0.0, |incoming| forces[incoming]),
             total: forces.iter().sum(),
+            lead: incoming.map_or(Some(f64::NEG_INFINITY), lead),
         }
     }
 
@@ -152,7 +160,7 @@ impl PairSet {
             let displacement = self.of_springs(force);
             return (displacement, self.forces(displacement));
         }
-        self.followed(Until::Total(force))
+        self.solved(Until::Total(force))
     }
 
     /// The force of each pair at a displacement of the driver ahead, in N.
@@ -165,7 +173,7 @@ impl PairSet {
                 .map(|pair| pair.alone(displacement))
                 .collect();
         }
-        self.followed(Until::Displacement(displacement)).1
+        self.solved(Until::Displacement(displacement)).1
     }
 
     /// How far the displacement under the other pairs' forces exceeds a pair's gap, in m. Above 0
@@ -176,7 +184,7 @@ impl PairSet {
             return f64::NEG_INFINITY;
         };
         // An infinite gap removes the pair from the contact but keeps the pitches of the others.
-        let gap = std::mem::replace(&mut self.pairs[index].place.gap, f64::INFINITY);
+        let gap = std::mem::replace(&mut self.pairs[index].gap, f64::INFINITY);
         if self.couplings.is_empty() {
             return self.of_springs(force) - gap;
         }
@@ -188,7 +196,7 @@ impl PairSet {
     /// positive value means that a touching pair has a force, or that another pair would overlap.
     #[must_use]
     pub fn leads(&self, touching: Touching, displacement: f64) -> Vec<f64> {
-        let gap = |index: usize| self.pairs[index].place.gap;
+        let gap = |index: usize| self.pairs[index].gap;
         if self.couplings.is_empty() {
             return (0..self.pairs.len())
                 .map(|index| displacement - gap(index))
@@ -238,110 +246,24 @@ impl PairSet {
                 .pairs
                 .iter()
                 .enumerate()
-                .map(|(index, pair)| (pair.place.gap, index));
+                .map(|(index, pair)| (pair.gap, index));
             let further = gaps.filter(|gap| last.is_none_or(|last| *gap > last));
             let next = further.min_by(|one, other| one.0.total_cmp(&other.0));
             let Some((gap, index)) = next.filter(|(gap, _)| *gap < displacement) else {
                 return displacement;
             };
             let pair = &self.pairs[index];
-            stiffness += pair.weight * pair.place.stiffness;
-            preload += pair.weight * pair.place.stiffness * gap;
+            stiffness += pair.weight * pair.stiffness;
+            preload += pair.weight * pair.stiffness * gap;
             displacement = preload / stiffness;
             last = Some((gap, index));
         }
     }
 
-    /// Displacement and forces at the end condition. The displacement grows from the first touch,
-    /// and the sum of forces is linear between the points where a pair gains or loses contact.
-    fn followed(&self, until: Until) -> (f64, Vec<f64>) {
-        let own = self.own();
-        let mut forces = vec![0.0; self.pairs.len()];
-        let (mut x, mut touching) = (f64::NEG_INFINITY, Touching::NONE);
-        // Each pair changes its contact once; few pairs change again.
-        for _ in 0..=4 * self.pairs.len() {
-            let Some(lines) = self.lines(&own, touching) else {
-                break;
-            };
-            let (end, next) = (self.end(&lines, until), self.next(&own, &lines, x));
-            match next {
-                Some((at, pair)) if at < end => (x, touching) = (at, touching.toggled(pair)),
-                _ => {
-                    for (&index, &force) in lines.touching.iter().zip(&lines.forces) {
-                        forces[index] = at(force, end).max(0.0);
-                    }
-                    return (end, forces);
-                }
-            }
-        }
-        (f64::INFINITY, forces)
-    }
-
-    /// The displacement of the end condition if no other pair gains or loses contact before.
-    fn end(&self, lines: &Lines, until: Until) -> f64 {
-        match until {
-            Until::Displacement(displacement) => displacement,
-            Until::Total(total) => {
-                let mut sums = [0.0; 2];
-                for (&index, force) in lines.touching.iter().zip(&lines.forces) {
-                    let weight = self.pairs[index].weight;
-                    sums = [sums[0] + weight * force[0], sums[1] + weight * force[1]];
-                }
-                if sums[0] > 0.0 {
-                    (total + sums[1]) / sums[0]
-                } else {
-                    f64::INFINITY
-                }
-            }
-        }
-    }
-
-    /// The next pair that gains or loses contact as the displacement grows from `x`, with the
-    /// displacement.
-    fn next(&self, own: &[f64], lines: &Lines, x: f64) -> Option<(f64, usize)> {
-        let leaves = lines
-            .touching
-            .iter()
-            .zip(&lines.forces)
-            .filter(|(_, force)| force[0] < 0.0)
-            .map(|(&index, force)| (force[1] / force[0], index));
-        let apart = (0..self.pairs.len())
-            .filter(|index| !lines.touching.contains(index))
-            .map(|index| (self.apart(own, lines, index), index));
-        let touches = apart
-            .filter(|(lead, _)| lead[0] > 0.0 && lead[1] < f64::INFINITY)
-            .map(|(lead, index)| (lead[1] / lead[0], index));
-        leaves
-            .chain(touches)
-            .map(|(at, index)| (at.max(x), index))
-            .min_by(|one, other| one.0.total_cmp(&other.0))
-    }
-
-    /// The forces if exactly these pairs touch. `None` if their compliances are not positive
-    /// definite.
-    fn lines(&self, own: &[f64], touching: Touching) -> Option<Lines> {
-        let touching: Vec<usize> = touching.pairs().collect();
-        let factored = self.compliances(own).among(&touching)?;
-        let mut forces: Vec<[f64; 2]> = touching
-            .iter()
-            .map(|&index| [1.0, self.pairs[index].place.gap])
-            .collect();
-        factored.solve(&mut forces);
-        Some(Lines { touching, forces })
-    }
-
-    /// The overlap x − gap − Σ Q_kj F_j of a pair without contact, as slope and offset over x.
-    fn apart(&self, own: &[f64], lines: &Lines, index: usize) -> [f64; 2] {
-        let [slope, offset] = self
-            .compliances(own)
-            .pushed(index, &lines.touching, &lines.forces);
-        [1.0 - slope, self.pairs[index].place.gap - offset]
-    }
-
-    fn own(&self) -> Vec<f64> {
+    fn own(&self) -> OfPairs<f64> {
         self.pairs
             .iter()
-            .map(|pair| pair.place.stiffness.recip())
+            .map(|pair| pair.stiffness.recip())
             .collect()
     }
 

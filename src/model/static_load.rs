@@ -1,5 +1,8 @@
 //! The method `static`: the load shared by all pairs in contact, without inertia.
 
+#[cfg(test)]
+mod tests;
+
 use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
 use super::inputs::Inputs;
@@ -84,19 +87,46 @@ struct Contact {
 /// # Errors
 /// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
 pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal> {
-    let (from, to) = mesh.ends();
-    let grid = grid(mesh, from, to);
-    let Some(contact) = contact(mesh, &grid)? else {
+    let gap = near_gap(mesh);
+    match load_within((mesh, &mesh.within(gap)), gap, spacing) {
+        Err(Refusal::BeyondReach) => load_within((mesh, mesh), f64::INFINITY, spacing),
+        found => found,
+    }
+}
+
+/// A gap that pairs rarely close, in m: a multiple of the deviation and of the displacement without
+/// it at two places.
+fn near_gap(mesh: &Mesh) -> f64 {
+    const TIMES: f64 = 2.0;
+    let alike = mesh.without_error();
+    let places = [0.0, 0.5 * mesh.base_pitch];
+    let displacements = places.map(|s| balance(&alike, s, s).displacement);
+    TIMES * (displacements[0].max(displacements[1]) + mesh.error.abs())
+}
+
+/// The shared load of the pairs in `mesh`, the part of the whole mesh with gaps up to `gap`, in m. The
+/// samples are those of the whole mesh.
+///
+/// # Errors
+/// [`Refusal::BeyondReach`] if a pair may close a wider gap.
+fn load_within(
+    (whole, mesh): (&Mesh, &Mesh),
+    gap: f64,
+    spacing: Spacing,
+) -> Result<StaticLoad, Refusal> {
+    let ((from, to), (whole_from, whole_to)) = (mesh.ends(), whole.ends());
+    let mut grid = grid(whole, whole_from, whole_to);
+    grid.retain(|&s| from <= s && s <= to);
+    let mut balances: Vec<(f64, Balance)> =
+        grid.iter().map(|&s| (s, balance(mesh, s, s))).collect();
+    let is_beyond = |balance: &Balance| balance.displacement + mesh.error.max(0.0) > gap;
+    if balances.iter().any(|(_, balance)| is_beyond(balance)) {
+        return Err(Refusal::BeyondReach);
+    }
+    let Some(contact) = contact(mesh, &balances)? else {
         return Ok(StaticLoad::none());
     };
-    let on_the_way: Vec<f64> = grid
-        .into_iter()
-        .filter(|&s| s > contact.first && s < contact.last)
-        .collect();
-    let balances: Vec<(f64, Balance)> = on_the_way
-        .iter()
-        .map(|&s| (s, balance(mesh, s, s)))
-        .collect();
+    balances.retain(|&(s, _)| s > contact.first && s < contact.last);
     let peak_force = peak(mesh, &balances, |balance| balance.force);
     let (stations, resolution) = stations(mesh, contact, peak_force, spacing);
     Ok(StaticLoad {
@@ -207,8 +237,13 @@ fn foremost(mesh: &Mesh, leads: &[(f64, f64)]) -> (f64, f64) {
 
 /// The range from the first to the last contact of the incoming pair. `None` if the pair never
 /// carries.
-fn contact(mesh: &Mesh, grid: &[f64]) -> Result<Option<Contact>, Refusal> {
-    let mut leads = leads(mesh, grid);
+fn contact(mesh: &Mesh, balances: &[(f64, Balance)]) -> Result<Option<Contact>, Refusal> {
+    let lead_of = |balance: &Balance| {
+        let lead = balance.lead.unwrap_or(f64::INFINITY);
+        lead.clamp(-mesh.length, mesh.length)
+    };
+    let leads = balances.iter().map(|(s, balance)| (*s, lead_of(balance)));
+    let mut leads: Vec<(f64, f64)> = leads.collect();
     let start = leads.partition_point(|&(s, _)| s <= 0.0);
     if leads[..start].iter().all(|&(_, lead)| lead <= 0.0) {
         // A short contact before E may be between two samples.
@@ -226,11 +261,21 @@ fn contact(mesh: &Mesh, grid: &[f64]) -> Result<Option<Contact>, Refusal> {
     if first == 0 || last + 1 == leads.len() {
         return Err(Refusal::BeyondReach);
     }
-    let touch =
-        |from: usize, to: usize| root::between(leads[from].0, leads[to].0, |s| lead(mesh, s));
+    let touch = |apart: usize, carries: usize| {
+        let (apart, carries) = (leads[apart].0, leads[carries].0);
+        root::between(apart, carries, |s| {
+            let lead = lead(mesh, s);
+            // The pair carries here, whatever the rounding.
+            if s.to_bits() == carries.to_bits() {
+                lead.max(f64::MIN_POSITIVE)
+            } else {
+                lead
+            }
+        })
+    };
     Ok(Some(Contact {
         first: touch(first - 1, first),
-        last: touch(last, last + 1),
+        last: touch(last + 1, last),
     }))
 }
 
@@ -251,14 +296,14 @@ fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f6
 pub(super) fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
     const STEPS: usize = 60;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    /// Values that differ by this part of them are equal.
+    const ROUNDING: f64 = 2.0 * f64::EPSILON;
     let best = (0..known.len()).max_by(|&one, &other| known[one].1.total_cmp(&known[other].1));
     let Some(best) = best else {
         return (0.0, f64::NEG_INFINITY);
     };
-    let (mut from, mut to) = (
-        known[best.saturating_sub(1)].0,
-        known[(best + 1).min(known.len() - 1)].0,
-    );
+    let (mut from, mut at_from) = known[best.saturating_sub(1)];
+    let (mut to, mut at_to) = known[(best + 1).min(known.len() - 1)];
     let mut highest = known[best];
     let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
     let (mut at_left, mut at_right) = (at(left), at(right));
@@ -269,12 +314,17 @@ pub(super) fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f
                 highest,
                 |one, other| if other.1 > one.1 { other } else { one },
             );
+        let values = [at_from, at_left, at_right, at_to];
+        let is_flat = |value: f64| (value - highest.1).abs() <= ROUNDING * highest.1.abs();
+        if values.into_iter().all(is_flat) {
+            break;
+        }
         if at_left > at_right {
-            (to, right, at_right) = (right, left, at_left);
+            (to, at_to, right, at_right) = (right, at_right, left, at_left);
             left = to - GOLDEN * (to - from);
             at_left = at(left);
         } else {
-            (from, left, at_left) = (left, right, at_right);
+            (from, at_from, left, at_left) = (left, at_left, right, at_right);
             right = from + GOLDEN * (to - from);
             at_right = at(right);
         }

@@ -1,34 +1,62 @@
 //! Symmetric positive definite band matrices.
 
-/// The factors L and D of a matrix with the rows `[a_ii, a_(i,i−1), a_(i,i−2), ..]`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Banded<const ROW: usize> {
-    /// d_i, l_(i,i−1), l_(i,i−2), ..
-    rows: Vec<[f64; ROW]>,
+use std::ops::{Div, Mul, Sub};
+
+use smallvec::SmallVec;
+
+use super::lanes::Lanes;
+
+/// An entry of a matrix: a number, or the entries of several matrices side by side.
+pub trait Entry: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+    /// Whether it is above 0, in every matrix.
+    fn is_positive(&self) -> bool;
 }
 
-impl<const ROW: usize> Banded<ROW> {
+impl Entry for f64 {
+    fn is_positive(&self) -> bool {
+        *self > 0.0
+    }
+}
+
+impl<const L: usize> Entry for Lanes<L> {
+    fn is_positive(&self) -> bool {
+        self.0.iter().all(|entry| *entry > 0.0)
+    }
+}
+
+/// The factors L and D of a matrix with the rows `[a_ii, a_(i,i−1), a_(i,i−2), ..]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Banded<const ROW: usize, T = f64> {
+    /// d_i, l_(i,i−1), l_(i,i−2), ..
+    rows: Rows<T, ROW>,
+}
+
+/// Rows of a matrix, without heap if it is small.
+pub type Rows<T, const ROW: usize> = SmallVec<[[T; ROW]; 4]>;
+
+impl<const ROW: usize, T: Entry> Banded<ROW, T> {
     /// The factors of the matrix, A = L D Lᵀ. `None` if it is not positive definite.
     ///
     /// # Source
     /// Golub & Van Loan 2013, "Matrix Computations", section 4.3.6.
     #[must_use]
-    pub fn factored(mut rows: Vec<[f64; ROW]>) -> Option<Banded<ROW>> {
+    pub fn factored(rows: impl IntoIterator<Item = [T; ROW]>) -> Option<Banded<ROW, T>> {
+        let mut rows: Rows<T, ROW> = rows.into_iter().collect();
         for at in 0..rows.len() {
             let (known, rest) = rows.split_at_mut(at);
             let (row, reach) = (&mut rest[0], ROW.min(at + 1));
             for distance in (1..reach).rev() {
                 let other = &known[at - distance];
                 for far in distance + 1..reach {
-                    row[distance] -= row[far] * other[far - distance];
+                    row[distance] = row[distance] - row[far] * other[far - distance];
                 }
             }
             for distance in 1..reach {
                 let share = row[distance] / known[at - distance][0];
-                row[0] -= share * row[distance];
+                row[0] = row[0] - share * row[distance];
                 row[distance] = share;
             }
-            if row[0].is_nan() || row[0] <= 0.0 {
+            if !row[0].is_positive() {
                 return None;
             }
         }
@@ -36,7 +64,7 @@ impl<const ROW: usize> Banded<ROW> {
     }
 
     /// Solves A x = `right` for several right sides, in place.
-    pub fn solve<const M: usize>(&self, right: &mut [[f64; M]]) {
+    pub fn solve<const M: usize>(&self, right: &mut [[T; M]]) {
         let rows = &self.rows;
         for (at, row) in rows.iter().enumerate().skip(1) {
             let (known, rest) = right.split_at_mut(at);
@@ -48,7 +76,7 @@ impl<const ROW: usize> Banded<ROW> {
             let (rest, known) = right.split_at_mut(at + 1);
             let sums = &mut rest[at];
             for sum in sums.iter_mut() {
-                *sum /= row[0];
+                *sum = *sum / row[0];
             }
             for (distance, (known, row)) in (1..ROW).zip(known.iter().zip(&rows[at + 1..])) {
                 subtract(sums, row[distance], known);
@@ -57,9 +85,9 @@ impl<const ROW: usize> Banded<ROW> {
     }
 }
 
-fn subtract<const M: usize>(sums: &mut [f64; M], factor: f64, known: &[f64; M]) {
+fn subtract<T: Entry, const M: usize>(sums: &mut [T; M], factor: T, known: &[T; M]) {
     for (sum, known) in sums.iter_mut().zip(known) {
-        *sum -= factor * known;
+        *sum = *sum - factor * *known;
     }
 }
 
@@ -118,7 +146,35 @@ mod tests {
             vec![[1.0, 0.0, 0.0], [1.0, 0.6, 0.0], [1.0, -0.6, 0.6]],
             vec![[f64::NAN, 0.0, 0.0]],
         ] {
-            assert_eq!(Banded::factored(rows), None);
+            assert_eq!(Banded::factored(rows.clone()), None);
+            let beside = |entry: f64| Lanes([1.0 + entry, entry]);
+            let both: Vec<_> = rows.into_iter().map(|row| row.map(beside)).collect();
+            assert_eq!(Banded::factored(both), None);
+        }
+    }
+
+    #[test]
+    fn matrices_side_by_side_have_the_solutions_of_each_of_them() {
+        let mut one = matrix(7);
+        for row in &mut one {
+            row[0] += 1.0;
+        }
+        let other: Vec<[f64; 4]> = one
+            .iter()
+            .map(|row| [3.0 + row[0], 0.5, 0.2, 0.1])
+            .collect();
+        let beside = |(one, other): (&[f64; 4], &[f64; 4])| -> [Lanes<2>; 4] {
+            std::array::from_fn(|at| Lanes([one[at], other[at]]))
+        };
+        let both: Vec<_> = one.iter().zip(&other).map(beside).collect();
+        let mut right = [[Lanes([1.0, 2.0])]; 7];
+        Banded::factored(both).unwrap().solve(&mut right);
+        for (lane, rows) in [one, other].into_iter().enumerate() {
+            let mut alone = [[1.0 + lane as f64]; 7];
+            Banded::factored(rows).unwrap().solve(&mut alone);
+            for (found, expected) in right.iter().zip(alone) {
+                assert!((found[0].0[lane] - expected[0]).abs() < 1e-15);
+            }
         }
     }
 }

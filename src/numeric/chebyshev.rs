@@ -2,10 +2,20 @@
 //! precision and cheap to evaluate.
 
 mod terms;
+#[cfg(test)]
+mod tests;
 
+use std::array::from_fn;
+
+use super::lanes::Lanes;
 use super::polynomial::Polynomial;
 pub use terms::TERMS;
-use terms::{Terms, about, has_settled, integral, interpolate, place, powers, terms_of, values};
+use terms::{
+    Terms, about, has_settled, integral, interpolate, place, powers, terms_of, values, values_at,
+};
+
+/// As many places as a piece has terms.
+pub type Places = [f64; TERMS];
 
 /// Limit of the halvings. A function that is still not smooth has a branch point in the piece.
 const MOST_HALVINGS: u32 = 30;
@@ -51,19 +61,17 @@ impl<const N: usize> Series<N> {
         Ok(Series { pieces })
     }
 
-    /// Samples groups of functions on common pieces. `f` writes the values of all groups.
-    ///
-    /// # Errors
-    /// Those of `f`.
-    pub fn groups<E>(
+    /// Samples groups of functions on common pieces. `f` writes the values of all groups at several
+    /// places, place by place.
+    pub fn groups(
         from: f64,
         to: f64,
         rest: &[[f64; N]],
-        f: &impl Fn(f64, &mut [[f64; N]]) -> Result<(), E>,
-    ) -> Result<Vec<Series<N>>, E> {
+        f: &impl Fn(&Places, &mut [[[f64; N]; TERMS]]),
+    ) -> Vec<Series<N>> {
         let mut groups = vec![Series { pieces: Vec::new() }; rest.len()];
-        halve_groups((from, to), rest, MOST_HALVINGS, f, &mut groups)?;
-        Ok(groups)
+        halve_groups((from, to), rest, MOST_HALVINGS, f, &mut groups);
+        groups
     }
 
     /// The values of the first `M` functions at `x`. `x` may be beyond the interval by rounding.
@@ -72,6 +80,40 @@ impl<const N: usize> Series<N> {
         self.piece(x).map_or([f64::NAN; M], |piece| {
             values(&piece.powers, 0, piece.inner(x))
         })
+    }
+
+    /// The values of `M` functions, from `first` on, at several places.
+    #[must_use]
+    pub fn many<const M: usize>(&self, first: usize, places: &Places) -> [Lanes<TERMS>; M] {
+        let low = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        match (self.piece(low), self.piece(high)) {
+            (Some(one), Some(other)) if std::ptr::eq(one, other) => {
+                values_at(&one.powers, first, &places.map(|x| one.inner(x)))
+            }
+            _ => {
+                let mut all = [Lanes::all(0.0); M];
+                for (lane, x) in places.iter().enumerate() {
+                    for (function, values) in all.iter_mut().enumerate() {
+                        values.0[lane] = self.one(first + function, *x);
+                    }
+                }
+                all
+            }
+        }
+    }
+
+    /// No value of one function is below the first and none above the second, on the piece that
+    /// serves from `x` up by [`Series::serves_until`].
+    #[must_use]
+    pub fn bounds(&self, function: usize, (x, least): (f64, f64)) -> (f64, f64) {
+        self.piece_above(x, least)
+            .map_or((f64::NEG_INFINITY, f64::INFINITY), |piece| {
+                let middle = piece.powers[0][function];
+                let varying = piece.powers[1..].iter();
+                let varying: f64 = varying.map(|terms| terms[function].abs()).sum();
+                (middle - varying, middle + varying)
+            })
     }
 
     /// The value of one function at `x`.
@@ -230,22 +272,18 @@ fn halve<const N: usize, E>(
     halve(middle, to, rest, halvings - 1, f, pieces)
 }
 
-fn halve_groups<const N: usize, E>(
+fn halve_groups<const N: usize>(
     (from, to): (f64, f64),
     rest: &[[f64; N]],
     halvings: u32,
-    f: &impl Fn(f64, &mut [[f64; N]]) -> Result<(), E>,
+    f: &impl Fn(&Places, &mut [[[f64; N]; TERMS]]),
     groups: &mut [Series<N>],
-) -> Result<(), E> {
-    let mut values = vec![[[0.0; N]; TERMS]; groups.len()];
-    let mut found = vec![[0.0; N]; groups.len()];
-    for point in 0..TERMS {
-        f(place(from, to, point), &mut found)?;
-        for (values, found) in values.iter_mut().zip(&found) {
-            values[point] = *found;
-        }
+) {
+    let mut terms = vec![[[0.0; N]; TERMS]; groups.len()];
+    f(&from_fn(|point| place(from, to, point)), &mut terms);
+    for terms in &mut terms {
+        *terms = terms_of(terms);
     }
-    let terms: Vec<Terms<N>> = values.iter().map(terms_of).collect();
     let middle = f64::midpoint(from, to);
     let pieces = groups.first().map_or(0, |group| group.pieces.len());
     let has_settled = terms
@@ -260,134 +298,14 @@ fn halve_groups<const N: usize, E>(
                 powers: powers(terms),
             });
         }
-        return Ok(());
+        return;
     }
-    halve_groups((from, middle), rest, halvings - 1, f, groups)?;
-    halve_groups((middle, to), rest, halvings - 1, f, groups)
+    halve_groups((from, middle), rest, halvings - 1, f, groups);
+    halve_groups((middle, to), rest, halvings - 1, f, groups);
 }
 
 /// Whether the interval has its least width, or the halvings or the pieces reached their limit.
 fn may_not_halve((from, to): (f64, f64), halvings: u32, pieces: usize) -> bool {
     let is_narrow = to - from <= NARROWEST * from.abs().max(to.abs());
     halvings == 0 || is_narrow || pieces >= MOST_PIECES
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn series<const N: usize>(from: f64, to: f64, f: impl Fn(f64) -> [f64; N]) -> Series<N> {
-        Series::of(from, to, &|_, _| [1e-14; N], &|x| Ok::<_, ()>(f(x))).unwrap()
-    }
-
-    #[test]
-    fn smooth_functions_and_their_slopes_keep_their_digits() {
-        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp()]);
-        for step in 0..=900 {
-            let x = -2.0 + 0.01 * f64::from(step);
-            let [sine, growth] = found.at(x);
-            let slope = found.slope(0, x);
-            assert!(
-                (sine - x.sin()).abs() < 2e-14 && (growth / (0.3 * x).exp() - 1.0).abs() < 2e-14,
-                "{x}"
-            );
-            assert!((slope - x.cos()).abs() < 1e-11, "{x}: {slope}");
-            assert!((found.one(1, x) - growth).abs() == 0.0);
-        }
-        assert!((found.integral(0) - (2f64.cos() - 7f64.cos())).abs() < 1e-13);
-    }
-
-    #[test]
-    fn groups_on_common_pieces_equal_their_functions() {
-        let functions = |x: f64| [[x.sin(), (0.3 * x).exp()], [x.cos(), 1.0 / (3.0 + x)]];
-        let found = Series::<2>::groups(-2.0, 7.0, &[[1e-14; 2]; 2], &|x, values| {
-            values.copy_from_slice(&functions(x));
-            Ok::<_, ()>(())
-        })
-        .unwrap();
-        assert_eq!(found[0].pieces.len(), found[1].pieces.len());
-        for step in 0..=90 {
-            let x = -2.0 + 0.1 * f64::from(step);
-            for (group, expected) in found.iter().zip(functions(x)) {
-                let values: [f64; 2] = group.at(x);
-                for (value, expected) in values.iter().zip(expected) {
-                    assert!(
-                        (value - expected).abs() < 3e-14 * expected.abs().max(1.0),
-                        "{x}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn reversed_pieces_equal_the_mirrored_functions() {
-        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp()]);
-        let turned = found.reversed(5.0, [1.0, -1.0]);
-        assert!((turned.start() + 2.0).abs() < 1e-15);
-        for step in 0..=90 {
-            let x = -2.0 + 0.1 * f64::from(step);
-            let [sine, growth] = turned.at(5.0 - x);
-            let [expected_sine, expected_growth] = found.at(x);
-            assert!((sine - expected_sine).abs() < 1e-14, "{x}");
-            assert!(
-                (growth + expected_growth).abs() < 1e-14 * expected_growth,
-                "{x}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_branch_point_at_the_end_needs_more_pieces_but_keeps_the_digits() {
-        let found = series(0.0, 1.0, |x| [x.sqrt()]);
-        assert!(found.pieces.len() < 50, "{}", found.pieces.len());
-        for step in 0..=1000 {
-            let x = 1e-3 * f64::from(step);
-            let allowed = if step == 0 { 1e-5 } else { 1e-13 };
-            assert!((found.one(0, x) - x.sqrt()).abs() < allowed, "{x}");
-        }
-    }
-
-    #[test]
-    fn local_polynomials_equal_the_functions() {
-        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp(), x.abs()]);
-        let mut x = -2.0;
-        while x < 7.0 - 1e-9 {
-            let length = found.serves_until(x, 1e-12).min(7.0).min(x + 0.7) - x;
-            let [growth, distance] = found.local(1, (x, 1e-12), length);
-            for part in [0.0, 0.3, 1.0] {
-                let at = x + part * length;
-                assert!(
-                    (growth.at(part) / (0.3 * at).exp() - 1.0).abs() < 1e-13,
-                    "{at}"
-                );
-                assert!((distance.at(part) - at.abs()).abs() < 1e-6, "{at}");
-            }
-            x += length;
-        }
-    }
-
-    #[test]
-    fn a_place_beside_a_very_narrow_piece_has_the_value_of_its_end() {
-        let (from, to) = (1.0, 1.0 + 4.0 * f64::EPSILON);
-        assert_eq!(series(from, to, |x| [(1e20 * x).sin()]).pieces.len(), 1);
-        let found = series(from, to, |x| [x, (1e20 * x).sin()]);
-        for beside in [from - 100.0 * f64::EPSILON, to + 100.0 * f64::EPSILON] {
-            let [line, rough] = found.at(beside);
-            assert!(
-                (line - 1.0).abs() < 1e-13 && rough.abs() < 2.0,
-                "{line} {rough}"
-            );
-            let [rough] = found.local(1, (beside, 0.0), f64::EPSILON);
-            assert!(rough.at(0.0).abs() < 2.0, "{rough:?}");
-        }
-    }
-
-    #[test]
-    fn an_error_of_the_function_is_returned() {
-        let refused = Series::of(0.0, 1.0, &|_, _| [1e-14], &|x| {
-            if x > 0.5 { Err("beyond") } else { Ok([x]) }
-        });
-        assert_eq!(refused, Err("beyond"));
-    }
 }

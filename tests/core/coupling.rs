@@ -127,7 +127,7 @@ impl Check {
         let young = [self.inputs.driver.young, self.inputs.driven.young];
         let compliance = |row: usize, column: usize| {
             if row == column {
-                return 1.0 / standing[row].place.stiffness;
+                return 1.0 / standing[row].stiffness;
             }
             // Earlier teeth of a driver that turns anticlockwise are further anticlockwise. In the
             // view in which the force pushes clockwise, those of the driven gear are in the
@@ -142,7 +142,7 @@ impl Check {
         };
         Pairs {
             ahead: standing.iter().map(|pair| pair.ahead).collect(),
-            gaps: standing.iter().map(|pair| pair.place.gap).collect(),
+            gaps: standing.iter().map(|pair| pair.gap).collect(),
             compliance: DMatrix::from_fn(standing.len(), standing.len(), compliance),
         }
     }

@@ -338,7 +338,7 @@ fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief(
     assert!((deflection - PUBLISHED).abs() < 0.5e-6, "{deflection:e}");
     let pairs = solution.mesh.unwrap().pair_set(0.0, 0.0);
     let loaded = pairs.pairs().iter().find(|pair| pair.ahead == 1).unwrap();
-    let load = loaded.place.stiffness / stiffness(pitch);
+    let load = loaded.stiffness / stiffness(pitch);
     let demand = Demand {
         loads: (load, load),
         tolerance: 0.0,

@@ -17,6 +17,8 @@ use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
+use crate::numeric::chebyshev::TERMS;
+use crate::numeric::lanes::Lanes;
 
 /// Every model.
 pub const MODELS: [&ToothModel; 3] = [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL];
@@ -133,6 +135,24 @@ pub trait LoadedTooth: Debug + Send + Sync {
         Ok(0.0)
     }
 
+    /// See [`Tooth::abscissa`].
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    fn abscissa(&self, radius: f64) -> Result<f64, Refusal> {
+        Ok(radius)
+    }
+
+    /// See [`Tooth::neighbours`]; 0 for a model of single teeth.
+    fn neighbours(
+        &self,
+        _gear: &ElasticGear,
+        _places: [Lanes<TERMS>; 2],
+        _pitches: i32,
+    ) -> Lanes<TERMS> {
+        Lanes::all(0.0)
+    }
+
     /// See [`Tooth::last_radius`]. Infinite for a model without a corner.
     fn last_radius(&self, _half_width: f64) -> f64 {
         f64::INFINITY
@@ -228,6 +248,27 @@ impl Tooth {
     #[must_use]
     pub fn has_corner(&self) -> bool {
         matches!(self.serves, Serves::Built(_))
+    }
+
+    /// The place at a radius by which [`Tooth::neighbours`] names load and displacement.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn abscissa(&self, radius: f64) -> Result<f64, Refusal> {
+        match &self.serves {
+            Serves::AtRadius(_) | Serves::Line(_) => Ok(radius),
+            Serves::Built(built) => built.abscissa(radius),
+        }
+    }
+
+    /// The same as [`Tooth::neighbour`] at several pairs of [places](Tooth::abscissa) at once: those
+    /// of the loads and those of the displacements.
+    #[must_use]
+    pub fn neighbours(&self, places: [Lanes<TERMS>; 2], pitches: i32) -> Lanes<TERMS> {
+        match &self.serves {
+            Serves::AtRadius(_) | Serves::Line(_) => Lanes::all(0.0),
+            Serves::Built(built) => built.neighbours(&self.gear, places, pitches),
+        }
     }
 
     /// Radius in m of the load whose pressure over ± `half_width` ends at the corner of the tip. A

@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use super::lead::{Lead, TERMS};
+use super::lead::TERMS;
 use crate::model::mesh::Mesh;
 use crate::model::pair_forces::Touching;
 use crate::numeric::polynomial::Polynomial;
@@ -12,15 +12,13 @@ use crate::numeric::polynomial::Polynomial;
 /// Places within this distance, relative to the base pitch, are equal.
 pub(super) const ALIKE: f64 = 1e-9;
 
-/// Stiffness, load and leads over a stretch, as polynomials of the part of the stretch.
-#[derive(Debug, Clone)]
+/// Stiffness and load over a stretch, as polynomials of the part of the stretch.
+#[derive(Debug)]
 pub(super) struct Acting {
     /// Stiffness of the touching pairs, in N/m.
     pub(super) stiffness: Polynomial<TERMS>,
     /// The load and the forces from the gaps, in N.
     pub(super) load: Polynomial<TERMS>,
-    /// Leads of all pairs.
-    pub(super) leads: Vec<Lead>,
 }
 
 /// Cached stiffness and load between two borders of the mesh.

@@ -1,6 +1,5 @@
 //! Gains and losses of contact within a step.
 
-use super::lead::Lead;
 use super::step::{Course, Step};
 use crate::model::pair_forces::Touching;
 
@@ -19,15 +18,14 @@ pub(super) struct Event {
 pub(super) fn first(
     course: &Course<'_>,
     (step, range): (&Step, (f64, f64)),
-    leads: &[Lead],
     (turned, standing_off): (Touching, Option<usize>),
 ) -> Option<Event> {
-    let may_turn = leads
-        .iter()
-        .enumerate()
-        .filter(|&(pair, _)| Some(pair) != standing_off);
-    let events = may_turn.filter_map(|(pair, lead)| {
-        let touches = course.touches(pair);
+    let may_turn = (0..course.pairs()).filter(|&pair| Some(pair) != standing_off);
+    let events = may_turn.filter_map(|pair| {
+        if course.is_clear(pair, step, range) {
+            return None;
+        }
+        let (lead, touches) = (course.lead_along(pair, step), course.touches(pair));
         if lead.is_clear(touches, range) {
             return None;
         }

@@ -13,22 +13,15 @@ pub(super) const FORCE_TERMS: usize = TERMS + chebyshev::TERMS;
 /// A value of the mesh over a step.
 pub(super) type Along = Polynomial<{ chebyshev::TERMS }>;
 
-/// The product of two polynomials of the mesh.
-pub(super) type Product = Polynomial<{ 2 * chebyshev::TERMS }>;
-
 /// The force of a touching pair, or the overlap of another pair. A pair gains or loses contact
 /// where its sign changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "the few leads of a step are read at once"
-)]
 pub(super) enum Lead {
     /// x minus this gap, in m, for a pair that is an independent spring.
     Gap(Along),
     /// `slope · x − offset` of a coupled pair: its force in N if it touches, otherwise its overlap
     /// in m.
-    Shared { slope: Along, offset: Product },
+    Shared { slope: Along, offset: Along },
 }
 
 impl Lead {
@@ -61,17 +54,6 @@ impl Lead {
             Lead::Shared { slope, offset } => ahead
                 .times::<{ chebyshev::TERMS }, FORCE_TERMS>(slope)
                 .plus(-1.0, offset),
-        }
-    }
-
-    /// The lead over a part of the step.
-    pub(super) fn stretched(&self, part: f64) -> Lead {
-        match self {
-            Lead::Gap(gap) => Lead::Gap(gap.stretched(part)),
-            Lead::Shared { slope, offset } => Lead::Shared {
-                slope: slope.stretched(part),
-                offset: offset.stretched(part),
-            },
         }
     }
 

@@ -13,7 +13,7 @@ use super::pair::{Flank, PairName, Standing};
 use super::side::Side;
 use crate::model::Refusal;
 use crate::model::budget::{MOTION_SWINGS, PAIRS};
-use crate::model::mesh::{Mesh, Shares};
+use crate::model::mesh::{Meeting, Mesh, Shares};
 use crate::model::pair_forces::Touching;
 
 /// Displacement of the driver ahead in m, and its rate in m/s.
@@ -49,7 +49,7 @@ pub(super) struct Motion<'a> {
 struct Sharing {
     flank: Flank,
     zones: Vec<usize>,
-    known: RefCell<Vec<(Touching, Arc<Shares>)>>,
+    known: RefCell<Vec<(Meeting, Arc<Shares>)>>,
 }
 
 /// The values that are constant between two borders: the pairs that may touch, and their zones.
@@ -213,7 +213,11 @@ impl<'a> Motion<'a> {
             mesh: self.mesh,
             pairs: &window.pairs[..window.working],
             touching,
-            shares: self.shares(self.mesh, window.sharing[0].as_ref(), touching),
+            shares: self.shares(
+                self.mesh,
+                window.sharing[0].as_ref(),
+                (touching, window.incoming()),
+            ),
             offset: 0.0,
             backlash: 0.0,
             sign: 1.0,
@@ -232,7 +236,7 @@ impl<'a> Motion<'a> {
             mesh,
             pairs: &window.pairs[window.working..],
             touching,
-            shares: self.shares(mesh, window.sharing[1].as_ref(), touching),
+            shares: self.shares(mesh, window.sharing[1].as_ref(), (touching, None)),
             offset: self.mesh.back_place(),
             backlash: self.backlash,
             sign: -1.0,
@@ -265,18 +269,25 @@ impl<'a> Motion<'a> {
         &self,
         mesh: &Mesh,
         sharing: Option<&Rc<Sharing>>,
-        touching: Touching,
+        (touching, incoming): (Touching, Option<usize>),
     ) -> Option<Arc<Shares>> {
         let sharing = sharing.filter(|_| !touching.is_none())?;
+        let deviating = incoming.filter(|&pair| touching.has(pair) && mesh.error != 0.0);
         let mut known = sharing.known.borrow_mut();
-        if let Some((_, shares)) = known.iter().find(|(set, _)| *set == touching) {
+        let is_same = |known: &Meeting| (known.touching, known.deviating) == (touching, deviating);
+        if let Some((_, shares)) = known.iter().find(|(known, _)| is_same(known)) {
             return Some(Arc::clone(shares));
         }
-        let shares = mesh.shares(&sharing.zones, touching);
+        let meeting = Meeting {
+            zones: sharing.zones.clone(),
+            touching,
+            deviating,
+        };
+        let shares = mesh.shares(&meeting);
         self.looks
             .set(self.looks.get() + shares.evaluations() as u64);
         self.keep(shares.bytes());
-        known.push((touching, Arc::clone(&shares)));
+        known.push((meeting, Arc::clone(&shares)));
         Some(shares)
     }
 

@@ -6,9 +6,9 @@ mod tests;
 
 use std::sync::Arc;
 
-use super::lead::{Along, FORCE_TERMS, Lead, Product, TERMS};
+use super::lead::{Along, FORCE_TERMS, Lead, TERMS};
 use super::pair::Standing;
-use crate::model::mesh::{Mesh, Shares};
+use crate::model::mesh::{Mesh, Of, Shares};
 use crate::model::pair_forces::Touching;
 use crate::numeric::chebyshev;
 use crate::numeric::polynomial::Polynomial;
@@ -34,15 +34,22 @@ impl Side<'_> {
     /// The place of the incoming pair up to which every function is one polynomial, from `s` on.
     pub(super) fn serves_until(&self, s: f64) -> f64 {
         let own = s + self.offset;
-        let pairs = self
-            .pairs
-            .iter()
-            .map(|pair| self.mesh.serves_until(pair.ahead, pair.zone, own));
-        let shares = self.shares.as_ref().map(|shares| {
-            let (at, least) = self.mesh.above(self.rearmost(), own);
-            own + (shares.serves_until((at, least)) - at)
-        });
-        let end = pairs.chain(shares).fold(f64::INFINITY, f64::min) - self.offset;
+        let zones_end = |pair: &Standing| self.mesh.serves_until(pair.ahead, pair.zone, own);
+        let end = match &self.shares {
+            Some(shares) => {
+                let (at, least) = self.mesh.above(self.rearmost(), own);
+                own + (shares.serves_until((at, least)) - at)
+            }
+            None => self
+                .pairs
+                .iter()
+                .map(zones_end)
+                .fold(f64::INFINITY, f64::min),
+        };
+        // The arms and the sliding of the touching pairs come from the zones.
+        let rubbing = self.touching.pairs().filter(|_| self.mesh.friction() > 0.0);
+        let rubbing = rubbing.map(|pair| zones_end(&self.pairs[pair]));
+        let end = rubbing.fold(end, f64::min) - self.offset;
         if self.offset > 0.0 {
             // Rounding of the two places can make the length of a short piece 0.
             end.max(s + 64.0 * f64::EPSILON * (s.abs() + self.offset))
@@ -56,40 +63,41 @@ impl Side<'_> {
         &self,
         (s, way): (f64, f64),
         (stiffness, load): (&mut Polynomial<TERMS>, &mut Polynomial<TERMS>),
-        leads: &mut Vec<Lead>,
     ) {
-        let Some(shares) = &self.shares else {
-            return self.add_springs((s, way), (stiffness, load), leads);
-        };
-        let own = s + self.offset;
-        let along = shares.along(self.mesh.above(self.rearmost(), own), way);
-        let gaps = self.gaps_along(s, way);
-        for (index, pair) in self.pairs.iter().enumerate() {
-            let (slope, offset) = self.share(index, shares.row_along(index, &along), &gaps);
-            if self.touching.has(index) {
-                let carrying = self.turning(pair, &slope, s, way);
-                *stiffness = stiffness.plus(self.sign, &carrying);
-                *load = load.plus(self.sign, &self.turning(pair, &offset, s, way));
-            }
-            leads.push(Lead::Shared { slope, offset });
+        if let Some(shares) = &self.shares {
+            let (slope, offset) = self.line(shares, Of::Sum, (s, way));
+            *stiffness = stiffness.plus(1.0, &slope);
+            *load = load.plus(self.sign, &offset);
+            return;
+        }
+        for pair in self.touching.pairs().map(|pair| &self.pairs[pair]) {
+            let [spring, gap] = self.spring_along(pair, s, way);
+            let carrying = self.turning(pair, &spring, s, way);
+            *stiffness = stiffness.plus(1.0, &carrying);
+            let pushed = carrying.times::<{ chebyshev::TERMS }, TERMS>(&gap);
+            *load = load.plus(self.sign, &pushed);
         }
     }
 
-    fn add_springs(
-        &self,
-        (s, way): (f64, f64),
-        (stiffness, load): (&mut Polynomial<TERMS>, &mut Polynomial<TERMS>),
-        leads: &mut Vec<Lead>,
-    ) {
-        for (index, pair) in self.pairs.iter().enumerate() {
-            let [spring, gap] = self.spring_along(pair, s, way);
-            leads.push(self.lead_of_gap(gap));
-            if self.touching.has(index) {
-                let carrying = self.turning(pair, &spring, s, way);
-                *stiffness = stiffness.plus(1.0, &carrying);
-                let pushed = carrying.times::<{ chebyshev::TERMS }, TERMS>(&gap);
-                *load = load.plus(self.sign, &pushed);
+    /// Slope and offset over the displacement of this side, the deviation and the backlash counted.
+    fn line(&self, shares: &Shares, of: Of, (s, way): (f64, f64)) -> (Along, Along) {
+        let place = self.mesh.above(self.rearmost(), s + self.offset);
+        let line = shares.along(of, place, way);
+        let mut offset = line.offset.plus(self.backlash, &line.slope);
+        if let Some(deviated) = line.deviated {
+            offset = offset.plus(-self.mesh.error, &deviated);
+        }
+        offset.0[0] -= self.error_apart(of);
+        (line.slope, offset)
+    }
+
+    /// The error by which a pair that does not touch overlaps more, in m.
+    fn error_apart(&self, of: Of) -> f64 {
+        match of {
+            Of::Pair(pair) if !self.touching.has(pair) => {
+                self.mesh.error_of(self.pairs[pair].ahead)
             }
+            _ => 0.0,
         }
     }
 
@@ -100,10 +108,7 @@ impl Side<'_> {
         }
         let mut slope = Along::ZERO;
         slope.0[0] = self.sign;
-        Lead::Shared {
-            slope,
-            offset: Product::ZERO.plus(1.0, &gap),
-        }
+        Lead::Shared { slope, offset: gap }
     }
 
     /// Stiffness in N/m, and displacement of the driver at which the pair touches, in m.
@@ -120,30 +125,6 @@ impl Side<'_> {
         let mut gap = self.mesh.gap_along(pair.ahead, pair.zone, own, way);
         gap.0[0] += self.backlash;
         gap
-    }
-
-    fn gaps_along(&self, s: f64, way: f64) -> Vec<Along> {
-        let pairs = self.pairs.iter();
-        pairs.map(|pair| self.gap_along(pair, s, way)).collect()
-    }
-
-    /// Slope and offset over the displacement, by a row of the shares: for the force of a touching
-    /// pair, or for the overlap of another pair.
-    fn share(&self, pair: usize, row: Option<&[Along]>, gaps: &[Along]) -> (Along, Product) {
-        let (mut slope, mut offset) = (Along::ZERO, Product::ZERO);
-        let touching = self.shares.iter().flat_map(|shares| &shares.touching);
-        for (share, &other) in row.into_iter().flatten().zip(touching) {
-            let pushed: Product = share.times(&gaps[other]);
-            (slope, offset) = (slope.plus(1.0, share), offset.plus(1.0, &pushed));
-        }
-        if !self.touching.has(pair) {
-            (slope, offset) = (
-                slope.scaled(-1.0),
-                offset.scaled(-1.0).plus(1.0, &gaps[pair]),
-            );
-            slope.0[0] += 1.0;
-        }
-        (slope.scaled(self.sign), offset)
     }
 
     /// The part of a pair's force or stiffness that turns the driver.
@@ -167,16 +148,54 @@ impl Side<'_> {
         )
     }
 
+    /// Whether a pair goes on to touch, or to be apart, wherever the displacement ahead is in a
+    /// range, all the way on which what is known from `s` on is one polynomial.
+    pub(super) fn is_clear(&self, pair: usize, s: f64, (least, most): (f64, f64)) -> bool {
+        let displaced = [self.sign * least, self.sign * most];
+        let displaced = [
+            displaced[0].min(displaced[1]),
+            displaced[0].max(displaced[1]),
+        ];
+        let displaced = displaced.map(|displaced| displaced - self.backlash);
+        let own = s + self.offset;
+        let (low, high) = match &self.shares {
+            None => {
+                let Standing { ahead, zone, .. } = self.pairs[pair];
+                let (low, high) = self.mesh.gap_bounds(ahead, zone, own);
+                (displaced[0] - high, displaced[1] - low)
+            }
+            Some(shares) => {
+                let of = Of::Pair(pair);
+                let line = shares.bounds(of, self.mesh.above(self.rearmost(), own));
+                let (low, high) = product(line.slope, displaced);
+                let error = [self.mesh.error; 2];
+                let deviated = line
+                    .deviated
+                    .map_or((0.0, 0.0), |line| product(line, error));
+                let apart = self.error_apart(of);
+                (
+                    low - line.offset.1 + deviated.0 + apart,
+                    high - line.offset.0 + deviated.1 + apart,
+                )
+            }
+        };
+        if self.touching.has(pair) {
+            low > 0.0
+        } else {
+            high < 0.0
+        }
+    }
+
     /// The lead of a pair over a step.
     pub(super) fn lead_along(&self, pair: usize, s: f64, way: f64) -> Lead {
         let Some(shares) = &self.shares else {
             return self.lead_of_gap(self.gap_along(&self.pairs[pair], s, way));
         };
-        let own = s + self.offset;
-        let along = shares.along(self.mesh.above(self.rearmost(), own), way);
-        let gaps = self.gaps_along(s, way);
-        let (slope, offset) = self.share(pair, shares.row_along(pair, &along), &gaps);
-        Lead::Shared { slope, offset }
+        let (slope, offset) = self.line(shares, Of::Pair(pair), (s, way));
+        Lead::Shared {
+            slope: slope.scaled(self.sign),
+            offset,
+        }
     }
 
     /// Force of a touching pair over a step, in N.
@@ -217,23 +236,16 @@ impl Side<'_> {
         self.spring(pair, s).1
     }
 
-    /// Difference of the displacement and the gap of a pair, in m.
-    pub(super) fn overlap(&self, pair: usize, s: f64, ahead: f64) -> f64 {
-        self.sign * ahead - self.gap(pair, s)
-    }
-
     /// Force of a touching pair for a displacement of the driver, in N.
     pub(super) fn force(&self, pair: usize, s: f64, ahead: f64) -> f64 {
         let Some(shares) = &self.shares else {
             let (stiffness, gap) = self.spring(pair, s);
             return stiffness * (self.sign * ahead - gap);
         };
-        let at = s + self.offset + f64::from(self.rearmost()) * self.mesh.base_pitch;
-        let row = shares.row_at(pair, at).unwrap_or_default();
-        let terms = row.iter().zip(&shares.touching);
-        terms
-            .map(|(share, &other)| share * self.overlap(other, s, ahead))
-            .sum()
+        let (place, _) = self.mesh.above(self.rearmost(), s + self.offset);
+        let line = shares.at(Of::Pair(pair), place);
+        let deviated = line.deviated.unwrap_or(0.0) * self.mesh.error;
+        line.slope * (self.sign * ahead - self.backlash) - line.offset + deviated
     }
 
     /// Sum of the forces of all touching pairs, in N.
@@ -252,4 +264,13 @@ impl Side<'_> {
     pub(super) fn rearmost(&self) -> i32 {
         self.pairs.first().map_or(0, |pair| pair.ahead)
     }
+}
+
+/// Between what values a product is, of a factor between two values and one between two others.
+fn product((low, high): (f64, f64), others: [f64; 2]) -> (f64, f64) {
+    let products = others.map(|other| [low * other, high * other]);
+    let all = products.as_flattened().iter();
+    all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
+        (low.min(value), high.max(value))
+    })
 }

@@ -23,10 +23,9 @@ pub(super) struct Course<'a> {
     back: Option<Side<'a>>,
 }
 
-/// A step with its stiffness and load.
+/// A computed step.
 pub(super) struct Taken {
     pub(super) step: Step,
-    pub(super) acting: Rc<Acting>,
     /// Whether the step ends where a pair passes to another polynomial. A step of the next base
     /// pitch ends at the same place.
     pub(super) ends_even: bool,
@@ -120,7 +119,6 @@ impl<'a> Course<'a> {
         if part >= 1.0 {
             return Ok(Taken {
                 step,
-                acting,
                 ends_even: length >= whole,
             });
         }
@@ -133,17 +131,8 @@ impl<'a> Course<'a> {
         if part * length <= 0.0 || !part.is_finite() {
             return Err(Refusal::Unsettled);
         }
-        let cut = Acting {
-            leads: acting
-                .leads
-                .iter()
-                .map(|lead| lead.stretched(part))
-                .collect(),
-            ..*acting
-        };
         Ok(Taken {
             step: step.cut(part),
-            acting: Rc::new(cut),
             ends_even: false,
         })
     }
@@ -164,10 +153,8 @@ impl<'a> Course<'a> {
             way: mesh.speed * length,
         };
         self.window.crossing.acting(stretch, mesh, || {
-            let acting = self.acting(t, length);
-            self.motion
-                .keep(size_of::<Acting>() + size_of_val(&*acting.leads));
-            acting
+            self.motion.keep(size_of::<Acting>());
+            self.acting(t, length)
         })
     }
 
@@ -176,13 +163,11 @@ impl<'a> Course<'a> {
         let mut acting = Acting {
             stiffness: Polynomial::ZERO,
             load: Polynomial::ZERO,
-            leads: Vec::with_capacity(self.pairs()),
         };
         acting.load.0[0] = self.motion.mesh.force;
         let way = (self.motion.place(t), self.motion.mesh.speed * length);
         for side in self.sides() {
-            let sums = (&mut acting.stiffness, &mut acting.load);
-            side.add(way, sums, &mut acting.leads);
+            side.add(way, (&mut acting.stiffness, &mut acting.load));
         }
         acting
     }
@@ -225,6 +210,12 @@ impl<'a> Course<'a> {
     pub(super) fn way_of(&self, step: &Step) -> (f64, f64) {
         let speed = self.motion.mesh.speed;
         (self.motion.place(step.t), speed * step.length)
+    }
+
+    /// Whether a pair does not turn in a step wherever in its range the displacement is.
+    pub(super) fn is_clear(&self, pair: usize, step: &Step, range: (f64, f64)) -> bool {
+        let (side, index) = self.side_of(pair);
+        side.is_clear(index, self.motion.place(step.t), range)
     }
 
     /// The lead of a pair over a step.

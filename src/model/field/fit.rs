@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::numeric::lanes::Lanes;
+
 /// Terms of a series in one radius.
 pub(super) const TERMS: usize = 14;
 /// Terms in each radius of a series in two radii.
@@ -189,17 +191,21 @@ impl Series {
 pub(super) struct CrossSeries([[f64; CROSS_TERMS]; CROSS_TERMS]);
 
 impl CrossSeries {
-    /// The value for a load at `loaded`, measured at `measured`.
-    pub(super) fn at(&self, loaded: f64, measured: f64) -> f64 {
-        let mut orders = [0.0; CROSS_TERMS];
-        let (mut last, mut term) = (loaded, 1.0);
+    /// The values for loads at `loaded`, measured at `measured`.
+    pub(super) fn at<const L: usize>(&self, loaded: Lanes<L>, measured: Lanes<L>) -> Lanes<L> {
+        let mut orders = [Lanes::all(0.0); CROSS_TERMS];
+        let (mut last, mut term) = (loaded, Lanes::all(1.0));
         for row in &self.0 {
             for (order, coefficient) in orders.iter_mut().zip(row) {
-                *order += term * coefficient;
+                *order = *order + term * *coefficient;
             }
-            (last, term) = (term, 2.0 * loaded * term - last);
+            (last, term) = (term, loaded * 2.0 * term - last);
         }
-        clenshaw(&orders, measured)
+        let (mut next, mut after) = (Lanes::all(0.0), Lanes::all(0.0));
+        for order in orders[1..].iter().rev() {
+            (next, after) = (*order + measured * 2.0 * next - after, next);
+        }
+        orders[0] + measured * next - after
     }
 }
 

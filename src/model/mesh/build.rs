@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Mesh;
 use super::back::back_place;
-use super::couplings::{Couplings, Way};
+use super::couplings::{Couplings, Neighbours, Way};
 use super::inputs::MeshInputs;
 use super::zones::{End, LEVER, STIFFNESS, Zone, line_zones};
 use crate::model::Refusal;
@@ -13,10 +13,34 @@ use crate::model::compliance::flanks::Flanks;
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::geometry::Geometry;
 use crate::model::relief::Relief;
+use crate::numeric::chebyshev::TERMS;
+use crate::numeric::lanes::Lanes;
 use crate::numeric::quadrature;
-/// Displacement of a pair by a unit force on another, in m²/N, from the places of the rear pair and
-/// of the front pair and the pitches between them.
-type Neighbour<'a> = &'a dyn Fn(&ContactPlace, &ContactPlace, i32) -> Result<f64, Refusal>;
+
+/// The teeth of a pair under the mesh force, in N.
+struct UnderLoad {
+    teeth: Teeth,
+    force: f64,
+}
+
+impl Neighbours for UnderLoad {
+    fn is_coupled(&self) -> bool {
+        self.teeth.is_coupled()
+    }
+
+    fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal> {
+        self.teeth.abscissas(&self.teeth.under(place, self.force))
+    }
+
+    fn displacements(
+        &self,
+        rear: [Lanes<TERMS>; 2],
+        front: [Lanes<TERMS>; 2],
+        pitches: i32,
+    ) -> Lanes<TERMS> {
+        self.teeth.couplings(rear, front, pitches)
+    }
+}
 
 impl Mesh {
     /// The mesh in the range where the gaps before E and after B are at most `reach`, in m.
@@ -61,12 +85,11 @@ impl Mesh {
         load: (f64, f64),
         reach: f64,
     ) -> Result<Mesh, Refusal> {
-        let teeth = Teeth::of(&inputs.elasticity, geometry)?;
-        let neighbour = |rear: &ContactPlace, front: &ContactPlace, pitches: i32| {
-            let [rear, front] = [rear, front].map(|place| teeth.under(place, load.0));
-            teeth.coupling(&rear, &front, pitches)
+        let neighbours = UnderLoad {
+            teeth: Teeth::of(&inputs.elasticity, geometry)?,
+            force: load.0,
         };
-        Mesh::with_neighbours(inputs, geometry, flanks, load, reach, &neighbour)
+        Mesh::with_neighbours(inputs, geometry, flanks, load, reach, &neighbours)
     }
 
     /// Like [`Mesh::new`], with the couplings from `neighbour`.
@@ -79,7 +102,7 @@ impl Mesh {
         flanks: &Arc<Flanks>,
         (force, error): (f64, f64),
         reach: f64,
-        neighbour: Neighbour<'_>,
+        neighbours: &dyn Neighbours,
     ) -> Result<Mesh, Refusal> {
         let relief = Relief::of(&inputs.reliefs, geometry);
         let pace = inputs.speed;
@@ -123,15 +146,11 @@ impl Mesh {
             s => ContactPlace::on_line_of_action(geometry, geometry.start + s),
         };
         let width = inputs.elasticity.width;
-        let coupling = |s: f64, pitches: i32| {
-            let front = place(s + f64::from(pitches) * geometry.base_pitch);
-            neighbour(&place(s), &front, pitches).map(|found| found / width)
-        };
         let own = zones
             .first()
             .map_or(0.0, |zone| zone.series.one(STIFFNESS, zone.to))
             .recip();
-        let couplings = Couplings::of(&way, own, &coupling)?;
+        let couplings = Couplings::of(&way, (own, width), neighbours, &place)?;
         let coupling_work = couplings.as_ref().map_or(0, Couplings::evaluations) as u64;
         let mesh = Mesh {
             base_pitch: geometry.base_pitch,
@@ -199,16 +218,17 @@ impl Mesh {
 
     /// ∫ of the stiffness of all pairs on the line of action over a base pitch, in N.
     fn stiffness_on_line(&self) -> f64 {
+        let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= self.length;
+        let zones = self.zones.iter().filter(on_line);
         if self.couplings.is_none() {
-            let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= self.length;
-            let zones = self.zones.iter().filter(on_line);
             return zones.map(|zone| zone.series.integral(STIFFNESS)).sum();
         }
+        let line = Mesh {
+            zones: Arc::new(zones.cloned().collect()),
+            ..self.clone()
+        };
         let stiffness = |s: f64, inside: f64| {
-            let pairs = self.pair_set(s, inside).of_no_gap(|ahead| {
-                let place = inside + f64::from(ahead) * self.base_pitch;
-                (0.0..=self.length).contains(&place)
-            });
+            let pairs = line.pair_set(s, inside).of_no_gap();
             pairs.forces(1.0).iter().sum::<f64>()
         };
         let borders = self.borders(0.0, self.base_pitch);

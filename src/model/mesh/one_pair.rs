@@ -45,6 +45,13 @@ impl Mesh {
         gap
     }
 
+    /// Between what values its gap is on the piece that serves from `s` up.
+    pub(in crate::model) fn gap_bounds(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let (low, high) = self.zones[zone].series.bounds(GAP, self.above(ahead, s));
+        let error = self.error_of(ahead);
+        (low - error, high - error)
+    }
+
     /// Arm of the friction force over the driver's base radius, and sliding velocity, as
     /// polynomials, see [`Mesh::spring_along`].
     pub(in crate::model) fn slide_along(

@@ -1,20 +1,39 @@
 //! Load sharing of coupled pairs between two borders of the mesh, as polynomials.
 
-use std::array::from_fn;
+#[cfg(test)]
+mod tests;
+
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::model::pair_forces::{Compliances, PITCHES, Touching};
-use crate::numeric::chebyshev::{Series, TERMS};
+use super::Mesh;
+use super::zones::{GAP, LEVER, SLIDING, STIFFNESS};
+use crate::model::pair_forces::{PITCHES, Touching};
+use crate::numeric::banded::Banded;
+use crate::numeric::chebyshev::{Places, Series, TERMS};
 use crate::numeric::polynomial::Polynomial;
 
 /// Number of functions evaluated together.
-const LANES: usize = 4;
+const SIDE_BY_SIDE: usize = 2;
 
-/// Cached shares of a mesh. All motions on the mesh use them, because they do not depend on speed
-/// and deviation.
+/// A value at each of several places.
+type Lanes = crate::numeric::lanes::Lanes<TERMS>;
+
+/// Pairs in zones, and those of them that touch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Meeting {
+    /// The zone of each pair, the rearmost first.
+    pub zones: Vec<usize>,
+    /// The touching pairs.
+    pub touching: Touching,
+    /// The touching pair with a deviation.
+    pub deviating: Option<usize>,
+}
+
+/// Cached shares of a mesh. All motions on the mesh use them, because they depend on neither the
+/// speed nor the size of the deviation.
 #[derive(Debug, Default)]
 pub(super) struct Sharing {
-    known: Mutex<Vec<Known>>,
+    known: Mutex<Vec<(Meeting, Arc<Shares>)>>,
 }
 
 /// This is a cache, which does not affect the equality of meshes.
@@ -24,108 +43,82 @@ impl PartialEq for Sharing {
     }
 }
 
-#[derive(Debug)]
-struct Known {
-    zones: Vec<usize>,
-    touching: Touching,
-    shares: Arc<Shares>,
-}
-
 impl Sharing {
-    /// The shares of the pairs in these zones for a set of touching pairs. Calls `new` if they are
-    /// not cached.
-    pub(super) fn of(
-        &self,
-        zones: &[usize],
-        touching: Touching,
-        new: impl FnOnce() -> Shares,
-    ) -> Arc<Shares> {
+    /// The shares of a meeting. Calls `new` if they are not cached.
+    pub(super) fn of(&self, meeting: &Meeting, new: impl FnOnce() -> Shares) -> Arc<Shares> {
         let mut all = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = all
-            .iter()
-            .find(|known| known.touching == touching && known.zones == zones);
-        if let Some(known) = known {
-            return Arc::clone(&known.shares);
+        if let Some((_, shares)) = all.iter().find(|(known, _)| known == meeting) {
+            return Arc::clone(shares);
         }
         let shares = Arc::new(new());
-        all.push(Known {
-            zones: zones.to_vec(),
-            touching,
-            shares: Arc::clone(&shares),
-        });
+        all.push((meeting.clone(), Arc::clone(&shares)));
         shares
     }
+}
+
+/// Force or overlap over the displacement x, for a set of touching pairs.
+///
+/// # Formula
+/// ```text
+/// slope x − offset + deviated e
+/// ```
+/// where e is the error of the pair that deviates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line<T> {
+    /// Change with the displacement.
+    pub slope: T,
+    /// The part of the gaps.
+    pub offset: T,
+    /// Change with the error of the deviating pair; `None` if no touching pair deviates.
+    pub deviated: Option<T>,
 }
 
 /// The shares of pairs in a displacement for a set of touching pairs.
 ///
 /// # Formula
 /// ```text
-/// F_k = Σ_j M_kj (x − g_j)  of a touching pair,   x − g_k − Σ_j M_kj (x − g_j)  of a pair apart
+/// F_k = Σ_j M_kj (x − g_j)  of a touching pair,   x − g_k − Σ_j Q_kj F_j/b  of a pair apart
 /// ```
-/// j are the touching pairs and g their gaps. M = Q⁻¹ b for a touching pair, and M = Q Q⁻¹ for
-/// another pair.
+/// where j are the touching pairs, g their gaps, and M = Q⁻¹ b; the sum of forces counts each with
+/// the part that turns the driver.
 #[derive(Debug)]
 pub struct Shares {
-    /// The touching pairs.
-    pub touching: Vec<usize>,
-    /// Index of the first function of each pair's row. `None` for a pair that no touching pair
-    /// displaces.
-    rows: Vec<Option<usize>>,
-    functions: Vec<Series<LANES>>,
+    pairs: usize,
+    deviates: bool,
+    /// Slope and offset of the sum, then of each pair; after them the change with the error of the
+    /// deviating pair, in the same order, two at a time.
+    functions: Vec<Series<SIDE_BY_SIDE>>,
 }
 
-/// Passes the compliances of all pairs at a place of the rearmost pair.
-type AtPlace<'a> = &'a dyn Fn(f64, &mut dyn FnMut(&Compliances<'_>));
+/// The index of a line among the lines: that of the sum, or of a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Of {
+    /// The sum of forces that turn the driver, in N.
+    Sum,
+    /// The force of a touching pair, in N, or the overlap of a pair apart, in m.
+    Pair(usize),
+}
+
+impl Of {
+    fn index(self) -> usize {
+        match self {
+            Of::Sum => 0,
+            Of::Pair(pair) => 1 + pair,
+        }
+    }
+}
 
 impl Shares {
-    /// The shares of `pairs` pairs while the rearmost pair moves between the `ends`.
-    pub(super) fn of(
-        pairs: usize,
-        (from, to): (f64, f64),
-        touching: Touching,
-        compliances: AtPlace<'_>,
-    ) -> Shares {
-        /// Relative to the size of a function.
-        const REST: f64 = 1e-13;
-        let touching: Vec<usize> = touching.pairs().collect();
-        let (rows, count) = rows(pairs, &touching);
-        let groups = count.div_ceil(LANES);
-        let fill = |at: f64, values: &mut [[f64; LANES]]| {
-            compliances(at, &mut |found| {
-                fill(found, &touching, &rows, values.as_flattened_mut());
-            });
-        };
-        let mut sizes = vec![[0.0; LANES]; groups];
-        fill(f64::midpoint(from, to), &mut sizes);
-        let largest = sizes
-            .as_flattened()
-            .iter()
-            .fold(0.0f64, |most, value| most.max(value.abs()));
-        let stiffness = touching.len() * touching.len();
-        for (at, size) in sizes.as_flattened_mut().iter_mut().enumerate() {
-            // Forces come first. The displacement of another pair is a part of the displacement of
-            // the touching pairs.
-            *size = REST * if at < stiffness { largest } else { 1.0 };
-        }
-        let functions = Series::groups(from, to, &sizes, &|at, values| {
-            fill(at, values);
-            Ok::<_, std::convert::Infallible>(())
-        });
-        Shares {
-            touching,
-            rows,
-            functions: match functions {
-                Ok(functions) => functions,
-                Err(never) => match never {},
-            },
-        }
+    /// End of the piece that begins at or includes a place of the rearmost pair.
+    #[must_use]
+    pub fn serves_until(&self, (at, least): (f64, f64)) -> f64 {
+        self.functions[0].serves_until(at, least)
     }
 
     /// Number of evaluations of the compliances.
     #[must_use]
     pub fn evaluations(&self) -> usize {
-        self.functions.first().map_or(0, Series::evaluations)
+        self.functions[0].evaluations()
     }
 
     /// Memory of the functions, in bytes.
@@ -136,90 +129,263 @@ impl Shares {
 
     /// End of the functions that are valid from a place of the rearmost pair on.
     #[must_use]
-    pub fn serves_until(&self, (at, least): (f64, f64)) -> f64 {
-        self.functions
-            .first()
-            .map_or(f64::INFINITY, |functions| functions.serves_until(at, least))
+    pub fn along(&self, of: Of, place: (f64, f64), length: f64) -> Line<Polynomial<TERMS>> {
+        let [slope, offset] = self.functions[of.index()].local(0, place, length);
+        Line {
+            slope,
+            offset,
+            deviated: self.column(of).map(|(functions, function)| {
+                let [deviated] = functions.local(function, place, length);
+                deviated
+            }),
+        }
     }
 
     /// All functions from a place of the rearmost pair over `length`.
     #[must_use]
-    pub fn along(&self, place: (f64, f64), length: f64) -> Vec<[Polynomial<TERMS>; LANES]> {
-        let functions = self.functions.iter();
-        functions
-            .map(|functions| functions.local(0, place, length))
-            .collect()
+    pub fn at(&self, of: Of, at: f64) -> Line<f64> {
+        let [slope, offset] = self.functions[of.index()].at(at);
+        Line {
+            slope,
+            offset,
+            deviated: self
+                .column(of)
+                .map(|(functions, function)| functions.one(function, at)),
+        }
     }
 
     /// The row of a pair among all functions, with one function for each touching pair.
     #[must_use]
-    pub fn row_along<'a>(
-        &self,
-        pair: usize,
-        along: &'a [[Polynomial<TERMS>; LANES]],
-    ) -> Option<&'a [Polynomial<TERMS>]> {
-        let row = self.rows[pair]?;
-        Some(&along.as_flattened()[row..row + self.touching.len()])
+    pub fn bounds(&self, of: Of, place: (f64, f64)) -> Line<(f64, f64)> {
+        let functions = &self.functions[of.index()];
+        Line {
+            slope: functions.bounds(0, place),
+            offset: functions.bounds(1, place),
+            deviated: self
+                .column(of)
+                .map(|(functions, function)| functions.bounds(function, place)),
+        }
     }
 
-    /// The row of a pair at one place of the rearmost pair.
-    #[must_use]
-    pub fn row_at(&self, pair: usize, at: f64) -> Option<Vec<f64>> {
-        let row = self.rows[pair]?;
-        let function = |index: usize| self.functions[index / LANES].one(index % LANES, at);
-        Some((row..row + self.touching.len()).map(function).collect())
+    fn column(&self, of: Of) -> Option<(&Series<SIDE_BY_SIDE>, usize)> {
+        let index = of.index();
+        self.deviates
+            .then(|| (&self.functions[1 + self.pairs + index / 2], index % 2))
     }
 }
 
-/// First function of each pair's row, touching pairs first, and the number of functions.
-fn rows(pairs: usize, touching: &[usize]) -> (Vec<Option<usize>>, usize) {
-    let mut rows = vec![None; pairs];
-    let is_near = |pair: usize| {
-        touching
-            .iter()
-            .any(|&other| other.abs_diff(pair) <= PITCHES)
-    };
-    let apart = (0..pairs).filter(|pair| !touching.contains(pair) && is_near(*pair));
-    let mut count = 0;
-    for pair in touching.iter().copied().chain(apart) {
-        rows[pair] = Some(count);
-        count += touching.len();
+impl Mesh {
+    /// The lines of the pairs of a meeting.
+    pub(in crate::model) fn shares(&self, meeting: &Meeting) -> Arc<Shares> {
+        self.sharing
+            .of(meeting, || Meet::of(self, meeting).shares())
     }
-    (rows, count)
+
+    /// First and last place of the rearmost pair with exactly these pairs in these zones, in m.
+    fn way_of(&self, zones: &[usize]) -> (f64, f64) {
+        let (from, to) = self.ends();
+        let none = (
+            to - zones.len() as f64 * self.base_pitch,
+            from + self.base_pitch,
+        );
+        let pairs = (0..).zip(zones);
+        pairs.fold(none, |(from, to), (pair, &zone)| {
+            let (zone, ahead) = (&self.zones[zone], f64::from(pair) * self.base_pitch);
+            (from.max(zone.from - ahead), to.min(zone.to - ahead))
+        })
+    }
 }
 
-/// The rows of all pairs at a place. NaN if the compliances are not positive definite.
-fn fill(
-    compliances: &Compliances<'_>,
-    touching: &[usize],
-    rows: &[Option<usize>],
-    values: &mut [f64],
+/// Pairs that meet, on their way.
+struct Meet<'a> {
+    mesh: &'a Mesh,
+    meeting: &'a Meeting,
+    touching: Vec<usize>,
+    /// From where to where the rearmost pair goes, in m.
+    ends: (f64, f64),
+}
+
+/// The lines of several pairs at several places, as (slope, offset, change with the error).
+type Lines = Vec<[Lanes; 3]>;
+
+const SLOPE: usize = 0;
+const OFFSET: usize = 1;
+const DEVIATED: usize = 2;
+
+impl<'a> Meet<'a> {
+    fn of(mesh: &'a Mesh, meeting: &'a Meeting) -> Meet<'a> {
+        Meet {
+            mesh,
+            meeting,
+            touching: meeting.touching.pairs().collect(),
+            ends: mesh.way_of(&meeting.zones),
+        }
+    }
+
+    fn inside(&self) -> f64 {
+        f64::midpoint(self.ends.0, self.ends.1)
+    }
+
+    fn way(&self, pair: usize) -> f64 {
+        pair as f64 * self.mesh.base_pitch
+    }
+
+    fn shares(&self) -> Shares {
+        let (pairs, deviates) = (self.meeting.zones.len(), self.meeting.deviating.is_some());
+        let rest = self.rest();
+        let fill = |places: &Places, values: &mut [[[f64; SIDE_BY_SIDE]; TERMS]]| {
+            let lines = self.lines(places);
+            let lines = lines.unwrap_or_else(|| vec![[Lanes::all(f64::NAN); 3]; 1 + pairs]);
+            for (index, line) in lines.iter().enumerate() {
+                put(values, (index, 0), &line[SLOPE]);
+                put(values, (index, 1), &line[OFFSET]);
+                if deviates {
+                    put(values, (1 + pairs + index / 2, index % 2), &line[DEVIATED]);
+                }
+            }
+        };
+        Shares {
+            pairs,
+            deviates,
+            functions: Series::groups(self.ends.0, self.ends.1, &rest, &fill),
+        }
+    }
+
+    /// Limits of the last terms of each function.
+    fn rest(&self) -> Vec<[f64; SIDE_BY_SIDE]> {
+        /// Of the size of a function.
+        const REST: f64 = 1e-13;
+        let Meeting {
+            zones, deviating, ..
+        } = self.meeting;
+        let (mesh, inside) = (self.mesh, self.inside());
+        let deflection = mesh.force / mesh.mean_stiffness;
+        let zone = |pair: usize| &mesh.zones[zones[pair]];
+        let at =
+            |pair: usize, function: usize| zone(pair).series.one(function, inside + self.way(pair));
+        let gap_rest = |pair: usize| {
+            let size = deflection.max(at(pair, GAP).abs());
+            (REST * size).max(zone(pair).gap_rest)
+        };
+        let touching = || self.touching.iter().copied();
+        let stiffness = touching()
+            .map(|pair| at(pair, STIFFNESS))
+            .fold(0.0, f64::max);
+        let gap = touching().map(gap_rest).fold(0.0, f64::max);
+        let force = [REST * stiffness, stiffness * gap];
+        let pairs = (0..zones.len()).map(|pair| {
+            if self.meeting.touching.has(pair) {
+                force
+            } else {
+                [REST, gap.max(gap_rest(pair))]
+            }
+        });
+        let mut rest: Vec<_> = std::iter::once(force).chain(pairs).collect();
+        if deviating.is_some() {
+            let slopes: Vec<f64> = rest.iter().map(|[slope, _]| *slope).collect();
+            let columns = slopes.chunks(SIDE_BY_SIDE);
+            rest.extend(columns.map(|two| [two[0], two.get(1).copied().unwrap_or(REST)]));
+        }
+        rest
+    }
+
+    /// The lines of the sum and of each pair at several places of the rearmost pair; `None` if the
+    /// compliances are not positive definite.
+    fn lines(&self, places: &Places) -> Option<Lines> {
+        let zero = Lanes::all(0.0);
+        let mut forces: Lines = Vec::with_capacity(self.touching.len());
+        let mut rows: Vec<[Lanes; 1 + PITCHES]> = Vec::with_capacity(self.touching.len());
+        for (at, &pair) in self.touching.iter().enumerate() {
+            let [stiffness, gap] = self.values(pair, STIFFNESS, places);
+            let mut row = [zero; 1 + PITCHES];
+            row[0] = Lanes::all(1.0) / stiffness;
+            for (&other, entry) in self.touching[..at].iter().rev().zip(&mut row[1..]) {
+                *entry = self.coupling(other, pair, places);
+            }
+            rows.push(row);
+            let deviates = self.meeting.deviating == Some(pair);
+            forces.push([
+                Lanes::all(1.0),
+                gap,
+                Lanes::all(f64::from(u8::from(deviates))),
+            ]);
+        }
+        let factored = Banded::factored(rows)?;
+        factored.solve(&mut forces);
+        let mut lines = Vec::with_capacity(1 + self.meeting.zones.len());
+        lines.push(self.sum(&forces, places));
+        let mut touching = self.touching.iter().zip(&forces).peekable();
+        for pair in 0..self.meeting.zones.len() {
+            let line = touching.next_if(|(other, _)| **other == pair);
+            lines.push(line.map_or_else(|| self.apart(pair, &forces, places), |(_, line)| *line));
+        }
+        Some(lines)
+    }
+
+    /// The sum of the forces that turn the driver.
+    fn sum(&self, forces: &Lines, places: &Places) -> [Lanes; 3] {
+        let mut sum = [Lanes::all(0.0); 3];
+        for (&pair, line) in self.touching.iter().zip(forces) {
+            let weight = self.weight(pair, places);
+            for (sum, part) in sum.iter_mut().zip(line) {
+                *sum = *sum + weight.map_or(*part, |weight| weight * *part);
+            }
+        }
+        sum
+    }
+
+    /// The part of a pair's force that turns the driver; all of it without friction.
+    fn weight(&self, pair: usize, places: &Places) -> Option<Lanes> {
+        let friction = self.mesh.friction;
+        if friction == 0.0 {
+            return None;
+        }
+        let series = &self.mesh.zones[self.meeting.zones[pair]].series;
+        let direction = series.one(SLIDING, self.inside() + self.way(pair)).signum();
+        let [lever] = self.values(pair, LEVER, places);
+        Some(Lanes::all(1.0) - Lanes::all(friction * direction) * lever)
+    }
+
+    /// The overlap of a pair without contact.
+    fn apart(&self, pair: usize, forces: &Lines, places: &Places) -> [Lanes; 3] {
+        let [gap] = self.values(pair, GAP, places);
+        let mut line = [Lanes::all(1.0), gap, Lanes::all(0.0)];
+        for (&other, force) in self.touching.iter().zip(forces) {
+            if other.abs_diff(pair) <= PITCHES {
+                let coupling = self.coupling(other.min(pair), other.max(pair), places);
+                for (line, force) in line.iter_mut().zip(force) {
+                    *line = *line - coupling * *force;
+                }
+            }
+        }
+        line
+    }
+
+    /// Values of a pair, from one function on.
+    fn values<const M: usize>(&self, pair: usize, first: usize, places: &Places) -> [Lanes; M] {
+        let zone = &self.mesh.zones[self.meeting.zones[pair]];
+        let way = self.way(pair);
+        zone.series.many(first, &places.map(|place| place + way))
+    }
+
+    /// Displacement of one pair by the force on the other, in m/N.
+    fn coupling(&self, rear: usize, front: usize, places: &Places) -> Lanes {
+        let couplings = self.mesh.couplings.as_ref();
+        let couplings = couplings.filter(|_| front - rear <= PITCHES);
+        couplings.map_or(Lanes::all(0.0), |couplings| {
+            let way = self.way(rear);
+            let places = places.map(|place| place + way);
+            couplings.many(front - rear - 1, &places, self.inside() + way)
+        })
+    }
+}
+
+fn put(
+    values: &mut [[[f64; SIDE_BY_SIDE]; TERMS]],
+    (group, function): (usize, usize),
+    lanes: &Lanes,
 ) {
-    let size = touching.len();
-    let Some(factored) = compliances.among(touching) else {
-        values.fill(f64::NAN);
-        return;
-    };
-    // Computes several columns of the inverse together.
-    for columns in (0..size).step_by(LANES) {
-        let mut inverse = vec![[0.0; LANES]; size];
-        for lane in 0..LANES.min(size - columns) {
-            inverse[columns + lane][lane] = 1.0;
-        }
-        factored.solve(&mut inverse);
-        for (pair, row) in rows.iter().enumerate() {
-            let Some(row) = *row else { continue };
-            let found: [f64; LANES] = match touching.iter().position(|&other| other == pair) {
-                Some(at) => inverse[at],
-                None => from_fn(|lane| {
-                    let terms = touching.iter().zip(&inverse);
-                    terms
-                        .map(|(&other, force)| compliances.at(pair, other) * force[lane])
-                        .sum()
-                }),
-            };
-            let end = (columns + LANES).min(size);
-            values[row + columns..row + end].copy_from_slice(&found[..end - columns]);
-        }
+    for (values, lane) in values[group].iter_mut().zip(lanes.0) {
+        values[function] = lane;
     }
 }

@@ -28,6 +28,8 @@ pub(super) struct Zone {
     pub(super) to: f64,
     /// The four values of [`Place`](super::Place).
     pub(super) series: Series<4>,
+    /// What the last terms of the gap may be, in m.
+    pub(super) gap_rest: f64,
 }
 
 impl Zone {
@@ -40,6 +42,7 @@ impl Zone {
             from: length - self.to,
             to: length - self.from,
             series: self.series.reversed(length, signs),
+            gap_rest: self.gap_rest,
         }
     }
 }
@@ -79,6 +82,7 @@ fn push_zones(
             from,
             to,
             series: Series::of(from, to, &rest, f)?,
+            gap_rest: rest(from, to)[GAP],
         });
     }
     Ok(())

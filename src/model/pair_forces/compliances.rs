@@ -37,7 +37,7 @@ impl Compliances<'_> {
             other.map_or(0.0, |other| self.at(touching[at], other))
         };
         let rows = (0..touching.len()).map(|at| from_fn(|distance| entry(at, distance)));
-        Banded::factored(rows.collect())
+        Banded::factored(rows)
     }
 
     /// Displacement of a pair by unit forces on the other pairs.
@@ -48,7 +48,8 @@ impl Compliances<'_> {
         forces: &[[f64; M]],
     ) -> [f64; M] {
         let mut sums = [0.0; M];
-        for (&other, force) in touching.iter().zip(forces) {
+        let near = |(other, _): &(&usize, _)| pair.abs_diff(**other) <= PITCHES;
+        for (&other, force) in touching.iter().zip(forces).filter(near) {
             let coupling = self.at(pair, other);
             for (sum, force) in sums.iter_mut().zip(force) {
                 *sum += coupling * force;

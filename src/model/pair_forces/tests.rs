@@ -1,5 +1,6 @@
 //! Tests random pairs against the conditions of the complementarity problem.
 
+use super::complementarity::Until;
 use super::*;
 
 fn random(state: &mut u64) -> f64 {
@@ -12,12 +13,8 @@ fn random(state: &mut u64) -> f64 {
 fn pair(ahead: i32, stiffness: f64, gap: f64) -> Pair {
     Pair {
         ahead,
-        place: Place {
-            stiffness,
-            gap,
-            lever: 0.0,
-            sliding: 0.0,
-        },
+        stiffness,
+        gap,
         weight: 1.0,
     }
 }
@@ -37,7 +34,7 @@ fn random_pairs(state: &mut u64) -> PairSet {
                 .map(|most| most * random(state))
                 .map(|coupling| coupling - 0.05)
         });
-        let set = PairSet::new(pairs, couplings.collect());
+        let set = PairSet::new(pairs, couplings);
         if set.is_definite() {
             return set;
         }
@@ -47,8 +44,8 @@ fn random_pairs(state: &mut u64) -> PairSet {
 /// Violation of the conditions of the complementarity problem, which has one solution.
 fn violation(set: &PairSet, displacement: f64, forces: &[f64]) -> f64 {
     let rest = |(index, pair): (usize, &Pair)| {
-        let own = forces[index] / pair.place.stiffness;
-        let overlap = displacement - pair.place.gap - own - set.pushed(index, forces);
+        let own = forces[index] / pair.stiffness;
+        let overlap = displacement - pair.gap - own - set.pushed(index, forces);
         let wrong = if forces[index] > 0.0 {
             overlap.abs()
         } else {
@@ -105,7 +102,7 @@ fn pairs_without_coupling_are_independent_springs() {
         let set = random_pairs(&mut state);
         let total = 2.0 * random(&mut state) + 1e-6;
         let count = set.pairs().len();
-        let springs = PairSet::new(set.pairs().to_vec(), Vec::new());
+        let springs = PairSet::new(set.pairs().to_vec(), []);
         let uncoupled = PairSet::new(set.pairs().to_vec(), vec![[0.0; PITCHES]; count]);
         let ((x, forces), (expected, springs)) = (uncoupled.shared(total), springs.shared(total));
         assert!((x - expected).abs() < 1e-12, "{x} {expected}");
@@ -117,7 +114,7 @@ fn pairs_without_coupling_are_independent_springs() {
 
 #[test]
 fn equal_pairs_share_the_load_equally() {
-    let pairs = (0..3).map(|ahead| pair(ahead, 0.5, 0.1)).collect();
+    let pairs = (0..3).map(|ahead| pair(ahead, 0.5, 0.1));
     let (x, forces) = PairSet::new(pairs, vec![[0.5; PITCHES]; 3]).shared(3.0);
     for force in forces {
         assert!((force - 1.0).abs() < 1e-14, "{force}");
@@ -136,11 +133,35 @@ fn leads_of_touching_pairs_are_their_forces() {
         let leads = set.leads(touching, x);
         for (index, lead) in leads.iter().enumerate() {
             if touching.has(index) {
-                let force = lead * set.pairs()[index].place.stiffness;
+                let force = lead * set.pairs()[index].stiffness;
                 assert!((force - forces[index]).abs() < 1e-9);
             } else {
                 assert!(*lead < 1e-9, "{lead}");
             }
         }
     }
+}
+
+#[test]
+fn a_guess_of_the_touching_pairs_finds_the_forces_that_the_growing_displacement_finds() {
+    let (mut state, mut guessed) = (13, 0);
+    for round in 0..5_000 {
+        let set = random_pairs(&mut state);
+        let own = set.own();
+        for until in [
+            Until::Total(random(&mut state) + 1e-3),
+            Until::Displacement(2.0 * random(&mut state)),
+        ] {
+            let (expected_x, expected) = set.followed(&own, until);
+            if let Some((x, forces)) = set.guessed(&own, until) {
+                guessed += 1;
+                assert!((x - expected_x).abs() < 1e-9, "{round}: {x} {expected_x}");
+                for (force, expected) in forces.iter().zip(&expected) {
+                    let off = (force - expected).abs();
+                    assert!(off < 1e-8, "{round}: {force} {expected}");
+                }
+            }
+        }
+    }
+    assert!(guessed > 9_000, "{guessed} of 10000 guesses");
 }

@@ -4,6 +4,7 @@ use std::array::from_fn;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use crate::numeric::lanes::Lanes;
 use crate::numeric::polynomial::Polynomial;
 
 /// One value of every function for each order. This layout allows sums of several functions at
@@ -125,6 +126,23 @@ pub(super) fn values<const N: usize, const M: usize>(
     let four = |at: usize, function: usize| pair(at, function) + pair(at + 2, function) * square;
     let eight = |at: usize, function: usize| four(at, function) + four(at + 4, function) * fourth;
     from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
+}
+
+/// The same at several places at once, by Horner's rule.
+pub(super) fn values_at<const N: usize, const M: usize>(
+    powers: &Terms<N>,
+    first: usize,
+    t: &[f64; TERMS],
+) -> [Lanes<TERMS>; M] {
+    let mut all = [Lanes::all(0.0); M];
+    for powers in powers.iter().rev() {
+        for (sums, power) in all.iter_mut().zip(&powers[first..first + M]) {
+            for (sum, t) in sums.0.iter_mut().zip(t) {
+                *sum = *sum * t + power;
+            }
+        }
+    }
+    all
 }
 
 /// The coefficients of the powers of t − `at`, by Horner's rule for all coefficients together. The

@@ -102,7 +102,7 @@ impl PairState {
     fn forces(&self) -> impl Iterator<Item = (&Pair, f64)> {
         let all = self.pairs.pairs().iter().zip(&self.leads).enumerate();
         all.filter(|(index, _)| self.touching.has(*index))
-            .map(|(_, (pair, lead))| (pair, pair.place.stiffness * lead))
+            .map(|(_, (pair, lead))| (pair, pair.stiffness * lead))
     }
 }
 

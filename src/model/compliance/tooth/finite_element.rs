@@ -12,6 +12,8 @@ use crate::model::field::Field;
 use crate::model::field::cache::FieldGear;
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Inputs, ToothCompliance};
+use crate::numeric::chebyshev::TERMS;
+use crate::numeric::lanes::Lanes;
 
 /// The entry of the list.
 pub const MODEL: ToothModel = ToothModel {
@@ -203,6 +205,20 @@ impl LoadedTooth for Field {
         check_radius(self, loaded)?;
         check_radius(self, measured)?;
         Ok(self.cross(loaded, measured, pitches) / gear.young)
+    }
+
+    fn abscissa(&self, radius: f64) -> Result<f64, Refusal> {
+        check_radius(self, radius)?;
+        Ok(Field::abscissa(self, radius))
+    }
+
+    fn neighbours(
+        &self,
+        gear: &ElasticGear,
+        places: [Lanes<TERMS>; 2],
+        pitches: i32,
+    ) -> Lanes<TERMS> {
+        self.cross_at(places, pitches) * gear.young.recip()
     }
 
     fn last_radius(&self, half_width: f64) -> f64 {

@@ -1,7 +1,6 @@
 //! Tests of the motion across the backlash against steps without events on an independent mesh, and
 //! by the balance of energy.
 
-use crate::model::compliance::ContactPlace;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::dynamic::motion::{Motion, State};
 use crate::model::dynamic::steady::steady;
@@ -9,6 +8,7 @@ use crate::model::dynamic::tests::{at_rest, ran, settings};
 use crate::model::dynamic::*;
 use crate::model::inputs::{Drive, Inputs};
 use crate::model::mesh::MeshInputs;
+use crate::model::mesh::couplings::ByRadii;
 use crate::model::pair_forces::PairSet;
 use crate::model::static_load;
 use crate::model::{Stage, Stages, solve};
@@ -72,24 +72,24 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
         .geometry;
     let of = |inputs: &MeshInputs, geometry, error, turned: bool| {
         let flanks = Flanks::new(&inputs.elasticity, geometry).unwrap();
-        let neighbour = |rear: &ContactPlace, front: &ContactPlace, pitches: i32| {
+        let neighbours = ByRadii(|rear: [f64; 2], front: [f64; 2], pitches| {
             // In the mirror the rear pair is the front pair, and the gears are swapped.
             let radii = if turned {
-                [front.radius_driven, rear.radius_driver]
+                [front[1], rear[0]]
             } else {
-                [rear.radius_driver, front.radius_driven]
+                [rear[0], front[1]]
             };
-            let share = match (couples, pitches) {
-                (false, _) => 0.0,
-                (true, 1) => 8e-10,
-                (true, _) => 3e-10,
-            };
-            Ok(share
-                * inputs.elasticity.width
-                * (1.0 + 0.4 * (40.0 * (radii[0] + 2.0 * radii[1] - 0.2)).sin()))
-        };
+            let share = if pitches == 1 { 8e-10 } else { 3e-10 };
+            let place = 40.0 * (radii[0] + 2.0 * radii[1] - 0.2);
+            share * inputs.elasticity.width * (1.0 + 0.4 * place.sin())
+        });
         let load = (solution.mesh_force, error);
-        Mesh::with_neighbours(inputs, geometry, &flanks.into(), load, 1e-3, &neighbour).unwrap()
+        let flanks = flanks.into();
+        if couples {
+            Mesh::with_neighbours(inputs, geometry, &flanks, load, 1e-3, &neighbours).unwrap()
+        } else {
+            Mesh::of_flanks(inputs, geometry, &flanks, load, 1e-3).unwrap()
+        }
     };
     Rattling {
         mesh: of(&inputs.mesh(), &solution.geometry, error, false),
