@@ -22,8 +22,8 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
 pub use check::{
-    Problem, field_range, field_value, misfit_between, put as put_field, unknown_key,
-    unknown_quantity,
+    Problem, field_range, field_value, put as put_field, unknown_key, unknown_quantity,
+    violated_rule,
 };
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};

@@ -198,7 +198,7 @@ pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
 
 /// The common unit of several values of a quantity, chosen for the greatest of them.
 #[must_use]
-pub fn unit_beside(
+pub fn common_unit(
     quantity: &Quantity,
     values: impl Iterator<Item = f64>,
     system: System,

@@ -10,8 +10,8 @@ use super::{Case, Limit};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 pub use problem::{Problem, unknown_key, unknown_quantity};
-pub use together::misfit_between;
 use together::together;
+pub use together::violated_rule;
 pub use value::{field_range, field_value};
 
 /// The inputs of the model, or all problems of the case.

@@ -21,7 +21,7 @@ impl<'a> Sink<'a> {
     ) -> Result<Sink<'a>, SaveError> {
         match out.filter(|path| *path != Path::new("-")) {
             Some(path) => {
-                let interrupt = Interrupt::heeded();
+                let interrupt = Interrupt::install();
                 let draft = Draft::create(path)?;
                 Ok(Sink::File(Box::new(BufWriter::new(draft)), interrupt))
             }

@@ -83,7 +83,7 @@ pub(super) fn follow<T>(
     what: &'static str,
     work: impl FnOnce(&dyn Fn(usize, usize) -> bool) -> T,
 ) -> T {
-    let (bar, interrupt) = (Bar::new(what), Interrupt::heeded());
+    let (bar, interrupt) = (Bar::new(what), Interrupt::install());
     let done = work(&|done, of| {
         bar.set(done, of);
         interrupt.go_on()
@@ -109,7 +109,7 @@ impl Running {
     pub(super) fn new(what: &'static str, jobs: Option<u16>) -> Running {
         Running {
             bar: Bar::with_rate(what),
-            interrupt: Interrupt::heeded(),
+            interrupt: Interrupt::install(),
             jobs: jobs.map(usize::from),
         }
     }

@@ -72,9 +72,9 @@ pub enum Reason {
 /// dynamic:  otherwise if  least · T_n/(π t) > within
 /// ```
 /// A load transferred within a time t leaves an oscillation of at most T_n/(π t) of the load in a
-/// mesh with the period T_n: the response of an oscillator to a ramp. `Reason::part_felt` gives the
-/// least and the most part of this oscillation that `static` can miss, measured over 300 pairs.
-/// Between both bounds a trial motion decides. Without contact the method is `exact` if the gap at
+/// mesh with the period T_n: the response of an oscillator to a ramp.
+/// `Reason::static_error_bounds` gives the least and the most part of this oscillation that `static`
+/// can miss, measured over 300 pairs. Between both bounds a trial motion decides. Without contact the method is `exact` if the gap at
 /// E is greater than T_n/(π t) times the deflection, where t is the time in which two pairs share
 /// the load.
 ///
@@ -164,7 +164,7 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
 
 /// `static` if the effect of inertia is small. Otherwise `dynamic`, also if a trial must decide.
 fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
-    let (least, most) = reason.part_felt();
+    let (least, most) = reason.static_error_bounds();
     let inertia = match (least * swing, most * swing) {
         (_, most) if most <= inputs.within => Inertia::AtMost(most),
         (least, _) if least > inputs.within => Inertia::AtLeast(least),
@@ -228,7 +228,7 @@ impl Reason {
     /// The least and the greatest difference of `static`, as parts of the oscillation. Over 300
     /// random pairs `static` differed by 0.04 to 3.3 times the oscillation if the pair ahead stays
     /// in contact, and by 0.48 to 23.5 times if the pair ahead loses contact.
-    fn part_felt(&self) -> (f64, f64) {
+    fn static_error_bounds(&self) -> (f64, f64) {
         match self {
             Reason::ContactLost => (0.4, 24.0),
             // The results with and without contact cannot be compared, so that a trial motion

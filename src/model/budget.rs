@@ -17,7 +17,7 @@ pub const EVENT_WORK: u64 = 8;
 /// Oscillations of the mesh during a motion. The steps of slower motions exceed [`MOTION_BYTES`]:
 /// Table 1 with 71.6 N m fills them at 0.25 rpm, with 3e5 oscillations. The limit refuses such a
 /// motion before it begins.
-pub const MOTION_SWINGS: f64 = 4e5;
+pub const MOTION_OSCILLATIONS: f64 = 4e5;
 
 /// Memory for the steps of a motion near the incoming tooth, in bytes. A solve has 64 MiB. The list
 /// of steps grows by a quarter; during growth, the old and the new list use 54 MiB. Afterwards the
@@ -36,7 +36,7 @@ pub const SEARCH_TRIES: u32 = 400;
 pub const SEARCH_WORK: u64 = MOTION_WORK;
 
 /// Work of the places where a curve is computed to select its stations: a fifth of a second. A
-/// motion of [`MOTION_SWINGS`] has four places for each half oscillation.
+/// motion of [`MOTION_OSCILLATIONS`] has four places for each half oscillation.
 pub const CURVE_WORK: usize = 400_000;
 
 /// Work of a place between D and E: the compliance of two teeth and an impact.

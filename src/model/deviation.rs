@@ -61,7 +61,7 @@ impl GivenDeviations {
             backlash: inputs.backlash,
             driven_tip_relief: inputs.driven.tip_relief,
             driver_root_relief: inputs.driver.root_relief,
-            deflection: inputs.deflection_taken(),
+            deflection: inputs.given_deflection(),
         }
     }
 }

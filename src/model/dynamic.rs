@@ -3,12 +3,12 @@
 
 mod acting;
 mod events;
-mod laps;
 mod lead;
 mod motion;
 mod pair;
 mod passage;
 mod rattle;
+mod repeat_detector;
 mod settings;
 mod side;
 pub mod steady;
@@ -26,11 +26,11 @@ use super::spacing::Resolution;
 use super::stations::MeshStation;
 use acting::ALIKE;
 use events::Event;
-use laps::Laps;
 use lead::TERMS;
 use motion::{Motion, State, Window};
 use pair::PairName;
 pub use rattle::Rattle;
+use repeat_detector::RepeatDetector;
 pub use settings::{MotionInputs, Settings};
 use step::{Course, Step};
 use watch::Watch;
@@ -79,7 +79,7 @@ pub struct Effort {
     pub steps: u64,
     /// Coefficients of the power series of the motion, and evaluations of series.
     pub evaluations: u64,
-    /// Contacts made and lost.
+    /// Course made and lost.
     pub events: u64,
     /// Total work in units of the [budget](super::budget).
     pub work: u64,
@@ -205,7 +205,7 @@ struct Run<'a> {
     is_even: bool,
     /// Permitted size of the last terms of a step's series, in m.
     allowed: f64,
-    laps: Laps,
+    repeats: RepeatDetector,
     watch: Watch,
     effort: Effort,
     meter: &'a Meter,
@@ -245,7 +245,7 @@ impl<'a> Run<'a> {
             turned: Touching::NONE,
             is_even: true,
             allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
-            laps: Laps::new(start, tolerance),
+            repeats: RepeatDetector::new(start, tolerance),
             watch: Watch::default(),
             effort: Effort::default(),
             meter,
@@ -295,7 +295,11 @@ impl<'a> Run<'a> {
     /// Skips the rest of the warm-up after a base pitch that equals the base pitch before.
     fn skip_what_repeats(&mut self) {
         let (mesh, s) = (self.motion.mesh, self.borders[self.next - 1]);
-        if self.misses_back || !self.laps.repeats(self.motion, s, &self.y, &self.touching) {
+        if self.misses_back
+            || !self
+                .repeats
+                .repeats(self.motion, s, &self.y, &self.touching)
+        {
             return;
         }
         let pitches = ((mesh.ends().0 - s) / mesh.base_pitch).floor();

@@ -141,7 +141,7 @@ pub(super) fn precise(
     inputs: &GeometryInputs,
     plain: Option<&Geometry>,
 ) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
-    let close_call = plain.is_none_or(|geometry| geometry.is_close_call(inputs.bores));
+    let close_call = plain.is_none_or(|geometry| geometry.needs_precision(inputs.bores));
     (inputs.is_accurate || close_call)
         .then(|| geometry(&inputs.shape))
         .transpose()
@@ -235,7 +235,7 @@ impl Geometry {
     /// Whether f64 loses digits in a small difference: N₁E, the path of contact, EP, r_a − r_b, a −
     /// (r_b1 + r_b2), the wall between bore and base circle, or ε − 1 with rounded tips.
     #[must_use]
-    pub fn is_close_call(&self, bores: [f64; 2]) -> bool {
+    pub fn needs_precision(&self, bores: [f64; 2]) -> bool {
         const FLAT: f64 = 0.125;
         const SHORT: f64 = 1.0 / 32.0;
         let short_tip = |circles: &Circles| circles.tip_curvature < SHORT * circles.base;

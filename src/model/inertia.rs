@@ -46,7 +46,7 @@ impl Inputs {
                 face_width: gear.face_width,
                 density: gear.density,
             };
-            match (self.inertia_taken(), gear.inertia) {
+            match (self.inertia_model(), gear.inertia) {
                 (_, Some(given)) => Body::Given(given),
                 (InertiaModel::Outline, None) => {
                     let addendum = gear.addendum_coefficient(self.module);
@@ -63,7 +63,7 @@ impl Inputs {
 
     /// The inertia model of a gear without a given inertia. The method `paper` has only one model.
     #[must_use]
-    pub fn inertia_taken(&self) -> InertiaModel {
+    pub fn inertia_model(&self) -> InertiaModel {
         match self.method {
             Method::Paper => InertiaModel::BaseCircle,
             _ => self.inertia,

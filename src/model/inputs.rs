@@ -341,7 +341,7 @@ impl Inputs {
 
     /// The given deflection if the method uses it, in m.
     #[must_use]
-    pub fn deflection_taken(&self) -> Option<f64> {
+    pub fn given_deflection(&self) -> Option<f64> {
         self.deflection.filter(|_| !self.method.shares_load())
     }
 

@@ -165,7 +165,7 @@ pub(super) fn position(
         _ => first_contact(geometry, series, plain.total)?,
     };
     let contact = tip_at(geometry, angle);
-    let close_call = contact.is_close_call(geometry)
+    let close_call = contact.needs_precision(geometry)
         || inputs.method == Method::Paper && plain.equivalent_error < 0.0;
     let (contact, closed_gap) = match precise {
         Some(precise) => precise_contact(inputs.method, precise, deviation, angle),

@@ -197,7 +197,7 @@ pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
     let leads = leads(mesh, &grid(mesh, mesh.ends().0, 0.0));
     let has_end = leads.first().is_some_and(|&(_, lead)| lead <= 0.0);
     if has_end {
-        Ok(foremost(mesh, &leads).1)
+        Ok(greatest_lead(mesh, &leads).1)
     } else {
         Err(Refusal::BeyondReach)
     }
@@ -230,7 +230,7 @@ fn leads(mesh: &Mesh, places: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// The place before E with the greatest lead, and this lead.
-fn foremost(mesh: &Mesh, leads: &[(f64, f64)]) -> (f64, f64) {
+fn greatest_lead(mesh: &Mesh, leads: &[(f64, f64)]) -> (f64, f64) {
     let before = leads.partition_point(|&(s, _)| s <= 0.0);
     greatest(&leads[..before], |s| lead(mesh, s))
 }
@@ -247,9 +247,9 @@ fn contact(mesh: &Mesh, balances: &[(f64, Balance)]) -> Result<Option<Contact>, 
     let start = leads.partition_point(|&(s, _)| s <= 0.0);
     if leads[..start].iter().all(|&(_, lead)| lead <= 0.0) {
         // A short contact before E may be between two samples.
-        let foremost = foremost(mesh, &leads);
-        let at = leads.partition_point(|&(s, _)| s <= foremost.0);
-        leads.insert(at, foremost);
+        let greatest_lead = greatest_lead(mesh, &leads);
+        let at = leads.partition_point(|&(s, _)| s <= greatest_lead.0);
+        leads.insert(at, greatest_lead);
     }
     let carries = |index: &usize| leads[*index].1 > 0.0;
     let (Some(first), Some(last)) = (

@@ -261,7 +261,7 @@ impl TipContact {
 
     /// Whether f64 loses digits because the tip nearly rolls, is nearly on the centre line, or its
     /// normal nearly passes through O₂.
-    pub(super) fn is_close_call(&self, geometry: &Geometry) -> bool {
+    pub(super) fn needs_precision(&self, geometry: &Geometry) -> bool {
         let sliding_terms =
             self.normal_length_driven.abs() + geometry.ratio * self.curvature_driver;
         self.sliding_arm.abs() < LEAST_REST * sliding_terms

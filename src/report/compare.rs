@@ -5,7 +5,7 @@ mod text;
 
 use super::difference::difference;
 use super::groups::{FREE_IMPACT, groups};
-use super::{Report, Selection, shown_with, unit_beside, value_as_in};
+use super::{Report, Selection, common_unit, shown_with, value_as_in};
 use crate::case::changes::{between, label, text_of};
 use crate::case::fields::index_of;
 use crate::case::units::System;
@@ -131,7 +131,7 @@ impl Comparison {
         let values = self.values(quantity);
         let given = values.iter().copied().flatten();
         given.clone().next()?;
-        let unit = unit_beside(quantity, given.clone(), System::Metric);
+        let unit = common_unit(quantity, given.clone(), System::Metric);
         let shown = |(column, value): (&Column, &Option<f64>)| match (value, &column.found) {
             (Some(value), _) => shown_with(quantity, *value, unit).number,
             (None, Ok(_)) => NONE.to_owned(),

@@ -13,7 +13,7 @@ use super::charts::SolvedCase;
 use super::groups::{FREE_IMPACT, groups};
 use super::pictures::{Picture, pictures};
 use super::verdict::verdicts;
-use super::{Report, shown_with, text, unit_beside, value};
+use super::{Report, common_unit, shown_with, text, value};
 use crate::case::changes::label;
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
@@ -282,7 +282,7 @@ fn row(quantity: &'static Quantity, solutions: &[&Solution]) -> Option<ResultRow
         .collect();
     let given = values.iter().copied().flatten();
     given.clone().next()?;
-    let unit = unit_beside(quantity, given, System::Metric);
+    let unit = common_unit(quantity, given, System::Metric);
     let method = solutions.first()?.method;
     let mut shown_unit = "";
     let texts = values.iter().map(|value| match value {

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use super::chunks::chunks;
 use crate::case::evaluate::Point;
-use crate::case::{Evaluator, Problem, misfit_between};
+use crate::case::{Evaluator, Problem, violated_rule};
 use crate::model::{Inputs, Outcome, Quantity, Refusal, Stages};
 
 /// How often the progress is reported.
@@ -338,7 +338,7 @@ impl<'a> PointSolver<'a> {
         self.inputs.stations = Some(1);
         let method = self.inputs.method;
         let wanted = self.wanted.and(method.deciding_stages());
-        let fits = |inputs: &Inputs| match misfit_between(inputs) {
+        let fits = |inputs: &Inputs| match violated_rule(inputs) {
             Some(problem) => Err(Unsolved::from(problem)),
             None => Ok(()),
         };

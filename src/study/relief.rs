@@ -14,7 +14,7 @@ use crate::model::geometry::Geometry;
 use crate::model::inputs::{Drive, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
 use crate::model::{Inputs, Solution, Stage, Stages, solve, solve_while};
-use bench::Bench;
+use bench::PreparedMesh;
 pub use refusal::NoRelief;
 use search::{Grid, Search};
 
@@ -177,7 +177,7 @@ pub fn specify(
     let grid = grid(&at_rest, &solution, demand)?;
     let loads = loads(demand.loads);
     let meter = Meter::new(WORK);
-    let bench = Bench::new(&at_rest, &solution, demand, &loads, grid.most_relief())?;
+    let bench = PreparedMesh::new(&at_rest, &solution, demand, &loads, grid.most_relief())?;
     let searching = |part: f64| go_on(SEARCH * (part / USUAL_WORK).min(1.0));
     let search = Search::new(&bench, &grid, &meter, &searching);
     let found = search.best_of_each_kind()?;

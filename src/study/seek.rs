@@ -66,22 +66,22 @@ pub struct Found {
 
 /// Why a search fails.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Unfound {
+pub enum SeekError {
     /// A field does not accept a value, or the scan has too few points.
     Bad(Problem),
     /// The user stopped the search.
     Stopped,
 }
 
-impl From<Stopped> for Unfound {
-    fn from(_: Stopped) -> Unfound {
-        Unfound::Stopped
+impl From<Stopped> for SeekError {
+    fn from(_: Stopped) -> SeekError {
+        SeekError::Stopped
     }
 }
 
-impl From<Problem> for Unfound {
-    fn from(problem: Problem) -> Unfound {
-        Unfound::Bad(problem)
+impl From<Problem> for SeekError {
+    fn from(problem: Problem) -> SeekError {
+        SeekError::Bad(problem)
     }
 }
 
@@ -99,7 +99,7 @@ pub fn seek(
     condition: &Condition,
     points: usize,
     control: &Control,
-) -> Result<Found, Unfound> {
+) -> Result<Found, SeekError> {
     let scan = range.axis(Sampling {
         points: Some(points),
         is_log: false,

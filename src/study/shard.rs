@@ -12,7 +12,7 @@ use siphasher::sip::SipHasher24;
 use super::batch::{PointOutcome, Rows};
 use super::request::Request;
 use crate::case::Problem;
-pub use complete::{Complete, Unfit, in_order};
+pub use complete::{Complete, ShardError, in_order};
 use lines::{Footer, KIND, Reason};
 pub use lines::{Header, Shard};
 

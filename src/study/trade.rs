@@ -203,7 +203,7 @@ fn reference(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, An
     let inputs = setting.inputs(inputs);
     let solution = answer::solve(&inputs, go_on)?;
     let answer = Answer::of(&solution);
-    let second = stopped(second::second_way(&inputs, &solution, go_on))?;
+    let second = stopped(second::independent_solution(&inputs, &solution, go_on))?;
     let off = |second: second::Second| {
         Subject::ALL
             .map(|subject| relative_difference(second.value(subject), answer.value(subject)))

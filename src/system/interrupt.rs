@@ -46,7 +46,7 @@ pub(crate) struct Interrupt(&'static Signals);
 
 impl Interrupt {
     /// Keeps the signals from ending the program until the last guard is dropped.
-    pub(crate) fn heeded() -> Interrupt {
+    pub(crate) fn install() -> Interrupt {
         let state = &*STATE;
         if state.heeding.fetch_add(1, Ordering::Relaxed) == 0 {
             state.received.store(NONE, Ordering::Relaxed);
@@ -91,12 +91,12 @@ mod tests {
     #[test]
     fn signals_end_the_program_again_once_no_work_heeds_them() {
         for signal in SIGNALS {
-            let interrupt = Interrupt::heeded();
+            let interrupt = Interrupt::install();
             assert!(interrupt.go_on());
             signal_hook::low_level::raise(signal).expect("a signal");
             assert!(!interrupt.go_on());
             assert_eq!(interrupt.is_ctrl_c(), signal == SIGINT);
-            drop(Interrupt::heeded());
+            drop(Interrupt::install());
             assert!(!interrupt.go_on() && !STATE.is_default.load(Ordering::Relaxed));
             drop(interrupt);
             assert!(STATE.is_default.load(Ordering::Relaxed));

@@ -28,18 +28,18 @@ const SIGNALLED: i32 = 128;
 
 /// The blocked signals, which a dedicated thread reads.
 #[derive(Clone, Copy)]
-pub(crate) struct HeldSignals {
+pub(crate) struct BlockedSignals {
     deadly: SigSet,
     passing: SigSet,
 }
 
 /// Blocks the signals in this thread and in all threads that it starts later.
-pub(crate) fn hold() -> io::Result<HeldSignals> {
+pub(crate) fn hold() -> io::Result<BlockedSignals> {
     let passing: SigSet = PASSING.into_iter().collect();
     let deadly = deadly();
     deadly.thread_block()?;
     passing.thread_block()?;
-    Ok(HeldSignals { deadly, passing })
+    Ok(BlockedSignals { deadly, passing })
 }
 
 fn deadly() -> SigSet {
@@ -50,7 +50,7 @@ fn deadly() -> SigSet {
     deadly
 }
 
-impl HeldSignals {
+impl BlockedSignals {
     /// Runs `act` for each signal that ends the process, in a thread, until it returns false.
     pub(crate) fn for_each_deadly(
         self,

@@ -14,7 +14,7 @@ use super::session::recovery::Claim;
 use super::session::save::{Next, SaveFault, Saving, Written};
 use super::settings::Settings;
 use super::solver::{Answer, Request};
-use super::store::case_search::Below;
+use super::store::case_search::SearchResult;
 use super::store::folder::Listing;
 use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
@@ -71,7 +71,7 @@ pub enum Action {
     /// The content of a folder.
     Listed(Box<Listing>),
     /// The cases in the folders below a folder.
-    Found(Box<Below>),
+    Found(Box<SearchResult>),
     /// The preview of a file or a folder.
     Previewed(Viewport, Box<Preview>),
     /// The access and the kept edits of an opened case.

@@ -15,8 +15,8 @@ use std::thread;
 use std::time::Duration;
 
 use super::events::Event;
-use super::terminal::{expect_end, give_back_by_force};
-use crate::system::signals::{HeldSignals, die_of};
+use super::terminal::{expect_end, force_restore};
+use crate::system::signals::{BlockedSignals, die_of};
 use crate::system::terminal::wait_for_hang_up;
 
 /// Time for the main loop to end by itself.
@@ -29,7 +29,7 @@ type LastWords = Arc<dyn Fn() + Send + Sync>;
 /// Waits for signals and for the end of the terminal, each in a sleeping thread. Calls `last_words`
 /// first when the process ends.
 pub(super) fn listen(
-    signals: HeldSignals,
+    signals: BlockedSignals,
     sender: &SyncSender<Event>,
     last_words: impl Fn() + Send + Sync + 'static,
 ) -> io::Result<()> {
@@ -58,7 +58,7 @@ fn end(last_words: &LastWords, sender: &SyncSender<Event>, cause: &Event) -> ! {
     last_words();
     drop(sender.try_send(cause.clone()));
     thread::sleep(GRACE);
-    give_back_by_force();
+    force_restore();
     match cause {
         Event::Signal(signal) => die_of(*signal),
         _ => process::exit(TERMINAL_LOST.into()),

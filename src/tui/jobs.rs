@@ -19,7 +19,7 @@ pub enum Job {
     /// List a folder: the folder of the browser, and the folders typed after it.
     Folder(PathBuf, String),
     /// Find the cases below a folder.
-    Below(PathBuf, String),
+    Search(PathBuf, String),
     /// Preview a file or a folder.
     Preview(Viewport, System),
     /// List the recent cases.
@@ -126,7 +126,7 @@ impl Job {
             Job::Recents => (2, "recents"),
             Job::Examples(_) => (3, "examples"),
             Job::Explain(_) => (4, "explain"),
-            Job::Below(..) => (5, "search"),
+            Job::Search(..) => (5, "search"),
             Job::Export(_) => (6, "export"),
             Job::Variants(_) => (7, "variants"),
             Job::Relief(_) => (Job::RELIEF, "relief"),

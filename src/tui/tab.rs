@@ -33,7 +33,7 @@ pub struct Tab {
     /// The case in the file.
     pub saved: Case,
     /// The case at the time of a save that is still running.
-    pub(crate) being_saved: Option<Case>,
+    pub(crate) saving: Option<Case>,
     /// Whether the file may be written.
     pub(crate) access: Access,
     /// The file that the user named and that could not be opened, if the built-in case replaces it.
@@ -106,7 +106,7 @@ impl Tab {
             access: Access::of(&document),
             form: FormState::at(&case, focus),
             saved: case.clone(),
-            being_saved: None,
+            saving: None,
             inputs_so_far: case.read().0,
             case,
             document,

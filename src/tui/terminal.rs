@@ -105,7 +105,7 @@ fn restore_modes() -> io::Result<()> {
 
 /// Restores the terminal while the main loop is blocked. If the terminal accepts no bytes, only its
 /// modes are restored.
-pub(super) fn give_back_by_force() {
+pub(super) fn force_restore() {
     if !IS_TAKEN.load(Ordering::Relaxed) {
         return;
     }

@@ -102,7 +102,7 @@ pub mod store {
     pub use crate::tui::store::state::State;
 
     pub mod case_search {
-        pub use crate::tui::store::case_search::{Below, find};
+        pub use crate::tui::store::case_search::{SearchResult, find};
     }
 
     pub mod folder {

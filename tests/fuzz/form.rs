@@ -405,7 +405,7 @@ impl Bench {
                 Viewport::Example(_) => done(Job::Preview(sight, units)),
                 Viewport::Folder(_) => None,
             },
-            Effect::Job(Job::Below(base, typed)) => {
+            Effect::Job(Job::Search(base, typed)) => {
                 let mut below = case_search::find(
                     self.within(&folder::beneath(&base, &typed)),
                     String::new(),

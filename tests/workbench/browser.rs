@@ -380,7 +380,7 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
         .count();
     let searches = asked
         .iter()
-        .filter(|effect| matches!(effect, Effect::Job(Job::Below(..))))
+        .filter(|effect| matches!(effect, Effect::Job(Job::Search(..))))
         .count();
     assert!(
         previews + searches == asked.len() && previews <= keys.len() && searches == 1,
@@ -573,12 +573,12 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
         let effects = update(&mut desk.app, Action::Insert(letter));
         asked += effects
             .iter()
-            .filter(|effect| matches!(effect, Effect::Job(Job::Below(..))))
+            .filter(|effect| matches!(effect, Effect::Job(Job::Search(..))))
             .count();
     }
     assert_eq!(asked, 1);
     assert!(desk.shows("Searching below ..."), "{}", desk.screen());
-    desk.act(Action::Found(Box::new(case_search::Below {
+    desk.act(Action::Found(Box::new(case_search::SearchResult {
         cases: Vec::new(),
         ..below
     })));

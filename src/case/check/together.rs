@@ -9,7 +9,7 @@ const MOST_RATIO: f64 = 50.0;
 
 /// The first rule between fields that these inputs violate.
 #[must_use]
-pub fn misfit_between(inputs: &Inputs) -> Option<Problem> {
+pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
     together(inputs, |_| true).into_iter().next()
 }
 
@@ -68,7 +68,7 @@ mod tests {
                 [0.02, 0.06].map(|bore_radius| {
                     let mut inputs = case.inputs().unwrap();
                     inputs.driver.bore_radius = bore_radius;
-                    misfit_between(&inputs)
+                    violated_rule(&inputs)
                 })
             });
             assert_eq!(misfits[0], misfits[1], "{key}");

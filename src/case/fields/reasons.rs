@@ -40,7 +40,7 @@ pub(super) const WHOLE_RELIEF: [Reason; 1] = [Idle(
 )];
 
 pub(super) const LOAD: [Reason; 1] = [Partly(
-    |inputs| inputs.method != Method::Auto && inputs.deflection_taken().is_some(),
+    |inputs| inputs.method != Method::Auto && inputs.given_deflection().is_some(),
     "with the deflection given, the load changes F_0, not the impact",
 )];
 

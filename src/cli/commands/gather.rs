@@ -11,7 +11,7 @@ use crate::report::tolerance::ToleranceReport;
 use crate::study::batch::Points;
 use crate::study::refusals::Refusals;
 use crate::study::request::{Request, Restored, Study};
-use crate::study::shard::{Complete, Unfit, in_order};
+use crate::study::shard::{Complete, ShardError, in_order};
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Tolerance};
 use clap::{Args, ValueHint};
@@ -43,10 +43,10 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     write(&shards, &request, &restored, out, streams)
 }
 
-fn report(unfit: Unfit, streams: &mut Streams) -> Exit {
+fn report(unfit: ShardError, streams: &mut Streams) -> Exit {
     let (line, exit) = match unfit {
-        Unfit::Unreadable(line) => (line, Exit::Unreadable),
-        Unfit::Wrong(line) => (line, Exit::BadCase),
+        ShardError::Unreadable(line) => (line, Exit::Unreadable),
+        ShardError::Wrong(line) => (line, Exit::BadCase),
     };
     streams.say(&line);
     exit
@@ -54,7 +54,7 @@ fn report(unfit: Unfit, streams: &mut Streams) -> Exit {
 
 fn unrestored(shard: &Complete, problem: &Problem, streams: &mut Streams) -> Exit {
     let line = format!("shard {}: {problem}", shard.header.shard);
-    report(Unfit::Wrong(line), streams)
+    report(ShardError::Wrong(line), streams)
 }
 
 fn write(

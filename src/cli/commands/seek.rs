@@ -12,7 +12,7 @@ use crate::report::seek::SeekReport;
 use crate::study::axis::{AxisRange, with_unit};
 use crate::study::condition::Condition;
 use crate::study::seek::USUAL_SCAN;
-use crate::study::seek::{Unfound, seek};
+use crate::study::seek::{SeekError, seek};
 use clap::Args;
 
 const AFTER_HELP: &str = "A crossing is a value at which the condition changes, with a bracket of 1e-9 of the value. `always` and `never` \
@@ -70,8 +70,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let found = running
         .run(|control| seek(&opened.inputs, &range, &condition, options.points, control))
         .map_err(|unfound| match unfound {
-            Unfound::Stopped => Failure::Interrupted,
-            Unfound::Bad(problem) => Failure::of_option("--vary", &options.vary, &problem),
+            SeekError::Stopped => Failure::Interrupted,
+            SeekError::Bad(problem) => Failure::of_option("--vary", &options.vary, &problem),
         })?;
     let report = SeekReport {
         name: &opened.name,

@@ -71,7 +71,7 @@ fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Ref
         strides += 1;
         let found = tried(aim + ASIDE * closeness(aim))?;
         if found.lead <= 0.0 {
-            return closed_in(tried, touching, found);
+            return narrow_bracket(tried, touching, found);
         }
         let fall = (touching.lead - found.lead) / (found.relief - touching.relief);
         stride = if fall > 0.0 {
@@ -95,7 +95,7 @@ const ASIDE: f64 = 0.4;
 
 /// The relief without contact at the end of the search in a bracket. Uses secants that aim slightly
 /// beyond the crossing, towards the farther end, and halves the bracket if the secants are slow.
-fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tried, Refusal> {
+fn narrow_bracket(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tried, Refusal> {
     const PATIENCE: usize = 3;
     let mut widths = [f64::INFINITY; PATIENCE];
     loop {

@@ -12,7 +12,7 @@ use super::acting::{Crossing, Crossings};
 use super::pair::{Flank, PairName, Standing};
 use super::side::Side;
 use crate::model::Refusal;
-use crate::model::budget::{MOTION_SWINGS, PAIRS};
+use crate::model::budget::{MOTION_OSCILLATIONS, PAIRS};
 use crate::model::mesh::{Meeting, Mesh, Shares};
 use crate::model::pair_forces::Touching;
 
@@ -162,10 +162,10 @@ impl<'a> Motion<'a> {
     /// Refuses a motion with too many oscillations.
     pub(super) fn check_pace(&self, way: f64) -> Result<(), Refusal> {
         let swings = self.time(way) * self.frequency / TAU;
-        if swings > MOTION_SWINGS {
+        if swings > MOTION_OSCILLATIONS {
             Err(Refusal::TooSlow {
                 swings,
-                limit: MOTION_SWINGS,
+                limit: MOTION_OSCILLATIONS,
             })
         } else {
             Ok(())

@@ -1,10 +1,10 @@
 //! The steady motion of equal pairs, which repeats with every base pitch and causes whine.
 
-use super::laps::Laps;
 use super::lead::FORCE_TERMS;
 use super::motion::{Motion, State, Window};
 use super::pair::{Flank, PairName};
 use super::rattle::{Rattle, RattleWatch};
+use super::repeat_detector::RepeatDetector;
 use super::step::{Course, Step};
 use super::watch::Watch;
 use super::{Effort, Run, SHARE_OF_A_STEP, Settings, across_backlash};
@@ -189,7 +189,7 @@ impl<'a> Round<'a> {
             turned: Touching::NONE,
             is_even: true,
             allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
-            laps: Laps::new(0.0, tolerance),
+            laps: RepeatDetector::new(0.0, tolerance),
             watch: Watch::of_contact_alone(),
             effort: Effort::default(),
             meter,

@@ -24,7 +24,7 @@ pub(super) struct Course<'a> {
 }
 
 /// A computed step.
-pub(super) struct Taken {
+pub(super) struct StepResult {
     pub(super) step: Step,
     /// Whether the step ends where a pair passes to another polynomial. A step of the next base
     /// pitch ends at the same place.
@@ -97,14 +97,14 @@ impl<'a> Course<'a> {
     /// that `begins_even` can use the cache of the last base pitch.
     ///
     /// # Errors
-    /// [`Refusal::Unsettled`] if the series is not finite.
+    /// [`Refusal::NotConverged`] if the series is not finite.
     pub(super) fn step(
         &self,
         t: f64,
         y: &State,
         end: f64,
         (allowed, begins_even): (f64, bool),
-    ) -> Result<Taken, Refusal> {
+    ) -> Result<StepResult, Refusal> {
         let whole = self.serves_until(t).min(end) - t;
         let length = whole.min(self.motion.longest_step());
         let acting = if begins_even {
@@ -117,7 +117,7 @@ impl<'a> Course<'a> {
         let step = Step { t, length, ahead };
         let part = convergent_part(&ahead, allowed);
         if part >= 1.0 {
-            return Ok(Taken {
+            return Ok(StepResult {
                 step,
                 ends_even: length >= whole,
             });
@@ -129,9 +129,9 @@ impl<'a> Course<'a> {
             1.0 / (1.0 / part).ceil()
         };
         if part * length <= 0.0 || !part.is_finite() {
-            return Err(Refusal::Unsettled);
+            return Err(Refusal::NotConverged);
         }
-        Ok(Taken {
+        Ok(StepResult {
             step: step.cut(part),
             ends_even: false,
         })

@@ -242,7 +242,7 @@ pub enum Refusal {
     },
     /// The series of the motion is not finite.
     #[error("the motion does not settle: the teeth touch and separate without end")]
-    Unsettled,
+    NotConverged,
     /// The motion exceeds its budget of work.
     #[error(
         "the motion needs too many steps: the limit of {steps} steps covers {} of the motion", percent(*.done)

@@ -174,7 +174,7 @@ impl Refusal {
                 "model.method",
                 "set model.method to static: at this speed the pairs share the load as at rest",
             ),
-            Refusal::Unsettled => (
+            Refusal::NotConverged => (
                 "unsettled",
                 "model.damping_ratio",
                 "give a greater damping ratio, or set model.method to static",

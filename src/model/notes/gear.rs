@@ -20,7 +20,7 @@ pub(super) fn inertia_driven(inputs: &Inputs, solution: &Solution) -> Option<Not
 
 fn inertia(name: &str, gear: usize, inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let is_fallback = solution.kept.masses.inertias[gear].is_fallback
-        && inputs.inertia_taken() == InertiaModel::Outline;
+        && inputs.inertia_model() == InertiaModel::Outline;
     is_fallback.then(|| {
         Note::new(
             "inertia-base-circle",

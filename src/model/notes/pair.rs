@@ -13,7 +13,7 @@ const MILLI: f64 = 1e3;
 pub(super) fn contact_ratio_above_two(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.geometry.contact_ratio;
     let is_coupled = inputs.method != Method::Paper && model_of(inputs).model().has_coupling;
-    let done = match (inputs.deflection_taken(), is_coupled) {
+    let done = match (inputs.given_deflection(), is_coupled) {
         (Some(_), _) => "the case gives the deflection",
         (None, true) => {
             "the pairs ahead of the incoming pair share the load and displace each other"

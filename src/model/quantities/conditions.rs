@@ -54,7 +54,7 @@ pub fn distance_given(inputs: &Inputs) -> bool {
 /// The case gives the deflection and the method uses it.
 #[must_use]
 pub fn deflection_used(inputs: &Inputs) -> bool {
-    inputs.deflection_taken().is_some()
+    inputs.given_deflection().is_some()
 }
 
 /// The case gives a friction coefficient.
@@ -108,7 +108,7 @@ pub fn driver_inertia_given(inputs: &Inputs) -> bool {
 /// The driver's moment of inertia comes from its outline.
 #[must_use]
 pub fn driver_outline(inputs: &Inputs) -> bool {
-    !driver_inertia_given(inputs) && inputs.inertia_taken() == InertiaModel::Outline
+    !driver_inertia_given(inputs) && inputs.inertia_model() == InertiaModel::Outline
 }
 
 /// The driven gear's flank tolerance class gives its base pitch deviation.
@@ -132,5 +132,5 @@ pub fn driven_inertia_given(inputs: &Inputs) -> bool {
 /// The driven gear's moment of inertia comes from its outline.
 #[must_use]
 pub fn driven_outline(inputs: &Inputs) -> bool {
-    !driven_inertia_given(inputs) && inputs.inertia_taken() == InertiaModel::Outline
+    !driven_inertia_given(inputs) && inputs.inertia_model() == InertiaModel::Outline
 }

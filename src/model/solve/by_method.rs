@@ -47,7 +47,7 @@ pub(super) fn solve_by_method(
 }
 
 /// The stages of every solve.
-const BEGUN: Stages = Stages::of(Stage::Deviation).with(Stage::Masses);
+const ALWAYS: Stages = Stages::of(Stage::Deviation).with(Stage::Masses);
 
 /// The state of a solve.
 pub(super) struct Solving<'a> {
@@ -77,7 +77,7 @@ impl<'a> Solving<'a> {
         solution.deviation = deviation.rounded();
         solution.kept.deviation = deviation;
         solution.outcome = outcome(&deviation);
-        solution.stages = BEGUN;
+        solution.stages = ALWAYS;
         solution.ran = Stages::NONE.with(Stage::Load).with(Stage::Deviation);
         solution.position = None;
         solution.velocity = None;
@@ -189,7 +189,7 @@ impl Solving<'_> {
             method: inputs.method,
             choice: None,
             outcome: outcome(&deviation),
-            stages: BEGUN,
+            stages: ALWAYS,
             ran,
             geometry,
             mesh_force,

@@ -29,7 +29,7 @@ pub fn solve_repeated(
     let wanted = wanted.within(inputs.method.stages());
     let has_closed_form =
         Method::CLOSED_FORM.contains(&inputs.method) && Stages::ALL.covers(wanted);
-    if !has_closed_form || inputs.accurate || solution.geometry.is_close_call(inputs.bores()) {
+    if !has_closed_form || inputs.accurate || solution.geometry.needs_precision(inputs.bores()) {
         return None;
     }
     let earlier = LoadAndDeviation::of(before);

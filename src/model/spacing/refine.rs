@@ -50,7 +50,7 @@ impl<T> Look<T> {
         let limited = Resolution::Limited(most);
         let fewer = fewer(ends, most / PLACES - 1);
         let ends = fewer.as_deref().unwrap_or(ends);
-        let mut looking = Looking {
+        let mut looking = Sampler {
             at,
             samples: Vec::new(),
             allowed,
@@ -151,7 +151,7 @@ fn fewer(ends: &[f64], most: usize) -> Option<Vec<f64>> {
 }
 
 /// The state of the sampling.
-struct Looking<T, F> {
+struct Sampler<T, F> {
     at: F,
     samples: Vec<Sample<T>>,
     allowed: f64,
@@ -161,7 +161,7 @@ struct Looking<T, F> {
     limited: Resolution,
 }
 
-impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
+impl<T, F: FnMut(f64) -> (f64, T)> Sampler<T, F> {
     /// Samples a place and returns its height.
     fn sample(&mut self, place: f64) -> f64 {
         let (height, value) = (self.at)(place);

@@ -6,7 +6,7 @@ use crate::case::{Case, FIELDS, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 use crate::report::compare::{Column, Comparison, Refused, Row};
-use crate::report::{Report, Selection, shown_with, unit_beside};
+use crate::report::{Report, Selection, common_unit, shown_with};
 use crate::study::batch::{Control, Stopped};
 use crate::study::headline::{distinct, headline};
 use crate::study::statistics::{Estimate, PERCENTILES};
@@ -183,7 +183,7 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> StudyTable
     let rows = summary.quantities.iter().filter_map(|of| {
         let (quantity, found) = (of.quantity, of.figures.as_ref()?);
         let ends = [found.range.0, found.range.1].into_iter();
-        let unit = unit_beside(quantity, ends, System::Metric);
+        let unit = common_unit(quantity, ends, System::Metric);
         let shown = |value: f64| shown_with(quantity, value, unit);
         let values = found.percentiles.iter().map(|one| one.value);
         let values = values.chain([found.mean.value, found.deviation]);

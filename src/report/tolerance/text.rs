@@ -6,7 +6,7 @@ use super::ToleranceReport;
 use crate::case::fields::FIELDS;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::report::{shown_with, unit_beside};
+use crate::report::{common_unit, shown_with};
 use crate::study::sobol::Indices;
 use crate::study::statistics::{Estimate, Figures, PERCENTILES};
 use crate::study::tolerance::{Exceedance, OfQuantity, Summary};
@@ -140,7 +140,7 @@ fn quantity(
     };
     writeln!(out, "{heading}, {} values", figures.count)?;
     let ends = [figures.range.0, figures.range.1].into_iter();
-    let unit = unit_beside(quantity, ends, System::Metric);
+    let unit = common_unit(quantity, ends, System::Metric);
     let printed = |value: f64| shown_with(quantity, value, unit).to_string();
     let mut row = |name: &str, estimate: &Estimate| {
         let [value, from, to] = [estimate.value, estimate.from, estimate.to].map(printed);

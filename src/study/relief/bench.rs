@@ -45,7 +45,7 @@ struct Pitch {
 }
 
 /// The prepared mesh.
-pub(super) struct Bench {
+pub(super) struct PreparedMesh {
     geometry: Geometry,
     reliefs: Reliefs,
     tolerance: f64,
@@ -55,7 +55,7 @@ pub(super) struct Bench {
     costs: [u64; 2],
 }
 
-impl Bench {
+impl PreparedMesh {
     /// The mesh of a pair with its solution at the greatest load; `most` is the greatest sum of
     /// both reliefs, in m.
     ///
@@ -67,7 +67,7 @@ impl Bench {
         demand: &Demand,
         loads: &[f64],
         most: f64,
-    ) -> Result<Bench, Refusal> {
+    ) -> Result<PreparedMesh, Refusal> {
         let bare = bare(inputs);
         let survey = Survey::new(&bare, solution, most)?;
         let unit = solution.mesh_force / demand.loads.1;
@@ -79,7 +79,7 @@ impl Bench {
         let corners = survey.corners(solution.mesh_force)?;
         let pairs = corners.places.iter().map(|place| place.radii.len() as u64);
         let corner_cost: u64 = pairs.sum();
-        Ok(Bench {
+        Ok(PreparedMesh {
             geometry: solution.geometry,
             reliefs: bare.reliefs(),
             tolerance: demand.tolerance,

@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use super::bench::{Bench, tolerances};
+use super::bench::{PreparedMesh, tolerances};
 use super::search::Grid;
 use super::{Choice, Demand, NoRelief, TipReliefs};
 use crate::model::inputs::{Drive, Gear};
@@ -147,7 +147,7 @@ impl Figures<'_> {
     /// greatest load of the range.
     pub(super) fn greatest_load(
         &self,
-        bench: &Bench,
+        bench: &PreparedMesh,
         reliefs: &TipReliefs,
     ) -> Result<f64, NoRelief> {
         const MOST: f64 = 3.0;

@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
-use super::bench::Bench;
+use super::bench::PreparedMesh;
 use super::{AMOUNT_STEP, MapPoint, NoRelief, TipReliefs, decimal};
 use crate::model::Refusal;
 use crate::model::budget::Meter;
@@ -93,7 +93,7 @@ enum Cost {
 }
 
 pub(super) struct Search<'a> {
-    bench: &'a Bench,
+    bench: &'a PreparedMesh,
     grid: &'a Grid,
     meter: &'a Meter,
     go_on: &'a dyn Fn(f64) -> bool,
@@ -103,7 +103,7 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     pub(super) fn new(
-        bench: &'a Bench,
+        bench: &'a PreparedMesh,
         grid: &'a Grid,
         meter: &'a Meter,
         go_on: &'a dyn Fn(f64) -> bool,

@@ -26,7 +26,7 @@ pub struct Complete {
 
 /// Why files are not the shards of one study.
 #[derive(Debug)]
-pub enum Unfit {
+pub enum ShardError {
     /// A file cannot be read.
     Unreadable(String),
     /// The files do not belong together, or a file is not a shard.
@@ -38,9 +38,9 @@ impl Complete {
     ///
     /// # Errors
     /// Returns an error if the file is not a shard, or if the shard is incomplete or changed.
-    pub fn read(path: &Path) -> Result<Complete, Unfit> {
+    pub fn read(path: &Path) -> Result<Complete, ShardError> {
         let name = path.display();
-        let unreadable = |error| Unfit::Unreadable(format!("{name}: cannot be read: {error}"));
+        let unreadable = |error| ShardError::Unreadable(format!("{name}: cannot be read: {error}"));
         let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
         let mut first = String::new();
         let read = file.read_line(&mut first);
@@ -53,13 +53,13 @@ impl Complete {
         let header = header
             .filter(|header| header.kind == KIND && header.shard.of <= MOST)
             .ok_or_else(|| {
-                Unfit::Wrong(format!(
+                ShardError::Wrong(format!(
                     "{name}: this is not a shard: name files that --shard wrote"
                 ))
             })?;
         let version = env!("CARGO_PKG_VERSION");
         if header.version != version {
-            return Err(Unfit::Wrong(format!(
+            return Err(ShardError::Wrong(format!(
                 "{name}: version {} wrote this shard, and this is version {version}: run the shard again",
                 header.version
             )));
@@ -71,7 +71,7 @@ impl Complete {
                 header,
                 rows,
             }),
-            _ => Err(Unfit::Wrong(format!(
+            _ => Err(ShardError::Wrong(format!(
                 "{name}: shard {} is incomplete or changed: run it again",
                 header.shard
             ))),
@@ -150,8 +150,8 @@ fn add(line: &str, width: usize, rows: &mut Rows) -> io::Result<()> {
 ///
 /// # Errors
 /// Returns an error if the shards belong to several studies, or if one is missing or given twice.
-pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, Unfit> {
-    let wrong = |text| Err(Unfit::Wrong(text));
+pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, ShardError> {
+    let wrong = |text| Err(ShardError::Wrong(text));
     let Some(one) = shards.first() else {
         return wrong("no shard is given: name every file that --shard wrote".to_owned());
     };

@@ -162,7 +162,7 @@ impl Answer {
             return None;
         }
         if subject == Subject::Curve {
-            return Some(self.off_curve(truth));
+            return Some(self.curve_error(truth));
         }
         match (self.value(subject), truth.value(subject)) {
             (Some(found), Some(expected)) => Some(relative(found - expected, expected)),
@@ -177,7 +177,7 @@ impl Answer {
     /// The greatest difference of the forces over the driver's roll angle from the earlier first
     /// contact to E, over the true peak. With linear interpolation the greatest difference is at a
     /// station of one of the curves.
-    fn off_curve(&self, truth: &Answer) -> f64 {
+    fn curve_error(&self, truth: &Answer) -> f64 {
         let angles = self
             .curve
             .iter()

@@ -40,7 +40,7 @@ impl Second {
 /// # Errors
 /// The refusals of [`Mesh::new`]; [`Refusal::TooSlow`] if the run time would exceed a few seconds;
 /// [`Refusal::Stopped`] if `go_on` returns false.
-pub(super) fn second_way(
+pub(super) fn independent_solution(
     inputs: &Inputs,
     solution: &Solution,
     go_on: &dyn Fn() -> bool,

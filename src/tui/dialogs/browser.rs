@@ -66,7 +66,7 @@ impl Dialog for Browser {
     fn typed(&mut self) -> Vec<Effect> {
         let list = self.follow().then(|| self.list());
         let below = self.seek();
-        let below = below.map(|(base, typed)| Effect::Job(Job::Below(base, typed)));
+        let below = below.map(|(base, typed)| Effect::Job(Job::Search(base, typed)));
         list.into_iter().chain(below).collect()
     }
 
@@ -227,7 +227,7 @@ fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer
     let marked = Some(browser.marked).filter(|&marked| marked < count);
     let room = usize::from(area.width).saturating_sub(2);
     let line = |at: usize| match browser.line(at) {
-        Some(Line::Below(case)) => text::cut_front(&case.name, room),
+        Some(Line::Found(case)) => text::cut_front(&case.name, room),
         _ => line_of(browser, at),
     };
     boxes::draw_window(count, line, marked, area, theme, buffer);
@@ -266,7 +266,7 @@ fn line_of(browser: &Browser, at: usize) -> String {
         Some(Line::Up) => "../".to_owned(),
         Some(Line::Entry(entry)) if entry.is_folder => format!("{}/", entry.name),
         Some(Line::Entry(entry)) => entry.name.clone(),
-        Some(Line::Below(case)) => case.name.clone(),
+        Some(Line::Found(case)) => case.name.clone(),
         Some(Line::Example(example)) => format!("{}  (example)", example.name),
         Some(Line::Recent(recent)) => {
             let name = recent

@@ -30,7 +30,7 @@ use range::{ChartView, Frame, Occasion, Refit, Scale};
 pub use crate::model::contact_state::first_contact_of_driver as first_contact;
 pub use readout::readout;
 pub(crate) use way::last_contact;
-use way::{path, way, way_by};
+use way::{angle_range_of, path, way};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
@@ -243,7 +243,7 @@ impl Charts<'_> {
             .baseline
             .map(|baseline| (baseline, baseline.beside(answer.active)));
         let way = pinned
-            .map_or(Span::NONE, |(base, method)| way_by(base, method))
+            .map_or(Span::NONE, |(base, method)| angle_range_of(base, method))
             .and(way(answer));
         let way = if self.is_by_model() {
             way.and(path(answer))

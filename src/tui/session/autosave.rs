@@ -283,11 +283,11 @@ impl Autosave {
             .unwrap_or_default();
         let place = journals.place(open.path, &session, open.id);
         if let Some(case) = self.tracked.get_mut(&open.id) {
-            let stands_on = *case.stamp.get_or_insert_with(|| open.document.stamp());
+            let base_stamp = *case.stamp.get_or_insert_with(|| open.document.stamp());
             let changes = changes::between(open.document.loaded(), edited);
             let journal = Journal {
                 case: case.path.clone(),
-                stands_on,
+                base_stamp,
                 written: 0,
                 session,
                 changes,
@@ -321,7 +321,7 @@ fn elsewhere(journals: impl Iterator<Item = Journal>) -> Option<String> {
     let cases: BTreeSet<String> = journals
         .map(|journal| match journal.case {
             Some(path) => path.display().to_string(),
-            None if journal.stands_on == built_in => "the built-in case".to_owned(),
+            None if journal.base_stamp == built_in => "the built-in case".to_owned(),
             None => "a new case".to_owned(),
         })
         .collect();
@@ -357,6 +357,6 @@ fn offer(open: &OpenCase<'_>, place: PathBuf, journal: &Journal) -> Option<Offer
         journal: place,
         age,
         changes,
-        is_file_changed: journal.stands_on != open.document.stamp(),
+        is_file_changed: journal.base_stamp != open.document.stamp(),
     })
 }

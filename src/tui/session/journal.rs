@@ -26,7 +26,7 @@ pub struct Journal {
     /// The file of the case; `None` if it has none yet.
     pub case: Option<PathBuf>,
     /// Length and hash of the text that was edited.
-    pub(crate) stands_on: Stamp,
+    pub(crate) base_stamp: Stamp,
     /// When the journal was written, in seconds since 1970.
     pub(crate) written: u64,
     /// The session of the journal.
@@ -55,7 +55,7 @@ pub enum JournalFault {
 impl Journal {
     /// Whether the journal belongs to the case in a file; without a file, to the text with a stamp.
     pub(crate) fn is_of(&self, case: Option<&Path>, stamp: Stamp) -> bool {
-        self.case.as_deref() == case && (case.is_some() || self.stands_on == stamp)
+        self.case.as_deref() == case && (case.is_some() || self.base_stamp == stamp)
     }
 
     /// The text of a journal file.
@@ -91,8 +91,8 @@ impl Journal {
         let mut toml = DocumentMut::new();
         toml["written"] = value(self.written.cast_signed());
         toml["session"] = value(&self.session);
-        toml["length"] = value(self.stands_on.length.cast_signed());
-        toml["hash"] = value(format!("{:016x}", self.stands_on.hash));
+        toml["length"] = value(self.base_stamp.length.cast_signed());
+        toml["hash"] = value(format!("{:016x}", self.base_stamp.hash));
         if let Some(case) = &self.case {
             match case.to_str() {
                 Some(path) => toml["case"] = value(path),
@@ -148,7 +148,7 @@ fn read(toml: &Table) -> Result<Journal, &'static str> {
     };
     Ok(Journal {
         case,
-        stands_on: Stamp {
+        base_stamp: Stamp {
             length: number("length")?,
             hash,
         },
@@ -198,7 +198,7 @@ mod tests {
         };
         Journal {
             case: Some("/home/me/äöü \"quoted\"\n\u{1b}[2J.toml".into()),
-            stands_on: Stamp::of(b"format = 1\n"),
+            base_stamp: Stamp::of(b"format = 1\n"),
             written: 1_795_265_502,
             session: "abc123".to_owned(),
             changes: vec![

@@ -173,7 +173,7 @@ mod tests {
     fn journal(session: &str) -> Journal {
         Journal {
             case: None,
-            stands_on: Stamp::of(b""),
+            base_stamp: Stamp::of(b""),
             written: 0,
             session: session.to_owned(),
             changes: Vec::new(),

@@ -24,7 +24,7 @@ pub(crate) struct Lock {
 
 /// The result of taking a lock.
 #[derive(Debug)]
-pub(crate) enum Taken {
+pub(crate) enum LockOutcome {
     Ours(Lock),
     /// This process has the lock only if others on this machine respect its text: the file system
     /// has no locks.
@@ -40,12 +40,12 @@ impl Lock {
     ///
     /// # Errors
     /// Returns an error if the lock file cannot be created or is not a regular file.
-    pub(crate) fn take(path: &Path) -> io::Result<Taken> {
+    pub(crate) fn take(path: &Path) -> io::Result<LockOutcome> {
         for _ in 0..ATTEMPTS {
             let mut file = open(path)?;
             let hold = hold(&mut file);
             if let Hold::Other(holder) = hold {
-                return Ok(Taken::Held(holder));
+                return Ok(LockOutcome::Held(holder));
             }
             let mut lock = Lock {
                 file,
@@ -54,8 +54,8 @@ impl Lock {
             if lock.is_in_place() {
                 lock.sign();
                 return Ok(match hold {
-                    Hold::Unguarded(error) => Taken::Unguarded(lock, error),
-                    _ => Taken::Ours(lock),
+                    Hold::Unguarded(error) => LockOutcome::Unguarded(lock, error),
+                    _ => LockOutcome::Ours(lock),
                 });
             }
         }
@@ -75,7 +75,8 @@ impl Lock {
             .tempfile_in(folder)?;
         let name = hidden.path().file_name().unwrap_or_default();
         let name = name.to_string_lossy().replace(UNLOCKED, "");
-        let (Taken::Ours(mut lock) | Taken::Unguarded(mut lock, _)) = Lock::take(hidden.path())?
+        let (LockOutcome::Ours(mut lock) | LockOutcome::Unguarded(mut lock, _)) =
+            Lock::take(hidden.path())?
         else {
             return Err(io::Error::other("the name of the session is in use"));
         };
@@ -204,7 +205,7 @@ mod tests {
 
     fn ours(path: &Path) -> Lock {
         match Lock::take(path).expect("a lock") {
-            Taken::Ours(lock) => lock,
+            LockOutcome::Ours(lock) => lock,
             other => panic!("{other:?}"),
         }
     }
@@ -215,7 +216,7 @@ mod tests {
         let lock = ours(&path);
         assert!(Lock::is_held(&path));
         match Lock::take(&path) {
-            Ok(Taken::Held(holder)) => {
+            Ok(LockOutcome::Held(holder)) => {
                 assert!(holder.is_alive());
                 assert_eq!(
                     (holder.process, &holder.host),

@@ -6,7 +6,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::holder::Holder;
-use super::lock::{Lock, Taken};
+use super::lock::{Lock, LockOutcome};
 use crate::case::file::followed;
 use crate::case::sanitize::sanitize;
 
@@ -39,12 +39,12 @@ impl Locks {
             self.0.insert(named, Held { place, _lock: lock });
         };
         match Lock::take(&place) {
-            Ok(Taken::Held(holder)) => Ok(Some(holder)),
-            Ok(Taken::Ours(lock)) => {
+            Ok(LockOutcome::Held(holder)) => Ok(Some(holder)),
+            Ok(LockOutcome::Ours(lock)) => {
                 hold(lock);
                 Ok(None)
             }
-            Ok(Taken::Unguarded(lock, error)) => {
+            Ok(LockOutcome::Unguarded(lock, error)) => {
                 hold(lock);
                 Err(format!(
                     "{}: the lock is valid on this machine only: {}: do not open this case on \

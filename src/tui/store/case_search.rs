@@ -31,7 +31,7 @@ pub struct Case {
 
 /// The result of a search.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Below {
+pub struct SearchResult {
     /// The folder of the browser, and the folders typed after it.
     pub asked: (PathBuf, String),
     /// The cases, the nearest first.
@@ -43,7 +43,7 @@ pub struct Below {
 /// Searches for cases; returns `None` if `go_on` returns false. Skips hidden folders and does not
 /// follow links.
 #[must_use]
-pub fn find(base: PathBuf, typed: String, go_on: &dyn Fn(f64) -> bool) -> Option<Below> {
+pub fn find(base: PathBuf, typed: String, go_on: &dyn Fn(f64) -> bool) -> Option<SearchResult> {
     let top = place_of(&base, &typed);
     let (began, mut entries) = (Instant::now(), 0);
     let (mut cases, mut is_cut) = (Vec::new(), false);
@@ -69,7 +69,7 @@ pub fn find(base: PathBuf, typed: String, go_on: &dyn Fn(f64) -> bool) -> Option
     }
     cases.sort();
     cases.truncate(MOST_CASES);
-    Some(Below {
+    Some(SearchResult {
         asked: (base, typed),
         cases,
         is_cut,
@@ -111,7 +111,7 @@ impl Case {
     }
 }
 
-impl Below {
+impl SearchResult {
     /// The path of a case, relative to the browser.
     #[must_use]
     pub(crate) fn path(&self, case: &Case) -> PathBuf {

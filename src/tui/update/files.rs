@@ -151,7 +151,7 @@ pub(super) fn saved(
     next: Next,
     result: Result<Box<Written>, SaveFault>,
 ) -> Vec<Effect> {
-    let asked = app.tab.being_saved.take();
+    let asked = app.tab.saving.take();
     match result {
         Ok(written) => {
             let Written { document, saved } = *written;
@@ -275,7 +275,7 @@ fn refuse_faulty(app: &mut App) -> bool {
 
 fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     let document = app.tab.as_edited();
-    app.tab.being_saved = Some(app.tab.case.clone());
+    app.tab.saving = Some(app.tab.case.clone());
     Effect::Save(
         Box::new(Saving {
             document,

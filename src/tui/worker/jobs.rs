@@ -50,7 +50,7 @@ fn failed(job: &Job) -> Action {
 pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
     Some(match job {
         Job::Folder(base, typed) => Action::Listed(Box::new(folder::list(base, typed))),
-        Job::Below(base, typed) => Action::Found(Box::new(case_search::find(base, typed, go_on)?)),
+        Job::Search(base, typed) => Action::Found(Box::new(case_search::find(base, typed, go_on)?)),
         Job::Preview(sight, system) => {
             let preview = preview::of(&sight, system, go_on)?;
             Action::Previewed(sight, Box::new(preview))

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::case::{EXAMPLES, Example};
 use crate::tui::line::Line as Text;
-use crate::tui::store::case_search::{self, Below};
+use crate::tui::store::case_search::{self, SearchResult};
 use crate::tui::store::folder::{Entry, Listing, beneath};
 use crate::tui::store::preview::{Preview, Viewport};
 use crate::tui::store::recents::Recent;
@@ -32,7 +32,7 @@ pub struct Browser {
     /// Indices of the matching entries of the listing.
     fitting: Vec<usize>,
     /// The cases in the folders below, once a search is requested.
-    below: Option<Below>,
+    below: Option<SearchResult>,
     /// The folder of that search.
     sought: Option<(PathBuf, String)>,
     /// Indices of the matching cases in the folders below.
@@ -57,7 +57,7 @@ pub(crate) enum Line<'b> {
     /// An entry of the folder.
     Entry(&'b Entry),
     /// A case in a folder below.
-    Below(&'b case_search::Case),
+    Found(&'b case_search::Case),
     /// An example.
     Example(&'static Example),
     /// A recent case.
@@ -141,7 +141,7 @@ impl Browser {
     }
 
     /// Shows the cases in the folders below; a selection before them does not change.
-    pub(crate) fn take_below(&mut self, below: Below) {
+    pub(crate) fn take_below(&mut self, below: SearchResult) {
         self.below = Some(below);
         let marked = self.marked;
         let is_above = marked < self.count_of_folder() && !self.fitting.is_empty();
@@ -212,7 +212,7 @@ impl Browser {
         }
         let beyond = in_folder - self.fitting.len();
         if let Some(&case) = self.fitting_below.get(beyond) {
-            return self.below.as_ref()?.cases.get(case).map(Line::Below);
+            return self.below.as_ref()?.cases.get(case).map(Line::Found);
         }
         let beyond = beyond - self.fitting_below.len();
         if let Some(&example) = self.fitting_examples.get(beyond) {
@@ -231,7 +231,7 @@ impl Browser {
             Line::Up => Viewport::Folder(self.above()),
             Line::Recent(recent) => Viewport::File(recent.path.clone()),
             Line::Example(example) => Viewport::Example(example),
-            Line::Below(case) => Viewport::File(
+            Line::Found(case) => Viewport::File(
                 self.below
                     .as_ref()
                     .map_or_else(|| case.way.clone(), |below| below.path(case)),
@@ -361,7 +361,7 @@ impl Browser {
         (!wanted.is_empty() && !wanted.starts_with(['.', '~'])).then(|| wanted.to_lowercase())
     }
 
-    fn own_below(&self) -> Option<&Below> {
+    fn own_below(&self) -> Option<&SearchResult> {
         self.below
             .as_ref()
             .filter(|below| below.asked == self.asks())

@@ -38,7 +38,7 @@ pub(crate) fn path(answer: &Answer) -> Span {
 }
 
 /// The range of the stations of one method, in deg after E.
-pub(crate) fn way_by(answer: &Answer, method: Method) -> Span {
+pub(crate) fn angle_range_of(answer: &Answer, method: Method) -> Span {
     answer.of(method).map_or(Span::NONE, way_of)
 }
 

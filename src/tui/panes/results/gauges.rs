@@ -79,8 +79,8 @@ fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
         Quantity::find("impact_force_low")?,
         Quantity::find("impact_force")?,
     );
-    let unit = report::unit_beside(usual, ends().chain([force]), pane.units);
-    let is_enough = report::unit_beside(few, ends(), pane.units) == unit;
+    let unit = report::common_unit(usual, ends().chain([force]), pane.units);
+    let is_enough = report::common_unit(few, ends(), pane.units) == unit;
     let quantity = if is_enough { few } else { usual };
     let (low, high) = (
         report::shown_with(quantity, band.low, unit).number,

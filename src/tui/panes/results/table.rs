@@ -173,7 +173,7 @@ impl Cells {
             .iter()
             .map(|&method| value(answer, method, quantity))
             .collect();
-        let unit = report::unit_beside(quantity, values.iter().copied().flatten(), pane.units);
+        let unit = report::common_unit(quantity, values.iter().copied().flatten(), pane.units);
         let shown = |value: f64| report::shown_with(quantity, value, unit);
         let number =
             |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| shown(value).number);

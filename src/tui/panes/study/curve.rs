@@ -10,7 +10,7 @@ use unicode_width::UnicodeWidthStr;
 use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, range};
 use crate::model::Outcome;
 use crate::model::inputs::Method;
-use crate::report::unit_beside;
+use crate::report::common_unit;
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::tui::panes::plot::{PlotArea, draw_axes, put_where_free};
@@ -51,7 +51,7 @@ pub(super) fn draw(
     let Some(known) = shown.quantity() else {
         return;
     };
-    let unit = unit_beside(known, all(), pane.units);
+    let unit = common_unit(known, all(), pane.units);
     let factor = crate::case::units::factor(unit).unwrap_or(1.0);
     let values = all().fold(Span::NONE, |span, value| span.with(value / factor));
     let upright = Span::default().refit(values);

@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, range};
 use crate::model::{Outcome, Quantity};
-use crate::report::{shown_with, unit_beside};
+use crate::report::{common_unit, shown_with};
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::tui::panes::plot::draw_axes;
@@ -77,7 +77,7 @@ pub(super) fn draw(
         buffer.set_string(cells.x + column, cells.y + row, symbol, style);
     }
     map.marks(shown, buffer);
-    let unit = unit_beside(known, all, pane.units);
+    let unit = common_unit(known, all, pane.units);
     map.legend((known, unit), rooms.legend, buffer);
 }
 

@@ -6,7 +6,7 @@ use super::{NO_CONTACT, REFUSED, StudyPane, axes, cursor, page_height, top};
 use crate::case::FIELDS;
 use crate::model::Outcome;
 use crate::model::inputs::Method;
-use crate::report::{shown_in, unit_beside};
+use crate::report::{common_unit, shown_in};
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
 use crate::study::refusals::Refused;
@@ -40,7 +40,7 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
             let method = layer.map_or(Method::Exact, |layer| layer.inputs.method);
             let (name, label) = (known.symbol_in(method), known.label_in(method).trim_start());
             let values = shown.layers.iter().flat_map(|found| &found.values);
-            let unit = match unit_beside(known, values.flatten().copied(), pane.units) {
+            let unit = match common_unit(known, values.flatten().copied(), pane.units) {
                 "" | "1" => String::new(),
                 unit => format!(" in {unit}"),
             };

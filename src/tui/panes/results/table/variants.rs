@@ -8,7 +8,7 @@ use super::{Table, above_heading, order};
 use crate::model::{Quantity, Solution};
 use crate::report::difference::difference;
 use crate::report::groups::FREE_IMPACT;
-use crate::report::{shown_with, unit_beside, value_as_in};
+use crate::report::{common_unit, shown_with, value_as_in};
 use crate::tui::ascii::symbol;
 use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
@@ -113,7 +113,7 @@ impl Cells {
             .iter()
             .filter_map(|found| found.ok().flatten())
             .chain(own);
-        let unit = unit_beside(known, all, pane.units);
+        let unit = common_unit(known, all, pane.units);
         let shown = |value: Option<f64>| {
             value.map_or_else(
                 || NONE.to_owned(),

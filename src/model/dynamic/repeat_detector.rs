@@ -8,7 +8,7 @@ use super::pair::PairName;
 const ROUNDING: f64 = 1e-14;
 
 /// The state one base pitch before.
-pub(super) struct Laps {
+pub(super) struct RepeatDetector {
     /// Start of the next base pitch, in base pitches.
     next: f64,
     start: f64,
@@ -24,12 +24,12 @@ struct Lap {
     moved: f64,
 }
 
-impl Laps {
+impl RepeatDetector {
     /// A warm-up that begins at `start`, in m.
-    pub(super) fn new(start: f64, tolerance: f64) -> Laps {
+    pub(super) fn new(start: f64, tolerance: f64) -> RepeatDetector {
         /// Part of the tolerance that limits the error of a converging state.
         const PART: f64 = 1e-3;
-        Laps {
+        RepeatDetector {
             next: 1.0,
             start,
             last: None,
