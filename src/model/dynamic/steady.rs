@@ -189,7 +189,7 @@ impl<'a> Round<'a> {
             turned: Touching::NONE,
             is_even: true,
             allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
-            laps: RepeatDetector::new(0.0, tolerance),
+            repeats: RepeatDetector::new(0.0, tolerance),
             watch: Watch::of_contact_alone(),
             effort: Effort::default(),
             meter,
