@@ -122,6 +122,7 @@ pub fn dynamic(
                 return Ok(None);
             }
         }
+        run.check_reach()?;
         let effort = Effort {
             work: meter.spent(),
             ..run.effort
@@ -180,6 +181,7 @@ pub fn approach(
                 return Ok(None);
             }
         }
+        run.check_reach()?;
         let lead = run
             .lead
             .filter(|lead| lead.is_finite())
@@ -273,6 +275,12 @@ impl<'a> Run<'a> {
     fn part_done(&self) -> f64 {
         let (from, to) = (self.borders[0], self.motion.mesh.length);
         ((self.motion.place(self.t) - from) / (to - from)).clamp(0.0, 1.0)
+    }
+
+    /// Refuses a motion in which pairs beyond the ends of the mesh may touch.
+    fn check_reach(&self) -> Result<(), Refusal> {
+        let mesh = self.motion.mesh;
+        mesh.check_reach(self.watch.most_ahead + mesh.error.max(0.0))
     }
 
     /// Advances to the next border.

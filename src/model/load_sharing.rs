@@ -274,3 +274,32 @@ impl Stretch<'_> {
         new().map(Some)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::inputs::{Inputs, Method};
+    use crate::model::sample::standard_pair;
+    use crate::model::solve;
+
+    #[test]
+    fn a_motion_beyond_the_computed_gaps_is_refused() {
+        let inputs = Inputs {
+            method: Method::Dynamic,
+            base_pitch_deviation: 12e-6,
+            ..standard_pair(20, 30, 5e-3)
+        };
+        let solution = solve(&inputs, Stages::of(Stage::Dynamic)).unwrap();
+        let stations = &solution.dynamic.as_ref().unwrap().stations;
+        let most = stations.iter().map(|station| station.transmission_error);
+        let most = most.fold(0.0, f64::max) + solution.deviation.equivalent_error;
+        let motion = |reach: f64| {
+            let load = (solution.mesh_force, solution.deviation.equivalent_error);
+            let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load.0, load.1, reach)?;
+            let settings = MotionInputs::of(&inputs).settings(solution.reduced_mass);
+            dynamic(&mesh, &settings, &|_| true)
+        };
+        assert_eq!(motion(0.95 * most).err(), Some(Refusal::BeyondReach));
+        assert_eq!(motion(4.0 * most).err(), None);
+    }
+}

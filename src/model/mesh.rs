@@ -12,6 +12,7 @@ mod zones;
 
 use std::sync::Arc;
 
+use super::Refusal;
 use super::compliance::flanks::Flanks;
 use super::pair_forces::{OfPairs, PITCHES, Pair, PairSet, Place};
 use back::Back;
@@ -194,6 +195,16 @@ impl Mesh {
             gap: gap - self.error_of(ahead),
             weight,
         }
+    }
+
+    /// Refuses a lead of the driver, in m, with which pairs beyond the ends of the mesh may touch.
+    pub(super) fn check_reach(&self, lead: f64) -> Result<(), Refusal> {
+        let (from, to) = self.ends();
+        let gap = |s: f64| self.incoming(s).0.gap;
+        if !self.is_whole && lead >= gap(from).min(gap(to)) {
+            return Err(Refusal::BeyondReach);
+        }
+        Ok(())
     }
 
     /// The incoming pair at `s` without its error, and the slope of its gap over s. At E' the pair

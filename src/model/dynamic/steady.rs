@@ -246,9 +246,7 @@ impl<'a> Round<'a> {
         for _ in 0..periods {
             self.lap(|window, touching, step| seen.see(window, touching, step))?;
         }
-        if seen.is_beyond_reach() {
-            return Err(Refusal::BeyondReach);
-        }
+        seen.check_reach()?;
         Ok(Steady {
             spectrum: seen.fourier.spectrum(periods),
             mesh_force: seen.mesh_force,
@@ -331,12 +329,9 @@ impl<'a> Seen<'a> {
         self.mesh_force = extremes(&sum).fold(self.mesh_force, f64::max);
     }
 
-    /// Whether a pair beyond the ends of the mesh may touch.
-    fn is_beyond_reach(&self) -> bool {
-        let mesh = self.motion.mesh;
-        let (from, to) = mesh.ends();
-        let reach = mesh.incoming(from).0.gap.min(mesh.incoming(to).0.gap);
+    /// Refuses a motion in which pairs beyond the ends of the mesh may touch.
+    fn check_reach(&self) -> Result<(), Refusal> {
         let most = self.ahead.max(self.behind - self.motion.backlash);
-        !mesh.is_whole() && most >= reach
+        self.motion.mesh.check_reach(most)
     }
 }

@@ -29,7 +29,7 @@ pub(super) struct Watch {
     bytes: usize,
     touches: Vec<f64>,
     leaves: Vec<f64>,
-    most_ahead: f64,
+    pub(super) most_ahead: f64,
     contact_lost: bool,
     rattle: RattleWatch,
     /// Number of evaluations of series.
