@@ -127,6 +127,10 @@ fn load_within(
         return Ok(StaticLoad::none());
     };
     balances.retain(|&(s, _)| s > contact.first && s < contact.last);
+    // The displacement is often greatest where the tooth begins or ends to carry.
+    let [first, last] = [contact.first, contact.last].map(|s| (s, balance(mesh, s, s)));
+    balances.insert(0, first);
+    balances.push(last);
     let peak_force = peak(mesh, &balances, |balance| balance.force);
     let (stations, resolution) = stations(mesh, contact, peak_force, spacing);
     Ok(StaticLoad {
@@ -279,17 +283,13 @@ fn contact(mesh: &Mesh, balances: &[(f64, Balance)]) -> Result<Option<Contact>, 
     }))
 }
 
-/// The greatest value over the contact.
+/// The greatest value over the contact, of which `balances` has both ends.
 fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
     let known: Vec<(f64, f64)> = balances
         .iter()
         .map(|(s, balance)| (*s, value(balance)))
         .collect();
-    if known.is_empty() {
-        0.0
-    } else {
-        greatest(&known, |s| value(&balance(mesh, s, s))).1
-    }
+    greatest(&known, |s| value(&balance(mesh, s, s))).1
 }
 
 /// The greatest value and its place: the best of the known places, refined between its neighbours.

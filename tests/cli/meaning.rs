@@ -367,6 +367,7 @@ fn headlines(solution: &Solution) -> Vec<String> {
             "static_peak_force",
             "static_first_contact_angle",
             "static_transmission_error",
+            "contact_ratio",
         ],
         "dynamic" => &[
             "dynamic_peak_approach_force",

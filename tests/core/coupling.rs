@@ -431,7 +431,7 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
                 ),
                 (
                     Some((load.transmission_error, springs.transmission_error)),
-                    0.87..1.125,
+                    0.87..1.13,
                 ),
                 (
                     Some((mesh.mean_stiffness, alone.mean_stiffness)),

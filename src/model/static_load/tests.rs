@@ -57,3 +57,25 @@ fn a_part_of_the_mesh_too_small_for_the_deflection_is_refused() {
     let found = load_within((&mesh, &mesh.within(gap)), gap, Spacing::Even(32));
     assert_eq!(found, Err(Refusal::BeyondReach));
 }
+
+#[test]
+fn the_transmission_error_includes_both_ends_of_the_contact() {
+    for (teeth, deviation, friction) in [
+        (20, 0.0, None),
+        (20, 16e-6, None),
+        (60, 12e-6, Some(0.1)),
+        (200, 8e-6, None),
+    ] {
+        let mesh = mesh(teeth, deviation, friction);
+        let load = static_load(&mesh, Spacing::Even(2048)).unwrap();
+        let displacements = load
+            .stations
+            .iter()
+            .map(|station| station.transmission_error);
+        let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+        let (least, most) =
+            displacements.fold(nothing, |(least, most), x| (x.min(least), x.max(most)));
+        let found = load.transmission_error / (most - least) - 1.0;
+        assert!((-1e-12..1e-3).contains(&found), "z {teeth}: {found:e}");
+    }
+}
