@@ -74,9 +74,9 @@ pub enum Reason {
 /// A load transferred within a time t leaves an oscillation of at most T_n/(π t) of the load in a
 /// mesh with the period T_n: the response of an oscillator to a ramp.
 /// `Reason::static_error_bounds` gives the least and the most part of this oscillation that `static`
-/// can miss, measured over 300 pairs. Between both bounds a trial motion decides. Without contact the method is `exact` if the gap at
-/// E is greater than T_n/(π t) times the deflection, where t is the time in which two pairs share
-/// the load.
+/// can miss, measured over 300 pairs. Between both bounds a trial motion decides. Without contact
+/// the method is `exact` if the gap at E is greater than T_n/(π t) times the deflection, where t is
+/// the time in which two pairs share the load.
 ///
 /// A limit or a selected quantity can need a slower method ([`Inputs::needs`]).
 #[must_use]

@@ -318,7 +318,8 @@ impl Teeth {
         self.elasticity.tooth.model().has_coupling
     }
 
-    /// The place on driver and driven gear by which [`Teeth::couplings`] names where a pair touches.
+    /// The place on driver and driven gear by which [`Teeth::couplings`] names where a pair
+    /// touches.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.

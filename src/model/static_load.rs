@@ -104,8 +104,8 @@ fn near_gap(mesh: &Mesh) -> f64 {
     TIMES * (displacements[0].max(displacements[1]) + mesh.error.abs())
 }
 
-/// The shared load of the pairs in `mesh`, the part of the whole mesh with gaps up to `gap`, in m. The
-/// samples are those of the whole mesh.
+/// The shared load of the pairs in `mesh`, the part of the whole mesh with gaps up to `gap`, in m.
+/// The samples are those of the whole mesh.
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] if a pair may close a wider gap.

@@ -169,8 +169,8 @@ impl Counted {
             .collect()
     }
 
-    /// The values at `ranks`, which must be sorted. Only intervals with a requested rank are sorted:
-    /// sorting all values would take many times as long.
+    /// The values at `ranks`, which must be sorted. Only intervals with a requested rank are
+    /// sorted: sorting all values would take many times as long.
     fn ordered(&self, values: &[f64], ranks: &[usize]) -> Ordered {
         const OTHER: u8 = u8::MAX;
         let mut parts = Vec::<(usize, Vec<f64>)>::new();

@@ -261,8 +261,8 @@ impl Tooth {
         }
     }
 
-    /// The same as [`Tooth::neighbour`] at several pairs of [places](Tooth::abscissa) at once: those
-    /// of the loads and those of the displacements.
+    /// The same as [`Tooth::neighbour`] at several pairs of [places](Tooth::abscissa) at once:
+    /// those of the loads and those of the displacements.
     #[must_use]
     pub fn neighbours(&self, places: [Lanes<TERMS>; 2], pitches: i32) -> Lanes<TERMS> {
         match &self.serves {

@@ -39,8 +39,8 @@ pub(in crate::model) trait Neighbours {
     /// Where a pair touches the driver and the driven gear, in a measure of the model's own.
     fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal>;
 
-    /// Displacement of the rear pair by the force on the front one so many pitches ahead, or of that
-    /// one by the force on this one, in m²/N, at several places of both.
+    /// Displacement of the rear pair by the force on the front one so many pitches ahead, or of
+    /// that one by the force on this one, in m²/N, at several places of both.
     fn displacements(
         &self,
         rear: [Lanes<TERMS>; 2],
@@ -56,8 +56,8 @@ struct Abscissas {
 
 impl Abscissas {
     fn of(way: &Way, at: impl Fn(f64) -> Result<[f64; 2], Refusal>) -> Result<Abscissas, Refusal> {
-        /// Of the size of an abscissa, which changes a coupling by a twentieth of the compliance of a
-        /// pair; rounding of a large gear's radii is half of it.
+        /// Of the size of an abscissa, which changes a coupling by a twentieth of the compliance of
+        /// a pair; rounding of a large gear's radii is half of it.
         const REST: f64 = 2e-12;
         let borders = way.borders(0);
         let stretches = borders.windows(2).map(|ends| {
