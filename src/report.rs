@@ -26,6 +26,7 @@ pub mod svg;
 pub mod sweep;
 pub mod text;
 pub mod tolerance;
+pub mod tooth_chart;
 pub mod trade;
 pub mod verdict;
 pub mod whine;

@@ -30,8 +30,8 @@ mod theme;
 mod update;
 mod variants;
 mod view;
-mod whine;
 mod worker;
+mod worker_chart;
 
 mod baseline;
 mod capped_backend;

@@ -7,14 +7,22 @@ use super::charts::{self, SolvedCase, with_other_method};
 use super::graphs::{GRAPHS, Graph, Place};
 use super::svg::teeth::teeth;
 use super::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
-use super::{Report, Selection};
+use super::{Report, Selection, tooth_chart};
 use crate::case::Case;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal};
 use crate::study::speeds::{SPEEDS, SpeedCurve, speeds};
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
-const OTHERS: [Picture; 3] = [
+const OTHERS: [Picture; 5] = [
+    Picture {
+        key: tooth_chart::KEYS[0],
+        drawing: Drawing::ToothCompliance(0),
+    },
+    Picture {
+        key: tooth_chart::KEYS[1],
+        drawing: Drawing::ToothCompliance(1),
+    },
     Picture {
         key: SPECTRUM,
         drawing: Drawing::Spectrum,
@@ -40,6 +48,8 @@ pub struct Picture {
 #[derive(Debug, Clone, Copy)]
 enum Drawing {
     Graph(&'static Graph),
+    /// The driver (0) or the driven gear (1).
+    ToothCompliance(usize),
     Spectrum,
     Speed,
     Teeth,
@@ -65,7 +75,7 @@ pub enum NoPicture {
     Absent(String),
 }
 
-/// Every picture: the charts of the stations, the charts of whine, the teeth.
+/// Every picture: the charts of the stations, the charts with their own axes, the teeth.
 pub fn pictures() -> impl Iterator<Item = Picture> + Clone {
     let graph = |graph: &'static Graph| Picture {
         key: graph.key,
@@ -86,6 +96,7 @@ impl Picture {
     pub fn is_on_page(self) -> bool {
         match self.drawing {
             Drawing::Graph(graph) => graph.is_at(Place::Page),
+            Drawing::ToothCompliance(_) => false,
             Drawing::Spectrum | Drawing::Speed | Drawing::Teeth => true,
         }
     }
@@ -99,7 +110,7 @@ impl Picture {
     /// Whether each case has a separate picture.
     #[must_use]
     pub fn is_of_one_case(self) -> bool {
-        matches!(self.drawing, Drawing::Teeth)
+        matches!(self.drawing, Drawing::Teeth | Drawing::ToothCompliance(_))
     }
 
     /// Draws solved cases; a picture of one case draws the first. `None` if no case has values for
@@ -108,6 +119,10 @@ impl Picture {
     pub fn draw(self, cases: &[SolvedCase]) -> Option<String> {
         match self.drawing {
             Drawing::Graph(graph) => charts::picture(graph, cases),
+            Drawing::ToothCompliance(gear) => {
+                let report = cases.first()?.reports.first()?;
+                tooth_chart::picture(gear, &report.inputs).ok()
+            }
             Drawing::Spectrum => spectrum(cases),
             Drawing::Speed => {
                 let named = cases
@@ -152,6 +167,12 @@ impl Picture {
         let key = self.key;
         let reason = match self.drawing {
             Drawing::Graph(graph) => charts::absence(graph, reports),
+            Drawing::ToothCompliance(gear) => match reports.first() {
+                Some(report) => tooth_chart::picture(gear, &report.inputs)
+                    .err()
+                    .unwrap_or_default(),
+                None => "no case is solved".to_owned(),
+            },
             Drawing::Spectrum => charts::absent_of_methods(Method::shares_load, reports),
             Drawing::Speed => {
                 return format!(

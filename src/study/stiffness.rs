@@ -27,7 +27,21 @@ pub const LEAST_POINTS: usize = 2;
 /// Greatest number of points on a flank.
 pub const MOST_POINTS: usize = 10_000;
 
-/// The compliances of both gears.
+/// Radii at which a chart draws the compliance of a tooth.
+pub const FLANK_POINTS: usize = 65;
+
+/// The compliances of both gears over their flanks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flanks {
+    /// Hertz half-width of the contact at the pitch point under the mesh force, in m.
+    pub contact_half_width: f64,
+    /// The models in the order of [`Point::models`].
+    pub models: Vec<ToothCompliance>,
+    /// Driver and driven gear.
+    pub gears: [GearComparison; 2],
+}
+
+/// The compliances of both gears, and the stiffness over the path of contact.
 #[derive(Debug, Clone)]
 pub struct Comparison {
     /// Hertz half-width of the contact at the pitch point under the mesh force, in m.
@@ -41,7 +55,7 @@ pub struct Comparison {
 }
 
 /// The compliances of one gear.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GearComparison {
     /// `driver` or `driven`.
     pub gear: &'static str,
@@ -51,6 +65,8 @@ pub struct GearComparison {
     pub form_radius: f64,
     /// Active tip radius, in m.
     pub tip_radius: f64,
+    /// Radius of the working pitch circle, in m.
+    pub pitch_radius: f64,
     /// Displacement of every tooth by the twist of the body about its bore, in m²/N; `None` for a
     /// gear without a bore or without a field.
     pub twist: Option<f64>,
@@ -101,6 +117,24 @@ pub struct FieldPoint {
 /// # Errors
 /// The refusals of the geometry, and [`Refusal::BoreTooLarge`].
 pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
+    let Flanks {
+        contact_half_width,
+        models,
+        gears,
+    } = compare_flanks(inputs, points)?;
+    Ok(Comparison {
+        contact_half_width,
+        models,
+        gears,
+        path: compare_path(inputs, points)?,
+    })
+}
+
+/// Compares the models over both flanks, without the path of contact.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal> {
     let (geometry, mesh_force) = loaded(inputs)?;
     let elasticity = inputs.elasticity();
     let pitch_point = geometry.start + geometry.approach_length;
@@ -110,13 +144,12 @@ pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
         .into_iter()
         .filter(|model| model.name() != FIELD)
         .collect();
-    let flanks = flanks(inputs, &geometry);
+    let flanks = flanks(inputs, &geometry, &place);
     let gears = flanks.map(|flank| flank.compare(inputs, &models, points, contact_half_width));
-    Ok(Comparison {
+    Ok(Flanks {
         contact_half_width,
         models,
         gears,
-        path: path::compare(inputs, &geometry, mesh_force, points),
     })
 }
 
@@ -144,16 +177,23 @@ struct Flank<'a> {
     gear: &'a Gear,
     elastic: ElasticGear,
     circles: &'a Circles,
+    pitch_radius: f64,
     profile: Profile,
 }
 
-fn flanks<'a>(inputs: &'a Inputs, geometry: &'a Geometry) -> [Flank<'a>; 2] {
+/// The gears, with the pitch point as the place of contact that gives their pitch circles.
+fn flanks<'a>(
+    inputs: &'a Inputs,
+    geometry: &'a Geometry,
+    pitch_point: &ContactPlace,
+) -> [Flank<'a>; 2] {
     let elasticity = inputs.elasticity();
-    let flank = |name, gear, elastic: ElasticGear, circles| Flank {
+    let flank = |name, gear, elastic: ElasticGear, circles, pitch_radius| Flank {
         name,
         gear,
         elastic,
         circles,
+        pitch_radius,
         profile: Profile::of(&elastic.rack, circles),
     };
     [
@@ -162,12 +202,14 @@ fn flanks<'a>(inputs: &'a Inputs, geometry: &'a Geometry) -> [Flank<'a>; 2] {
             &inputs.driver,
             elasticity.driver,
             &geometry.driver,
+            pitch_point.radius_driver,
         ),
         flank(
             "driven",
             &inputs.driven,
             elasticity.driven,
             &geometry.driven,
+            pitch_point.radius_driven,
         ),
     ]
 }
@@ -205,6 +247,7 @@ impl Flank<'_> {
             teeth: self.gear.teeth,
             form_radius: self.profile.form_radius(),
             tip_radius: self.circles.tip,
+            pitch_radius: self.pitch_radius,
             twist: field
                 .as_ref()
                 .ok()

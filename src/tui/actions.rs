@@ -20,7 +20,7 @@ use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
 use super::study::{StudyPart, StudyRequest};
 use super::variants::Variants;
-use super::whine::{WhinePart, WhineRequest};
+use super::worker_chart::{ChartPart, ChartRequest};
 use crate::case::Document;
 use crate::report::digest::Digest;
 
@@ -53,8 +53,8 @@ pub enum Action {
     Compared(Box<Variants>),
     /// The next results of a study.
     Studied(Box<StudyPart>),
-    /// The next values of a chart of whine.
-    Whined(Box<WhinePart>),
+    /// The next values of a chart that a worker computes.
+    Charted(Box<ChartPart>),
     /// The worker failed on the request with this serial.
     SolverFailed(u64),
     /// Progress of long work; `None` at its end.
@@ -121,10 +121,10 @@ pub enum Effect {
     CancelWork,
     /// Computes a study and returns its results as [`Action::Studied`].
     Study(Box<StudyRequest>),
-    /// Computes a chart of whine and returns its values as [`Action::Whined`].
-    Whine(Box<WhineRequest>),
-    /// Stops the chart of whine.
-    CancelWhine,
+    /// Computes a chart in a worker and returns its values as [`Action::Charted`].
+    Chart(Box<ChartRequest>),
+    /// Stops the computation of a chart.
+    CancelChart,
     /// Stop the search for the tip relief to specify.
     CancelRelief,
     /// Stop the study.

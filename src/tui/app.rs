@@ -197,7 +197,7 @@ impl App {
 
     fn place_of_pane(&self) -> Place {
         match self.layout.focus() {
-            Pane::Chart if self.chart.whine.is_some() => Place::WHINE,
+            Pane::Chart if self.chart.worker_chart.is_some() => Place::WORKER_CHART,
             Pane::Study if self.study.is_tolerance => Place::TOLERANCE,
             pane => pane.place(),
         }

@@ -48,8 +48,8 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         | Effect::CancelSolve
         | Effect::Study(_)
         | Effect::CancelStudy
-        | Effect::Whine(_)
-        | Effect::CancelWhine
+        | Effect::Chart(_)
+        | Effect::CancelChart
         | Effect::CancelRelief
         | Effect::Redraw
         | Effect::Suspend

@@ -28,7 +28,8 @@ const SIGNS: [&str; 6] = [
     "Column vs baseline: the difference from the baseline; b pins the baseline. \"was none\": the \
         baseline has no value. \"was\" and a value: the program prints no percentage.",
     "Chart curves: dots or * the method of the case; · paper; ∘ exact; × static; + the baseline; \
-        ╌ a reference value, such as Δ in the gap chart. Points on the x axis: D first contact; E \
+        ╌ a reference value, such as Δ in the gap chart. Compared stiffness models alternate in the \
+        columns that several of them cross. Points on the x axis: D first contact; E \
         and B ends of the path of contact; L last contact; d first contact of another method.",
     "Lines of the teeth: solid: flanks (bold: incoming pair) and, from E to B, the path of \
         contact; dashed: line of action; dotted: base circles and the path of the driven tip \

@@ -48,8 +48,8 @@ impl Place {
     pub(crate) const FRESH: Place = Place(8192);
     /// The study.
     pub(crate) const STUDY: Place = Place(16384);
-    /// A chart of whine, which has no roll angle.
-    pub(crate) const WHINE: Place = Place(32768);
+    /// A chart with its own axes, which has no roll angle.
+    pub(crate) const WORKER_CHART: Place = Place(32768);
     /// The tolerance, which replaces the study.
     pub(crate) const TOLERANCE: Place = Place(65536);
     /// A field that takes text or a name.
@@ -61,13 +61,13 @@ impl Place {
         .or(Place::TRADE)
         .or(Place::STUDY)
         .or(Place::TOLERANCE)
-        .or(Place::WHINE);
+        .or(Place::WORKER_CHART);
     /// Every place except prompts.
     pub(crate) const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// The places where `/` and `:` are commands.
     pub(crate) const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
     /// Every chart.
-    pub(crate) const CHARTS: Place = Place::CHART.or(Place::WHINE);
+    pub(crate) const CHARTS: Place = Place::CHART.or(Place::WORKER_CHART);
     /// The panes with the cursor of the roll angle.
     pub(crate) const CURSOR: Place = Place::CHART.or(Place::TEETH);
     pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);

@@ -110,10 +110,21 @@ impl Span {
     /// An axis that covers the values. Keeps this axis while it fits.
     #[must_use]
     pub(crate) fn fitted(self, values: Span) -> Span {
+        self.fitted_from(values, FAR_FROM_ZERO)
+    }
+
+    /// An axis that covers the values and includes 0 only if they have both signs or are alike, so
+    /// that the differences of compared curves are visible. Keeps this axis while it fits.
+    #[must_use]
+    pub(crate) fn fitted_closely(self, values: Span) -> Span {
+        self.fitted_from(values, 0.0)
+    }
+
+    fn fitted_from(self, values: Span, far_from_zero: f64) -> Span {
         if !(values.from.is_finite() && values.to.is_finite()) {
             return self;
         }
-        let needed = with_zero(values);
+        let needed = with_zero(values, far_from_zero);
         let serves =
             self.covers(needed) && needed.length() >= TOO_SMALL * self.length() && !self.is_empty();
         let is_alike = |side: fn(Span) -> bool| side(self) == side(needed);
@@ -199,7 +210,7 @@ pub(super) fn bounds(from: f64, to: f64) -> [f64; 2] {
 }
 
 // Extends the values to 0 unless they are far from it.
-fn with_zero(values: Span) -> Span {
+fn with_zero(values: Span, far_from_zero: f64) -> Span {
     let least = values.from.abs().min(values.to.abs());
     let greatest = values.from.abs().max(values.to.abs());
     let sound = |value: f64| {
@@ -211,7 +222,7 @@ fn with_zero(values: Span) -> Span {
     };
     let values = Span::new(sound(values.from), sound(values.to));
     let one_side = values.from.signum() == values.to.signum();
-    let apart = one_side && least > FAR_FROM_ZERO * greatest && values.length() > ALIKE * greatest;
+    let apart = one_side && least > far_from_zero * greatest && values.length() > ALIKE * greatest;
     if apart { values } else { values.with(0.0) }
 }
 

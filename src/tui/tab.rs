@@ -13,7 +13,7 @@ use super::session::recovery::{Access, OpenCase};
 use super::solver::{Answer, Values};
 use super::study::Study;
 use super::variants::Variants;
-use super::whine::Whine;
+use super::worker_chart::ChartWork;
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
 
@@ -76,8 +76,8 @@ pub struct Tab {
     pub(crate) variants: Option<Variants>,
     /// The study of the case.
     pub study: Study,
-    /// The chart of whine of the case.
-    pub whine: Whine,
+    /// The chart that the worker computes for the case.
+    pub chart_work: ChartWork,
     /// Selection and scrolling of the results.
     pub results: ResultsState,
 }
@@ -130,7 +130,7 @@ impl Tab {
             traded: None,
             variants: None,
             study: Study::default(),
-            whine: Whine::default(),
+            chart_work: ChartWork::default(),
             results: ResultsState::default(),
         }
     }

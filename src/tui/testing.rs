@@ -134,16 +134,16 @@ pub mod view {
     pub use crate::tui::view::draw;
 }
 
-pub mod whine {
-    pub use crate::tui::whine::{WhineFound, WhinePart, WhineRequest};
+pub mod worker_chart {
+    pub use crate::tui::worker_chart::{ChartPart, ChartRequest, ChartValues};
 }
 
 pub mod worker {
     pub use crate::tui::worker::Workers;
+    pub use crate::tui::worker::charting::draw as draw_chart;
     pub use crate::tui::worker::latest::Running;
     pub use crate::tui::worker::measuring::measure;
     pub use crate::tui::worker::studying::study;
-    pub use crate::tui::worker::whining::whine;
 
     pub mod jobs {
         pub use crate::tui::worker::jobs::perform;

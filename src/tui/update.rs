@@ -26,7 +26,7 @@ mod tabs;
 mod teeth;
 mod trade;
 mod variants;
-mod whine;
+mod worker_chart;
 
 use std::mem;
 use std::path::PathBuf;
@@ -80,7 +80,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     chart::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
     effects.extend(study::request(app));
-    effects.extend(whine::request(app));
+    effects.extend(worker_chart::request(app));
     effects.extend(variants::request(app));
     effects.extend(trade::stop_unseen(app));
     effects
@@ -128,7 +128,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         }
         Action::Measured(measured) => trade::measured(app, *measured),
         Action::Studied(part) => study::take(app, *part),
-        Action::Whined(part) => whine::take(app, &part),
+        Action::Charted(part) => worker_chart::take(app, &part),
         Action::Compared(found) => variants::take(app, *found),
         Action::SolverFailed(serial) => solver_failed(app, serial),
         Action::Solving(serial, part) => {

@@ -1,5 +1,6 @@
 //! Long work, each kind in its own thread: solving, the benchmark, studies, charts and jobs.
 
+pub(crate) mod charting;
 mod export;
 pub(crate) mod jobs;
 pub(crate) mod latest;
@@ -7,7 +8,6 @@ pub(crate) mod measuring;
 pub(crate) mod solving;
 pub(crate) mod studying;
 mod watching;
-pub(crate) mod whining;
 
 use std::io;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ use super::benchmark::Measuring;
 use super::jobs::Job;
 use super::solver::Request;
 use super::study::StudyRequest;
-use super::whine::WhineRequest;
+use super::worker_chart::ChartRequest;
 use crate::case::stamp::Stamp;
 
 /// The worker threads. The solver and the file watcher start at once, the others with their first
@@ -29,7 +29,7 @@ pub struct Workers {
     solver: Worker<Request>,
     benchmark: Option<Worker<Measuring>>,
     study: Option<Worker<StudyRequest>>,
-    whine: Option<Worker<WhineRequest>>,
+    charts: Option<Worker<ChartRequest>>,
     jobs: [Option<Worker<Job>>; Job::KINDS],
     watcher: Watcher,
 }
@@ -44,7 +44,7 @@ impl Workers {
             solver: solving::start(Send::clone(&send))?,
             benchmark: None,
             study: None,
-            whine: None,
+            charts: None,
             jobs: [const { None }; Job::KINDS],
             watcher: Watcher::start(Send::clone(&send))?,
             send,
@@ -94,21 +94,23 @@ impl Workers {
         Ok(())
     }
 
-    /// Requests a chart of whine; replaces the running one.
+    /// Requests a chart; replaces the running one.
     ///
     /// # Errors
     /// Returns an error if the system cannot start a thread.
-    pub fn whine(&mut self, request: WhineRequest) -> io::Result<()> {
-        let worker = match &self.whine {
+    pub fn chart(&mut self, request: ChartRequest) -> io::Result<()> {
+        let worker = match &self.charts {
             Some(worker) => worker,
-            None => self.whine.insert(whining::start(Send::clone(&self.send))?),
+            None => self
+                .charts
+                .insert(charting::start(Send::clone(&self.send))?),
         };
         worker.request(request);
         Ok(())
     }
 
-    pub(crate) fn stop_whine(&self) {
-        self.whine.iter().for_each(Worker::stop);
+    pub(crate) fn stop_chart(&self) {
+        self.charts.iter().for_each(Worker::stop);
     }
 
     pub(crate) fn stop_relief(&self) {

@@ -128,6 +128,36 @@ fn the_mesh_stiffness_has_a_curve_for_every_model() {
 }
 
 #[test]
+fn the_tooth_compliance_of_a_gear_has_a_curve_for_every_model_that_covers_it() {
+    let chart = |gear: &str, set: &[&str]| {
+        let chart = format!("tooth_compliance_{gear}");
+        stdout_of(&[&["plot", TABLE_1, "--chart", &chart], set].concat())
+    };
+    let curves = |picture: &str| picture.matches("class=\"curve").count();
+    // Each of four curves has a sample in the legend.
+    let driver = chart("driver", &[]);
+    for text in [
+        "Tooth compliance of the driver",
+        "tooth compliance q, µm mm/N",
+        "radius, mm",
+        ">finite-element, without contact<",
+        ">surface, finite-element with contact of half-width 0.136 mm<",
+        ">kuang-yang (case)<",
+        ">beam<",
+    ] {
+        assert!(driver.contains(text), "{text}: {driver}");
+    }
+    assert_eq!(curves(&driver), 8);
+    let set = ["--set", "driven.teeth=132"];
+    let driven = chart("driven", &set);
+    assert!(
+        driven.contains(">kuang-yang (case), no value: covers z 12..100"),
+        "{driven}"
+    );
+    assert_eq!((curves(&chart("driver", &set)), curves(&driven)), (8, 7));
+}
+
+#[test]
 fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
     let late = run(&[
         "plot",

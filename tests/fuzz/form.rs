@@ -441,9 +441,9 @@ impl Bench {
             | Effect::Measure(_)
             | Effect::Study(_)
             | Effect::CancelStudy
-            | Effect::Whine(_)
+            | Effect::Chart(_)
             | Effect::CancelRelief
-            | Effect::CancelWhine => None,
+            | Effect::CancelChart => None,
         }
     }
 

@@ -29,12 +29,12 @@ use tipstrike::tui::testing::store::recents;
 use tipstrike::tui::testing::study::StudyRequest;
 use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::whine::WhineRequest;
 use tipstrike::tui::testing::worker::Running;
+use tipstrike::tui::testing::worker::draw_chart;
 use tipstrike::tui::testing::worker::jobs;
 use tipstrike::tui::testing::worker::measure;
 use tipstrike::tui::testing::worker::study;
-use tipstrike::tui::testing::worker::whine;
+use tipstrike::tui::testing::worker_chart::ChartRequest;
 use tipstrike::tui::testing::{effects, solver, store, update, view};
 
 pub(crate) const SMALL: Size = Size {
@@ -182,7 +182,7 @@ impl Desk {
                     }
                     Effect::Measure(measuring) => actions.extend(measured(*measuring)),
                     Effect::Study(request) => actions.extend(studied(&request)),
-                    Effect::Whine(request) => actions.extend(whined(&request)),
+                    Effect::Chart(request) => actions.extend(charted(&request)),
                     Effect::Quit => self.has_quit = true,
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
@@ -191,7 +191,7 @@ impl Desk {
                     | Effect::CancelSolve
                     | Effect::CancelStudy
                     | Effect::CancelRelief
-                    | Effect::CancelWhine => {
+                    | Effect::CancelChart => {
                         self.has_cancelled = true;
                     }
                     Effect::Redraw => self.has_redrawn = true,
@@ -327,14 +327,14 @@ fn studied(request: &StudyRequest) -> Vec<Action> {
     sent
 }
 
-/// All messages of the worker of the charts of whine, the last first.
-fn whined(request: &WhineRequest) -> Vec<Action> {
+/// All messages of the worker of the charts, the last first.
+fn charted(request: &ChartRequest) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
     let running = Running {
         is_wanted: &|| true,
         send: &|action| sent.borrow_mut().push(action),
     };
-    whine(request, running);
+    draw_chart(request, running);
     let mut sent = sent.into_inner();
     sent.reverse();
     sent

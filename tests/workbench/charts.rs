@@ -22,7 +22,7 @@ use tipstrike::tui::testing::solver::{self, Answer};
 use tipstrike::tui::testing::teeth::readings;
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::whine::{WhineFound, WhinePart};
+use tipstrike::tui::testing::worker_chart::{ChartPart, ChartRequest, ChartValues};
 
 const HUGE: Size = Size {
     width: 240,
@@ -127,12 +127,17 @@ fn charts_are_selected_by_key_and_by_name() {
         assert_title(&desk, graph);
         desk.keys(&["j"]);
     }
-    assert!(desk.shows("Transmission error harmonics in um"));
-    desk.keys(&["j"]);
-    assert!(desk.shows("Dynamic factor over speed in rpm"));
-    desk.keys(&["j"]);
+    for title in [
+        "Driver q in um mm/N over r in mm",
+        "Driven q in um mm/N over r in mm",
+        "Transmission error harmonics in um",
+        "Dynamic factor over speed in rpm",
+    ] {
+        assert!(desk.shows(title), "{}", desk.screen());
+        desk.keys(&["j"]);
+    }
     assert_title(&desk, &GRAPHS[0]);
-    desk.keys(&["Up", "k", "k"]);
+    desk.keys(&["Up", "k", "k", "k", "k"]);
     assert_title(&desk, &GRAPHS[GRAPHS.len() - 1]);
     for graph in GRAPHS {
         desk.keys(&[
@@ -238,7 +243,7 @@ fn no_title_is_cut_in_any_chart_at_any_size() {
 /// The bars at each harmonic at rest and in motion; the run-up and run-down with present speed and
 /// resonances; in ASCII, and while the form is invalid.
 #[test]
-fn the_charts_of_whine() {
+fn the_charts_with_their_own_axes() {
     let mut desk = at_method(LARGE, "dynamic");
     desk.keys(&[":", "chart: spectrum", "Enter", "3"]);
     assert_snapshot!("spectrum_140x45", chart(&desk).join("\n"));
@@ -273,7 +278,7 @@ fn a_harmonic_without_amplitude_has_no_bar_and_titles_keep_their_units() {
         "{}",
         desk.screen()
     );
-    let Some((_, WhineFound::Spectra(spectra))) = &mut desk.app.tab.whine.found else {
+    let Some((_, ChartValues::Spectra(spectra))) = &mut desk.app.tab.chart_work.found else {
         panic!("spectra");
     };
     spectra.truncate(1);
@@ -284,10 +289,10 @@ fn a_harmonic_without_amplitude_has_no_bar_and_titles_keep_their_units() {
     assert_eq!(bars.count(), 1, "{rows:?}");
 }
 
-/// A chart of whine is requested once for a pair, its growing values are shown, and the values of
+/// A chart of the worker is requested once for a pair, its growing values are shown, and the values of
 /// an earlier request are not.
 #[test]
-fn the_latest_request_for_a_chart_of_whine_wins() {
+fn the_latest_request_for_a_chart_of_the_worker_wins() {
     let mut desk = at_method(SMALL, "exact");
     let press = |desk: &mut Desk, key| {
         let place = desk.app.place();
@@ -296,7 +301,7 @@ fn the_latest_request_for_a_chart_of_whine_wins() {
     };
     let request = |effects: Vec<Effect>| {
         effects.into_iter().find_map(|effect| match effect {
-            Effect::Whine(request) => Some(request),
+            Effect::Chart(request) => Some(request),
             _ => None,
         })
     };
@@ -304,7 +309,7 @@ fn the_latest_request_for_a_chart_of_whine_wins() {
     assert!(desk.shows("computing"), "{}", desk.screen());
     assert!(request(press(&mut desk, "l")).is_none(), "the same pair");
     let part = |serial, found, is_over| {
-        Action::Whined(Box::new(WhinePart {
+        Action::Charted(Box::new(ChartPart {
             serial,
             found,
             is_over,
@@ -314,12 +319,12 @@ fn the_latest_request_for_a_chart_of_whine_wins() {
     let mut so_far = curve.clone();
     so_far.up[60..].fill(None);
     so_far.down.fill(None);
-    let found = WhineFound::Speeds(Box::new(so_far));
+    let found = ChartValues::Speeds(Box::new(so_far));
     update(&mut desk.app, part(first.serial, Some(found), false));
     assert!(desk.shows("computing: Dynamic factor"), "{}", desk.screen());
     update(&mut desk.app, part(first.serial + 1000, None, true));
-    assert!(desk.app.tab.whine.is_running);
-    let found = WhineFound::Speeds(Box::new(curve));
+    assert!(desk.app.tab.chart_work.is_running);
+    let found = ChartValues::Speeds(Box::new(curve));
     update(&mut desk.app, part(first.serial, Some(found), true));
     assert!(!desk.shows("computing") && desk.shows("N=1") && desk.shows("present"));
     let stopped = press(&mut desk, "j");
@@ -327,13 +332,13 @@ fn the_latest_request_for_a_chart_of_whine_wins() {
 }
 
 #[test]
-fn a_chart_of_whine_interrupted_by_another_tab_is_requested_again() {
+fn a_chart_of_the_worker_interrupted_by_another_tab_is_requested_again() {
     let mut desk = at_method(SMALL, "exact");
     let press = |desk: &mut Desk, key| {
         let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
         update(&mut desk.app, action)
     };
-    let is_request = |effect: &Effect| matches!(effect, Effect::Whine(_));
+    let is_request = |effect: &Effect| matches!(effect, Effect::Chart(_));
     assert!(press(&mut desk, "k").iter().any(is_request));
     desk.keys(&["Ctrl-N"]);
     assert!(press(&mut desk, "Alt-1").iter().any(is_request));
@@ -612,7 +617,7 @@ fn the_baseline_is_drawn_in_the_same_chart() {
         assert!(desk.shows("+ baseline"), "{}", desk.screen());
         desk.keys(&["j", "j"]);
     }
-    desk.keys(&["jjjjjj", "l", "L"]);
+    desk.keys(&["jjjjjjjj", "l", "L"]);
     assert!(desk.shows("baseline "), "{}", desk.screen());
 }
 
@@ -734,10 +739,8 @@ fn assert_legends(desk: &Desk) {
     for (graph, plot) in app.charts().shown().into_iter().zip(plots(desk)) {
         let curves = curves::apart(curves::curves(&app.charts(), &GRAPHS[graph]));
         let mut alone = Buffer::empty(screen.area);
-        for curve in &curves {
-            let spans = (window, app.tab.scale.upright[graph]);
-            raster::draw(&app.charts(), curve, spans, plot, &mut alone);
-        }
+        let spans = (window, app.tab.scale.upright[graph]);
+        raster::draw(&app.charts(), &curves, spans, plot, &mut alone);
         let is_drawn = |at: &Position| alone[*at].symbol() != " ";
         for at in plot.positions().filter(is_drawn) {
             assert_eq!(alone[at].symbol(), screen[at].symbol(), "{at}\n{text}");
@@ -788,7 +791,7 @@ fn assert_charts(desk: &mut Desk) {
                 assert_round(&beside, desk);
             }
             desk.keys(&["j"]);
-            if desk.app.chart.whine.take().is_some() {
+            if desk.app.chart.worker_chart.take().is_some() {
                 desk.app.chart.graph = 0;
             }
         }
@@ -952,6 +955,68 @@ fn the_mesh_stiffness_has_a_curve_for_every_model_with_that_of_the_case_on_top()
     });
 }
 
+/// The models share the columns that several of them cross, so that no curve hides another without
+/// colour.
+#[test]
+fn every_model_of_the_stiffness_is_visible_on_a_small_screen() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/cases");
+    for entry in fs::read_dir(folder).expect("the cases") {
+        let path = entry.expect("a case").path();
+        let text = fs::read_to_string(&path).expect("a case");
+        let mut desk = Desk::on(SMALL, "case.toml", &text);
+        desk.keys(&["Esc", ":", "mesh stiff", "Enter"]);
+        let charts = desk.app.charts();
+        let curves = curves::curves(&charts, &GRAPHS[charts.shown()[0]]);
+        assert!(curves.len() > 1, "{}", path.display());
+        let rows = chart(&desk);
+        for curve in &curves {
+            let CurveSource::Model { model, .. } = curve.source else {
+                panic!("a curve of a model");
+            };
+            let name = model.name();
+            let sample = rows.iter().find_map(|row| {
+                let (before, _) = row.split_once(&format!(" {name}"))?;
+                before.chars().next_back()
+            });
+            let sample = sample.expect("a name in the legend");
+            let is_braille = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
+            let is_own = |letter: &char| match sample {
+                '⠒' => is_braille(*letter),
+                sample => *letter == sample,
+            };
+            let drawn = rows[1..].iter().flat_map(|row| row.chars().filter(is_own));
+            assert!(drawn.count() > 15, "{name}: {}", rows.join("\n"));
+        }
+    }
+}
+
+/// The chart is computed only while it is visible.
+#[test]
+fn the_tooth_compliance_has_a_curve_for_every_model_over_the_flank() {
+    let mut desk = at_method(SMALL, "exact");
+    assert_eq!(desk.app.tab.chart_work.request, None);
+    desk.keys(&["1", ":", "chart: driven tooth", "Enter", "3"]);
+    let request = desk.app.tab.chart_work.request.as_ref();
+    let chart_of = |request: &ChartRequest| request.chart.key();
+    assert_eq!(request.map(chart_of), Some("tooth_compliance_driven"));
+    assert!(desk.shows("C is the pitch circle"), "{}", desk.screen());
+    assert_snapshot!("tooth_compliance_80x24", chart(&desk).join("\n"));
+    let mut large = at_method(LARGE, "exact");
+    large.keys(&["1", ":", "chart: driver tooth", "Enter", "3"]);
+    assert_snapshot!("tooth_compliance_140x45", chart(&large).join("\n"));
+    let mut outside = Desk::on(
+        SMALL,
+        "case.toml",
+        &TABLE_1.replacen("teeth = 20", "teeth = 111", 1),
+    );
+    outside.keys(&["Esc", ":", "chart: driver tooth", "Enter"]);
+    assert!(
+        outside.shows("kuang-yang (case) (no value)") && outside.shows("∘ beam"),
+        "{}",
+        outside.screen()
+    );
+}
+
 #[test]
 fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
     let mut desk = at_method(SMALL, "exact");
@@ -980,7 +1045,7 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
 }
 
 #[test]
-fn a_chart_of_whine_offers_no_key_of_the_roll_angle() {
+fn a_chart_with_its_own_axes_offers_no_key_of_the_roll_angle() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["k"]);
     assert!(

@@ -153,7 +153,7 @@ impl App {
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
             is_stale: self.tab.shows_last_valid(),
-            whine: &self.tab.whine,
+            work: &self.tab.chart_work,
             undone: self.tab.undone,
             units: self.settings.units,
             marker: self.settings.marker,

@@ -9,7 +9,7 @@ pub(crate) mod range;
 pub(crate) mod raster;
 pub(crate) mod readout;
 mod way;
-mod whine;
+mod worker_chart;
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use crate::report::graphs::GRAPHS;
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 use crate::tui::theme::Look;
-use crate::tui::whine::{Whine, WhineChart};
+use crate::tui::worker_chart::{ChartWork, WorkerChart};
 
 use curves::curves;
 use range::{ChartView, Frame, Occasion, Refit, Scale};
@@ -43,29 +43,29 @@ const AFTER_E: f64 = 0.5;
 pub struct ChartPane {
     /// The selected chart, as an index of the table.
     pub graph: usize,
-    /// The chart of whine that replaces it.
-    pub whine: Option<WhineChart>,
+    /// The chart of a worker that replaces it.
+    pub worker_chart: Option<WorkerChart>,
     /// Whether the x axis is the time after E.
     pub(crate) by_time: bool,
     /// The visible roll angles.
     pub view: ChartView,
 }
 
-/// The number of charts: those of the table, and those of whine.
-const CHARTS: usize = GRAPHS.len() + WhineChart::ALL.len();
+/// The number of charts: those of the table, and those of the worker.
+const CHARTS: usize = GRAPHS.len() + WorkerChart::ALL.len();
 
 impl ChartPane {
     /// The index of the selected chart among all charts.
     fn place(&self) -> usize {
-        let of_whine = |chart| WhineChart::ALL.iter().position(|own| *own == chart);
-        let place = self.whine.and_then(of_whine);
+        let of_worker = |chart| WorkerChart::ALL.iter().position(|own| *own == chart);
+        let place = self.worker_chart.and_then(of_worker);
         place.map_or(self.graph, |place| GRAPHS.len() + place)
     }
 
     /// Selects the chart with an index among all charts.
     fn select(&mut self, at: usize) {
-        self.whine = at.checked_sub(GRAPHS.len()).map(|at| WhineChart::ALL[at]);
-        if self.whine.is_none() {
+        self.worker_chart = at.checked_sub(GRAPHS.len()).map(|at| WorkerChart::ALL[at]);
+        if self.worker_chart.is_none() {
             self.graph = at;
         }
     }
@@ -73,7 +73,8 @@ impl ChartPane {
     /// The key of the selected chart, as in `plot --chart`.
     #[must_use]
     pub fn key(&self) -> &'static str {
-        self.whine.map_or(GRAPHS[self.graph].key, WhineChart::key)
+        self.worker_chart
+            .map_or(GRAPHS[self.graph].key, WorkerChart::key)
     }
 }
 
@@ -82,7 +83,7 @@ impl ChartPane {
 pub enum ChartCommand {
     /// Selects the chart `by` places further, wrapping around.
     Step(isize),
-    /// Selects the chart with an index of the table, or after the table a chart of whine.
+    /// Selects the chart with an index of the table, or after the table a chart of the worker.
     Select(usize),
     /// Zooms in by steps around the cursor, or around D without a cursor; zooms out if negative.
     Zoom(i32),
@@ -109,8 +110,8 @@ pub struct Charts<'a> {
     pub(crate) cursor: Option<f64>,
     /// Whether the results are older than the form.
     pub(crate) is_stale: bool,
-    /// The chart of whine of the case.
-    pub whine: &'a Whine,
+    /// The chart that the worker computes for the case.
+    pub work: &'a ChartWork,
     /// The first request after the last undo.
     pub(crate) undone: u64,
     /// The display units.
@@ -275,11 +276,13 @@ impl Charts<'_> {
                 .map(|curve| curve.upright_within(window))
                 .fold(Span::NONE, Span::and);
             let now = scale.upright[graph];
-            scale.upright[graph] = if refit.upright || refit.all {
-                now.refit(values)
-            } else {
-                now.fitted(values)
+            let fitted = |now: Span| match GRAPHS[graph].by_model {
+                Some(_) => now.fitted_closely(values),
+                None => now.fitted(values),
             };
+            let is_new = refit.upright || refit.all;
+            let axis = fitted(if is_new { Span::default() } else { now });
+            scale.upright[graph] = if axis.is_empty() { now } else { axis };
         }
         scale
     }

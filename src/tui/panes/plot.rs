@@ -7,7 +7,11 @@ use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 
+use crate::report::charts::Point;
 use crate::tui::scale::{Span, bounds};
+
+/// The marker and the style of a curve.
+pub(crate) type Look = (Marker, Style);
 
 /// Colour that marks the cells of a curve until they get its style.
 const OWN: Color = Color::Indexed(1);
@@ -37,11 +41,30 @@ impl PlotArea {
         self.cells.y + (part * height).floor() as u16
     }
 
+    /// Draws curves that are compared with each other: the columns of cells that several curves
+    /// cross alternate between these curves, so that each of them is visible without colour.
+    pub(crate) fn draw_compared(&self, curves: &[(Vec<Vec<Point>>, Look)], buffer: &mut Buffer) {
+        let layer = |(pieces, look): &(Vec<Vec<Point>>, Look)| {
+            let mut layer = Buffer::empty(self.cells);
+            self.draw_pieces(pieces, *look, &mut layer);
+            layer
+        };
+        let layers: Vec<Buffer> = curves.iter().map(layer).collect();
+        for position in self.cells.positions() {
+            let drawn = layers.iter().filter_map(|layer| layer.cell(position));
+            let drawn: Vec<&Cell> = drawn.filter(|cell| cell.symbol() != " ").collect();
+            let turn = usize::from(position.x) % drawn.len().max(1);
+            if let (Some(own), Some(cell)) = (drawn.get(turn), buffer.cell_mut(position)) {
+                *cell = (*own).clone();
+            }
+        }
+    }
+
     /// Draws the pieces of a curve; a piece with one point is a dot.
     pub(crate) fn draw_pieces(
         &self,
-        pieces: &[Vec<(f64, f64)>],
-        (marker, style): (Marker, Style),
+        pieces: &[Vec<Point>],
+        (marker, style): Look,
         buffer: &mut Buffer,
     ) {
         let canvas = Canvas::default()

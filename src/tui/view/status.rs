@@ -154,7 +154,7 @@ fn focused(app: &App) -> String {
                 .map_or_else(String::new, |compared| format!("{compared} "));
             compared + &about
         }),
-        Pane::Chart | Pane::Teeth => match app.chart.whine {
+        Pane::Chart | Pane::Teeth => match app.chart.worker_chart {
             Some(chart) if app.layout.focus() == Pane::Chart => chart.hint().to_owned(),
             _ => at_cursor(app),
         },

@@ -8,7 +8,7 @@ use crate::tui::ascii::symbol;
 use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::materials::Material;
 use crate::tui::panes::chart::ChartCommand;
-use crate::tui::whine::WhineChart;
+use crate::tui::worker_chart::WorkerChart;
 
 /// Prefix of the name of a variant in the list of commands.
 pub(crate) const VARIANT: &str = "variant";
@@ -75,7 +75,7 @@ pub(super) fn graph((place, graph): (usize, &Graph)) -> Item {
     }
 }
 
-pub(super) fn whine((place, chart): (usize, WhineChart)) -> Item {
+pub(super) fn worker_chart((place, chart): (usize, WorkerChart)) -> Item {
     Item {
         pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
         name: format!("chart: {}", chart.label().to_lowercase()),

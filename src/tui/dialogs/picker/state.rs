@@ -13,11 +13,11 @@ use crate::report::graphs::GRAPHS;
 use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::{materials, search, search_results};
 use crate::tui::line::Line;
-use crate::tui::whine::WhineChart;
+use crate::tui::worker_chart::WorkerChart;
 
 use super::item::{
     DESCRIBED, Item, Pick, VARIANT, command, example, field, graph, of_material, quantity, rank,
-    result, variant, whine,
+    result, variant, worker_chart,
 };
 
 /// Least similarity of a name that is listed when no name contains the typed words.
@@ -231,8 +231,8 @@ impl Picker {
             List::Commands => {
                 let mut listed: Vec<_> = commands::commands().collect();
                 listed.sort_by_key(|binding| self.distance(binding.command));
-                let of_whine = (GRAPHS.len()..).zip(WhineChart::ALL).map(whine);
-                let charts = GRAPHS.iter().enumerate().map(graph).chain(of_whine);
+                let of_worker = (GRAPHS.len()..).zip(WorkerChart::ALL).map(worker_chart);
+                let charts = GRAPHS.iter().enumerate().map(graph).chain(of_worker);
                 listed.into_iter().map(command).chain(charts).collect()
             }
             List::Places => Vec::new(),

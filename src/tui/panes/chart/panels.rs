@@ -10,7 +10,7 @@ use super::Charts;
 use super::axes::{self, Axes, Ruler};
 use super::curves::{self, Curve, CurveSource, curves};
 use super::legend::Legend;
-use super::{raster, whine};
+use super::{raster, worker_chart};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Solution};
 use crate::report::absence::without_contact;
@@ -23,8 +23,8 @@ const USUAL_COLUMNS: u16 = 71;
 
 /// The title of the first chart, at most `room` columns wide.
 pub(crate) fn first_title(charts: &Charts, room: usize) -> String {
-    if let Some(chart) = charts.pane.whine {
-        return whine::title(charts, chart, room);
+    if let Some(chart) = charts.pane.worker_chart {
+        return worker_chart::title(charts, chart, room);
     }
     let panels = panels(charts);
     let Some((graph, axes)) = panels.first().filter(|_| charts.answer.is_some()) else {
@@ -38,8 +38,8 @@ pub(crate) fn first_title(charts: &Charts, room: usize) -> String {
 /// Draws the charts with their axes, below the title of the first chart.
 pub(crate) fn draw(charts: &Charts, buffer: &mut Buffer) {
     let area = charts.area;
-    if let Some(chart) = charts.pane.whine {
-        return whine::draw(charts, chart, buffer);
+    if let Some(chart) = charts.pane.worker_chart {
+        return worker_chart::draw(charts, chart, buffer);
     }
     for (at, (graph, axes)) in panels(charts).iter().enumerate() {
         let graph = &GRAPHS[*graph];
@@ -69,7 +69,7 @@ pub(crate) fn columns(charts: &Charts) -> u16 {
 
 /// The driver's roll angle before E at a cell of a plot, in rad.
 pub(crate) fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
-    if charts.pane.whine.is_some() {
+    if charts.pane.worker_chart.is_some() {
         return None;
     }
     let panels = panels(charts);
@@ -162,15 +162,8 @@ fn draw_panel(charts: &Charts, graph: &Graph, axes: &Axes, buffer: &mut Buffer) 
 // Draws everything below the legend.
 fn draw_curves(charts: &Charts, axes: &Axes, curves: &[Curve], buffer: &mut Buffer) {
     axes.draw(buffer);
-    for curve in curves {
-        raster::draw(
-            charts,
-            curve,
-            (axes.across, axes.upright),
-            axes.plot,
-            buffer,
-        );
-    }
+    let spans = (axes.across, axes.upright);
+    raster::draw(charts, curves, spans, axes.plot, buffer);
     axes.draw_zero(charts, buffer);
     axes.draw_marks(charts, buffer);
 }

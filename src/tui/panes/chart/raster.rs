@@ -57,26 +57,34 @@ pub(crate) fn style(charts: &Charts, source: CurveSource) -> Style {
     }
 }
 
-/// Draws the visible part of a curve.
+/// Draws the visible parts of the curves, the last on top; the curves of the compliance models share
+/// the cells that several of them cross.
 pub fn draw(
     charts: &Charts,
-    curve: &Curve,
+    curves: &[Curve],
     (across, upright): (Span, Span),
     plot: Rect,
     buffer: &mut Buffer,
 ) {
-    let pieces: Vec<Vec<Point>> = curve
-        .pieces
-        .iter()
-        .map(|piece| visible(piece, across, plot.width))
-        .collect();
     let area = PlotArea {
         cells: plot,
         across,
         upright,
     };
-    let look = (marker(charts, curve.source), style(charts, curve.source));
-    area.draw_pieces(&pieces, look, buffer);
+    let shown = curves.iter().map(|curve| {
+        let pieces = curve.pieces.iter();
+        let pieces: Vec<_> = pieces
+            .map(|piece| visible(piece, across, plot.width))
+            .collect();
+        let look = (marker(charts, curve.source), style(charts, curve.source));
+        (pieces, look)
+    });
+    let is_model = |curve: &Curve| matches!(curve.source, CurveSource::Model { .. });
+    if curves.iter().all(is_model) {
+        area.draw_compared(&shown.collect::<Vec<_>>(), buffer);
+    } else {
+        shown.for_each(|(pieces, look)| area.draw_pieces(&pieces, look, buffer));
+    }
 }
 
 // The visible points and their neighbours, reduced if a column has many.

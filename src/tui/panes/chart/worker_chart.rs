@@ -1,4 +1,4 @@
-//! A chart of whine, as `plot` draws it: bars of harmonics, curves over speed.
+//! A chart with its own axes, as `plot` draws it: bars of harmonics, curves over speed or radius.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -11,7 +11,7 @@ use crate::report::svg::{Chart, Kind, Series};
 use crate::tui::panes::plot::{PlotArea, draw_axes, put_where_free};
 use crate::tui::scale::Span;
 use crate::tui::text;
-use crate::tui::whine::WhineChart;
+use crate::tui::worker_chart::WorkerChart;
 
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);
@@ -21,25 +21,27 @@ const LABEL_ROOM: u16 = 12;
 const BARS: f64 = 0.7;
 
 /// The title: the chart and its axes.
-pub(super) fn title(charts: &Charts, chart: WhineChart, room: usize) -> String {
-    let state = match (charts.is_stale, charts.whine.is_running) {
+pub(super) fn title(charts: &Charts, chart: WorkerChart, room: usize) -> String {
+    let state = match (charts.is_stale, charts.work.is_running) {
         (true, _) => "LAST VALID, ",
         (false, true) => "computing: ",
         (false, false) => "",
     };
-    let Some(drawn) = charts.whine.drawn(chart) else {
+    let Some(drawn) = charts.work.drawn(chart) else {
         return text::cut(&format!("{state}{}", chart.label()), room);
     };
     let (up, across) = (&drawn.up.label, &drawn.across.label);
     let whole = format!("{state}{}: {up} over {across}", drawn.title);
-    let short = chart.short_titles().map(|title| format!("{state}{title}"));
-    let mut titles = std::iter::once(&whole).chain(&short);
-    let fitting = titles.find(|title| title.width() <= room);
-    fitting.map_or_else(|| text::cut(&short[1], room), String::clone)
+    let short = chart.short_titles().iter();
+    let short: Vec<String> = short.map(|title| format!("{state}{title}")).collect();
+    let titles: Vec<&String> = std::iter::once(&whole).chain(&short).collect();
+    let fitting = titles.iter().find(|title| title.width() <= room);
+    let shortest = titles.last().copied().unwrap_or(&whole);
+    fitting.map_or_else(|| text::cut(shortest, room), |title| (*title).clone())
 }
 
 /// Draws the chart below its title.
-pub(super) fn draw(charts: &Charts, chart: WhineChart, buffer: &mut Buffer) {
+pub(super) fn draw(charts: &Charts, chart: WorkerChart, buffer: &mut Buffer) {
     let area = charts.area;
     if area.height < 2 {
         return;
@@ -49,8 +51,8 @@ pub(super) fn draw(charts: &Charts, chart: WhineChart, buffer: &mut Buffer) {
         height: area.height - 1,
         ..area
     };
-    let Some(drawn) = charts.whine.drawn(chart) else {
-        let words = charts.whine.missing(chart);
+    let Some(drawn) = charts.work.drawn(chart) else {
+        let words = charts.work.missing(chart);
         let room = usize::from(inner.width.saturating_sub(3));
         let lines = text::wrap(&words, room);
         for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
@@ -58,16 +60,20 @@ pub(super) fn draw(charts: &Charts, chart: WhineChart, buffer: &mut Buffer) {
         }
         return;
     };
+    let is_compared = matches!(chart, WorkerChart::ToothCompliance(_));
     if let Some(plot) = Plot::of(charts, &drawn, inner) {
-        plot.draw(buffer);
+        plot.draw(is_compared, buffer);
     }
 }
+
+/// The names of the curves with their signs, each with its column and its row.
+type Legend = Vec<(String, (u16, u16))>;
 
 /// A chart with its axes on the screen.
 struct Plot<'a> {
     charts: &'a Charts<'a>,
     chart: &'a Chart,
-    legend: Rect,
+    legend: Legend,
     area: PlotArea,
     labels: Vec<(f64, String)>,
 }
@@ -75,6 +81,8 @@ struct Plot<'a> {
 impl<'a> Plot<'a> {
     /// `None` if there is no room.
     fn of(charts: &'a Charts<'a>, chart: &'a Chart, inner: Rect) -> Option<Plot<'a>> {
+        let legend = legend(charts, chart, inner);
+        let rows = legend.last().map_or(0, |(_, (_, y))| y + 1 - inner.y);
         let upright = Span::default().refit(ordinates(chart));
         let ticks = upright.ticks(inner.height.saturating_sub(2) / 2);
         let labels: Vec<(f64, String)> = ticks.labelled;
@@ -82,15 +90,15 @@ impl<'a> Plot<'a> {
         let margin = widest.unwrap_or(0) as u16 + 3;
         let cells = Rect {
             x: inner.x + margin,
-            y: inner.y + 1,
+            y: inner.y + rows,
             width: inner.width.saturating_sub(margin + 2),
-            height: inner.height.saturating_sub(3),
+            height: inner.height.saturating_sub(rows + 2),
         };
         let has_room = cells.width >= LEAST.0 && cells.height >= LEAST.1;
         has_room.then(|| Plot {
             charts,
             chart,
-            legend: Rect { height: 1, ..inner },
+            legend,
             area: PlotArea {
                 cells,
                 across: across(chart),
@@ -100,15 +108,16 @@ impl<'a> Plot<'a> {
         })
     }
 
-    fn draw(&self, buffer: &mut Buffer) {
+    /// Draws the chart; compared curves share the cells that several of them cross, otherwise the
+    /// first curve is on top.
+    fn draw(&self, is_compared: bool, buffer: &mut Buffer) {
         self.frame(buffer);
         for (at, series) in self.chart.series.iter().enumerate().rev() {
-            match series.kind {
-                Kind::Bars(slot, slots) => self.bars(at, series, (slot, slots), buffer),
-                Kind::Curve | Kind::Bound => self.curve(at, series, buffer),
-                Kind::Marks(_) => {}
+            if let Kind::Bars(slot, slots) = series.kind {
+                self.bars(at, series, (slot, slots), buffer);
             }
         }
+        self.curves(is_compared, buffer);
         for (at, series) in self.chart.series.iter().enumerate() {
             if matches!(series.kind, Kind::Marks(_)) {
                 self.points(at, series, buffer);
@@ -171,14 +180,24 @@ impl<'a> Plot<'a> {
         }
     }
 
-    fn curve(&self, at: usize, series: &Series, buffer: &mut Buffer) {
-        let marker = match at {
-            0 if self.charts.look.ascii => Marker::Custom('*'),
-            0 => self.charts.marker,
-            _ => Marker::Custom('+'),
-        };
-        let look = (marker, self.style(at));
-        self.area.draw_pieces(&series.pieces, look, buffer);
+    fn curves(&self, is_compared: bool, buffer: &mut Buffer) {
+        let series = self.chart.series.iter().enumerate().rev();
+        let curves = series.filter(|(_, series)| matches!(series.kind, Kind::Curve | Kind::Bound));
+        let curves = curves.map(|(at, series)| {
+            let marker = match at {
+                0 if !self.charts.look.ascii => self.charts.marker,
+                _ => Marker::Custom(self.sign(at).chars().next().unwrap_or('+')),
+            };
+            (series.pieces.clone(), (marker, self.style(at)))
+        });
+        let curves: Vec<_> = curves.collect();
+        if is_compared {
+            self.area.draw_compared(&curves, buffer);
+        } else {
+            for (pieces, look) in &curves {
+                self.area.draw_pieces(pieces, *look, buffer);
+            }
+        }
     }
 
     fn points(&self, at: usize, series: &Series, buffer: &mut Buffer) {
@@ -210,19 +229,8 @@ impl<'a> Plot<'a> {
     }
 
     fn legend(&self, buffer: &mut Buffer) {
-        let mut x = self.legend.x + 1;
-        for (at, series) in self.chart.series.iter().enumerate() {
-            let sign = match series.kind {
-                Kind::Curve | Kind::Bound if at == 0 && !self.charts.look.ascii => "━".to_owned(),
-                _ => self.sign(at),
-            };
-            let name = series.name.split(',').next().unwrap_or_default();
-            let words = format!("{sign} {name}");
-            let width = words.width() as u16;
-            if x + width < self.legend.right() {
-                buffer.set_string(x, self.legend.y, words, self.style(at));
-                x += width + 2;
-            }
+        for (at, (words, (x, y))) in self.legend.iter().enumerate() {
+            buffer.set_string(*x, *y, words, self.style(at));
         }
     }
 
@@ -236,16 +244,48 @@ impl<'a> Plot<'a> {
     }
 
     fn sign(&self, at: usize) -> String {
-        let ascii = self.charts.look.ascii;
-        let sign = match (self.chart.series.get(at).map(|series| series.kind), at) {
-            (Some(Kind::Bars(..)), 0) => ["█", "#"],
-            (Some(Kind::Bars(..)), _) => ["▒", "="],
-            (Some(Kind::Marks(_)), _) => ["×", "x"],
-            (_, 0) => ["*", "*"],
-            _ => ["+", "+"],
-        };
-        sign[usize::from(ascii)].to_owned()
+        sign(self.chart, at, self.charts.look.ascii).to_owned()
     }
+}
+
+/// The places of the names, in as many rows as they need.
+fn legend(charts: &Charts, chart: &Chart, inner: Rect) -> Legend {
+    let mut at = (inner.x + 1, inner.y);
+    let places = chart.series.iter().enumerate().map(|(index, series)| {
+        let sign = match series.kind {
+            Kind::Curve | Kind::Bound if index == 0 && !charts.look.ascii => "━",
+            _ => sign(chart, index, charts.look.ascii),
+        };
+        let name = series.name.split(',').next().unwrap_or_default();
+        let missing = if series.pieces.is_empty() {
+            " (no value)"
+        } else {
+            ""
+        };
+        let room = usize::from(inner.width.saturating_sub(2));
+        let words = text::cut(&format!("{sign} {name}{missing}"), room);
+        let width = words.width() as u16;
+        if at.0 > inner.x + 1 && at.0 + width >= inner.right() {
+            at = (inner.x + 1, at.1 + 1);
+        }
+        let place = at;
+        at.0 += width + 2;
+        (words, place)
+    });
+    places.collect()
+}
+
+/// The sign of a series in the plot and in the legend.
+fn sign(chart: &Chart, at: usize, is_ascii: bool) -> &'static str {
+    let signs = match (chart.series.get(at).map(|series| series.kind), at) {
+        (Some(Kind::Bars(..)), 0) => ["█", "#"],
+        (Some(Kind::Bars(..)), _) => ["▒", "="],
+        (Some(Kind::Marks(_)), _) | (_, 2) => ["×", "x"],
+        (_, 0) => ["*", "*"],
+        (_, 3) => ["∘", "o"],
+        _ => ["+", "+"],
+    };
+    signs[usize::from(is_ascii)]
 }
 
 fn is_bars(series: &Series) -> bool {
