@@ -229,9 +229,12 @@ impl LoadedPairs {
             });
         }
         if ahead.peek().is_none() {
+            let losses = geometry.tip_losses;
+            let whole = geometry.end - geometry.start + losses.total;
             return Err(Refusal::ContactRatioBelowOne {
                 ratio: geometry.contact_ratio,
                 is_deflection_taken: !method.shares_load(),
+                cut: losses.greatest.filter(|_| whole > geometry.base_pitch),
             });
         }
         let teeth = teeth()?;

@@ -2,6 +2,7 @@
 
 mod circles;
 mod shape;
+mod tip_losses;
 
 use nalgebra::{Matrix2, Rotation2, Vector2};
 use twofloat::TwoFloat;
@@ -10,6 +11,8 @@ use super::Refusal;
 use crate::numeric::Real;
 pub use circles::{Circles, circles};
 pub use shape::{GearShape, GeometryInputs, PairShape};
+pub use tip_losses::TipLosses;
+use tip_losses::tip_losses;
 
 /// A difference below this part of its terms is computed in double-double arithmetic, because f64
 /// would lose two or more digits.
@@ -40,6 +43,8 @@ pub struct Geometry<T = f64> {
     pub approach_length: T,
     /// Contact ratio ε = EB/p_b.
     pub contact_ratio: T,
+    /// The parts of the path of contact that chamfers and roundings of the tips remove.
+    pub tip_losses: TipLosses,
     /// γ₂: angle at O₂ between the centre line and the tip at E, in rad. For a rounded tip, the
     /// centre of its arc replaces the tip.
     pub start_angle_driven: T,
@@ -98,18 +103,24 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     );
     let working_pressure_angle = tangent.angle_to(T::one());
     let end = driver.tip_curvature;
+    let tip_losses = tip_losses(shape, &driver.rounded(), &driven.rounded());
     if end <= start {
+        let whole = (end - start).rounded() + tip_losses.total;
         return Err(Refusal::NoPath {
             start: start.rounded(),
             end: end.rounded(),
             is_distance_given: shape.centre_distance.is_some(),
+            cut: tip_losses.greatest.filter(|_| whole > 0.0),
         });
     }
     let contact_ratio = (end - start).over(base_pitch);
     let towards_start = Vector2::new(centre_approach, driven.base + centre_curvature * tangent);
     let is_rounded = driver.edge > T::zero() || driven.edge > T::zero();
-    if is_rounded && contact_ratio < T::one() {
+    if let Some(field) = tip_losses.greatest.filter(|_| is_rounded)
+        && contact_ratio < T::one()
+    {
         return Err(Refusal::RoundingBreaksContact {
+            field,
             ratio: contact_ratio.rounded(),
         });
     }
@@ -125,6 +136,7 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
         tangent_length,
         approach_length,
         contact_ratio,
+        tip_losses,
         start_angle_driven: towards_start.x.angle_to(towards_start.y),
         start_direction_driven: towards_start
             * T::one().over(towards_start.dot(&towards_start).root()),
@@ -285,6 +297,7 @@ impl<T: Real> Geometry<T> {
             tangent_length: self.tangent_length.rounded(),
             approach_length: self.approach_length.rounded(),
             contact_ratio: self.contact_ratio.rounded(),
+            tip_losses: self.tip_losses,
             start_angle_driven: self.start_angle_driven.rounded(),
             start_direction_driven: self.start_direction_driven.map(Real::rounded),
             start_point: self.start_point.map(Real::rounded),

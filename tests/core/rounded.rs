@@ -230,6 +230,74 @@ fn a_tip_radius_beyond_its_limits_is_refused_by_name() {
     );
 }
 
+/// Chamfer and tip radius of a gear, times the module.
+type Tip = (f64, Option<f64>);
+
+/// The refusal of z 20/33 with such tips at a part of the reference centre distance: its code and
+/// field.
+fn refusal_of(method: Method, [driver, driven]: [Tip; 2], distance: f64) -> [&'static str; 2] {
+    let mut inputs = pair(method, None);
+    let module = inputs.module;
+    for (gear, (chamfer, radius)) in [(&mut inputs.driver, driver), (&mut inputs.driven, driven)] {
+        gear.tip_chamfer = chamfer * module;
+        gear.tip_radius = radius.map(|radius| radius * module);
+    }
+    let teeth = f64::from(inputs.driver.teeth + inputs.driven.teeth);
+    inputs.centre_distance = Some(distance * 0.5 * module * teeth);
+    (inputs.deflection, inputs.tooth_compliance) = (None, Some(ToothCompliance::BEAM));
+    let refusal = solve(&inputs, Stages::ALL).unwrap_err();
+    [refusal.code(), refusal.field()]
+}
+
+/// The refusal of a path that the tips shorten names the field that shortens it the most.
+#[test]
+fn a_refused_path_names_the_chamfer_or_radius_that_causes_it() {
+    let (sharp, round) = ((0.0, None), (0.0, Some(0.1)));
+    for (tips, distance, field) in [
+        ([(0.8, Some(0.1)), sharp], 1.0, "driver.tip_chamfer"),
+        ([(0.8, None), round], 1.0, "driver.tip_chamfer"),
+        ([round, (0.8, None)], 1.0, "driven.tip_chamfer"),
+        ([(0.5, None), (0.6, Some(0.1))], 1.0, "driven.tip_chamfer"),
+        ([(0.0, Some(0.2)), sharp], 1.025, "driver.tip_radius"),
+    ] {
+        let refusal = refusal_of(Method::Exact, tips, distance);
+        assert_eq!(refusal, ["tip-radius-breaks-contact", field], "{tips:?}");
+    }
+    for (method, tips, distance, field) in [
+        (
+            Method::Exact,
+            [(0.9, None), sharp],
+            1.0,
+            "driver.tip_chamfer",
+        ),
+        (
+            Method::Static,
+            [sharp, (0.8, None)],
+            1.0,
+            "driven.tip_chamfer",
+        ),
+        (Method::Exact, [sharp, sharp], 1.03, "driven.addendum"),
+    ] {
+        let refusal = refusal_of(method, tips, distance);
+        assert_eq!(refusal, ["contact-ratio-below-1", field], "{tips:?}");
+    }
+    for (tips, distance, refusal) in [
+        ([(1.58, None), sharp], 1.0, ["no-path", "driver.tip_chamfer"]),
+        ([sharp, sharp], 1.2, ["no-path", "pair.centre_distance"]),
+        (
+            [sharp, (9.0, None)],
+            1.0,
+            ["tip-inside-base", "driven.tip_chamfer"],
+        ),
+    ] {
+        assert_eq!(
+            refusal_of(Method::Exact, tips, distance),
+            refusal,
+            "{tips:?}"
+        );
+    }
+}
+
 /// A driven gear with five teeth: a large deviation turns the contact normal past its centre, where
 /// the contact leaves the tip arc.
 #[test]

@@ -53,8 +53,13 @@ pub fn circles<T: Real>(
     }
     let over_base = two * reference * half_sine * half_sine + height;
     if over_base <= T::zero() {
+        let is_cut = over_base + gear.tip_chamfer.into() > T::zero();
         return Err(Refusal::TipInsideBase {
-            field: "driver.addendum",
+            field: if is_cut {
+                "driver.tip_chamfer"
+            } else {
+                "driver.addendum"
+            },
             tip: (reference + height).rounded(),
             base: base.rounded(),
         });

@@ -28,6 +28,9 @@ pub enum Refusal {
         end: f64,
         /// Whether the case gives the centre distance.
         is_distance_given: bool,
+        /// The key of the tip chamfer or tip radius that removes the greatest part of the path, if
+        /// whole tips reach each other.
+        cut: Option<&'static str>,
     },
     /// The tip has no involute.
     #[error("the tip is inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
@@ -78,6 +81,9 @@ pub enum Refusal {
         ratio: f64,
         /// Whether the method accepts a given deflection.
         is_deflection_taken: bool,
+        /// The key of the tip chamfer or tip radius that removes the greatest part of the path, if
+        /// whole tips have a greater contact ratio than 1.
+        cut: Option<&'static str>,
     },
     /// The bore leaves no gear body.
     #[error("the bore radius is {:.4} mm and must be below the {circle} circle's {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
@@ -120,8 +126,13 @@ pub enum Refusal {
         lack: f64,
     },
     /// Rounded tips leave a path of contact shorter than a base pitch.
-    #[error("the rounded tips leave a contact ratio of {ratio:.4}, and it must not be below 1")]
+    #[error(
+        "the shortened tips leave a contact ratio of {ratio:.4}, and it must not be below 1 with \
+            rounded tips"
+    )]
     RoundingBreaksContact {
+        /// The key of the tip chamfer or tip radius that removes the greatest part of the path.
+        field: &'static str,
         /// ε.
         ratio: f64,
     },
@@ -326,6 +337,9 @@ impl Refusal {
         match &mut self {
             Refusal::RoundingInsideBase { field, .. } | Refusal::RoundingTooWide { field, .. } => {
                 *field = "driven.tip_radius";
+            }
+            Refusal::TipInsideBase { field, .. } if field.ends_with("tip_chamfer") => {
+                *field = "driven.tip_chamfer";
             }
             Refusal::TipInsideBase { field, .. } | Refusal::PointedTip { field, .. } => {
                 *field = "driven.addendum";

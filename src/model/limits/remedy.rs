@@ -37,6 +37,13 @@ impl Refusal {
                 "shorten the driven addendum, or give the driver more teeth or more profile shift",
             ),
             Refusal::NoPath {
+                cut: Some(field), ..
+            } => (
+                "no-path",
+                *field,
+                "give smaller tip chamfers or tip radii, or bring the gears closer",
+            ),
+            Refusal::NoPath {
                 is_distance_given: true,
                 ..
             } => (
@@ -46,8 +53,8 @@ impl Refusal {
             ),
             Refusal::NoPath { .. } => (
                 "no-path",
-                "driven.tip_chamfer",
-                "reduce the tip chamfers, or bring the gears closer",
+                "driven.addendum",
+                "lengthen the addenda, or bring the gears closer",
             ),
             Refusal::TipInsideBase { field, .. } => (
                 "tip-inside-base",
@@ -68,6 +75,20 @@ impl Refusal {
                 "no-mesh",
                 "driver.profile_shift",
                 "give a greater sum of profile shifts",
+            ),
+            Refusal::ContactRatioBelowOne {
+                is_deflection_taken,
+                cut: Some(field),
+                ..
+            } => (
+                "contact-ratio-below-1",
+                *field,
+                if *is_deflection_taken {
+                    "give smaller tip chamfers or tip radii, or give model.deflection"
+                } else {
+                    "give smaller tip chamfers or tip radii; only paper and exact use a given \
+                        deflection"
+                },
             ),
             Refusal::ContactRatioBelowOne {
                 is_deflection_taken,
@@ -93,15 +114,15 @@ impl Refusal {
             Refusal::RoundingInsideBase { field, .. } => (
                 "tip-radius-inside-base",
                 *field,
-                "give a smaller tip radius or a higher addendum",
+                "give a smaller tip radius, a smaller tip chamfer or a higher addendum",
             ),
             Refusal::RoundingTooWide { field, .. } => {
                 ("tip-radius-too-large", *field, "give a smaller tip radius")
             }
-            Refusal::RoundingBreaksContact { .. } => (
+            Refusal::RoundingBreaksContact { field, .. } => (
                 "tip-radius-breaks-contact",
-                "driven.tip_radius",
-                "give smaller tip radii, or lengthen the addenda",
+                *field,
+                "give smaller tip radii or tip chamfers, or lengthen the addenda",
             ),
             Refusal::BeyondRounding { .. } => (
                 "beyond-tip-rounding",

@@ -143,6 +143,7 @@ fn a_refused_case_gives_the_reason_for_every_limit() {
         &Refusal::ContactRatioBelowOne {
             ratio: 0.9,
             is_deflection_taken: true,
+            cut: None,
         },
     );
     assert!(!verdicts[0].standing.holds());
