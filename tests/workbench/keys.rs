@@ -7,6 +7,7 @@ use std::os::unix::fs::PermissionsExt;
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use tipstrike::model::Stages;
 use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::rows;
 use tipstrike::tui::testing::solver::Request;
 
 #[test]
@@ -693,6 +694,10 @@ fn results_are_found_as_fields_are() {
             desk.screen()
         );
     }
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "2", "/", "driver.inertia", "Enter"]);
+    let field = rows::field(&desk.app.tab.case, desk.app.tab.form.focus);
+    assert_eq!(field.map(|field| field.key), Some("driver.inertia"));
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "/", "dynamic_peak_force"]);
     assert!(

@@ -183,7 +183,13 @@ impl Picker {
         } = &self.context;
         let words = typed.split_whitespace().count();
         let more_words = |label: &str| label.split_whitespace().count().saturating_sub(words);
+        // A typed key ranks before all other matches.
+        let scored = |key: &str, score| {
+            let is_key = key.eq_ignore_ascii_case(typed.trim());
+            if is_key { u32::MAX } else { score }
+        };
         let fields = search(typed).into_iter().map(|(at, score)| {
+            let score = scored(FIELDS[at].key, score);
             let loss = if idle.contains(&at) { IDLE } else { 0 };
             let order = (more_words(FIELDS[at].label), *are_results_first);
             let is_later = FIELDS[at].key != FOREMOST;
@@ -195,6 +201,7 @@ impl Picker {
             .into_iter()
             .filter_map(|(at, score)| Some((score, Some(&QUANTITIES[at]).filter(known)?)));
         let found = found.map(|(score, quantity)| {
+            let score = scored(quantity.key, score);
             let order = (more_words(quantity.label), !are_results_first);
             let rank = (Reverse(score), order, true);
             Place::new(score, rank, result(quantity))

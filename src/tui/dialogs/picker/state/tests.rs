@@ -122,6 +122,27 @@ fn a_field_comes_before_a_result_with_a_longer_name() {
 }
 
 #[test]
+fn a_typed_key_is_the_first_match() {
+    let fields = FIELDS.iter().map(|field| field.key);
+    let results: Vec<_> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+    for are_results_first in [false, true] {
+        let context = Context {
+            results: results.clone(),
+            are_results_first,
+            idle: (0..FIELDS.len()).collect(),
+            ..Context::default()
+        };
+        for key in fields.clone().chain(results.iter().copied()) {
+            let picker = Picker {
+                input: key.into(),
+                ..Picker::over(List::Places, context.clone())
+            };
+            assert_eq!(picker.fitting()[0].name, key);
+        }
+    }
+}
+
+#[test]
 fn a_list_of_fields_names_the_gear() {
     let items = Picker::new(List::Places).fitting();
     for gear in ["driver", "driven"] {
@@ -137,7 +158,7 @@ fn a_list_of_fields_names_the_gear() {
 #[test]
 fn an_empty_filter_shows_the_whole_list() {
     let all = Picker::new(List::Commands).fitting();
-    let charts = GRAPHS.len() + WhineChart::ALL.len();
+    let charts = GRAPHS.len() + WorkerChart::ALL.len();
     assert_eq!(all.len(), commands::commands().count() + charts);
     assert_eq!(Picker::new(List::Places).fitting().len(), FIELDS.len());
 }
