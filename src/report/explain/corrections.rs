@@ -106,8 +106,9 @@ pub static CORRECTIONS: &[Correction] = &[
     row(
         "Eq. 56",
         "is a cubic in z and diverges outside its range",
-        "outside z 12..100 and |x| <= 0.6, kuang-yang is refused; the default is then another \
-            tooth compliance",
+        "outside z 12..100 and |x| <= 0.6, kuang-yang is refused; with a given model.deflection, \
+            methods paper and exact omit only force, energy and duration. Outside this range the \
+            default is another tooth compliance",
     ),
     row(
         "Eq. 64",
