@@ -1,6 +1,7 @@
 //! Pair stiffness compared with published values: ISO 6336-1 method B, and results of open codes.
 use crate::support;
 
+use crate::validation::inputs;
 use support::standard_pair;
 use tipstrike::model::compliance::tooth::beam;
 use tipstrike::model::compliance::{ContactPlace, Teeth};
@@ -42,17 +43,38 @@ fn pair((z1, x1): (u32, f64), (z2, x2): (u32, f64)) -> Inputs {
     inputs
 }
 
-/// Six or more pairs: FZG type C, equal, unequal and profile-shifted ones.
-pub(crate) fn pairs() -> Vec<Inputs> {
-    vec![
-        pair((16, 0.1817), (24, 0.1715)),
-        pair((20, 0.0), (20, 0.0)),
-        pair((28, 0.0), (28, 0.0)),
-        pair((20, 0.0), (60, 0.0)),
-        pair((40, 0.0), (40, 0.0)),
-        pair((25, 0.3), (100, -0.3)),
-        pair((60, 0.0), (90, 0.0)),
-    ]
+/// The case files of the comparison with ISO 6336-1: FZG type C, equal, unequal and profile-shifted
+/// pairs. Their torque is the load of [`LINE_LOAD`].
+pub(crate) const ISO_PAIRS: [&str; 7] = [
+    "iso-6336-1-16-24",
+    "iso-6336-1-20-20",
+    "iso-6336-1-28-28",
+    "iso-6336-1-20-60",
+    "iso-6336-1-40-40",
+    "iso-6336-1-25-100",
+    "iso-6336-1-60-90",
+];
+
+/// The pairs of [`ISO_PAIRS`].
+pub(crate) fn pairs() -> [Inputs; 7] {
+    ISO_PAIRS.map(|name| inputs(&format!("tests/validation/{name}.toml")))
+}
+
+#[test]
+fn the_case_files_of_the_iso_table_have_its_load_and_its_bores() {
+    for given in pairs() {
+        let [driver, driven] = [&given.driver, &given.driven];
+        let wanted = pair(
+            (driver.teeth, driver.profile_shift),
+            (driven.teeth, driven.profile_shift),
+        );
+        for (gear, wanted) in [(driver, &wanted.driver), (driven, &wanted.driven)] {
+            assert!((gear.bore_radius - wanted.bore_radius).abs() < 1e-9);
+        }
+        let solution = solve(&given, Stages::CLOSED_FORM).expect("a solution");
+        let load = solution.mesh_force / given.common_width();
+        assert!((load / LINE_LOAD - 1.0).abs() < 1e-5, "{load}");
+    }
 }
 
 /// Stiffness of the pair at a place, in N/(µm mm).

@@ -46,6 +46,8 @@ pub(crate) struct Figure {
     ours: fn(&Inputs) -> Option<f64>,
     /// Whether it depends on the tooth compliance.
     by_model: bool,
+    /// The value with the elastic field and independent teeth.
+    alone: Option<fn(&Inputs) -> Option<f64>>,
     /// Whether the comparison is fair, and the reason for the deviation.
     fair: &'static str,
 }
@@ -98,6 +100,10 @@ fn figure(figure: &Figure, inputs: &Inputs) -> String {
         let ours = (figure.ours)(&with_model(inputs, model));
         let published = if at == 0 { published.as_str() } else { " | " };
         text += &row(figure, published, model.name(), ours);
+    }
+    if let Some(alone) = figure.alone {
+        let ours = alone(&with_model(inputs, ToothCompliance::FINITE_ELEMENT));
+        text += &row(figure, " | ", "finite-element, independent teeth", ours);
     }
     text
 }
