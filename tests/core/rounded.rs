@@ -282,7 +282,11 @@ fn a_refused_path_names_the_chamfer_or_radius_that_causes_it() {
         assert_eq!(refusal, ["contact-ratio-below-1", field], "{tips:?}");
     }
     for (tips, distance, refusal) in [
-        ([(1.58, None), sharp], 1.0, ["no-path", "driver.tip_chamfer"]),
+        (
+            [(1.58, None), sharp],
+            1.0,
+            ["no-path", "driver.tip_chamfer"],
+        ),
         ([sharp, sharp], 1.2, ["no-path", "pair.centre_distance"]),
         (
             [sharp, (9.0, None)],
