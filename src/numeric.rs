@@ -7,6 +7,7 @@ pub mod decimal;
 pub mod extrapolated;
 pub mod lanes;
 pub mod near;
+pub mod peak;
 pub mod polynomial;
 pub mod quadrature;
 pub mod real;

@@ -211,8 +211,7 @@ fn relieved(
 ) -> Result<Tried, Refusal> {
     let mut relieved = *mesh;
     relieved.reliefs.driven.tip += relief;
-    let flanks = solution.mesh.as_ref().map(|mesh| mesh.flanks());
-    on_mesh(&relieved, solution, flanks, |mesh| {
+    on_mesh(&relieved, solution, solution.mesh.as_ref(), |mesh| {
         meter.spend(mesh.work());
         let Approach { lead, contact_lost } = if let Some(motion) = motion {
             approach(mesh, &motion.settings(solution.reduced_mass), meter, go_on)?

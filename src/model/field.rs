@@ -200,7 +200,7 @@ impl Field {
     /// The radii from the junction of fillet and involute to the load next to the tip, in m.
     #[must_use]
     pub fn radii(&self) -> [f64; 2] {
-        self.flank.radii()
+        self.flank.radii
     }
 
     /// The displacement of all teeth by the twist of the body about its bore, which the other
@@ -224,11 +224,8 @@ impl Field {
     ) -> Field {
         /// Lengths of δ and ε, in modules, for the series of the surface and for the others.
         const BEYOND: [[f64; 2]; 2] = [[0.1, 1.0], [0.2, 1.5]];
-        let flank = Flank {
-            base: input.module * boundary.base,
-            tip_roll: boundary.tip_roll,
-            rolls: [loads[loads.len() - 1].roll, loads[0].roll],
-        };
+        let rolls = [loads[loads.len() - 1].roll, loads[0].roll];
+        let flank = Flank::of(input.module * boundary.base, boundary.tip_roll, rolls);
         let abscissas =
             BEYOND.map(|beyond| Abscissa::of(&flank, beyond.map(|length| length * input.module)));
         let [steep, smooth] = abscissas.each_ref().map(|abscissa| {

@@ -4,7 +4,6 @@
 use std::sync::Arc;
 
 use super::budget::{MOTION_WORK, Meter};
-use super::compliance::flanks::Flanks;
 use super::dynamic::steady::{Steady, steady};
 use super::dynamic::{Dynamic, MotionInputs, dynamic};
 use super::mesh::{Mesh, MeshInputs};
@@ -107,7 +106,7 @@ fn within_reach(
         }
     }
     asked.note(Stage::Mesh, |_| false);
-    on_mesh(&inputs, solution, earlier_flanks(asked), |mesh| {
+    on_mesh(&inputs, solution, earlier_mesh(asked), |mesh| {
         run(
             mesh,
             solution.reduced_mass,
@@ -118,13 +117,10 @@ fn within_reach(
     })
 }
 
-/// The compliance of the teeth from an earlier mesh of the same gears.
-fn earlier_flanks<'a>(asked: &Request<'a>) -> Option<&'a Arc<Flanks>> {
-    let earlier = asked.earlier?;
-    let is_same = asked.kept(Stage::Geometry).is_some()
-        && asked.inputs.elasticity() == earlier.inputs.elasticity();
-    let mesh = earlier.solution.mesh.as_ref().filter(|_| is_same)?;
-    Some(mesh.flanks())
+/// An earlier mesh of the same geometry.
+fn earlier_mesh<'a>(asked: &Request<'a>) -> Option<&'a Arc<Mesh>> {
+    let earlier = asked.kept(Stage::Geometry)?;
+    earlier.mesh.as_ref()
 }
 
 /// Whether every wanted result on the mesh exists already.
@@ -136,42 +132,42 @@ fn all_kept(asked: &Request<'_>) -> bool {
     wanted.peek().is_some() && wanted.all(|stage| asked.kept(stage).is_some())
 }
 
-/// The first range of gaps of the mesh, in m.
+/// The first range of gaps of the mesh, in m: a power of 2, so that cases with similar load,
+/// deviation and reliefs have the same range.
 fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
-    const TIMES: f64 = 8.0;
+    const TIMES: f64 = 4.0;
     let deviation = &solution.deviation;
     let yields =
         deviation.loaded_deflection() + deviation.equivalent_error.abs() + inputs.reliefs.sum();
-    TIMES * yields
+    (TIMES * yields).log2().ceil().exp2()
 }
 
 /// The result of `find` on the mesh of a pair with geometry, load and deviation of the solution.
-/// Only the reliefs may differ. `flanks` is the compliance of its teeth, if known.
+/// Only the reliefs may differ. `earlier` is a mesh of the same geometry, if known.
 ///
 /// # Errors
 /// Those of [`Mesh::new`] and of `find`.
 pub(super) fn on_mesh<T>(
     inputs: &MeshInputs,
     solution: &Solution,
-    flanks: Option<&Arc<Flanks>>,
+    earlier: Option<&Arc<Mesh>>,
     find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
     const FURTHER: f64 = 16.0;
-    let deviation = &solution.deviation;
+    let load = (solution.mesh_force, solution.deviation.equivalent_error);
     let mut reach = first_reach(inputs, solution);
-    let mut flanks = flanks.map(Arc::clone);
+    let mut earlier = earlier.map(Arc::clone);
     loop {
-        let (force, error) = (solution.mesh_force, deviation.equivalent_error);
         let geometry = &solution.geometry;
-        let mesh = Arc::new(match &flanks {
-            Some(flanks) => Mesh::of_flanks(inputs, geometry, flanks, (force, error), reach)?,
-            None => Mesh::new(inputs, geometry, force, error, reach)?,
+        let mesh = Arc::new(match &earlier {
+            Some(earlier) => Mesh::after(earlier, inputs, geometry, load, reach)?,
+            None => Mesh::new(inputs, geometry, load.0, load.1, reach)?,
         });
-        flanks.get_or_insert_with(|| Arc::clone(mesh.flanks()));
         match find(&mesh) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => reach *= FURTHER,
             found => return found,
         }
+        earlier = Some(mesh);
     }
 }
 

@@ -5,6 +5,7 @@ mod back;
 mod build;
 pub(super) mod couplings;
 mod inputs;
+mod mean_stiffness;
 mod one_pair;
 mod sharing;
 mod within;
@@ -18,6 +19,7 @@ use super::pair_forces::{OfPairs, PITCHES, Pair, PairSet, Place};
 use back::Back;
 use couplings::Couplings;
 pub use inputs::MeshInputs;
+use mean_stiffness::MeanStiffness;
 use sharing::Sharing;
 pub use sharing::{Line, Meeting, Of, Shares};
 use zones::{GAP, LEVER, SLIDING, Zone};
@@ -38,14 +40,14 @@ pub struct Mesh {
     driver_speed: f64,
     /// Equivalent error of the incoming pair without its reliefs, in m.
     pub error: f64,
-    /// Mean stiffness of the mesh over a base pitch, with the pairs on the line of action, in N/m.
-    pub mean_stiffness: f64,
     /// Base radii, in m.
     pub base_radii: (f64, f64),
     /// Common face width b, in m.
     pub width: f64,
     friction: f64,
     pitch_point: f64,
+    /// Inputs of the mesh, at a speed of 1.
+    inputs: MeshInputs,
     flanks: Arc<Flanks>,
     /// The zones for any speed: they contain the sliding velocity per unit of speed.
     zones: Arc<Vec<Zone>>,
@@ -53,6 +55,7 @@ pub struct Mesh {
     couplings: Option<Arc<Couplings>>,
     /// Cached load sharing of coupled pairs.
     sharing: Arc<Sharing>,
+    mean_stiffness: Arc<MeanStiffness>,
     back_place: f64,
     back: Arc<Back>,
     /// Greatest gap in the computed range, in m.
@@ -82,11 +85,6 @@ impl Mesh {
             error: 0.0,
             ..self.clone()
         }
-    }
-
-    /// Compliance of the teeth.
-    pub(super) fn flanks(&self) -> &Arc<Flanks> {
-        &self.flanks
     }
 
     /// Work of the computation, in units of the [budget](super::budget).

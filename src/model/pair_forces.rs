@@ -14,7 +14,7 @@ pub use compliances::Compliances;
 pub use touching::Touching;
 
 /// A value of each pair, without heap for as many pairs as usual.
-pub type OfPairs<T> = SmallVec<[T; 8]>;
+pub type OfPairs<T> = SmallVec<[T; 4]>;
 
 /// The contact place of a pair in the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +71,34 @@ pub struct Balance {
     /// Displacement under the forces minus the gap of the incoming pair, in m. `None` if the
     /// incoming pair carries.
     pub lead: Option<f64>,
+    /// The pairs that carry.
+    pub carrying: Carrying,
+}
+
+/// The pairs that carry at a position of the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Carrying {
+    first: i32,
+    touching: Touching,
+}
+
+impl Carrying {
+    /// The pairs that carry in only one of two positions, as base pitches ahead of the incoming
+    /// pair.
+    pub fn differences(self, other: Carrying) -> impl Iterator<Item = i32> {
+        let pairs = |of: Carrying| {
+            of.touching
+                .pairs()
+                .map(move |index| of.first + index as i32)
+        };
+        let has = |of: Carrying, ahead: i32| {
+            usize::try_from(ahead - of.first).is_ok_and(|index| of.touching.has(index))
+        };
+        let only = move |one: Carrying, other: Carrying| {
+            pairs(one).filter(move |&ahead| !has(other, ahead))
+        };
+        only(self, other).chain(only(other, self))
+    }
 }
 
 impl PairSet {
@@ -138,6 +166,7 @@ impl PairSet {
                 force: incoming.map_or(0.0, |incoming| force(&self.pairs[incoming])),
                 total: self.pairs.iter().map(force).sum(),
                 lead: Some(incoming.map_or(f64::NEG_INFINITY, lead)).filter(|lead| *lead <= 0.0),
+                carrying: self.carrying(|index| displacement > self.pairs[index].gap),
             };
         }
         let (displacement, forces) = self.shared(force);
@@ -150,12 +179,21 @@ impl PairSet {
             force: incoming.map_or(0.0, |incoming| forces[incoming]),
             total: forces.iter().sum(),
             lead: incoming.map_or(Some(f64::NEG_INFINITY), lead),
+            carrying: self.carrying(|index| forces[index] > 0.0),
+        }
+    }
+
+    fn carrying(&self, carries: impl Fn(usize) -> bool) -> Carrying {
+        let pairs = (0..self.pairs.len()).filter(|&index| carries(index));
+        Carrying {
+            first: self.pairs.first().map_or(0, |pair| pair.ahead),
+            touching: pairs.fold(Touching::NONE, Touching::with),
         }
     }
 
     /// Displacement of the driver ahead, in m, and the force of each pair, in N, in the balance.
     #[must_use]
-    pub fn shared(&self, force: f64) -> (f64, Vec<f64>) {
+    pub fn shared(&self, force: f64) -> (f64, OfPairs<f64>) {
         if self.couplings.is_empty() {
             let displacement = self.of_springs(force);
             return (displacement, self.forces(displacement));
@@ -165,7 +203,7 @@ impl PairSet {
 
     /// The force of each pair at a displacement of the driver ahead, in N.
     #[must_use]
-    pub fn forces(&self, displacement: f64) -> Vec<f64> {
+    pub fn forces(&self, displacement: f64) -> OfPairs<f64> {
         if self.couplings.is_empty() {
             return self
                 .pairs

@@ -48,7 +48,7 @@ impl Resonance {
     pub fn of(inputs: &ResonanceInputs, mesh: &Mesh, mass: f64) -> Resonance {
         Resonance {
             mesh_frequency: inputs.speed * mesh.base_radii.0 / mesh.base_pitch,
-            natural_frequency: (mesh.mean_stiffness / mass).sqrt() / TAU,
+            natural_frequency: (mesh.mean_stiffness() / mass).sqrt() / TAU,
         }
     }
 

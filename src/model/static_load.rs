@@ -10,10 +10,13 @@ use super::mesh::Mesh;
 use super::pair_forces::Balance;
 use super::spacing::{Resolution, Spacing};
 use super::stations::MeshStation;
+use crate::numeric::peak::greatest;
 use crate::numeric::root;
 
-/// Samples between two borders of the mesh in the search for the incoming pair.
-const LOOKS: usize = 16;
+/// Samples in a base pitch in the search for the incoming pair.
+const SAMPLES: f64 = 16.0;
+/// Least number of samples between two borders of the mesh.
+const LEAST_SAMPLES: f64 = 2.0;
 
 /// Inputs of the shared load at rest, besides the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,9 +119,11 @@ fn load_within(
 ) -> Result<StaticLoad, Refusal> {
     let ((from, to), (whole_from, whole_to)) = (mesh.ends(), whole.ends());
     let mut grid = grid(whole, whole_from, whole_to);
-    grid.retain(|&s| from <= s && s <= to);
-    let mut balances: Vec<(f64, Balance)> =
-        grid.iter().map(|&s| (s, balance(mesh, s, s))).collect();
+    grid.retain(|&(s, _)| from <= s && s <= to);
+    let mut balances: Vec<(f64, Balance)> = grid
+        .iter()
+        .map(|&(s, inside)| (s, balance(mesh, s, inside)))
+        .collect();
     let is_beyond = |balance: &Balance| balance.displacement + mesh.error.max(0.0) > gap;
     if balances.iter().any(|(_, balance)| is_beyond(balance)) {
         return Err(Refusal::BeyondReach);
@@ -131,6 +136,7 @@ fn load_within(
     let [first, last] = [contact.first, contact.last].map(|s| (s, balance(mesh, s, s)));
     balances.insert(0, first);
     balances.push(last);
+    let balances = with_bends(mesh, &balances);
     let peak_force = peak(mesh, &balances, |balance| balance.force);
     let (stations, resolution) = stations(mesh, contact, peak_force, spacing);
     Ok(StaticLoad {
@@ -172,7 +178,12 @@ pub fn balance(mesh: &Mesh, s: f64, inside: f64) -> Balance {
 /// How far the displacement by the other pairs exceeds the gap of the incoming pair, in m. Above 0
 /// it carries.
 fn lead(mesh: &Mesh, s: f64) -> f64 {
-    let lead = mesh.pair_set(s, s).lead(0, mesh.force);
+    lead_of(mesh, 0, (s, s))
+}
+
+/// The same of the pair `ahead`. On a border, the second place selects the side.
+fn lead_of(mesh: &Mesh, ahead: i32, (s, inside): (f64, f64)) -> f64 {
+    let lead = mesh.pair_set(s, inside).lead(ahead, mesh.force);
     lead.clamp(-mesh.length, mesh.length)
 }
 
@@ -182,14 +193,29 @@ pub(super) fn reaches_ends(mesh: &Mesh) -> bool {
     lead(mesh, from) > 0.0 || lead(mesh, to) > 0.0
 }
 
-/// Every border and samples between the borders.
-fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<f64> {
+/// Samples between the borders and on both sides of each border, as the place of the incoming pair
+/// and a place on the same side of all borders. Friction jumps at the pitch point, and stiffness
+/// where a rounded tip begins to touch.
+fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<(f64, f64)> {
+    /// Of the distance between two borders.
+    const BESIDE: f64 = 1e-6;
     let borders = mesh.borders(from, to);
     let between = |ends: &[f64]| {
-        let (from, to) = (ends[0], ends[1]);
-        (0..LOOKS).map(move |step| from + (to - from) * step as f64 / LOOKS as f64)
+        let (from, to, length) = (ends[0], ends[1], ends[1] - ends[0]);
+        let samples = (SAMPLES * length / mesh.base_pitch)
+            .ceil()
+            .max(LEAST_SAMPLES) as usize;
+        let beside = BESIDE * length;
+        (0..=samples).map(move |step| {
+            let s = from + length * step as f64 / samples as f64;
+            match step {
+                0 => (from, from + beside),
+                _ if step == samples => (to, to - beside),
+                _ => (s, s),
+            }
+        })
     };
-    borders.windows(2).flat_map(between).chain([to]).collect()
+    borders.windows(2).flat_map(between).collect()
 }
 
 /// The greatest lead before E, in m: the displacement by the other pairs minus the gap of the
@@ -229,8 +255,9 @@ pub fn places_before_start(mesh: &Mesh) -> u64 {
     (grid(mesh, from, 0.0).len() * pairs) as u64
 }
 
-fn leads(mesh: &Mesh, places: &[f64]) -> Vec<(f64, f64)> {
-    places.iter().map(|&s| (s, lead(mesh, s))).collect()
+fn leads(mesh: &Mesh, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let lead = |&place: &(f64, f64)| (place.0, lead_of(mesh, 0, place));
+    places.iter().map(lead).collect()
 }
 
 /// The place before E with the greatest lead, and this lead.
@@ -283,6 +310,30 @@ fn contact(mesh: &Mesh, balances: &[(f64, Balance)]) -> Result<Option<Contact>, 
     }))
 }
 
+/// Adds the places where a pair begins or stops to carry, at which all curves have a bend. The ends
+/// of the contact of the incoming pair are among the balances.
+fn with_bends(mesh: &Mesh, balances: &[(f64, Balance)]) -> Vec<(f64, Balance)> {
+    let mut all = Vec::with_capacity(balances.len());
+    for (index, (s, here)) in balances.iter().enumerate() {
+        if let Some((before, there)) = index.checked_sub(1).map(|before| balances[before]) {
+            let changes = there.carrying.differences(here.carrying);
+            let is_at_end = index == 1 || index + 1 == balances.len();
+            let bends = changes.filter(|&ahead| before < *s && !(ahead == 0 && is_at_end));
+            let bends =
+                bends.map(|ahead| root::between(before, *s, |s| lead_of(mesh, ahead, (s, s))));
+            let mut bends: Vec<f64> = bends.filter(|bend| before < *bend && bend < s).collect();
+            bends.sort_by(f64::total_cmp);
+            all.extend(
+                bends
+                    .into_iter()
+                    .map(|bend| (bend, balance(mesh, bend, bend))),
+            );
+        }
+        all.push((*s, *here));
+    }
+    all
+}
+
 /// The greatest value over the contact, of which `balances` has both ends.
 fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
     let known: Vec<(f64, f64)> = balances
@@ -290,46 +341,6 @@ fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f6
         .map(|(s, balance)| (*s, value(balance)))
         .collect();
     greatest(&known, |s| value(&balance(mesh, s, s))).1
-}
-
-/// The greatest value and its place: the best of the known places, refined between its neighbours.
-pub(super) fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
-    const STEPS: usize = 60;
-    const GOLDEN: f64 = 0.618_033_988_749_894_8;
-    /// Values that differ by this part of them are equal.
-    const ROUNDING: f64 = 2.0 * f64::EPSILON;
-    let best = (0..known.len()).max_by(|&one, &other| known[one].1.total_cmp(&known[other].1));
-    let Some(best) = best else {
-        return (0.0, f64::NEG_INFINITY);
-    };
-    let (mut from, mut at_from) = known[best.saturating_sub(1)];
-    let (mut to, mut at_to) = known[(best + 1).min(known.len() - 1)];
-    let mut highest = known[best];
-    let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
-    let (mut at_left, mut at_right) = (at(left), at(right));
-    for _ in 0..STEPS {
-        highest = [(left, at_left), (right, at_right)]
-            .into_iter()
-            .fold(
-                highest,
-                |one, other| if other.1 > one.1 { other } else { one },
-            );
-        let values = [at_from, at_left, at_right, at_to];
-        let is_flat = |value: f64| (value - highest.1).abs() <= ROUNDING * highest.1.abs();
-        if values.into_iter().all(is_flat) {
-            break;
-        }
-        if at_left > at_right {
-            (to, at_to, right, at_right) = (right, at_right, left, at_left);
-            left = to - GOLDEN * (to - from);
-            at_left = at(left);
-        } else {
-            (from, at_from, left, at_left) = (left, at_left, right, at_right);
-            right = from + GOLDEN * (to - from);
-            at_right = at(right);
-        }
-    }
-    highest
 }
 
 /// Sum of all forces just after the incoming pair passes the pitch point, minus the sum just

@@ -3,7 +3,8 @@
 use super::Refusal;
 use super::harmonics::{Fourier, Spectrum};
 use super::mesh::Mesh;
-use super::static_load::{balance, greatest, reaches_ends};
+use super::static_load::{balance, reaches_ends};
+use crate::numeric::peak::greatest;
 use crate::numeric::root;
 
 /// Samples between two borders of the mesh to find changes of the pairs in contact.

@@ -434,7 +434,7 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
                     0.87..1.13,
                 ),
                 (
-                    Some((mesh.mean_stiffness, alone.mean_stiffness)),
+                    Some((mesh.mean_stiffness(), alone.mean_stiffness())),
                     0.835..0.945,
                 ),
             ];

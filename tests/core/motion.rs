@@ -72,7 +72,7 @@ fn slow_gears_carry_the_static_load() {
 fn plain_peak(inputs: &Inputs, solution: &Solution, steps: u32) -> f64 {
     let mesh = mesh(inputs, solution);
     let mass = solution.reduced_mass;
-    let damping = 2.0 * inputs.damping_ratio * (mesh.mean_stiffness * mass).sqrt();
+    let damping = 2.0 * inputs.damping_ratio * (mesh.mean_stiffness() * mass).sqrt();
     let slope = |t: f64, [x, v]: [f64; 2]| {
         let s = t * mesh.speed;
         let pairs = mesh.pair_set(s, s);

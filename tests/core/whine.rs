@@ -76,7 +76,7 @@ fn harmonics_at_rest_are_those_of_many_samples() {
 /// The last of many base pitches by classical Runge-Kutta steps without events: displacements, the
 /// greatest sum of forces and the greatest force of a tooth.
 fn plain(mesh: &Mesh, inputs: &Inputs, mass: f64, laps: u32, steps: u32) -> (Vec<f64>, f64, f64) {
-    let damping = 2.0 * inputs.damping_ratio * (mesh.mean_stiffness * mass).sqrt();
+    let damping = 2.0 * inputs.damping_ratio * (mesh.mean_stiffness() * mass).sqrt();
     let forces = |part: f64, x: f64| {
         let s = part.rem_euclid(1.0) * mesh.base_pitch;
         mesh.pair_set(s, s).forces(x)

@@ -69,7 +69,7 @@ pub(super) struct Window {
 
 impl<'a> Motion<'a> {
     pub(super) fn new(mesh: &'a Mesh, settings: &Settings) -> Motion<'a> {
-        let frequency = (mesh.mean_stiffness / settings.mass).sqrt();
+        let frequency = (mesh.mean_stiffness() / settings.mass).sqrt();
         Motion {
             mesh,
             mass: settings.mass,
@@ -155,7 +155,7 @@ impl<'a> Motion<'a> {
 
     /// Scale of a state: the static deflection, and the rate of an oscillation with this amplitude.
     pub(super) fn scale(&self) -> State {
-        let deflection = self.mesh.force / self.mesh.mean_stiffness;
+        let deflection = self.mesh.force / self.mesh.mean_stiffness();
         State::new(deflection, deflection * self.frequency)
     }
 

@@ -45,7 +45,7 @@ fn coupled(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let (inputs, solution) = at_rest(adjust);
     let flanks = Flanks::new(&inputs.elasticity(), &solution.geometry).unwrap();
     let load = (solution.mesh_force, solution.deviation.equivalent_error);
-    let scale = inputs.common_width() / solution.mesh.as_ref().unwrap().mean_stiffness;
+    let scale = inputs.common_width() / solution.mesh.as_ref().unwrap().mean_stiffness();
     let neighbours = ByRadii(|rear: [f64; 2], front: [f64; 2], pitches| {
         let share = if pitches == 1 { 0.3 } else { 0.12 };
         let place = 40.0 * (rear[0] + 2.0 * front[1] - 0.2);
@@ -132,7 +132,7 @@ fn a_pair_of_constant_stiffness_follows_the_linear_oscillator() {
     let start = motion.time(middle);
     let swing = 0.1 * balance.displacement;
     let frequency = (stiffness / settings.mass).sqrt();
-    let decay = settings.damping_ratio * (mesh.mean_stiffness / settings.mass).sqrt();
+    let decay = settings.damping_ratio * (mesh.mean_stiffness() / settings.mass).sqrt();
     let damped = (frequency * frequency - decay * decay).sqrt();
     let (mut y, mut time) = (State::new(balance.displacement + swing, 0.0), 0.0);
     let allowed = 1e-13 * balance.displacement;
@@ -192,7 +192,7 @@ fn energies_balance_to_the_tolerance() {
 /// The coupled equation in Runge-Kutta steps of fixed length without events, with the forces of the
 /// linear complementarity problem at every place.
 fn plain_peak(mesh: &Mesh, settings: &Settings, steps: u32) -> f64 {
-    let damping = 2.0 * settings.damping_ratio * (mesh.mean_stiffness * settings.mass).sqrt();
+    let damping = 2.0 * settings.damping_ratio * (mesh.mean_stiffness() * settings.mass).sqrt();
     let forces = |t: f64, x: f64| {
         let pairs = mesh.pair_set(t * mesh.speed, t * mesh.speed);
         let forces = pairs.forces(x);

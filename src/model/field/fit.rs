@@ -18,19 +18,26 @@ pub(super) struct Flank {
     pub(super) tip_roll: f64,
     /// Roll angles of the outermost loads, from the junction, in rad.
     pub(super) rolls: [f64; 2],
+    /// Radii of the outermost loads, from the junction, in m.
+    pub(super) radii: [f64; 2],
 }
 
 impl Flank {
+    /// The part of a flank between the roll angles of the outermost loads, from the junction.
+    pub(super) fn of(base: f64, tip_roll: f64, rolls: [f64; 2]) -> Flank {
+        Flank {
+            base,
+            tip_roll,
+            rolls,
+            radii: rolls.map(|roll| base.hypot(base * roll)),
+        }
+    }
+
     /// Roll angle at a radius, in rad, limited to the range of the loads.
     pub(super) fn roll(&self, radius: f64) -> f64 {
         let over_base = (radius - self.base).max(0.0);
         let roll = (over_base * (radius + self.base)).sqrt() / self.base;
         roll.max(self.rolls[0]).min(self.rolls[1])
-    }
-
-    /// Radii of the outermost loads, from the junction, in m.
-    pub(super) fn radii(&self) -> [f64; 2] {
-        self.rolls.map(|roll| self.base.hypot(self.base * roll))
     }
 }
 

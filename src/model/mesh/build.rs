@@ -6,7 +6,7 @@ use super::Mesh;
 use super::back::back_place;
 use super::couplings::{Couplings, Neighbours, Way};
 use super::inputs::MeshInputs;
-use super::zones::{End, LEVER, STIFFNESS, Zone, line_zones};
+use super::zones::{End, LEVER, Zone, line_zones};
 use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::compliance::flanks::Flanks;
@@ -15,7 +15,11 @@ use crate::model::geometry::Geometry;
 use crate::model::relief::Relief;
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::lanes::Lanes;
-use crate::numeric::quadrature;
+
+/// The couplings from the range of the pairs, the compliance of one pair in m/N and the contact
+/// places.
+type NewCouplings<'a> =
+    dyn Fn(&Way, f64, &dyn Fn(f64) -> ContactPlace) -> Result<Option<Arc<Couplings>>, Refusal> + 'a;
 
 /// The teeth of a pair under the mesh force, in N.
 struct UnderLoad {
@@ -70,39 +74,94 @@ impl Mesh {
         reach: f64,
     ) -> Result<Mesh, Refusal> {
         let flanks = Arc::new(Flanks::new(&inputs.elasticity, geometry)?);
-        Mesh::of_flanks(inputs, geometry, &flanks, (force, error), reach)
+        let load = (force, error);
+        Mesh::of_parts(inputs, geometry, &flanks, None, load, reach)
     }
 
-    /// Like [`Mesh::new`], with a known compliance of the teeth, which does not depend on reliefs,
-    /// load and reach.
+    /// The same as [`Mesh::new`], with the parts of an earlier mesh of this geometry that do not
+    /// change. The compliance of the teeth depends on the elasticity alone, the couplings also on
+    /// load, reach and tips, and all but the error of the mesh on everything else.
     ///
     /// # Errors
     /// Those of [`Mesh::new`].
-    pub(in crate::model) fn of_flanks(
+    pub(in crate::model) fn after(
+        earlier: &Arc<Mesh>,
+        inputs: &MeshInputs,
+        geometry: &Geometry,
+        (force, error): (f64, f64),
+        reach: f64,
+    ) -> Result<Mesh, Refusal> {
+        let (load, last) = ((force, error), &earlier.inputs);
+        if last.elasticity != inputs.elasticity {
+            return Mesh::new(inputs, geometry, force, error, reach);
+        }
+        let has_same_load = earlier.force.to_bits() == force.to_bits()
+            && earlier.reach.to_bits() == reach.to_bits();
+        if has_same_load && *last == inputs.at_speed(last.speed) {
+            return Ok(Mesh {
+                error,
+                ..Mesh::clone(&earlier.turning_at(inputs.speed))
+            });
+        }
+        let is_alike =
+            has_same_load && last.shape == inputs.shape && last.tip_radii == inputs.tip_radii;
+        let couplings = is_alike.then_some(&earlier.couplings);
+        Mesh::of_parts(inputs, geometry, &earlier.flanks, couplings, load, reach)
+    }
+
+    /// Like [`Mesh::new`], with a known compliance of the teeth and perhaps known couplings.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`].
+    fn of_parts(
+        inputs: &MeshInputs,
+        geometry: &Geometry,
+        flanks: &Arc<Flanks>,
+        couplings: Option<&Option<Arc<Couplings>>>,
+        load: (f64, f64),
+        reach: f64,
+    ) -> Result<Mesh, Refusal> {
+        let new = |way: &Way, own: f64, place: &dyn Fn(f64) -> ContactPlace| {
+            if let Some(known) = couplings {
+                return Ok(known.clone());
+            }
+            let neighbours = UnderLoad {
+                teeth: Teeth::of(&inputs.elasticity, geometry)?,
+                force: load.0,
+            };
+            Couplings::of(way, (own, inputs.elasticity.width), &neighbours, place)
+        };
+        Mesh::with_couplings(inputs, geometry, flanks, load, reach, &new)
+    }
+
+    /// Like [`Mesh::new`], with the couplings from `neighbours`.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`].
+    #[cfg(test)]
+    pub(in crate::model) fn with_neighbours(
         inputs: &MeshInputs,
         geometry: &Geometry,
         flanks: &Arc<Flanks>,
         load: (f64, f64),
         reach: f64,
+        neighbours: &dyn Neighbours,
     ) -> Result<Mesh, Refusal> {
-        let neighbours = UnderLoad {
-            teeth: Teeth::of(&inputs.elasticity, geometry)?,
-            force: load.0,
-        };
-        Mesh::with_neighbours(inputs, geometry, flanks, load, reach, &neighbours)
+        let width = inputs.elasticity.width;
+        Mesh::with_couplings(inputs, geometry, flanks, load, reach, &|way, own, place| {
+            Couplings::of(way, (own, width), neighbours, place)
+        })
     }
 
-    /// Like [`Mesh::new`], with the couplings from `neighbour`.
-    ///
-    /// # Errors
-    /// Those of [`Mesh::new`].
-    pub(in crate::model) fn with_neighbours(
+    /// Like [`Mesh::new`], with the couplings as a function of the range of the pairs, the
+    /// compliance of one pair in m/N and the contact places.
+    fn with_couplings(
         inputs: &MeshInputs,
         geometry: &Geometry,
         flanks: &Arc<Flanks>,
         (force, error): (f64, f64),
         reach: f64,
-        neighbours: &dyn Neighbours,
+        couplings: &NewCouplings<'_>,
     ) -> Result<Mesh, Refusal> {
         let relief = Relief::of(&inputs.reliefs, geometry);
         let pace = inputs.speed;
@@ -146,12 +205,12 @@ impl Mesh {
             s => ContactPlace::on_line_of_action(geometry, geometry.start + s),
         };
         let width = inputs.elasticity.width;
-        let own = zones
-            .first()
-            .map_or(0.0, |zone| zone.series.one(STIFFNESS, zone.to))
-            .recip();
-        let couplings = Couplings::of(&way, (own, width), neighbours, &place)?;
-        let coupling_work = couplings.as_ref().map_or(0, Couplings::evaluations) as u64;
+        let ends = (geometry.start, geometry.tangent_length - geometry.start);
+        let at_start = (&place(0.0), ends);
+        let own =
+            flanks.pair_at_load(&inputs.elasticity, geometry, at_start.0, at_start.1, force)?;
+        let couplings = couplings(&way, own / width, &place)?;
+        let coupling_work = couplings.as_deref().map_or(0, Couplings::evaluations) as u64;
         let mesh = Mesh {
             base_pitch: geometry.base_pitch,
             length,
@@ -159,7 +218,6 @@ impl Mesh {
             speed: pace * geometry.driver.base,
             driver_speed: pace,
             error,
-            mean_stiffness: 0.0,
             base_radii: (geometry.driver.base, geometry.driven.base),
             width,
             friction,
@@ -171,32 +229,27 @@ impl Mesh {
                     .sum::<u64>(),
             flanks: Arc::clone(flanks),
             zones: Arc::new(zones),
-            couplings: couplings.map(Arc::new),
+            couplings,
+            inputs: *inputs,
             sharing: Arc::default(),
+            mean_stiffness: Arc::default(),
             back_place: back_place(&inputs.shape, geometry),
             back: Arc::default(),
             reach,
             is_whole: is_whole_before && is_whole_after,
         };
         mesh.check_couplings()?;
-        Ok(mesh.with_mean_stiffness())
+        Ok(mesh)
     }
 
     /// The mesh without coupling.
     #[must_use]
     pub fn uncoupled(&self) -> Mesh {
-        let alone = Mesh {
+        Mesh {
             couplings: None,
+            mean_stiffness: Arc::default(),
             back: Arc::default(),
             ..self.clone()
-        };
-        alone.with_mean_stiffness()
-    }
-
-    fn with_mean_stiffness(self) -> Mesh {
-        Mesh {
-            mean_stiffness: self.stiffness_on_line() / self.base_pitch,
-            ..self
         }
     }
 
@@ -214,30 +267,6 @@ impl Mesh {
             }
         }
         Ok(())
-    }
-
-    /// ∫ of the stiffness of all pairs on the line of action over a base pitch, in N.
-    fn stiffness_on_line(&self) -> f64 {
-        let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= self.length;
-        let zones = self.zones.iter().filter(on_line);
-        if self.couplings.is_none() {
-            return zones.map(|zone| zone.series.integral(STIFFNESS)).sum();
-        }
-        let line = Mesh {
-            zones: Arc::new(zones.cloned().collect()),
-            ..self.clone()
-        };
-        let stiffness = |s: f64, inside: f64| {
-            let pairs = line.pair_set(s, inside).of_no_gap();
-            pairs.forces(1.0).iter().sum::<f64>()
-        };
-        let borders = self.borders(0.0, self.base_pitch);
-        let over = |ends: &[f64]| {
-            let (from, to) = (ends[0], ends[1]);
-            let at = |part: f64| stiffness(from + part * (to - from), f64::midpoint(from, to));
-            (to - from) * quadrature::unit_interval(at)
-        };
-        borders.windows(2).map(over).sum()
     }
 }
 

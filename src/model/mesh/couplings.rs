@@ -1,5 +1,7 @@
 //! Displacements of pairs by forces on the pairs a few pitches behind and ahead.
 
+use std::sync::Arc;
+
 use crate::model::Refusal;
 use crate::model::compliance::ContactPlace;
 use crate::model::pair_forces::PITCHES;
@@ -92,7 +94,7 @@ impl Couplings {
         (own, width): (f64, f64),
         neighbours: &dyn Neighbours,
         place: &dyn Fn(f64) -> ContactPlace,
-    ) -> Result<Option<Couplings>, Refusal> {
+    ) -> Result<Option<Arc<Couplings>>, Refusal> {
         /// Of the compliance of one pair.
         const REST: f64 = 1e-13;
         if !neighbours.is_coupled() {
@@ -119,7 +121,7 @@ impl Couplings {
             }
         }
         let is_empty = stretches.iter().all(Vec::is_empty);
-        Ok((!is_empty).then_some(Couplings { stretches }))
+        Ok((!is_empty).then(|| Arc::new(Couplings { stretches })))
     }
 
     /// The displacement in m/N of two pairs with `between` pairs between them and the rear pair at

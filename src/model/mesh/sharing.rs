@@ -259,7 +259,7 @@ impl<'a> Meet<'a> {
             zones, deviating, ..
         } = self.meeting;
         let (mesh, inside) = (self.mesh, self.inside());
-        let deflection = mesh.force / mesh.mean_stiffness;
+        let deflection = mesh.force / mesh.mean_stiffness();
         let zone = |pair: usize| &mesh.zones[zones[pair]];
         let at =
             |pair: usize, function: usize| zone(pair).series.one(function, inside + self.way(pair));

@@ -91,7 +91,7 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
         return None;
     };
     let time = load.first_contact_angle? / inputs.driven_speed();
-    let period = std::f64::consts::TAU * (solution.reduced_mass / mesh.mean_stiffness).sqrt();
+    let period = std::f64::consts::TAU * (solution.reduced_mass / mesh.mean_stiffness()).sqrt();
     let part = period / (std::f64::consts::PI * time);
     let message = || {
         let (period, time) = (four(period * 1e6), four(time * 1e6));

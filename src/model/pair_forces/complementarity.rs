@@ -1,5 +1,7 @@
 //! Displacement and forces of coupled pairs: a linear complementarity problem.
 
+use smallvec::smallvec;
+
 use super::{OfPairs, PairSet, Touching, at};
 
 /// End condition of the search upwards from the first touch.
@@ -21,7 +23,7 @@ pub(super) struct Lines {
 
 impl PairSet {
     /// Displacement and forces at the end condition.
-    pub(super) fn solved(&self, until: Until) -> (f64, Vec<f64>) {
+    pub(super) fn solved(&self, until: Until) -> (f64, OfPairs<f64>) {
         let own = self.own();
         self.guessed(&own, until)
             .unwrap_or_else(|| self.followed(&own, until))
@@ -30,7 +32,7 @@ impl PairSet {
     /// Guesses the touching pairs from independent springs and corrects the guess until no force
     /// and no overlap contradicts it. `None` if this takes more corrections than usual. The
     /// compliances are positive definite, so that no other set of pairs meets the conditions.
-    pub(super) fn guessed(&self, own: &[f64], until: Until) -> Option<(f64, Vec<f64>)> {
+    pub(super) fn guessed(&self, own: &[f64], until: Until) -> Option<(f64, OfPairs<f64>)> {
         const CORRECTIONS: usize = 6;
         let x = match until {
             Until::Total(total) => self.of_springs(total),
@@ -64,8 +66,8 @@ impl PairSet {
     }
 
     /// The force of each pair at a displacement, 0 of a pair without contact.
-    fn forces_of(&self, lines: &Lines, displacement: f64) -> Vec<f64> {
-        let mut forces = vec![0.0; self.pairs.len()];
+    fn forces_of(&self, lines: &Lines, displacement: f64) -> OfPairs<f64> {
+        let mut forces: OfPairs<f64> = smallvec![0.0; self.pairs.len()];
         for (&index, &force) in lines.touching.iter().zip(&lines.forces) {
             forces[index] = at(force, displacement).max(0.0);
         }
@@ -74,7 +76,7 @@ impl PairSet {
 
     /// Displacement and forces at the end condition. The displacement grows from the first touch,
     /// and the sum of forces is linear between the points where a pair gains or loses contact.
-    pub(super) fn followed(&self, own: &[f64], until: Until) -> (f64, Vec<f64>) {
+    pub(super) fn followed(&self, own: &[f64], until: Until) -> (f64, OfPairs<f64>) {
         let (mut x, mut touching) = (f64::NEG_INFINITY, Touching::NONE);
         // Each pair changes its contact once; few pairs change again.
         for _ in 0..=4 * self.pairs.len() {
@@ -87,7 +89,7 @@ impl PairSet {
                 _ => return (end, self.forces_of(&lines, end)),
             }
         }
-        (f64::INFINITY, vec![0.0; self.pairs.len()])
+        (f64::INFINITY, smallvec![0.0; self.pairs.len()])
     }
 
     /// The displacement of the end condition if no other pair gains or loses contact before.

@@ -32,7 +32,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 5,
         equation: "mean of b/q",
         stage: Mesh,
-        value: |s| Some(s.mesh.as_ref()?.mean_stiffness),
+        value: |s| Some(s.mesh.as_ref()?.mean_stiffness()),
         meaning: "The mean stiffness of the mesh over a base pitch, of all pairs on the line of \
             action together and without deviations. It determines the natural frequency, and the \
             damping is a fraction of it.",

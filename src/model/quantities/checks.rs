@@ -238,7 +238,7 @@ pub(super) fn contact_small(k: &Context) -> Option<Finding> {
 pub(super) fn at_rest(k: &Context) -> Option<Finding> {
     let solution = k.solution;
     let time = solution.static_load.as_ref()?.first_contact_angle? / k.inputs.driven_speed();
-    let period = TAU * (solution.reduced_mass / solution.mesh.as_ref()?.mean_stiffness).sqrt();
+    let period = TAU * (solution.reduced_mass / solution.mesh.as_ref()?.mean_stiffness()).sqrt();
     let part = period / (PI * time);
     let share = four(100.0 * part.min(1.0));
     let (period, time) = (micro(period, "us"), micro(time, "us"));
@@ -254,7 +254,7 @@ pub(super) fn at_rest(k: &Context) -> Option<Finding> {
 pub(super) fn forgotten(k: &Context) -> Option<Finding> {
     const LEFT: f64 = 1e-3;
     let (inputs, geometry) = (k.inputs, &k.solution.geometry);
-    let frequency = (k.solution.mesh.as_ref()?.mean_stiffness / k.solution.reduced_mass).sqrt();
+    let frequency = (k.solution.mesh.as_ref()?.mean_stiffness() / k.solution.reduced_mass).sqrt();
     let cycles = f64::from(inputs.warmup_cycles);
     let time = cycles * geometry.base_pitch / (inputs.speed * geometry.driver.base);
     let left = (-inputs.damping_ratio * frequency * time).exp();

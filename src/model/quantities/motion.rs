@@ -223,7 +223,7 @@ pub(super) const TABLE: &[Quantity] = &[
 ];
 
 fn stiffness(k: &Context) -> Option<f64> {
-    Some(k.solution.mesh.as_ref()?.mean_stiffness)
+    Some(k.solution.mesh.as_ref()?.mean_stiffness())
 }
 
 pub(super) const STEPS: &[Step] = &[step(

@@ -199,7 +199,7 @@ impl<'a> Run<'a> {
         const INTERVALS_PER_PERIOD: f64 = 16.0;
         /// A run time of two or three seconds.
         const MOST_SWINGS: f64 = 8e3;
-        let frequency = (mesh.mean_stiffness / mass).sqrt();
+        let frequency = (mesh.mean_stiffness() / mass).sqrt();
         let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
         let swings = (mesh.length - start) / mesh.speed * frequency / TAU;
         if swings > MOST_SWINGS {

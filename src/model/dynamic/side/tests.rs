@@ -88,7 +88,7 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
         if couples {
             Mesh::with_neighbours(inputs, geometry, &flanks, load, 1e-3, &neighbours).unwrap()
         } else {
-            Mesh::of_flanks(inputs, geometry, &flanks, load, 1e-3).unwrap()
+            Mesh::new(inputs, geometry, load.0, load.1, 1e-3).unwrap()
         }
     };
     Rattling {
@@ -126,7 +126,7 @@ impl Plain<'_> {
         } = pair;
         let start = -f64::from(settings.warmup_cycles) * mesh.base_pitch;
         let inside = start + 1e-9 * mesh.base_pitch;
-        let critical = 2.0 * (mesh.mean_stiffness * settings.mass).sqrt();
+        let critical = 2.0 * (mesh.mean_stiffness() * settings.mass).sqrt();
         let (offset, end) = (mesh.back_place(), 2.0 * mesh.length);
         let behind = back.borders(start + offset, end + offset);
         let behind = behind.into_iter().map(|place| place - offset);
@@ -162,7 +162,7 @@ impl Plain<'_> {
 
     fn forces(&self, t: f64, x: f64) -> [Vec<f64>; 2] {
         self.sides(t, x)
-            .map(|(pairs, displaced)| pairs.forces(displaced))
+            .map(|(pairs, displaced)| pairs.forces(displaced).into_vec())
     }
 
     /// The pairs in contact.
@@ -244,7 +244,7 @@ impl Plain<'_> {
 
 /// Greatest difference of the displacement relative to its scale, and the run with plain steps.
 fn compared<'a>(pair: &'a Rattling, found: &Dynamic, part: f64) -> (f64, Plain<'a>) {
-    let scale = pair.mesh.force / pair.mesh.mean_stiffness;
+    let scale = pair.mesh.force / pair.mesh.mean_stiffness();
     let mut plain = Plain::new(pair);
     let length = part * pair.mesh.base_pitch / pair.mesh.speed;
     let mut worst = 0.0f64;
