@@ -113,7 +113,7 @@ impl Field {
     #[must_use]
     pub fn depth(&self, radius: f64, half_width: f64) -> f64 {
         let roll = self.flank.roll(radius);
-        let share = half_width / (self.module * self.depth_in_modules(roll));
+        let share = half_width / self.centre_depth(radius);
         self.depth.at(self.abscissas[1].at(roll)) - depth_loss(self.poisson) * share * share
     }
 
@@ -208,6 +208,13 @@ impl Field {
     #[must_use]
     pub fn twist(&self) -> Option<f64> {
         self.twist
+    }
+
+    /// Depth of the centre line below the flank at a radius along the force, in m. The contact is
+    /// inside the tooth if its half-width is smaller.
+    #[must_use]
+    pub fn centre_depth(&self, radius: f64) -> f64 {
+        self.module * self.depth_in_modules(self.flank.roll(radius))
     }
 
     /// Depth of the centre line below the flank along the force, in modules.

@@ -108,7 +108,7 @@ fn near_gap(mesh: &Mesh) -> f64 {
 }
 
 /// The shared load of the pairs in `mesh`, the part of the whole mesh with gaps up to `gap`, in m.
-/// The samples are those of the whole mesh.
+/// The samples between its ends are those of the whole mesh.
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] if a pair may close a wider gap.
@@ -118,11 +118,13 @@ fn load_within(
     spacing: Spacing,
 ) -> Result<StaticLoad, Refusal> {
     let ((from, to), (whole_from, whole_to)) = (mesh.ends(), whole.ends());
-    let mut grid = grid(whole, whole_from, whole_to);
-    grid.retain(|&(s, _)| from <= s && s <= to);
-    let mut balances: Vec<(f64, Balance)> = grid
-        .iter()
-        .map(|&(s, inside)| (s, balance(mesh, s, inside)))
+    let mut places = grid(whole, whole_from, whole_to);
+    places.retain(|&(s, _)| from < s && s < to);
+    places.insert(0, (from, from));
+    places.push((to, to));
+    let balances = places.into_iter();
+    let mut balances: Vec<(f64, Balance)> = balances
+        .map(|(s, inside)| (s, balance(mesh, s, inside)))
         .collect();
     let is_beyond = |balance: &Balance| balance.displacement + mesh.error.max(0.0) > gap;
     if balances.iter().any(|(_, balance)| is_beyond(balance)) {

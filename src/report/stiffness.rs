@@ -109,7 +109,7 @@ fn gear_section(comparison: &Comparison, gear: &GearComparison) -> Vec<String> {
 fn head(models: &[ToothCompliance]) -> String {
     let models: Vec<_> = models
         .iter()
-        .map(|model| format!("{:>17}", model.name()))
+        .map(|model| format!(" {:>16}", model.name()))
         .collect();
     let models = models.concat();
     format!(
@@ -128,7 +128,7 @@ fn path_section(
     let names: Vec<_> = path
         .models
         .iter()
-        .map(|model| format!("{:>17}", model.name()))
+        .map(|model| format!(" {:>16}", model.name()))
         .collect();
     let title = format!("Stiffness of {pairs} over the path of contact, in N/(um mm):");
     let mut lines = vec![title, format!("{:>8}{}", "s [mm]", names.concat())];
@@ -140,7 +140,7 @@ fn path_section(
             .enumerate()
             .map(|(model, value)| {
                 let other = reference.filter(|_| Some(model) != field);
-                format!("{:>17}", stiffness(*value, other))
+                format!(" {:>16}", stiffness(*value, other))
             })
             .collect();
         format!(
@@ -179,7 +179,7 @@ fn row(point: &Point) -> String {
     let models: Vec<_> = point
         .models
         .iter()
-        .map(|model| format!("{:>17}", with_difference(*model, whole)))
+        .map(|model| format!(" {:>16}", with_difference(*model, whole)))
         .collect();
     let models = models.concat();
     let field = |of: fn(&FieldPoint) -> f64| compliance(point.field.as_ref().map(of));
@@ -204,34 +204,36 @@ fn with_difference(value: Option<f64>, reference: Option<f64>) -> String {
 
 /// The twist of the body, and the reasons for missing values.
 fn remarks(gear: &GearComparison) -> Vec<String> {
-    let field = match (&gear.refusal, gear.twist) {
-        (Some(_), _) => no_field(gear),
-        (None, Some(twist)) => Some(format!(
+    let body = match gear.twist {
+        _ if gear.refusal.is_some() => None,
+        Some(twist) => Some(format!(
             "twist of the body about its bore: {} um mm/N for every tooth, at every radius",
             significant(twist / MICRON_MILLIMETRE, 4)
         )),
-        (None, None) => {
-            Some("no bore: FE leaves out the twist and the shift of the body".to_owned())
-        }
+        None => Some("no bore: FE leaves out the twist and the shift of the body".to_owned()),
     };
     let gaps = gear
         .gaps
         .iter()
         .map(|gap| format!("no value by {}: {}", gap.model.name(), gap.reason));
-    field.into_iter().chain(gaps).collect()
+    no_field(gear).into_iter().chain(body).chain(gaps).collect()
 }
 
-/// Why a gear has no finite-element values; `None` if it has them.
+/// Why a gear has no finite-element values at some radii; `None` if it has them at all radii.
 #[must_use]
 pub fn no_field(gear: &GearComparison) -> Option<String> {
     Some(format!("no finite-element values: {}", reason(gear)?))
 }
 
 fn reason(gear: &GearComparison) -> Option<String> {
-    Some(match gear.refusal? {
-        Refusal::NoField { reason, .. } => reason.to_string(),
-        other => other.to_string(),
-    })
+    match gear.refusal {
+        Some(Refusal::NoField { reason, .. }) => Some(reason.to_string()),
+        Some(other) => Some(other.to_string()),
+        None => {
+            let has_gap = gear.points.iter().any(|point| point.field.is_none());
+            has_gap.then(|| "the contact under the mesh force is wider than the tooth".to_owned())
+        }
+    }
 }
 
 /// Writes CSV in SI units, one row per gear and radius; an absent value is an empty cell.

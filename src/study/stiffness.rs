@@ -240,7 +240,7 @@ impl Flank<'_> {
             field: field
                 .as_ref()
                 .ok()
-                .map(|field| field_point(field, radius, half_width, young)),
+                .and_then(|field| field_point(field, radius, half_width, young)),
         });
         GearComparison {
             gear: self.name,
@@ -312,13 +312,14 @@ impl Flank<'_> {
     }
 }
 
-fn field_point(field: &Field, radius: f64, half_width: f64, young: f64) -> FieldPoint {
-    FieldPoint {
+/// `None` if the contact under the mesh force is wider than the tooth.
+fn field_point(field: &Field, radius: f64, half_width: f64, young: f64) -> Option<FieldPoint> {
+    (half_width < field.centre_depth(radius)).then(|| FieldPoint {
         depth: field.depth(radius, half_width) / young,
         surface: field.surface(radius.min(field.last_radius(half_width)), half_width) / young,
         ahead: field.cross(radius, radius, 1) / young,
         behind: field.cross(radius, radius, -1) / young,
-    }
+    })
 }
 
 #[cfg(test)]

@@ -360,25 +360,6 @@ fn a_quantity_lists_no_field_without_effect() {
     assert!(listed("contact_ratio", &case).contains(&"pair.centre_distance"));
 }
 
-/// The note beside the dedendum names the models that read it.
-#[test]
-fn a_stiffness_model_says_whether_it_reads_the_root() {
-    let force = |tooth, contact, dedendum| {
-        let mut inputs = Case::table_1().inputs().unwrap();
-        (inputs.tooth_compliance, inputs.contact_compliance) = (Some(tooth), contact);
-        (inputs.driver.dedendum, inputs.driven.dedendum) = (dedendum, dedendum);
-        let solution = model::solve(&inputs, Stages::of(Stage::Impact)).unwrap();
-        solution.impact.unwrap().force.to_bits()
-    };
-    for tooth in ToothCompliance::ALL {
-        for contact in ContactCompliance::ALL {
-            let moves = force(tooth, contact, 1.25) != force(tooth, contact, 1.3);
-            let reads = tooth.model().reads_root || contact.model().reads_root;
-            assert!(reads || !moves, "{} with {}", tooth.name(), contact.name());
-        }
-    }
-}
-
 #[test]
 fn a_stage_reads_only_its_own_fields() {
     let inputs = Case::table_1().inputs().unwrap();

@@ -44,11 +44,15 @@ pub(super) const LOAD: [Reason; 1] = [Partly(
     "with the deflection given, the load changes F_0, not the impact",
 )];
 
-pub(super) const MASS: [Reason; 1] = [Partly(
-    |inputs| inputs.method == Method::Static,
-    "the static load does not depend on mass; only the free impact changes, and with `beam` the \
-        stiffness",
+pub(super) const MASS: [Reason; 1] = [Partly(|inputs| inputs.method == Method::Static, NO_MASS)];
+
+/// The tooth compliances that depend on the root include the body of the gear.
+pub(super) const BORE: [Reason; 1] = [Partly(
+    |inputs| inputs.method == Method::Static && !model_of(inputs).model().reads_root,
+    NO_MASS,
 )];
+
+const NO_MASS: &str = "the static load does not depend on mass; only the free impact changes";
 
 pub(super) fn always(_: &Inputs) -> bool {
     true
@@ -73,4 +77,43 @@ pub(super) fn is_wider(inputs: &Inputs, width: f64) -> bool {
 fn root_is_read(inputs: &Inputs) -> bool {
     model_of(inputs).model().reads_root
         || contact_of(inputs).is_some_and(|contact| contact.model().reads_root)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::model::inputs::{ContactCompliance, Inputs, ToothCompliance};
+    use crate::model::{self, Stage, Stages};
+
+    /// The notes beside dedendum and bore name the models that read them.
+    #[test]
+    fn a_stiffness_model_says_whether_it_reads_the_root() {
+        let results = |tooth, contact, edit: fn(&mut Inputs)| {
+            let mut inputs = Case::table_1().inputs().unwrap();
+            (inputs.tooth_compliance, inputs.contact_compliance) = (Some(tooth), contact);
+            edit(&mut inputs);
+            let solution = model::solve(&inputs, Stages::of(Stage::Impact)).unwrap();
+            let results = [
+                solution.compliance.unwrap().driver,
+                solution.impact.unwrap().force,
+            ];
+            results.map(f64::to_bits)
+        };
+        for tooth in ToothCompliance::ALL {
+            for contact in ContactCompliance::ALL {
+                let before = results(tooth, contact, |_| ());
+                let reads = tooth.model().reads_root;
+                let [bored, _] = results(tooth, contact, |inputs| inputs.driver.bore_radius = 9e-3);
+                assert_eq!(bored != before[0], reads, "{}", tooth.name());
+                let [_, deeper] = results(tooth, contact, |inputs| inputs.driver.dedendum = 1.3);
+                let reads = reads || contact.model().reads_root;
+                assert!(
+                    reads || deeper == before[1],
+                    "{} with {}",
+                    tooth.name(),
+                    contact.name()
+                );
+            }
+        }
+    }
 }

@@ -19,9 +19,11 @@ const LEAST_RIM: f64 = 1e-3;
 /// The boundary of a gear, checked for the mesh.
 pub(super) fn boundary(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
     let boundary = Boundary::of(input)?;
+    // The displacements are measured on the centre line, that of the lowest load at this radius.
+    let lowest = boundary.base / boundary.load_angle(boundary.junction_roll).cos();
     let (thickness, least) = (
         boundary.root * input.module - input.bore_radius,
-        LEAST_RIM * input.module,
+        ((boundary.root - lowest).max(0.0) + LEAST_RIM) * input.module,
     );
     if thickness.is_nan() || thickness < least {
         return Err(FieldRefusal::ThinRim { thickness, least });

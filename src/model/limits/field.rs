@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-const MILLIMETRE: f64 = 1e-3;
+use crate::numeric::decimal::significant;
+
 /// Range of Poisson's ratio.
 pub(in crate::model) const POISSON: (f64, f64) = (0.0, 0.49);
 
@@ -10,7 +11,7 @@ pub(in crate::model) const POISSON: (f64, f64) = (0.0, 0.49);
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum FieldRefusal {
     /// The flanks meet at or below the tip circle.
-    #[error("pointed tip: the tooth's thickness there is {:.4} mm and must be at least {:.4} mm", .thickness / MILLIMETRE, .least / MILLIMETRE)]
+    #[error("pointed tip: the tooth's thickness there is {} mm and must be at least {} mm", millimetres(*.thickness), millimetres(*.least))]
     PointedTip {
         /// Thickness at the tip circle, in m.
         thickness: f64,
@@ -18,7 +19,7 @@ pub enum FieldRefusal {
         least: f64,
     },
     /// The undercut leaves nearly no neck below the tooth.
-    #[error("undercut tooth: its neck is {:.4} mm thick and must be at least {:.4} mm", .thickness / MILLIMETRE, .least / MILLIMETRE)]
+    #[error("undercut tooth: its neck is {} mm thick and must be at least {} mm", millimetres(*.thickness), millimetres(*.least))]
     CutThrough {
         /// Least thickness of the fillet, in m.
         thickness: f64,
@@ -26,13 +27,13 @@ pub enum FieldRefusal {
         least: f64,
     },
     /// The cutting rack's flanks meet above its tip.
-    #[error("no space between the teeth: its width at the root circle is {:.4} mm", .width / MILLIMETRE)]
+    #[error("no space between the teeth: its width at the root circle is {} mm", millimetres(*.width))]
     NoSpace {
         /// Width of the space at the root circle, in m, below 0.
         width: f64,
     },
     /// Nearly no involute is left between fillet and tip.
-    #[error("short flank: its involute is {:.4} mm long and must be at least {:.4} mm", .length / MILLIMETRE, .least / MILLIMETRE)]
+    #[error("short flank: its involute is {} mm long and must be at least {} mm", millimetres(*.length), millimetres(*.least))]
     ShortFlank {
         /// Arc length of the involute, in m.
         length: f64,
@@ -40,7 +41,7 @@ pub enum FieldRefusal {
         least: f64,
     },
     /// The rim is too thin for the elements.
-    #[error("thin rim: it is {:.4} mm thick and must be at least {:.4} mm", .thickness / MILLIMETRE, .least / MILLIMETRE)]
+    #[error("thin rim: it is {} mm thick and must be at least {} mm", millimetres(*.thickness), millimetres(*.least))]
     ThinRim {
         /// r_f − r_h, in m.
         thickness: f64,
@@ -67,4 +68,8 @@ pub enum FieldRefusal {
         /// Unknowns.
         unknowns: usize,
     },
+}
+
+fn millimetres(length: f64) -> String {
+    significant(length / 1e-3, 4)
 }

@@ -291,6 +291,61 @@ fn check_pairs(pitches: f64) -> Result<(), Refusal> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::inputs::Method;
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stage, Stages, solve};
+
+    #[test]
+    fn a_mesh_after_another_is_that_of_its_inputs_and_computes_only_what_changes() {
+        let mut inputs = standard_pair(23, 31, 3e-3);
+        (inputs.method, inputs.driven.tip_relief) = (Method::Static, 10e-6);
+        let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
+        let (first, geometry) = (solution.mesh.unwrap(), &solution.geometry);
+        let (force, error, reach) = (first.force, first.error, first.reach);
+        let mut eased = inputs.mesh();
+        eased.reliefs.driven.tip = 15e-6;
+        let faster = inputs.mesh().at_speed(2.0 * inputs.speed);
+        for (name, inputs, force, error, reach, same) in [
+            ("speed", faster, force, error, reach, [true, true, true]),
+            (
+                "deviation",
+                inputs.mesh(),
+                force,
+                error + 2e-6,
+                reach,
+                [true, true, true],
+            ),
+            ("relief", eased, force, error, reach, [true, true, false]),
+            (
+                "load",
+                inputs.mesh(),
+                1.5 * force,
+                error,
+                reach,
+                [true, false, false],
+            ),
+            (
+                "reach",
+                inputs.mesh(),
+                force,
+                error,
+                2.0 * reach,
+                [true, false, false],
+            ),
+        ] {
+            let mesh = Mesh::after(&first, &inputs, geometry, (force, error), reach).unwrap();
+            let parts = [
+                Arc::ptr_eq(&mesh.flanks, &first.flanks),
+                mesh.couplings.as_ref().map(Arc::as_ptr)
+                    == first.couplings.as_ref().map(Arc::as_ptr),
+                Arc::ptr_eq(&mesh.zones, &first.zones),
+            ];
+            assert_eq!(parts, same, "{name}");
+            assert!(mesh.couplings.is_some());
+            let new = Mesh::new(&inputs, geometry, force, error, reach).unwrap();
+            assert!(mesh == new, "{name}");
+        }
+    }
 
     #[test]
     fn more_pairs_than_a_set_can_contain_are_refused() {

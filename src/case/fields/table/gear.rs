@@ -4,7 +4,8 @@ use crate::case::fields::Absent::{Default, Refused, Without};
 use crate::case::fields::derived::{has_size, root_diameter, tip_diameter};
 use crate::case::fields::reasons::Reason::{Idle, Partly};
 use crate::case::fields::reasons::{
-    AT_RUN_OUT, MASS, ROOT, TIP_OF_DRIVER, WHOLE_RELIEF, always, by_impact, is_driver, is_wider,
+    AT_RUN_OUT, BORE, MASS, ROOT, TIP_OF_DRIVER, WHOLE_RELIEF, always, by_impact, is_driver,
+    is_wider,
 };
 use crate::case::fields::{Field, Kind, Range};
 use crate::case::units::Dimension;
@@ -142,7 +143,7 @@ macro_rules! gear {
                 |inputs, value| inputs.$gear.bore_radius = value,
                 "Radius of the bore: a radius, not a diameter."
             )
-            .reasons(&MASS),
+            .reasons(&BORE),
             number!(
                 concat!(stringify!($gear), ".young"),
                 concat!("E", $i),
