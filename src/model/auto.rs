@@ -234,8 +234,7 @@ impl Reason {
             // The results with and without contact cannot be compared, so that a trial motion
             // decides.
             Reason::BarelyOnTime => (0.0, f64::INFINITY),
-            Reason::Outlasts(..) => (0.2, 1.0),
-            _ => (0.05, 1.0),
+            _ => (0.04, 3.3),
         }
     }
 }
