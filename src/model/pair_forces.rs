@@ -89,7 +89,7 @@ impl Carrying {
         let pairs = |of: Carrying| {
             of.touching
                 .pairs()
-                .map(move |index| of.first + index as i32)
+                .map(move |index| of.first.saturating_add_unsigned(index as u32))
         };
         let has = |of: Carrying, ahead: i32| {
             usize::try_from(ahead - of.first).is_ok_and(|index| of.touching.has(index))
