@@ -133,9 +133,9 @@ fn all_kept(asked: &Request<'_>) -> bool {
 }
 
 /// The first range of gaps of the mesh, in m: a power of 2, so that cases with similar load,
-/// deviation and reliefs have the same range.
+/// deviation and reliefs have the same range. Few motions need a larger one.
 fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
-    const TIMES: f64 = 4.0;
+    const TIMES: f64 = 2.0;
     let deviation = &solution.deviation;
     let yields =
         deviation.loaded_deflection() + deviation.equivalent_error.abs() + inputs.reliefs.sum();
