@@ -132,14 +132,24 @@ fn all_kept(asked: &Request<'_>) -> bool {
     wanted.peek().is_some() && wanted.all(|stage| asked.kept(stage).is_some())
 }
 
-/// The first range of gaps of the mesh, in m: a power of 2, so that cases with similar load,
-/// deviation and reliefs have the same range. Few motions need a larger one.
+/// The first range of gaps of the mesh, in m: a power of √2, so that cases with similar load,
+/// deviation and reliefs have the same range. A deviation above the deflection lets the pairs lose
+/// contact and move farther. Few motions need a larger range.
 fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
-    const TIMES: f64 = 2.0;
+    const TIMES: f64 = 2.5;
+    const TIMES_APART: f64 = 4.0;
     let deviation = &solution.deviation;
-    let yields =
-        deviation.loaded_deflection() + deviation.equivalent_error.abs() + inputs.reliefs.sum();
-    (TIMES * yields).log2().ceil().exp2()
+    let (deflection, error) = (
+        deviation.loaded_deflection(),
+        deviation.equivalent_error.abs(),
+    );
+    let times = if error > deflection {
+        TIMES_APART
+    } else {
+        TIMES
+    };
+    let reach = times * (deflection + error + inputs.reliefs.sum());
+    (0.5 * (2.0 * reach.log2()).ceil()).exp2()
 }
 
 /// The result of `find` on the mesh of a pair with geometry, load and deviation of the solution.
@@ -153,7 +163,7 @@ pub(super) fn on_mesh<T>(
     earlier: Option<&Arc<Mesh>>,
     find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
-    const FURTHER: f64 = 16.0;
+    const FURTHER: f64 = 4.0;
     let load = (solution.mesh_force, solution.deviation.equivalent_error);
     let mut reach = first_reach(inputs, solution);
     let mut earlier = earlier.map(Arc::clone);
