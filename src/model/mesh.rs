@@ -3,6 +3,7 @@
 
 mod back;
 mod build;
+mod cache;
 pub(super) mod couplings;
 mod inputs;
 mod mean_stiffness;
@@ -11,15 +12,14 @@ mod sharing;
 mod within;
 mod zones;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::Refusal;
 use super::compliance::flanks::Flanks;
 use super::pair_forces::{OfPairs, PITCHES, Pair, PairSet, Place};
-use back::Back;
+use cache::Cache;
 use couplings::Couplings;
 pub use inputs::MeshInputs;
-use mean_stiffness::MeanStiffness;
 use sharing::Sharing;
 pub use sharing::{Line, Meeting, Of, Shares};
 use zones::{GAP, LEVER, SLIDING, Zone};
@@ -54,10 +54,11 @@ pub struct Mesh {
     /// `None` if the pairs are independent springs.
     couplings: Option<Arc<Couplings>>,
     /// Cached load sharing of coupled pairs.
-    sharing: Arc<Sharing>,
-    mean_stiffness: Arc<MeanStiffness>,
+    sharing: Arc<Cache<Sharing>>,
+    mean_stiffness: Arc<Cache<OnceLock<f64>>>,
     back_place: f64,
-    back: Arc<Back>,
+    /// The mesh of the back flanks, for all meshes that differ only in speed and deviation.
+    back: Arc<Cache<OnceLock<Mesh>>>,
     /// Greatest gap in the computed range, in m.
     reach: f64,
     is_whole: bool,

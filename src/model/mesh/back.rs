@@ -1,22 +1,10 @@
 //! The mesh of the back flanks: the mirrored mesh of the working flanks. Its pairs move from the
 //! end of the path of contact to the start.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::Mesh;
 use crate::model::geometry::{Geometry, PairShape};
-
-/// The mesh of the back flanks, computed once for all meshes that differ only in speed and
-/// deviation.
-#[derive(Debug, Default)]
-pub(super) struct Back(OnceLock<Mesh>);
-
-/// This is a cache, which does not affect the equality of meshes.
-impl PartialEq for Back {
-    fn eq(&self, _: &Back) -> bool {
-        true
-    }
-}
 
 impl Mesh {
     /// The mesh of the back flanks as a function of the path of a back pair since B' in the mirror,

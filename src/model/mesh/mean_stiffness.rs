@@ -1,21 +1,10 @@
 //! Mean stiffness of a mesh.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::Mesh;
 use super::zones::{STIFFNESS, Zone};
 use crate::numeric::quadrature;
-
-/// Cached mean stiffness, computed when first needed.
-#[derive(Debug, Default)]
-pub(super) struct MeanStiffness(OnceLock<f64>);
-
-/// This is a cache, which does not affect the equality of meshes.
-impl PartialEq for MeanStiffness {
-    fn eq(&self, _: &MeanStiffness) -> bool {
-        true
-    }
-}
 
 impl Mesh {
     /// Mean stiffness of the mesh over a base pitch, with the pairs on the line of action, in N/m.

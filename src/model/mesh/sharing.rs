@@ -36,13 +36,6 @@ pub(super) struct Sharing {
     known: Mutex<Vec<(Meeting, Arc<Shares>)>>,
 }
 
-/// This is a cache, which does not affect the equality of meshes.
-impl PartialEq for Sharing {
-    fn eq(&self, _: &Sharing) -> bool {
-        true
-    }
-}
-
 impl Sharing {
     /// The shares of a meeting. Calls `new` if they are not cached.
     pub(super) fn of(&self, meeting: &Meeting, new: impl FnOnce() -> Shares) -> Arc<Shares> {
@@ -178,6 +171,7 @@ impl Mesh {
     /// The lines of the pairs of a meeting.
     pub(in crate::model) fn shares(&self, meeting: &Meeting) -> Arc<Shares> {
         self.sharing
+            .0
             .of(meeting, || Meet::of(self, meeting).shares())
     }
 
