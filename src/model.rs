@@ -172,4 +172,25 @@ pub struct Solution {
     pub withheld: Option<Refusal>,
     /// The reason why stations between D and E are missing.
     pub stations_withheld: Option<Refusal>,
+    /// The solve by a slower method, or its refusal, if the method is `auto` and limits or selected
+    /// quantities need it.
+    pub beside: Option<Result<Box<Solution>, Refusal>>,
+}
+
+impl Solution {
+    /// The stages with results, here or in the solve beside.
+    #[must_use]
+    pub fn all_stages(&self) -> Stages {
+        let beside = self.beside.as_ref().and_then(|beside| beside.as_ref().ok());
+        beside.map_or(self.stages, |beside| self.stages.and(beside.stages))
+    }
+
+    /// The solve that computes a stage: this one, or that by a slower method beside it.
+    #[must_use]
+    pub fn having(&self, stage: Stage) -> &Solution {
+        match &self.beside {
+            Some(Ok(beside)) if !self.method.stages().has(stage) => beside,
+            _ => self,
+        }
+    }
 }

@@ -250,7 +250,7 @@ pub fn number(value: f64, unit: &str, digits: usize) -> String {
 }
 
 fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
-    (quantity.value)(solution)
+    (quantity.value)(solution.having(quantity.stage))
         .filter(|value| !value.is_finite())
         .map(|_| Note {
             code: "not-finite",

@@ -9,7 +9,6 @@ use super::mesh::Mesh;
 use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, balance, static_load};
-use super::stations::MeshStation;
 use super::{Outcome, Refusal, Solution};
 use crate::numeric::decimal::significant;
 
@@ -43,10 +42,8 @@ pub enum Inertia {
 /// The reason for the choice of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reason {
-    /// The gap at E is greater than the mesh oscillation.
+    /// The closed form finds no contact before E, so that it has no force.
     NoContact,
-    /// The gap at E is smaller than the mesh oscillation.
-    BarelyOnTime,
     /// The impact ends before E, and the load adds little to the impact force.
     FreeImpact,
     /// The closed form has no result.
@@ -59,8 +56,6 @@ pub enum Reason {
     Impulse(f64),
     /// The ratio of the shared load to the impact force exceeds the tolerance.
     LoadShared(f64),
-    /// A limit of the case or a selected quantity needs this method.
-    Needed,
 }
 
 /// Chooses the method of a pair from the results of the closed form.
@@ -75,25 +70,11 @@ pub enum Reason {
 /// mesh with the period T_n: the response of an oscillator to a ramp.
 /// `Reason::static_error_bounds` gives the least and the most part of this oscillation that `static`
 /// can miss, measured over 300 pairs. Between both bounds a trial motion decides. Without contact
-/// the method is `exact` if the gap at E is greater than T_n/(π t) times the deflection, where t is
-/// the time in which two pairs share the load.
+/// by the closed form, which has no force then, a trial motion always decides.
 ///
-/// A limit or a selected quantity can need a slower method ([`Inputs::needs`]).
+/// The choice depends on the pair alone, not on the limits and the selected quantities.
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
-    judge(inputs, closed_form).at_least(needed(inputs))
-}
-
-/// The fastest method that computes all needed quantities, or `dynamic` if no method computes all.
-fn needed(inputs: &Inputs) -> Method {
-    let computes = |method: &Method| inputs.needs.except(method.stages()) == Stages::NONE;
-    METHODS
-        .into_iter()
-        .find(computes)
-        .unwrap_or(Method::Dynamic)
-}
-
-fn judge(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     let Ok(solution) = closed_form else {
         return Choice {
             method: Method::Dynamic,
@@ -102,32 +83,18 @@ fn judge(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
         };
     };
     match solution.outcome {
-        Outcome::NoCornerContact => without_contact(inputs, solution),
+        Outcome::NoCornerContact => sharing(inputs, Reason::NoContact, 1.0),
         Outcome::CornerContact => with_contact(inputs, solution),
     }
 }
 
-fn without_contact(inputs: &Inputs, solution: &Solution) -> Choice {
-    let deviation = &solution.deviation;
-    let Some(period) = period(solution) else {
-        return Choice {
-            method: Method::Dynamic,
-            reason: Reason::Refused,
-            inertia: None,
-        };
-    };
-    let geometry = &solution.geometry;
-    let shared = (geometry.contact_ratio - 1.0) * geometry.base_pitch
-        / (inputs.speed * geometry.driver.base);
-    let swing = swing(period, shared);
-    if -deviation.total >= swing * deviation.combined_deflection {
-        return Choice {
-            method: Method::Exact,
-            reason: Reason::NoContact,
-            inertia: None,
-        };
-    }
-    sharing(inputs, Reason::BarelyOnTime, swing)
+/// The method that computes the needed stages which `method` lacks, if it lacks any: the fastest
+/// that has them all, otherwise `dynamic`.
+#[must_use]
+pub(super) fn beside(inputs: &Inputs, method: Method) -> Option<Method> {
+    let missing = inputs.needs.except(method.stages());
+    let has_all = |method: &Method| method.stages().covers(missing);
+    (missing != Stages::NONE).then(|| METHODS.into_iter().find(has_all).unwrap_or(Method::Dynamic))
 }
 
 fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
@@ -183,23 +150,6 @@ fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
 }
 
 impl Choice {
-    /// The slower of this choice and the needed method.
-    fn at_least(self, needed: Method) -> Choice {
-        let place = |method| METHODS.iter().position(|&one| one == method);
-        let is_sure = place(self.method) >= place(needed) && !self.is_open();
-        if is_sure || needed == Method::Exact {
-            return self;
-        }
-        if needed == Method::Static && self.is_open() {
-            return self;
-        }
-        Choice {
-            method: needed,
-            reason: Reason::Needed,
-            inertia: None,
-        }
-    }
-
     /// Whether a trial motion must decide.
     #[must_use]
     pub fn is_open(&self) -> bool {
@@ -231,9 +181,8 @@ impl Reason {
     fn static_error_bounds(&self) -> (f64, f64) {
         match self {
             Reason::ContactLost => (0.4, 24.0),
-            // The results with and without contact cannot be compared, so that a trial motion
-            // decides.
-            Reason::BarelyOnTime => (0.0, f64::INFINITY),
+            // No oscillation was measured.
+            Reason::NoContact => (0.0, f64::INFINITY),
             _ => (0.04, 3.3),
         }
     }
@@ -242,12 +191,6 @@ impl Reason {
 /// The oscillation after a load transfer within `time`, relative to the load.
 fn swing(period: f64, time: f64) -> f64 {
     (period / (PI * time)).min(1.0)
-}
-
-/// Natural period of the loaded pair, in s.
-fn period(solution: &Solution) -> Option<f64> {
-    let compliance = solution.deviation.loaded_deflection() / solution.mesh_force;
-    Some(2.0 * PI * (solution.reduced_mass * compliance).sqrt()).filter(|period| *period > 0.0)
 }
 
 /// The stages of the closed form that the choice reads.
@@ -296,17 +239,10 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
         still.force_at_start - moved.peak_approach_force,
         moved.peak_approach_force,
     );
-    let off = |station: &MeshStation| {
-        let place = -station.roll_angle_driver * mesh.base_radii.0;
-        over(
-            station.force - balance(mesh, place, place).force,
-            moved.peak_force,
-        )
+    let off = |&(place, force): &(f64, f64)| {
+        over(force - balance(mesh, place, place).force, moved.peak_force)
     };
-    let before = moved
-        .stations
-        .iter()
-        .filter(|station| station.roll_angle_driver >= 0.0);
+    let before = moved.approach.iter();
     before
         .map(off)
         .fold(angles.max(peaks), f64::max)
@@ -342,17 +278,11 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let micro = |time: f64| significant(time * 1e6, 4);
         match self {
-            Reason::NoContact => {
-                f.write_str("no contact before E, with a gap wider than the mesh oscillation")
-            }
-            Reason::BarelyOnTime => f.write_str(
-                "no contact before E, but with a gap narrower than the mesh oscillation",
-            ),
+            Reason::NoContact => f.write_str("the closed form finds no contact and no force"),
             Reason::FreeImpact => {
                 f.write_str("the impact ends before E, and the load adds little to it")
             }
             Reason::Refused => f.write_str("the closed form has no solution"),
-            Reason::Needed => f.write_str("a limit or a selected quantity needs this method"),
             Reason::ContactLost => f.write_str("the pair ahead loses contact"),
             Reason::Outlasts(lasts, way) => {
                 write!(

@@ -6,7 +6,7 @@ use twofloat::TwoFloat;
 use super::Refusal;
 use super::compliance::{ContactPlace, Elasticity, PairCompliance, Teeth};
 use super::geometry::Geometry;
-use super::inputs::{Inputs, Method};
+use super::inputs::{Combination, Inputs, Method};
 use super::pair_forces::{PITCHES, Pair, PairSet};
 use crate::numeric::Real;
 
@@ -28,7 +28,9 @@ pub struct GivenDeviations {
     pub method: Method,
     /// Base pitch deviations f_pb of driver and driven gear, in m.
     pub base_pitches: [f64; 2],
-    /// Normal backlash j_bn, in m.
+    /// How these deviations add.
+    pub combination: Combination,
+    /// Normal backlash j_bn that Eq. 1 subtracts, in m: 0 except in `paper`.
     pub backlash: f64,
     /// Tip relief of the driven gear, in m.
     pub driven_tip_relief: f64,
@@ -58,7 +60,12 @@ impl GivenDeviations {
         GivenDeviations {
             method: inputs.method,
             base_pitches: inputs.base_pitches(),
-            backlash: inputs.backlash,
+            combination: inputs.effective_combination(),
+            backlash: if inputs.method == Method::Paper {
+                inputs.backlash
+            } else {
+                0.0
+            },
             driven_tip_relief: inputs.driven.tip_relief,
             driver_root_relief: inputs.driver.root_relief,
             deflection: inputs.given_deflection(),
@@ -99,7 +106,7 @@ pub(super) fn deviation(
     let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
     let with_reliefs = equivalent_error(given);
     let equivalent_error = if given.method.shares_load() {
-        random_error(given)
+        pitch_error(given.base_pitches, given.combination)
     } else {
         with_reliefs
     };
@@ -117,22 +124,24 @@ pub(super) fn deviation(
 ///
 /// # Formula
 /// ```text
-/// paper:  Δf = (2 f_pb + e_m − j_bn)/√2
-/// others: Δf = (2 f_pb − j_bn)/√2 + e_m,   e_m = −(driven tip relief + driver root relief)
+/// paper:  Δf = f + (e_m − j_bn)/√2
+/// others: Δf = f + e_m,   e_m = −(driven tip relief + driver root relief)
 /// ```
-/// The factor 1/√2 adds independent random errors. Different deviations of the two gears add as
-/// √(f_pb1² + f_pb2²), which is 2 f_pb/√2 for equal deviations.
+/// f is the combined base pitch deviation, see [`pitch_error`].
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random
-/// errors, as printed. The other methods count e_m in full, because a ground relief is no random
-/// error.
-fn equivalent_error(inputs: &GivenDeviations) -> TwoFloat {
-    match inputs.method {
+/// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales modification and backlash with the
+/// random errors, as printed. The other methods count e_m in full, because a ground relief is no
+/// random error, and leave out j_bn: a backlash is the distance of the back flanks and does not
+/// delay a drive flank under load.
+fn equivalent_error(given: &GivenDeviations) -> TwoFloat {
+    let pitch_error = pitch_error(given.base_pitches, given.combination);
+    match given.method {
         Method::Paper => {
-            (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2
+            let scaled = modification(given) - TwoFloat::from(given.backlash);
+            pitch_error + scaled * twofloat::consts::FRAC_1_SQRT_2
         }
-        _ => random_error(inputs) + modification(inputs),
+        _ => pitch_error + modification(given),
     }
 }
 
@@ -141,26 +150,29 @@ fn modification(inputs: &GivenDeviations) -> TwoFloat {
     -TwoFloat::new_add(inputs.driven_tip_relief, inputs.driver_root_relief)
 }
 
-/// Equivalent error without reliefs, √(f_pb1² + f_pb2²) − j_bn/√2, in m.
-fn random_error(inputs: &GivenDeviations) -> TwoFloat {
-    random_deviation(inputs) * twofloat::consts::FRAC_1_SQRT_2
-}
-
-/// √(2 (f_pb1² + f_pb2²)) − j_bn, in m, which is 2 f_pb − j_bn for equal deviations. A negative
-/// deviation subtracts its square.
-fn random_deviation(inputs: &GivenDeviations) -> TwoFloat {
-    let [driver, driven] = inputs.base_pitches;
-    if driver.to_bits() == driven.to_bits() {
-        return TwoFloat::new_sub(2.0 * driver, inputs.backlash);
+/// Combined base pitch deviation f of both gears, in m.
+///
+/// # Formula
+/// ```text
+/// independent: f = ±√(f_pb1² + f_pb2²)    2 f_pb/√2 for equal deviations
+/// sum:         f = f_pb1 + f_pb2
+/// ```
+/// The root has the common sign of the deviations.
+///
+/// # Source
+/// Zhou & Chen 2014, Eq. 1, for independent deviations. Deviations that are known add.
+pub(super) fn pitch_error([driver, driven]: [f64; 2], combination: Combination) -> TwoFloat {
+    match combination {
+        Combination::Sum => TwoFloat::new_add(driver, driven),
+        Combination::Independent if driver.to_bits() == driven.to_bits() => {
+            TwoFloat::from(2.0 * driver) * twofloat::consts::FRAC_1_SQRT_2
+        }
+        Combination::Independent => {
+            let squares = TwoFloat::new_mul(driver, driver) + TwoFloat::new_mul(driven, driven);
+            let size = squares.root();
+            if driver + driven < 0.0 { -size } else { size }
+        }
     }
-    let squares = TwoFloat::new_mul(driver, driver.abs()) + TwoFloat::new_mul(driven, driven.abs());
-    let sum = (squares.abs() * TwoFloat::from(2.0)).root();
-    let signed = if squares < TwoFloat::from(0.0) {
-        -sum
-    } else {
-        sum
-    };
-    signed - TwoFloat::from(inputs.backlash)
 }
 
 /// Displacements along the line of action under the load with the incoming pair at E, in m.

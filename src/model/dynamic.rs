@@ -64,6 +64,9 @@ pub struct Dynamic {
     /// Work of friction on the incoming tooth, in J. `None` if the case gives no friction
     /// coefficient.
     pub friction_work: Option<f64>,
+    /// The incoming pair's place on the line of action, in m, and its force, in N, at even times
+    /// from the first contact to E. Empty without contact before E.
+    pub approach: Vec<(f64, f64)>,
     /// Stations from the first contact through E to the last contact, including peaks and valleys.
     pub stations: Vec<MeshStation>,
     /// Whether the stations are as dense as the curve needs.

@@ -1,7 +1,11 @@
 //! Base pitch deviation of a gear: given by the case, or from its flank tolerance class.
 
-use super::inputs::{Gear, Inputs};
+use std::f64::consts::SQRT_2;
+
+use super::deviation::pitch_error;
+use super::inputs::{Combination, Gear, Inputs};
 use super::iso_1328::{base_pitch_tolerance, pitch_tolerance};
+use crate::numeric::Real;
 
 /// Source of a gear's base pitch deviation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,16 +66,28 @@ impl Inputs {
         [&self.driver, &self.driven].map(|gear| self.base_pitch_of(gear).0)
     }
 
-    /// The root mean square of both base pitch deviations, in m. Two gears with this deviation have
-    /// the same equivalent error.
+    /// How the base pitch deviations add. Deviations of unlike sign are known with their signs, so
+    /// that they add.
     #[must_use]
-    pub fn mean_base_pitch(&self) -> f64 {
+    pub fn effective_combination(&self) -> Combination {
         let [driver, driven] = self.base_pitches();
-        if driver.to_bits() == driven.to_bits() {
-            return driver;
+        if driver * driven < 0.0 {
+            Combination::Sum
+        } else {
+            self.combination
         }
-        let mean = f64::midpoint(driver * driver.abs(), driven * driven.abs());
-        mean.abs().sqrt().copysign(mean)
+    }
+
+    /// The common base pitch deviation of both gears whose combined deviation is that of this pair
+    /// plus `more`, in m.
+    #[must_use]
+    pub fn common_base_pitch(&self, more: f64) -> f64 {
+        let error = pitch_error(self.base_pitches(), self.effective_combination()).rounded();
+        let times = match self.combination {
+            Combination::Independent => SQRT_2,
+            Combination::Sum => 2.0,
+        };
+        (error + more) / times
     }
 
     /// Whether a gear has its own base pitch deviation or flank tolerance class.

@@ -207,6 +207,20 @@ impl InertiaModel {
     pub const ALL: [InertiaModel; 2] = [InertiaModel::Outline, InertiaModel::BaseCircle];
 }
 
+/// How the base pitch deviations of both gears add.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Combination {
+    /// As squares: deviations of which only the size is known.
+    Independent,
+    /// With their signs: deviations that are known.
+    Sum,
+}
+
+impl Combination {
+    /// Every rule.
+    pub const ALL: [Combination; 2] = [Combination::Independent, Combination::Sum];
+}
+
 /// Shape of a relief from its start to its full amount.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReliefShape {
@@ -236,6 +250,8 @@ pub struct Inputs {
     pub driven: Gear,
     /// Base pitch deviation f_pb of a gear without its own value, in m.
     pub base_pitch_deviation: f64,
+    /// How the base pitch deviations of both gears add; see [`Inputs::effective_combination`].
+    pub combination: Combination,
     /// Normal backlash j_bn, in m.
     pub backlash: f64,
     /// Power or torque on the driver.
@@ -273,7 +289,8 @@ pub struct Inputs {
     pub station_tolerance: f64,
     /// Whether geometry and position use double-double arithmetic.
     pub accurate: bool,
-    /// Stages of the limited and selected quantities, which the method `auto` must compute.
+    /// Stages of the limited and selected quantities, which the method `auto` computes besides the
+    /// results of its choice.
     pub needs: Stages,
 }
 
@@ -288,6 +305,7 @@ impl Default for Inputs {
             driver: Gear::default(),
             driven: Gear::default(),
             base_pitch_deviation: 0.0,
+            combination: Combination::Independent,
             backlash: 0.0,
             drive: Drive::Power(0.0),
             speed: 0.0,
@@ -311,7 +329,7 @@ impl Default for Inputs {
 }
 
 impl Inputs {
-    /// The inputs with more stages that the method `auto` must compute.
+    /// The inputs with more stages that the method `auto` computes besides its choice.
     #[must_use]
     pub fn needing(self, stages: impl IntoIterator<Item = Stage>) -> Inputs {
         let needs = stages.into_iter().fold(self.needs, Stages::with);

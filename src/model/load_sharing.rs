@@ -45,7 +45,7 @@ pub(super) fn share(
     asked: &Request<'_>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<(), Refusal> {
-    let shared = within_reach(solution, asked, go_on)?;
+    let shared = run(solution, asked, go_on)?;
     let own = ON_MESH.into_iter().chain([Stage::Mesh]);
     let present = own.filter(|&stage| asked.wanted.has(stage));
     solution.stages = present.fold(solution.stages, Stages::with);
@@ -83,55 +83,6 @@ pub(super) fn share(
     Ok(())
 }
 
-/// Computes the mesh for the deflection of the pairs, and again with a larger range if this was not
-/// enough. An earlier mesh with a larger range is used only with earlier results, because the range
-/// changes the last digits of new results.
-fn within_reach(
-    solution: &Solution,
-    asked: &Request<'_>,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<Shared, Refusal> {
-    let inputs = asked.inputs.mesh();
-    let first = first_reach(&inputs, solution);
-    let serves = |mesh: &&Arc<Mesh>| mesh.reach().to_bits() == first.to_bits() || all_kept(asked);
-    if let Some(mesh) = asked
-        .kept(Stage::Mesh)
-        .and_then(|earlier| earlier.mesh.as_ref())
-        .filter(serves)
-    {
-        let mesh = mesh.turning_at(asked.inputs.speed);
-        match run(&mesh, solution.reduced_mass, asked, Stages::NONE, go_on) {
-            Err(Refusal::BeyondReach) if !mesh.is_whole() => (),
-            found => return found,
-        }
-    }
-    asked.note(Stage::Mesh, |_| false);
-    on_mesh(&inputs, solution, earlier_mesh(asked), |mesh| {
-        run(
-            mesh,
-            solution.reduced_mass,
-            asked,
-            Stages::NONE.with(Stage::Mesh),
-            go_on,
-        )
-    })
-}
-
-/// An earlier mesh of the same geometry.
-fn earlier_mesh<'a>(asked: &Request<'a>) -> Option<&'a Arc<Mesh>> {
-    let earlier = asked.kept(Stage::Geometry)?;
-    earlier.mesh.as_ref()
-}
-
-/// Whether every wanted result on the mesh exists already.
-fn all_kept(asked: &Request<'_>) -> bool {
-    let mut wanted = ON_MESH
-        .into_iter()
-        .filter(|&stage| asked.wanted.has(stage))
-        .peekable();
-    wanted.peek().is_some() && wanted.all(|stage| asked.kept(stage).is_some())
-}
-
 /// The first range of gaps of the mesh, in m: a power of √2, so that cases with similar load,
 /// deviation and reliefs have the same range. A deviation above the deflection lets the pairs lose
 /// contact and move farther. Few motions need a larger range.
@@ -163,38 +114,100 @@ pub(super) fn on_mesh<T>(
     earlier: Option<&Arc<Mesh>>,
     find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
-    const FURTHER: f64 = 4.0;
-    let load = (solution.mesh_force, solution.deviation.equivalent_error);
-    let mut reach = first_reach(inputs, solution);
-    let mut earlier = earlier.map(Arc::clone);
-    loop {
-        let geometry = &solution.geometry;
-        let mesh = Arc::new(match &earlier {
-            Some(earlier) => Mesh::after(earlier, inputs, geometry, load, reach)?,
-            None => Mesh::new(inputs, geometry, load.0, load.1, reach)?,
-        });
-        match find(&mesh) {
-            Err(Refusal::BeyondReach) if !mesh.is_whole() => reach *= FURTHER,
-            found => return found,
+    Meshes {
+        inputs,
+        solution,
+        earlier,
+        computed: Vec::new(),
+    }
+    .find(find)
+}
+
+/// The meshes of a pair, each with a larger range of gaps than the one before. Every result uses
+/// the first mesh that is wide enough for it, because the range changes its last digits.
+struct Meshes<'a> {
+    inputs: &'a MeshInputs,
+    solution: &'a Solution,
+    /// A mesh of the same geometry.
+    earlier: Option<&'a Arc<Mesh>>,
+    computed: Vec<Arc<Mesh>>,
+}
+
+impl Meshes<'_> {
+    fn find<T>(&mut self, find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>) -> Result<T, Refusal> {
+        let mut number = 0;
+        loop {
+            let mesh = self.mesh(number)?;
+            match find(&mesh) {
+                Err(Refusal::BeyondReach) if !mesh.is_whole() => number += 1,
+                found => return found,
+            }
         }
-        earlier = Some(mesh);
+    }
+
+    fn mesh(&mut self, number: usize) -> Result<Arc<Mesh>, Refusal> {
+        const FURTHER: f64 = 4.0;
+        if let Some(mesh) = self.computed.get(number) {
+            return Ok(Arc::clone(mesh));
+        }
+        let Solution {
+            geometry,
+            mesh_force,
+            deviation,
+            ..
+        } = self.solution;
+        let load = (*mesh_force, deviation.equivalent_error);
+        let last = self.computed.last();
+        let reach = last.map_or_else(
+            || first_reach(self.inputs, self.solution),
+            |mesh| FURTHER * mesh.reach(),
+        );
+        let mesh = Arc::new(match last.or(self.earlier) {
+            Some(earlier) => Mesh::after(earlier, self.inputs, geometry, load, reach)?,
+            None => Mesh::new(self.inputs, geometry, load.0, load.1, reach)?,
+        });
+        self.computed.push(Arc::clone(&mesh));
+        Ok(mesh)
     }
 }
 
-/// Runs the wanted stages on this mesh and reuses valid earlier results.
+/// Runs the wanted stages and reuses valid earlier results.
 fn run(
-    mesh: &Arc<Mesh>,
-    mass: f64,
+    solution: &Solution,
     asked: &Request<'_>,
-    ran: Stages,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Shared, Refusal> {
-    let inputs = asked.inputs;
-    let mut run = Stretch { asked, ran };
+    let (inputs, mass) = (asked.inputs, solution.reduced_mass);
+    let of_mesh = inputs.mesh();
+    let kept = asked
+        .kept(Stage::Mesh)
+        .and_then(|earlier| earlier.mesh.clone());
+    if kept.is_none() {
+        asked.note(Stage::Mesh, |_| false);
+    }
+    let mut meshes = Meshes {
+        inputs: &of_mesh,
+        solution,
+        earlier: asked
+            .kept(Stage::Geometry)
+            .and_then(|earlier| earlier.mesh.as_ref()),
+        computed: Vec::new(),
+    };
+    let first = first_reach(&of_mesh, solution);
+    meshes.computed.extend(
+        kept.iter()
+            .filter(|mesh| mesh.reach().to_bits() == first.to_bits())
+            .cloned(),
+    );
+    let mut run = StageRun {
+        asked,
+        ran: Stages::NONE,
+        meshes,
+    };
     let static_load = run.stage(
         Stage::Static,
         |earlier| earlier.static_load.clone(),
-        || {
+        |mesh| {
             let at_rest = StaticInputs::of(inputs);
             static_load(&mesh.turning_at(at_rest.speed), at_rest.spacing)
         },
@@ -202,7 +215,7 @@ fn run(
     let dynamic = run.stage(
         Stage::Dynamic,
         |earlier| earlier.dynamic.clone(),
-        || {
+        |mesh| {
             let motion = MotionInputs::of(inputs);
             let mesh = mesh.turning_at(motion.speed);
             dynamic(&mesh, &motion.settings(mass), go_on)
@@ -211,26 +224,40 @@ fn run(
     let resonance = run.stage(
         Stage::Resonance,
         |earlier| earlier.resonance,
-        || Ok(Resonance::of(&ResonanceInputs::of(inputs), mesh, mass)),
+        |mesh| Ok(Resonance::of(&ResonanceInputs::of(inputs), mesh, mass)),
     )?;
     let static_spectrum = run.stage(
         Stage::StaticSpectrum,
         |earlier| earlier.static_spectrum,
-        || late(mesh, static_spectrum(mesh)),
+        |mesh| late(mesh, static_spectrum(mesh)),
     )?;
     let steady = run.stage(
         Stage::SteadyMotion,
         |earlier| earlier.steady.clone(),
-        || steady_motion(mesh, mass, &MotionInputs::steady(inputs), go_on),
+        |mesh| steady_motion(mesh, mass, &MotionInputs::steady(inputs), go_on),
     )?;
+    let StageRun {
+        mut ran,
+        mut meshes,
+        ..
+    } = run;
+    let mesh = match kept {
+        // No stage needs a new mesh.
+        Some(kept) if meshes.computed.len() <= 1 => kept,
+        _ => {
+            meshes.mesh(0)?;
+            ran = ran.with(Stage::Mesh);
+            meshes.computed.swap_remove(meshes.computed.len() - 1)
+        }
+    };
     Ok(Shared {
-        mesh: Arc::clone(mesh),
+        mesh: mesh.turning_at(inputs.speed),
         static_load,
         dynamic,
         resonance,
         static_spectrum,
         steady,
-        ran: run.ran,
+        ran,
     })
 }
 
@@ -257,18 +284,19 @@ fn late<T>(mesh: &Mesh, found: Result<T, Refusal>) -> Result<Result<T, Refusal>,
 }
 
 /// The state of a run of stages.
-struct Stretch<'a> {
+struct StageRun<'a> {
     asked: &'a Request<'a>,
     ran: Stages,
+    meshes: Meshes<'a>,
 }
 
-impl Stretch<'_> {
+impl StageRun<'_> {
     /// The result of a wanted stage: the earlier result if it is valid, otherwise a new one.
     fn stage<T>(
         &mut self,
         stage: Stage,
         earlier: impl Fn(&Solution) -> Option<T>,
-        new: impl FnOnce() -> Result<T, Refusal>,
+        new: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
     ) -> Result<Option<T>, Refusal> {
         if !self.asked.wanted.has(stage) {
             return Ok(None);
@@ -277,7 +305,7 @@ impl Stretch<'_> {
             return Ok(Some(held));
         }
         self.ran = self.ran.with(stage);
-        new().map(Some)
+        self.meshes.find(new).map(Some)
     }
 }
 

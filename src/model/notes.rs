@@ -36,6 +36,8 @@ type Look = fn(&Inputs, &Solution) -> Option<Note>;
 const LOOKS: &[Look] = &[
     load::method_taken,
     load::deflection_ignored,
+    load::backlash_subtracted,
+    load::deviations_added,
     load::lost_in_motion,
     load::back_strikes,
     load::not_cleared,

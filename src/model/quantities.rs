@@ -130,7 +130,7 @@ impl Quantity {
     /// The value in SI if it is finite. Zero has no sign.
     #[must_use]
     pub fn finite_value(&self, solution: &Solution) -> Option<f64> {
-        (self.value)(solution)
+        (self.value)(solution.having(self.stage))
             .filter(|value| value.is_finite())
             .map(|value| value + 0.0)
     }

@@ -34,6 +34,12 @@ impl Absence {
     /// Why the quantity has no value in a solution.
     #[must_use]
     pub fn of(quantity: &Quantity, solution: &Solution) -> Absence {
+        if let Some(Err(refusal)) = solution.beside
+            && !solution.method.stages().has(quantity.stage)
+        {
+            return Absence::Withheld(refusal);
+        }
+        let solution = solution.having(quantity.stage);
         let is_without = solution.outcome == Outcome::NoCornerContact;
         let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
         if let Some(absence) = Absence::by_method(quantity, solution.method) {

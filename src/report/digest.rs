@@ -140,7 +140,8 @@ pub fn sentence(solution: &Solution, system: System) -> String {
         }
         Outcome::NoCornerContact => {
             let why = without_contact_in_full(solution, system);
-            format!("No corner contact: {why}.")
+            let peak = peak(solution, system).map(|peak| format!("; peak force {peak}"));
+            format!("No corner contact: {why}{}.", peak.unwrap_or_default())
         }
     }
 }
@@ -148,20 +149,26 @@ pub fn sentence(solution: &Solution, system: System) -> String {
 /// The outcome as a short phrase with the forces of [`sentence`].
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
-    if solution.outcome == Outcome::NoCornerContact {
-        return "no corner contact".to_owned();
-    }
     let printed = |key| printed(key, solution, system);
-    let overall = match solution.method {
-        Method::Static => printed("static_peak_force"),
-        Method::Dynamic => printed("dynamic_peak_force"),
-        Method::Paper | Method::Exact | Method::Auto => None,
-    };
+    let overall = peak(solution, system);
+    if solution.outcome == Outcome::NoCornerContact {
+        let overall = overall.map(|overall| format!(": {overall} overall"));
+        return format!("no corner contact{}", overall.unwrap_or_default());
+    }
     let force = Quantity::find("impact_force").and_then(|force| force.by(solution.method));
     match (force.and_then(|force| printed(force.key)), overall) {
         (Some(force), Some(overall)) => format!("corner contact: {force}, {overall} overall"),
         (Some(force), None) => format!("corner contact: {force}"),
         (None, _) => "corner contact".to_owned(),
+    }
+}
+
+/// The greatest force of a tooth, with or without contact before E; the closed forms have none.
+fn peak(solution: &Solution, system: System) -> Option<String> {
+    match solution.method {
+        Method::Static => printed("static_peak_force", solution, system),
+        Method::Dynamic => printed("dynamic_peak_force", solution, system),
+        Method::Paper | Method::Exact | Method::Auto => None,
     }
 }
 

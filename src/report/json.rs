@@ -121,7 +121,7 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
             .selection
             .stations
             .then(|| stations::rows(solution).into_iter().map(Cells).collect()),
-        stages: solution.stages.iter().map(Stage::name).collect(),
+        stages: solution.all_stages().iter().map(Stage::name).collect(),
         notes: report
             .notes
             .iter()

@@ -292,7 +292,10 @@ impl<'a> PointSolver<'a> {
         let stages = batch.quantities.iter();
         PointSolver {
             sequence: batch.points.sequence(),
-            inputs: batch.inputs.clone(),
+            inputs: batch
+                .inputs
+                .clone()
+                .needing(batch.quantities.iter().map(|of| of.stage)),
             evaluator: Evaluator::default(),
             differ_in_load_alone: batch.points.differ_in_load_alone(batch.inputs),
             wanted: stages.fold(Stages::NONE, |stages, quantity| {

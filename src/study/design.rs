@@ -8,6 +8,7 @@ use super::distribution::Distribution;
 use crate::case::fields::FIELDS;
 use crate::case::{Problem, field_range};
 use crate::model::Inputs;
+use crate::model::inputs::Combination;
 use crate::model::solve::differ_in_load_alone;
 
 /// The samples, followed by the points of the ranking.
@@ -69,6 +70,16 @@ impl Design {
         self.numbers().values(index).to_vec()
     }
 
+    /// Whether base pitch deviations are drawn gear by gear. A drawn value is known with its sign,
+    /// so that the deviations of a sample add.
+    #[must_use]
+    pub fn draws_known_deviations(&self) -> bool {
+        let of_gear = ["driver.base_pitch", "driven.base_pitch"];
+        self.distributions
+            .iter()
+            .any(|drawn| of_gear.contains(&drawn.key()))
+    }
+
     fn numbers(&self) -> Numbers<'_> {
         Numbers {
             design: self,
@@ -108,7 +119,11 @@ impl Points for Design {
             .iter()
             .map(|distribution| field_range(distribution.field))
             .collect();
+        let adds = self.draws_known_deviations();
         Box::new(move |index, inputs| {
+            if adds {
+                inputs.combination = Combination::Sum;
+            }
             let values = numbers.values(index);
             for ((distribution, &(from, to)), &value) in
                 self.distributions.iter().zip(&ranges).zip(values)

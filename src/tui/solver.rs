@@ -120,7 +120,7 @@ impl Answer {
         let solution = self.of(self.active);
         QUANTITIES
             .iter()
-            .map(|quantity| solution.and_then(quantity.value))
+            .map(|quantity| quantity.finite_value(solution?))
             .collect()
     }
 

@@ -153,6 +153,7 @@ impl Watch {
             contact_lost: self.contact_lost,
             rattle: motion.has_backlash().then(|| self.rattle.found()),
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
+            approach: early.map_or_else(Vec::new, |first| self.approach(motion, first)),
             stations,
             resolution,
             effort: Effort {
@@ -160,6 +161,15 @@ impl Watch {
                 ..effort
             },
         })
+    }
+
+    /// The incoming pair's places and forces at even times from the first contact to E.
+    fn approach(&self, motion: &Motion<'_>, first: f64) -> Vec<(f64, f64)> {
+        const SAMPLES: usize = 32;
+        let times = (0..=SAMPLES).map(|at| first * (1.0 - at as f64 / SAMPLES as f64));
+        times
+            .filter_map(|t| Some((motion.place(t), self.moment(motion, t)?.force(t))))
+            .collect()
     }
 
     /// Every stored step with its passage, in order.

@@ -1,7 +1,5 @@
 //! Notes on the impact.
 
-use std::f64::consts::SQRT_2;
-
 use super::{Note, four};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
@@ -42,14 +40,13 @@ pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<
 /// ```text
 /// f_pb,0 = f_pb + g/√2,  reported if f_pb,0 < 1.1 f_pb, or if g < 0.1 δ and the load causes δ
 /// ```
-/// g is the remaining gap. An increase of √2 f_pb by g closes it, Eqs. 1 and 5. δ is approximately
-/// proportional to the load. If the gears have their own deviations, f_pb is their root mean
-/// square.
+/// g is the remaining gap. An increase of √2 f_pb by g closes it, Eqs. 1 and 5; of 2 f_pb if the
+/// deviations add as a sum. δ is approximately proportional to the load. If the gears have their
+/// own deviations, f_pb is the common deviation with the same effect.
 pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     const CLOSE: f64 = 0.1;
     let clear = solution.margin()?;
-    let now = inputs.mean_base_pitch();
-    let enough = now + clear / SQRT_2;
+    let [now, enough] = [0.0, clear].map(|more| inputs.common_base_pitch(more));
     let is_of_load = solution.method.shares_load() || inputs.deflection.is_none();
     let more_load = Some(clear / solution.deviation.combined_deflection)
         .filter(|part| is_of_load && *part < CLOSE);
@@ -253,7 +250,7 @@ mod tests {
                 "{method:?}: {text}"
             );
             let outcome = |part: f64| {
-                let base_pitch_deviation = 9e-6 + part * clear / SQRT_2;
+                let base_pitch_deviation = 9e-6 + part * clear / std::f64::consts::SQRT_2;
                 solve(
                     &Inputs {
                         base_pitch_deviation,
@@ -286,7 +283,7 @@ mod tests {
             .unwrap()
             .deviation
             .total;
-        let enough = 16e-6 + clear / SQRT_2;
+        let enough = 16e-6 + clear / std::f64::consts::SQRT_2;
         assert_eq!(
             solve(&relieved(48e-6, enough * 1.0001), Stages::EVERY)
                 .unwrap()

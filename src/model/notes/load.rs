@@ -47,6 +47,32 @@ pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<N
     Some(Note::new("deflection-given", message))
 }
 
+/// Method `paper` subtracts a backlash from the equivalent error.
+pub(super) fn backlash_subtracted(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let is_subtracted = solution.method == Method::Paper && inputs.backlash > 0.0;
+    let message = || {
+        format!(
+            "Eq. 1 subtracts the backlash of {} um from Δf; a backlash does not delay a drive flank \
+                under load, so the other methods do not",
+            four(inputs.backlash * 1e6)
+        )
+    };
+    is_subtracted.then(|| Note::new("backlash-subtracted", message()))
+}
+
+/// Base pitch deviations of unlike sign add, although the case asks for independent ones.
+pub(super) fn deviations_added(inputs: &Inputs, _: &Solution) -> Option<Note> {
+    let message = || {
+        let [driver, driven] = inputs.base_pitches().map(|deviation| four(deviation * 1e6));
+        format!(
+            "base pitch deviations of unlike sign, {driver} and {driven} um, are known with their \
+                signs: they add as a sum"
+        )
+    };
+    (inputs.effective_combination() != inputs.combination)
+        .then(|| Note::new("deviations-added", message()))
+}
+
 /// For a time, no pair is in contact.
 pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
     let lost = solution.dynamic.as_ref()?.contact_lost;

@@ -1,7 +1,7 @@
 //! Conditions on the inputs that select formulas and texts of rows.
 
 use crate::model::grade::Origin;
-use crate::model::inputs::{Drive, InertiaModel, Inputs, Method};
+use crate::model::inputs::{Combination, Drive, InertiaModel, Inputs, Method};
 
 /// Always true.
 #[must_use]
@@ -81,10 +81,10 @@ pub fn driver_rounded(inputs: &Inputs) -> bool {
     inputs.driver.tip_radius.is_some() && !paper(inputs)
 }
 
-/// A gear has its own base pitch deviation or flank tolerance class.
+/// A gear has its own base pitch deviation or flank tolerance class, or the deviations are known.
 #[must_use]
-pub fn own_base_pitch(inputs: &Inputs) -> bool {
-    inputs.has_own_base_pitch()
+pub fn any_base_pitch(inputs: &Inputs) -> bool {
+    inputs.has_own_base_pitch() || inputs.combination == Combination::Sum
 }
 
 /// The driver's flank tolerance class gives its base pitch deviation.

@@ -1,8 +1,8 @@
 //! Rows of the deviations that make a tooth early.
 
 use super::conditions::{
-    always, at_rest, deflection_used, driven_graded, driven_pitch_given, driver_graded,
-    driver_pitch_given, in_motion, own_base_pitch, paper, shared_load,
+    always, any_base_pitch, at_rest, deflection_used, driven_graded, driven_pitch_given,
+    driver_graded, driver_pitch_given, in_motion, paper, shared_load,
 };
 use super::deflection::deflection;
 use super::{PLAIN, Quantity, Variant, checks};
@@ -10,7 +10,7 @@ use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};
 use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
 use crate::model::explanation::{Step, step};
-use crate::model::inputs::Method;
+use crate::model::inputs::{Combination, Method};
 
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
@@ -26,16 +26,17 @@ pub(super) const TABLE: &[Quantity] = &[
         meaning: "The distance along the line of action by which the deviations of both gears \
             bring the incoming tooth into contact early. Relief reduces it by its full amount.",
         formula: Cases(&[
-            (own_base_pitch, Made(own_error)),
+            (any_base_pitch, Made(own_error)),
             (paper, Difference("(2 f_pb + e_m - j_bn)/√2")),
-            (shared_load, Difference("(2 f_pb - j_bn)/√2")),
-            (always, Difference("(2 f_pb - j_bn)/√2 + e_m")),
+            (shared_load, Text("2 f_pb/√2")),
+            (always, Difference("2 f_pb/√2 + e_m")),
         ]),
         source: "Zhou & Chen 2014, Eqs. 1 and 2.",
         corrections: &["Eq. 1"],
-        assumptions: "The f_pb of both gears and j_bn are independent random deviations, which \
-            add as squares: hence the factor 1/√2. The relief acts with its full amount at the \
-            tip, where first contact occurs.",
+        assumptions: "Deviations of which only the size is known are independent and add as \
+            squares, hence the factor 1/√2; with combination sum they add with their signs. The \
+            relief acts with its full amount at the tip, where first contact occurs. A backlash \
+            does not delay a drive flank under load.",
         variants: &[
             Variant::words(
                 shared_load,
@@ -43,8 +44,9 @@ pub(super) const TABLE: &[Quantity] = &[
                     bring the incoming tooth into contact early, without the reliefs. In this \
                     method the reliefs act on the flanks over their length. Method exact calls \
                     the sum of this distance and e_m Δf.",
-                "The f_pb of both gears and j_bn are independent random deviations, which add as \
-                    squares: hence the factor 1/√2. The reliefs are not included.",
+                "Deviations of which only the size is known are independent and add as squares, \
+                    hence the factor 1/√2; with combination sum they add with their signs. The \
+                    reliefs are not included. A backlash does not delay a drive flank under load.",
             ),
             Variant::words(
                 paper,
@@ -242,21 +244,18 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
-/// Δf of gears with their own base pitch deviations.
+/// Δf of gears with their own base pitch deviations, or of known deviations.
 fn own_error(k: &Context) -> String {
     let [driver, driven] = k.inputs.base_pitches();
-    let (squares, sign) = match (driver < 0.0, driven < 0.0) {
-        (false, false) => ("f_pb1² + f_pb2²", ""),
-        (true, true) => ("f_pb1² + f_pb2²", "-"),
-        (false, true) if driver >= -driven => ("f_pb1² - f_pb2²", ""),
-        (false, true) => ("f_pb2² - f_pb1²", "-"),
-        (true, false) if driven >= -driver => ("f_pb2² - f_pb1²", ""),
-        (true, false) => ("f_pb1² - f_pb2²", "-"),
+    let error = match k.inputs.effective_combination() {
+        Combination::Sum => "f_pb1 + f_pb2",
+        Combination::Independent if driver + driven < 0.0 => "-√(f_pb1² + f_pb2²)",
+        Combination::Independent => "√(f_pb1² + f_pb2²)",
     };
     match k.solution.method {
-        Method::Paper => format!("({sign}√(2 ({squares})) + e_m - j_bn)/√2"),
-        method if method.shares_load() => format!("{sign}√({squares}) - j_bn/√2"),
-        _ => format!("{sign}√({squares}) - j_bn/√2 + e_m"),
+        Method::Paper => format!("{error} + (e_m - j_bn)/√2"),
+        method if method.shares_load() => error.to_owned(),
+        _ => format!("{error} + e_m"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The method `auto`: chooses a method and solves by it.
 
 use super::by_method::solve_by_method;
-use crate::model::auto;
+use crate::model::auto::{self, Reason};
 use crate::model::inputs::{Inputs, Method};
 use crate::model::request::Earlier;
 use crate::model::stage::{Stage, Stages};
@@ -15,6 +15,7 @@ pub(super) fn solve_by_choice(
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
+    let wanted = wanted.and(Method::Auto.deciding_stages());
     let before =
         earlier.filter(|earlier| earlier.inputs == inputs && earlier.solution.choice.is_some());
     let chosen = match before {
@@ -22,7 +23,10 @@ pub(super) fn solve_by_choice(
             ran: Stages::NONE,
             ..earlier.solution.clone()
         },
-        None => chosen(inputs, wanted.except(Stages::LATE), go_on)?,
+        None => {
+            let chosen = chosen(inputs, wanted.except(Stages::LATE), go_on)?;
+            with_beside(inputs, chosen, go_on)?
+        }
     };
     if before.is_none() && wanted.within(Stages::LATE) == Stages::NONE {
         return Ok(chosen);
@@ -41,7 +45,46 @@ pub(super) fn solve_by_choice(
     Ok(Solution {
         ran: whole.ran.and(chosen.ran),
         choice: chosen.choice,
+        beside: chosen.beside,
         ..whole
+    })
+}
+
+/// Adds the results that limits or selected quantities need from a slower method.
+fn with_beside(
+    inputs: &Inputs,
+    solution: Solution,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    let Some(method) = auto::beside(inputs, solution.method) else {
+        return Ok(Solution {
+            beside: None,
+            ..solution
+        });
+    };
+    let missing = inputs.needs.except(solution.method.stages());
+    let wanted = missing
+        .iter()
+        .fold(Stages::NONE, |wanted, stage| wanted.and(Stages::of(stage)));
+    let taken = auto::taken(inputs, method);
+    // A trial motion, or the motion of an earlier solve.
+    let known = solution
+        .beside
+        .as_ref()
+        .and_then(|known| known.as_ref().ok());
+    let earlier = known.map(|solution| Earlier {
+        inputs: &taken,
+        solution,
+    });
+    let beside = match solve_by_method(&taken, wanted, earlier, go_on) {
+        Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+        found => found.map(Box::new),
+    };
+    let ran = beside.as_ref().map_or(Stages::NONE, |beside| beside.ran);
+    Ok(Solution {
+        ran: solution.ran.and(ran),
+        beside: Some(beside),
+        ..solution
     })
 }
 
@@ -82,6 +125,12 @@ fn chosen(
         (Method::Static, _) => (still(), choice),
         _ => match solve_by_method(&auto::taken(inputs, Method::Dynamic), wanted, None, go_on) {
             Err(Refusal::TooSlow { .. }) => (still(), choice),
+            // The slower the pair turns, the longer its motion.
+            Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. })
+                if choice.reason == Reason::NoContact =>
+            {
+                (still(), choice)
+            }
             Ok(moved) if choice.is_open() => decided(inputs, choice, moved, wanted, go_on),
             found => (found, choice),
         },
@@ -110,7 +159,7 @@ fn decided(
     }
     let known = Solution {
         method: Method::Static,
-        ..moved
+        ..moved.clone()
     };
     let taken = auto::taken(inputs, Method::Static);
     let earlier = Earlier {
@@ -121,6 +170,7 @@ fn decided(
     (
         found.map(|found| Solution {
             ran: found.ran.and(known.ran),
+            beside: Some(Ok(Box::new(moved))),
             ..found
         }),
         choice,

@@ -212,6 +212,7 @@ impl Solving<'_> {
             clearing: None,
             withheld: None,
             stations_withheld: None,
+            beside: None,
         })
     }
 

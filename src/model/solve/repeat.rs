@@ -2,7 +2,7 @@
 
 use super::by_method::Solving;
 use super::setup::Setup;
-use crate::model::inputs::{Drive, Inputs, Method};
+use crate::model::inputs::{Combination, Drive, Inputs, Method};
 use crate::model::stage::Stages;
 use crate::model::{Refusal, Solution};
 
@@ -65,6 +65,7 @@ struct LoadAndDeviation {
     deflection: Option<f64>,
     base_pitch_deviation: f64,
     base_pitches: [Option<f64>; 2],
+    combination: Combination,
     backlash: f64,
     driven_tip_relief: f64,
     driver_root_relief: f64,
@@ -77,6 +78,7 @@ impl LoadAndDeviation {
             deflection: inputs.deflection,
             base_pitch_deviation: inputs.base_pitch_deviation,
             base_pitches: [inputs.driver.base_pitch, inputs.driven.base_pitch],
+            combination: inputs.combination,
             backlash: inputs.backlash,
             driven_tip_relief: inputs.driven.tip_relief,
             driver_root_relief: inputs.driver.root_relief,
@@ -88,6 +90,7 @@ impl LoadAndDeviation {
         inputs.deflection = self.deflection;
         inputs.base_pitch_deviation = self.base_pitch_deviation;
         [inputs.driver.base_pitch, inputs.driven.base_pitch] = self.base_pitches;
+        inputs.combination = self.combination;
         inputs.backlash = self.backlash;
         inputs.driven.tip_relief = self.driven_tip_relief;
         inputs.driver.root_relief = self.driver_root_relief;
@@ -100,13 +103,14 @@ mod tests {
     use crate::model::sample::standard_pair;
     use crate::model::{Stage, solve};
 
-    fn edits() -> [fn(&mut Inputs); 8] {
+    fn edits() -> [fn(&mut Inputs); 9] {
         [
             |inputs| inputs.drive = Drive::Torque(123.0),
             |inputs| inputs.deflection = Some(17e-6),
             |inputs| inputs.base_pitch_deviation = 9e-6,
             |inputs| inputs.driver.base_pitch = Some(7e-6),
             |inputs| inputs.driven.base_pitch = Some(8e-6),
+            |inputs| inputs.combination = Combination::Sum,
             |inputs| inputs.backlash = 3e-6,
             |inputs| inputs.driven.tip_relief = 4e-6,
             |inputs| inputs.driver.root_relief = 5e-6,

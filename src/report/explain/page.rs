@@ -63,6 +63,7 @@ pub fn explain(
     inputs: &Inputs,
     solution: &Solution,
 ) -> Page {
+    let solution = solution.having(quantity.stage);
     let is_by_auto = inputs.method == Method::Auto;
     let used = if is_by_auto {
         auto::taken(inputs, solution.method)

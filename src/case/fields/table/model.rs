@@ -18,7 +18,7 @@ pub(super) const MODEL: &[Field] = &[
             &["paper", "exact", "static", "dynamic", "auto"],
             |inputs, value| inputs.method = Method::ALL[value],
         ),
-        absent: Default("exact"),
+        absent: Default("auto"),
         ..Field::PLAIN
     },
     number!(

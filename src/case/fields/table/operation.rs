@@ -5,7 +5,7 @@ use crate::case::fields::reasons::Reason::{Beside, Idle, Partly};
 use crate::case::fields::reasons::{LOAD, always};
 use crate::case::fields::{Field, Kind, Range};
 use crate::case::units::Dimension;
-use crate::model::inputs::{Drive, Method};
+use crate::model::inputs::{Combination, Drive, Method};
 
 pub(super) const OPERATION: &[Field] = &[
     number!(
@@ -18,10 +18,25 @@ pub(super) const OPERATION: &[Field] = &[
         "um",
         Default("0 um"),
         |inputs, value| inputs.base_pitch_deviation = value,
-        "Base pitch deviation of each gear without its own; independent deviations add as sqrt(f_pb1^2 + f_pb2^2)."
+        "Base pitch deviation of each gear without its own."
     ).reasons(&[Idle(
         always,
         "both gears have their own base pitch deviation",
+    )]),
+    Field {
+        key: "deviations.combination",
+        symbol: "",
+        label: "combination",
+        help: "independent: only the sizes are known, sqrt(f_pb1^2 + f_pb2^2). sum: known deviations, f_pb1 + f_pb2, positive if the incoming tooth is early.",
+        kind: Kind::Choice(&["independent", "sum"], |inputs, value| {
+            inputs.combination = Combination::ALL[value];
+        }),
+        absent: Default("independent"),
+        ..Field::PLAIN
+    }
+    .reasons(&[Idle(
+        always,
+        "base pitch deviations of unlike sign are known and always add as a sum",
     )]),
     number!(
         "deviations.backlash",
@@ -33,8 +48,11 @@ pub(super) const OPERATION: &[Field] = &[
         "um",
         Default("0 um"),
         |inputs, value| inputs.backlash = value,
-        "Normal backlash; reduces the equivalent error (Eq. 1); in dynamic also the way to the back flanks."
-    ),
+        "Normal backlash: the distance of the back flanks, which dynamic lets strike; only paper subtracts it (Eq. 1)."
+    ).reasons(&[Idle(
+        always,
+        "a backlash does not delay a drive flank under load",
+    )]),
     number!(
         "operation.power",
         "P",
