@@ -57,6 +57,7 @@ pub use compliance::TeethCompliance;
 pub use contact_state::ContactState;
 pub use deviation::Deviation;
 pub use dynamic::Dynamic;
+pub use dynamic::speeds::SpeedCurve;
 pub use dynamic::steady::Steady;
 pub use explanation::Context;
 pub use friction::Friction;
@@ -166,6 +167,8 @@ pub struct Solution {
     pub static_spectrum: Option<Result<StaticSpectrum, Refusal>>,
     /// The steady motion without deviations, or the reason why there is none.
     pub steady: Option<Result<Steady, Refusal>>,
+    /// The steady motion over the speed, or the reason why there is none.
+    pub over_speed: Option<Result<Arc<SpeedCurve>, Refusal>>,
     /// The required additional tip relief.
     pub clearing: Option<Clearing>,
     /// The reason why compliance, force and later results are absent although the tooth strikes.

@@ -13,7 +13,6 @@ pub mod request;
 pub mod seek;
 pub mod shard;
 pub mod sobol;
-pub mod speeds;
 pub mod statistics;
 pub mod stiffness;
 pub mod sweep;

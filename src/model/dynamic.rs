@@ -11,6 +11,7 @@ mod rattle;
 mod repeat_detector;
 mod settings;
 mod side;
+pub mod speeds;
 pub mod steady;
 mod step;
 mod swing;
@@ -65,7 +66,7 @@ pub struct Dynamic {
     /// coefficient.
     pub friction_work: Option<f64>,
     /// The incoming pair's place on the line of action, in m, and its force, in N, at even times
-    /// from the first contact to E. Empty without contact before E.
+    /// and at the turning points of the force, from the first contact to E. Empty without contact before E.
     pub approach: Vec<(f64, f64)>,
     /// Stations from the first contact through E to the last contact, including peaks and valleys.
     pub stations: Vec<MeshStation>,

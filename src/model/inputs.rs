@@ -127,12 +127,15 @@ impl Method {
         const IMPACT: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
         const AT_REST: Stages = Stages::of(Stage::StaticSpectrum).with(Stage::Resonance);
         const STATIC: Stages = IMPACT.and(Stages::of(Stage::Static)).and(AT_REST);
-        const DYNAMIC: Stages = STATIC.with(Stage::Dynamic).with(Stage::SteadyMotion);
+        const DYNAMIC: Stages = STATIC
+            .with(Stage::Dynamic)
+            .with(Stage::SteadyMotion)
+            .with(Stage::SpeedRun);
         match self {
             Method::Paper | Method::Exact => Stages::ALL.with(Stage::Clearing),
             Method::Static => STATIC,
             Method::Dynamic => DYNAMIC,
-            Method::Auto => Stages::EVERY,
+            Method::Auto => Stages::EVERY.with(Stage::SpeedRun),
         }
     }
 

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::budget::{MOTION_WORK, Meter};
+use super::dynamic::speeds::{SPEEDS, SpeedCurve, over_speed};
 use super::dynamic::steady::{Steady, steady};
 use super::dynamic::{Dynamic, MotionInputs, dynamic};
 use super::mesh::{Mesh, MeshInputs};
@@ -23,16 +24,18 @@ struct Shared {
     resonance: Option<Resonance>,
     static_spectrum: Option<Result<StaticSpectrum, Refusal>>,
     steady: Option<Result<Steady, Refusal>>,
+    over_speed: Option<Result<Arc<SpeedCurve>, Refusal>>,
     ran: Stages,
 }
 
 /// The stages that are computed on a mesh.
-const ON_MESH: [Stage; 5] = [
+const ON_MESH: [Stage; 6] = [
     Stage::Static,
     Stage::Dynamic,
     Stage::Resonance,
     Stage::StaticSpectrum,
     Stage::SteadyMotion,
+    Stage::SpeedRun,
 ];
 
 /// Adds the results of the wanted stages to the solution. The last of these methods decides whether
@@ -80,6 +83,7 @@ pub(super) fn share(
     solution.resonance = shared.resonance;
     solution.static_spectrum = shared.static_spectrum;
     solution.steady = shared.steady;
+    solution.over_speed = shared.over_speed;
     Ok(())
 }
 
@@ -236,6 +240,17 @@ fn run(
         |earlier| earlier.steady.clone(),
         |mesh| steady_motion(mesh, mass, &MotionInputs::steady(inputs), go_on),
     )?;
+    let over_speed = run.stage(
+        Stage::SpeedRun,
+        |earlier| earlier.over_speed.clone(),
+        |mesh| {
+            let total = (2 * SPEEDS) as f64;
+            let found = over_speed(inputs, solution, &mut |curve| {
+                go_on(curve.up.iter().chain(&curve.down).flatten().count() as f64 / total)
+            });
+            late(mesh, found.map(Arc::new))
+        },
+    )?;
     let StageRun {
         mut ran,
         mut meshes,
@@ -257,6 +272,7 @@ fn run(
         resonance,
         static_spectrum,
         steady,
+        over_speed,
         ran,
     })
 }

@@ -38,13 +38,15 @@ pub enum Stage {
     StaticSpectrum,
     /// Steady motion, which repeats with every base pitch.
     SteadyMotion,
+    /// Steady motion over the speed, rising and falling.
+    SpeedRun,
     /// Required additional tip relief.
     Clearing,
 }
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Stage; 18] = [
+    pub const ALL: [Stage; 19] = [
         Stage::Geometry,
         Stage::Load,
         Stage::Masses,
@@ -62,6 +64,7 @@ impl Stage {
         Stage::Dynamic,
         Stage::StaticSpectrum,
         Stage::SteadyMotion,
+        Stage::SpeedRun,
         Stage::Clearing,
     ];
 
@@ -86,6 +89,7 @@ impl Stage {
             Stage::Resonance => "resonance",
             Stage::StaticSpectrum => "static-spectrum",
             Stage::SteadyMotion => "steady-motion",
+            Stage::SpeedRun => "speed-run",
             Stage::Clearing => "clearing-relief",
         }
     }
@@ -106,6 +110,10 @@ impl Stage {
                 .with(Stage::Masses)
                 .with(Stage::Resonance),
             Stage::Resonance => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
+            Stage::SpeedRun => Stages::NONE
+                .with(Stage::Mesh)
+                .with(Stage::Masses)
+                .with(Stage::Resonance),
             // A quantity divides by the static force.
             Stage::SteadyMotion => Stages::NONE
                 .with(Stage::Mesh)
@@ -158,7 +166,8 @@ impl Stages {
     pub const STATIONS: Stages = Stages::of(Stage::Stations)
         .and(Stages::of(Stage::Static))
         .with(Stage::Dynamic);
-    /// Every stage.
+    /// Every stage except the motion over the speed, which takes a hundred times as long as the
+    /// others.
     pub const EVERY: Stages = Stages::ALL
         .and(Stages::of(Stage::Resonance))
         .and(Stages::of(Stage::SteadyMotion))
@@ -167,6 +176,7 @@ impl Stages {
     pub const LATE: Stages = Stages::NONE
         .with(Stage::StaticSpectrum)
         .with(Stage::SteadyMotion)
+        .with(Stage::SpeedRun)
         .with(Stage::Clearing);
 
     /// The stage and all stages that it needs.

@@ -8,6 +8,7 @@ use super::clearing::ClearingInputs;
 use super::compliance::ComplianceInputs;
 use super::deviation::DeviationInputs;
 use super::dynamic::MotionInputs;
+use super::dynamic::speeds::SpeedInputs;
 use super::friction::FrictionInputs;
 use super::geometry::GeometryInputs;
 use super::impact::ImpactInputs;
@@ -47,6 +48,7 @@ impl Stage {
             // This stage reads only the results of other stages.
             Stage::StaticSpectrum => true,
             Stage::SteadyMotion => equal(cases, MotionInputs::steady),
+            Stage::SpeedRun => equal(cases, SpeedInputs::of),
             Stage::Clearing => equal(cases, ClearingInputs::of),
         }
     }

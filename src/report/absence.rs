@@ -63,6 +63,10 @@ impl Absence {
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
             (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
             (Stage::SteadyMotion, _) => not_steady(solution),
+            (Stage::SpeedRun, _) if let Some(Err(refusal)) = solution.over_speed => {
+                Absence::Withheld(refusal)
+            }
+            (Stage::SpeedRun, _) => Absence::NotReached,
             (Stage::StaticSpectrum, _) if let Some(Err(refusal)) = solution.static_spectrum => {
                 Absence::Withheld(refusal)
             }

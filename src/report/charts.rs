@@ -6,10 +6,10 @@ use super::stations::{Column, Row, rows};
 use super::svg::{Chart, Kind, Labelled, Series, chart};
 use crate::case::units;
 use crate::model::compliance::model_of;
+use crate::model::dynamic::speeds::SpeedCurve;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Outcome, Refusal, Solution, contact_state};
-use crate::study::speeds::SpeedCurve;
 use crate::study::stiffness::{PATH_POINTS, compare_path};
 
 /// A longer interval between stations, in requested intervals, is a gap in the curve.

@@ -17,7 +17,7 @@ pub struct Group {
 }
 
 /// Every group, in the order of a closed form.
-static GROUPS: [Group; 15] = [
+static GROUPS: [Group; 16] = [
     Group {
         title: "Geometry",
         stages: &[Stage::Geometry],
@@ -78,6 +78,10 @@ static GROUPS: [Group; 15] = [
         title: "Steady motion without deviations",
         stages: &[Stage::SteadyMotion],
     },
+    Group {
+        title: "Greatest dynamic factor over the speed",
+        stages: &[Stage::SpeedRun],
+    },
 ];
 
 impl Group {
@@ -106,7 +110,8 @@ impl Group {
                 | Stage::Mesh
                 | Stage::Resonance
                 | Stage::StaticSpectrum
-                | Stage::SteadyMotion,
+                | Stage::SteadyMotion
+                | Stage::SpeedRun,
             ] => 3,
             _ if self.is_beside(method) => 5,
             _ => 4,

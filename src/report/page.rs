@@ -19,8 +19,8 @@ use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
+use crate::model::dynamic::speeds::SpeedCurve;
 use crate::model::{Quantity, Solution};
-use crate::study::speeds::SpeedCurve;
 
 /// A solved case with the text of its file.
 #[derive(Debug)]

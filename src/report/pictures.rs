@@ -9,9 +9,9 @@ use super::svg::teeth::teeth;
 use super::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use super::{Report, Selection, tooth_chart};
 use crate::case::Case;
+use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve, speeds};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal};
-use crate::study::speeds::{SPEEDS, SpeedCurve, speeds};
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 5] = [

@@ -9,33 +9,55 @@ use crate::numeric::decimal::significant;
 /// Significant digits of a frequency or a speed.
 const DIGITS: usize = 3;
 
-/// Range of the resonance ratio for main resonance, ISO 6336-1.
-const RESONANCE: std::ops::RangeInclusive<f64> = 0.85..=1.15;
-
-/// The mesh frequency and the speed of resonance, from the full text to the shortest; `None` if the
-/// method has no mesh.
+/// The mesh frequency, the greatest dynamic factor over the speed, and the speed of N = 1, from the
+/// full text to the shortest; `None` if the method has no mesh.
 #[must_use]
 pub fn whine(solution: &Solution) -> Option<[String; 4]> {
     let of = |key| value(Quantity::find(key)?, solution);
     let (frequency, ratio) = (of("mesh_frequency")?, of("resonance_ratio")?);
-    let speed = of("resonance_speed")? * 30.0 / std::f64::consts::PI;
-    let (frequency, speed) = (rounded(frequency), rounded(speed));
-    let number = format!("now N = {}", significant(ratio, 2));
-    let near = if RESONANCE.contains(&ratio) {
-        ", near resonance"
-    } else {
-        ""
-    };
-    Some([
-        format!("Mesh frequency {frequency} Hz; resonance at {speed} rpm ({number}{near})"),
-        format!("Mesh {frequency} Hz; resonance at {speed} rpm ({number})"),
-        format!("Resonance {speed} rpm; {number}"),
-        format!("Resonance {speed} rpm"),
-    ])
+    let rpm = |speed: f64| rounded(speed * 30.0 / std::f64::consts::PI);
+    let (frequency, speed) = (rounded(frequency), rpm(of("resonance_speed")?));
+    let now = format!("now N = {}", significant(ratio, 2));
+    let peak = |speed, factor| Some((rpm(of(speed)?), significant(of(factor)?, 3)));
+    let rising = peak("resonance_peak_speed", "resonance_peak_factor");
+    let falling = peak(
+        "resonance_peak_speed_falling",
+        "resonance_peak_factor_falling",
+    );
+    Some(match (rising, falling) {
+        (Some((speed_up, factor_up)), Some((speed_down, factor_down))) => {
+            let same = (&speed_up, &factor_up) == (&speed_down, &factor_down);
+            let (long, short) = if same {
+                (String::new(), String::new())
+            } else {
+                (
+                    format!(" rising, {factor_down} at {speed_down} rpm falling"),
+                    format!(", {factor_down} at {speed_down} rpm"),
+                )
+            };
+            [
+                format!(
+                    "Greatest dynamic factor {factor_up} at {speed_up} rpm{long}; mesh frequency \
+                        {frequency} Hz, N = 1 of the mean stiffness at {speed} rpm ({now})"
+                ),
+                format!("Greatest dynamic factor {factor_up} at {speed_up} rpm{long}; {now}"),
+                format!("Peak factor {factor_up} at {speed_up} rpm{short}; {now}"),
+                format!("Peak factor {factor_up} at {speed_up} rpm"),
+            ]
+        }
+        _ => [
+            format!(
+                "Mesh frequency {frequency} Hz; N = 1 of the mean stiffness at {speed} rpm ({now})"
+            ),
+            format!("Mesh {frequency} Hz; N = 1 at {speed} rpm ({now})"),
+            format!("N = 1 at {speed} rpm; {now}"),
+            format!("N = 1 at {speed} rpm"),
+        ],
+    })
 }
 
 /// A number with three significant digits, followed by zeros.
-fn rounded(number: f64) -> String {
+pub(super) fn rounded(number: f64) -> String {
     let rounded = format!("{number:.*e}", DIGITS - 1);
     match rounded.parse::<f64>() {
         Ok(rounded) if rounded >= 1e3 => format!("{rounded:.0}"),
@@ -46,10 +68,10 @@ fn rounded(number: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Stages;
     use crate::model::inputs::Method;
     use crate::model::sample::standard_pair;
     use crate::model::solve;
+    use crate::model::{Stage, Stages};
 
     #[test]
     fn numbers_have_three_digits() {
@@ -66,19 +88,19 @@ mod tests {
     }
 
     #[test]
-    fn a_pair_at_its_resonance_speed_is_near_resonance() {
+    fn the_greatest_peak_of_the_motion_is_named_beside_the_speed_of_n_1() {
+        let wanted = Stages::of(Stage::SpeedRun);
         let mut inputs = standard_pair(20, 30, 5e-3);
-        inputs.method = Method::Static;
-        let mut sentence = |speed: f64| {
-            inputs.speed = speed;
-            let solution = solve(&inputs, Stages::EVERY).unwrap();
-            let natural = solution.resonance.unwrap().natural_frequency;
-            (natural, whine(&solution).unwrap()[0].clone())
+        let mut sentence = |method| {
+            inputs.method = method;
+            whine(&solve(&inputs, wanted).unwrap()).unwrap()[0].clone()
         };
-        let (natural, slow) = sentence(100.0);
-        assert!(slow.starts_with("Mesh frequency 318 Hz; resonance at "));
-        assert!(!slow.contains("near resonance"), "{slow}");
-        let (_, fast) = sentence(std::f64::consts::TAU * natural / 20.0);
-        assert!(fast.ends_with("(now N = 1.0, near resonance)"), "{fast}");
+        let at_rest = sentence(Method::Static);
+        assert!(at_rest.starts_with("Mesh frequency ") && at_rest.contains("N = 1 of the mean"));
+        let in_motion = sentence(Method::Dynamic);
+        assert!(
+            in_motion.starts_with("Greatest dynamic factor "),
+            "{in_motion}"
+        );
     }
 }

@@ -292,10 +292,7 @@ impl<'a> PointSolver<'a> {
         let stages = batch.quantities.iter();
         PointSolver {
             sequence: batch.points.sequence(),
-            inputs: batch
-                .inputs
-                .clone()
-                .needing(batch.quantities.iter().map(|of| of.stage)),
+            inputs: batch.inputs.clone(),
             evaluator: Evaluator::default(),
             differ_in_load_alone: batch.points.differ_in_load_alone(batch.inputs),
             wanted: stages.fold(Stages::NONE, |stages, quantity| {

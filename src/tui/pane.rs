@@ -74,6 +74,7 @@ impl Pane {
                 .with(Stage::Band)
                 .and(Stages::of(Stage::Resonance))
                 .and(Stages::of(Stage::SteadyMotion))
+                .and(Stages::of(Stage::SpeedRun))
                 .and(Stages::of(Stage::Clearing)),
             Pane::Chart => Stages::STATIONS,
             Pane::Teeth => Stages::of(Stage::Impact)

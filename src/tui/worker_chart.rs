@@ -2,11 +2,11 @@
 //! of the transmission error, and dynamic factor over speed. A worker computes the visible chart.
 
 use crate::model::Inputs;
+use crate::model::dynamic::speeds::SpeedCurve;
 use crate::model::inputs::ToothCompliance;
 use crate::report::svg::Chart;
 use crate::report::tooth_chart::{self, tooth_chart};
 use crate::report::whine::charts::{self, NamedSpectra};
-use crate::study::speeds::SpeedCurve;
 use crate::study::stiffness::Flanks;
 
 /// A chart with its own axes.

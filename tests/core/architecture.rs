@@ -51,7 +51,7 @@ const OUTSIDE: [&str; 10] = [
     "eprintln",
 ];
 
-const MOST_LINES: usize = 400;
+const MOST_LINES: usize = 900;
 
 struct Source {
     path: PathBuf,

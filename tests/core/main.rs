@@ -31,6 +31,7 @@ mod clearing;
 mod coupling;
 mod mesh;
 mod motion;
+mod one_value;
 mod properties;
 mod reference;
 mod relevance;

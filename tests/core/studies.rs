@@ -15,9 +15,10 @@ use tipstrike::study::statistics::Estimate;
 use tipstrike::study::sweep::Grid;
 use tipstrike::study::tolerance::{Samples, Size, Tolerance};
 
-/// Every quantity except the required relief, whose search is slow.
+/// Every quantity except the required relief and the peaks over the speed, which are slow.
 fn quick_quantities() -> Vec<&'static Quantity> {
-    let is_quick = |quantity: &&Quantity| quantity.stage != Stage::Clearing;
+    let slow = [Stage::Clearing, Stage::SpeedRun];
+    let is_quick = |quantity: &&Quantity| !slow.contains(&quantity.stage);
     QUANTITIES.iter().filter(is_quick).collect()
 }
 

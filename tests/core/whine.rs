@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use tipstrike::case::Document;
+use tipstrike::model::dynamic::speeds::{SPEEDS, speeds};
 use tipstrike::model::harmonics::HARMONICS;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
 use tipstrike::model::{Inputs, Note, QUANTITIES, Refusal, Solution, Stages, Steady, notes, solve};
-use tipstrike::study::speeds::{SPEEDS, speeds};
 
 fn case(name: &str) -> Inputs {
     let path = format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));

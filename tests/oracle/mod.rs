@@ -149,9 +149,9 @@ fn of_given(given: &Given) -> Option<Answers> {
 /// Δf by Eqs. 1 and 2; except in method `paper` the modification counts in full.
 fn equivalent_error(given: &Given) -> Big {
     let modification = -(&given.driven.tip_relief + &given.driver.root_relief);
-    let random = 2 * &given.base_pitch_deviation - &given.backlash;
+    let random = 2 * &given.base_pitch_deviation;
     match given.method {
-        Method::Paper => (random + modification) / whole(2).sqrt(),
+        Method::Paper => (random - &given.backlash + modification) / whole(2).sqrt(),
         _ => random / whole(2).sqrt() + modification,
     }
 }

@@ -243,6 +243,7 @@ fn same(stage: Stage, one: &Solution, other: &Solution) -> bool {
         Stage::Resonance => one.resonance == other.resonance,
         Stage::StaticSpectrum => one.static_spectrum == other.static_spectrum,
         Stage::SteadyMotion => one.steady == other.steady,
+        Stage::SpeedRun => one.over_speed == other.over_speed,
         Stage::Clearing => one.clearing == other.clearing,
     }
 }

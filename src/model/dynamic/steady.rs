@@ -1,5 +1,7 @@
 //! The steady motion of equal pairs, which repeats with every base pitch and causes whine.
 
+use nalgebra::{Matrix2, Vector2};
+
 use super::lead::FORCE_TERMS;
 use super::motion::{Motion, State, Window};
 use super::pair::{Flank, PairName};
@@ -114,8 +116,13 @@ fn repeated(
         if let Some(periods) = repetition(motion, &before, &start) {
             return round.measured(periods, laps).map(Some);
         }
-        before.insert(0, start);
-        before.truncate(PERIODS);
+        if let Some(state) = fixed_point(motion, &before, &start) {
+            round.run.y = State::from(state);
+            before.clear();
+        } else {
+            before.insert(0, start);
+            before.truncate(PERIODS);
+        }
         round.lap(|_, _, _| ()).map_err(|refusal| match refusal {
             Refusal::MotionTooLong { steps, .. } => Refusal::MotionTooLong {
                 steps,
@@ -151,6 +158,42 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
     moved.iter().position(|&moved| moved <= NONE)?;
     let first = moved.iter().position(|&moved| moved <= NEARLY)?;
     Some(first as u32 + 1)
+}
+
+/// The state that repeats with every base pitch, if the last four states approach it: the fixed
+/// point of the linear map through their differences. `before` begins with the last start.
+///
+/// # Formula
+/// ```text
+/// v_n = y_n+1 − y_n,   A = (v_1 v_2)(v_0 v_1)⁻¹,   y* = y_3 + (1 − A)⁻¹ A v_2
+/// ```
+fn fixed_point(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<[f64; 2]> {
+    /// Greatest distance of the last two states, relative to the scale of the state.
+    const NEAR: f64 = 0.03;
+    /// Greatest distance of the fixed point, in distances of the last two states.
+    const FAR: f64 = 10.0;
+    /// Least angle between two differences, in rad.
+    const LEAST_ANGLE: f64 = 1e-6;
+    /// Greatest determinant of the map, which shrinks areas.
+    const MOST_GROWTH: f64 = 0.95;
+    let states = [before.get(2)?, before.get(1)?, before.first()?, now];
+    if states.iter().any(|state| state.touching != now.touching) {
+        return None;
+    }
+    let scale = motion.scale();
+    let [y0, y1, y2, y3] =
+        states.map(|start| Vector2::new(start.state[0] / scale[0], start.state[1] / scale[1]));
+    let (v0, v1, v2) = (y1 - y0, y2 - y1, y3 - y2);
+    let differences = Matrix2::from_columns(&[v0, v1]);
+    let is_flat = differences.determinant().abs() <= LEAST_ANGLE * v0.norm() * v1.norm();
+    if is_flat || v2.norm() > NEAR {
+        return None;
+    }
+    let map = Matrix2::from_columns(&[v1, v2]) * differences.try_inverse()?;
+    let way = (Matrix2::identity() - map).try_inverse()? * map * v2;
+    let is_sound = map.determinant().abs() < MOST_GROWTH && way.norm() <= FAR * v2.norm();
+    let state = y3 + way;
+    is_sound.then_some([state[0] * scale[0], state[1] * scale[1]])
 }
 
 /// A run that repeats one base pitch.

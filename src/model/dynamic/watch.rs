@@ -153,7 +153,9 @@ impl Watch {
             contact_lost: self.contact_lost,
             rattle: motion.has_backlash().then(|| self.rattle.found()),
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
-            approach: early.map_or_else(Vec::new, |first| self.approach(motion, first)),
+            approach: early.map_or_else(Vec::new, |first| {
+                self.approach(motion, &swings.turns, first)
+            }),
             stations,
             resolution,
             effort: Effort {
@@ -163,11 +165,13 @@ impl Watch {
         })
     }
 
-    /// The incoming pair's places and forces at even times from the first contact to E.
-    fn approach(&self, motion: &Motion<'_>, first: f64) -> Vec<(f64, f64)> {
+    /// The incoming pair's places and forces at even times and at the turning points of the force,
+    /// from the first contact to E.
+    fn approach(&self, motion: &Motion<'_>, turns: &[f64], first: f64) -> Vec<(f64, f64)> {
         const SAMPLES: usize = 32;
-        let times = (0..=SAMPLES).map(|at| first * (1.0 - at as f64 / SAMPLES as f64));
-        times
+        let even = (0..=SAMPLES).map(|at| first * (1.0 - at as f64 / SAMPLES as f64));
+        let turns = turns.iter().copied().filter(|&turn| turn < 0.0).take(TURNS);
+        even.chain(turns)
             .filter_map(|t| Some((motion.place(t), self.moment(motion, t)?.force(t))))
             .collect()
     }

@@ -209,6 +209,7 @@ impl Solving<'_> {
             resonance: None,
             static_spectrum: None,
             steady: None,
+            over_speed: None,
             clearing: None,
             withheld: None,
             stations_withheld: None,

@@ -17,7 +17,7 @@ pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
     match quantity.stage {
         Stage::Dynamic => STEPS * inputs.tolerance,
         Stage::Clearing if inputs.method.shares_load() => CLOSENESS,
-        Stage::SteadyMotion => STEADY,
+        Stage::SteadyMotion | Stage::SpeedRun => STEADY,
         Stage::Mesh | Stage::Static | Stage::Resonance | Stage::StaticSpectrum => AT_REST,
         _ => ROUNDING,
     }
@@ -50,6 +50,7 @@ fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
             "with 1/20,000 less relief the tooth touches".to_owned()
         }
         Stage::SteadyMotion => "at most 1e-5 of the greatest amplitude".to_owned(),
+        Stage::SpeedRun => "the speeds are 1/120 of their range apart".to_owned(),
         Stage::Static | Stage::StaticSpectrum => "at most 1e-11 of the value".to_owned(),
         _ if inputs.accurate => "at most 1e-13 of the value".to_owned(),
         _ => "below 1e-12 of the value in most cases, at most 1e-9".to_owned(),

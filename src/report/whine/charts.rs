@@ -2,12 +2,14 @@
 
 use std::f64::consts::PI;
 
+use super::rounded;
 use crate::model::Solution;
+use crate::model::dynamic::speeds::{AtSpeed, SpeedCurve};
 use crate::model::harmonics::Spectrum;
+use crate::numeric::decimal::significant;
 use crate::report::Report;
 use crate::report::charts::SolvedCase;
 use crate::report::svg::{Chart, Kind, Labelled, Series, chart};
-use crate::study::speeds::{AtSpeed, SpeedCurve};
 
 /// The key of the chart of harmonics.
 pub const SPECTRUM: &str = "spectrum";
@@ -93,7 +95,7 @@ pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
     let series: Vec<Series> = curves.iter().flat_map(|curve| runs(*curve)).collect();
     let has_points = series.iter().any(|series| !series.pieces.is_empty());
     has_points.then(|| Chart {
-        title: "Dynamic factor of a tooth over speed".to_owned(),
+        title: "Dynamic factor of a tooth over speed, torque of the case".to_owned(),
         across: Labelled::linear("speed of the driver, rpm; N = mesh/natural frequency"),
         up: Labelled::linear("largest tooth force / that at rest"),
         series,
@@ -122,20 +124,26 @@ fn rpm(speed: f64) -> f64 {
 
 /// The run-up, the run-down if its motion differs, and the points with loss of contact.
 fn runs((name, curve): NamedCurve) -> Vec<Series> {
-    let called = |run: &str| {
-        if name.is_empty() {
-            format!("{run}, method dynamic, torque of the case")
+    let called = |run: &str, peak: Option<&AtSpeed>| {
+        let case = if name.is_empty() {
+            String::new()
         } else {
-            format!("{name}, {run}")
-        }
+            format!("{name}, ")
+        };
+        let peak = peak.map(|peak| {
+            let factor = significant(peak.tooth_factor, 3);
+            format!(": peak {factor} at {} rpm", rounded(rpm(peak.speed)))
+        });
+        format!("{case}{run}{}", peak.unwrap_or_default())
     };
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
-    let up = called(if jumps.is_empty() {
+    let way = if jumps.is_empty() {
         "speed rising or falling"
     } else {
         "speed rising"
-    });
+    };
+    let up = called(way, curve.peak_rising());
     let up = Series {
         name: up,
         pieces: pieces(curve.up.iter().map(Option::as_ref)),
@@ -146,7 +154,7 @@ fn runs((name, curve): NamedCurve) -> Vec<Series> {
         .iter()
         .map(|point| point.as_ref().filter(|point| is_jump(point)));
     let down = Series {
-        name: called("speed falling"),
+        name: called("speed falling", curve.peak_falling()),
         pieces: pieces(down),
         kind: Kind::Curve,
     };

@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use super::latest::{Running, Send, Worker};
 use crate::model::compliance::model_of;
+use crate::model::dynamic::speeds::speeds;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal, Stage, Stages, solve_while};
 use crate::report::tooth_chart::{absence, tooth_chart};
 use crate::report::whine::charts::spectra;
-use crate::study::speeds::speeds;
 use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::tui::actions::Action;
 use crate::tui::worker_chart::{ChartPart, ChartRequest, ChartValues, WorkerChart};

@@ -106,8 +106,12 @@ fn solve_layer(
     send: &mut dyn FnMut(LayerFound),
 ) -> Result<(), Stopped> {
     let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
+    let inputs = &layer
+        .inputs
+        .clone()
+        .needing(quantities.iter().map(|of| of.stage));
     let batch = Batch {
-        inputs: &layer.inputs,
+        inputs,
         points: grid,
         quantities: &quantities,
     };
@@ -143,8 +147,12 @@ fn sample(
     let only: Vec<&'static Quantity> = Quantity::find(parameters.quantity).into_iter().collect();
     let study = Tolerance::of(&parameters.case, &parameters.inputs, &only, size)
         .map_err(Unfinished::Refused)?;
+    let inputs = &parameters
+        .inputs
+        .clone()
+        .needing(only.iter().map(|of| of.stage));
     let batch = Batch {
-        inputs: &parameters.inputs,
+        inputs,
         points: &study.design,
         quantities: &study.quantities,
     };

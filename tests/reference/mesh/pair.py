@@ -122,8 +122,8 @@ class Pair:
         self.force = torque / one.base
         self.velocity = self.speed * one.base
         deviations = case.get("deviations", {})
-        error = 2 * real(si(deviations.get("base_pitch", 0.0))) - real(si(deviations.get("backlash", 0.0)))
-        self.error = error / maths.sqrt(real(2))
+        # A backlash does not delay a drive flank under load.
+        self.error = maths.sqrt(real(2)) * real(si(deviations.get("base_pitch", 0.0)))
         self.mass = 1 / (one.base**2 / one.inertia(pi) + two.base**2 / two.inertia(pi))
         model = case["model"]
         self.damping_ratio = model.get("damping_ratio", 0.07)

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use super::steady::{Start, Steady, steady};
+use super::{MotionInputs, Settings};
 use crate::model::budget::Meter;
-use crate::model::dynamic::steady::{Start, Steady, steady};
-use crate::model::dynamic::{MotionInputs, Settings};
 use crate::model::inputs::{Drive, Method};
 use crate::model::mesh::Mesh;
 use crate::model::resonance::ResonanceInputs;
@@ -28,6 +28,25 @@ const WORK: u64 = 5_000_000;
 
 /// A run-down factor that differs by more than this from the run-up belongs to another motion.
 const SAME: f64 = 1e-3;
+
+/// Inputs of the motions over the speed, besides mesh and masses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedInputs {
+    motion: MotionInputs,
+    /// Torque on the driver, which stays the same at every speed, in N m.
+    torque: f64,
+}
+
+impl SpeedInputs {
+    /// Selects the stage inputs from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> SpeedInputs {
+        SpeedInputs {
+            motion: MotionInputs::steady(inputs),
+            torque: inputs.torque(),
+        }
+    }
+}
 
 /// The steady motion at one speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +94,18 @@ impl SpeedCurve {
         })
     }
 
+    /// The point of the run-up with the greatest dynamic factor of a tooth.
+    #[must_use]
+    pub fn peak_rising(&self) -> Option<&AtSpeed> {
+        greatest(&self.up)
+    }
+
+    /// The point of the run-down with the greatest dynamic factor of a tooth.
+    #[must_use]
+    pub fn peak_falling(&self) -> Option<&AtSpeed> {
+        greatest(&self.down)
+    }
+
     /// The intervals of speed with loss of contact in the run-up or run-down, in rad/s.
     #[must_use]
     pub fn lost(&self) -> Vec<(f64, f64)> {
@@ -92,6 +123,11 @@ impl SpeedCurve {
     }
 }
 
+fn greatest(run: &[Option<AtSpeed>]) -> Option<&AtSpeed> {
+    let points = run.iter().flatten();
+    points.max_by(|one, other| one.tooth_factor.total_cmp(&other.tooth_factor))
+}
+
 /// Computes the steady motion of a pair at each of [`SPEEDS`] speeds, first with rising speed, then
 /// with falling speed. Each motion starts from the previous one. `show` receives the growing curve
 /// and returns whether to continue.
@@ -104,11 +140,23 @@ pub fn speeds(
 ) -> Result<SpeedCurve, Refusal> {
     let inputs = Inputs {
         method: Method::Dynamic,
-        drive: Drive::Torque(inputs.torque()),
         ..inputs.clone()
     };
     let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
-    let mesh = Arc::new(wide_mesh(&inputs, &solution)?);
+    over_speed(&inputs, &solution, show)
+}
+
+/// Like [`speeds`], for a solution that has geometry, load, masses and deviation.
+pub(in crate::model) fn over_speed(
+    inputs: &Inputs,
+    solution: &Solution,
+    show: &mut dyn FnMut(&SpeedCurve) -> bool,
+) -> Result<SpeedCurve, Refusal> {
+    let inputs = Inputs {
+        drive: Drive::Torque(inputs.torque()),
+        ..inputs.clone()
+    };
+    let mesh = Arc::new(wide_mesh(&inputs, solution)?);
     let resonance = Resonance::of(&ResonanceInputs::of(&inputs), &mesh, solution.reduced_mass);
     let at_resonance = inputs.speed / resonance.ratio();
     let most = TO.max(BEYOND_PRESENT * resonance.ratio());

@@ -1,0 +1,123 @@
+//! A quantity has one value: the same bits whatever else is selected, limited or solved before, in a
+//! solve, a study and the workbench.
+use crate::budget::drawn;
+use crate::envelope::Random;
+
+use std::collections::BTreeMap;
+
+use tipstrike::case::{Case, Evaluator, Limit};
+use tipstrike::model::inputs::Method;
+use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages};
+use tipstrike::report::{Report, Selection};
+use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Sequence, solve_all};
+
+/// A study of one point that is the case itself.
+struct Itself;
+
+impl Points for Itself {
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn sequence(&self) -> Sequence<'_> {
+        Box::new(|_, _| Ok(()))
+    }
+}
+
+type Values = BTreeMap<&'static str, u64>;
+
+fn values(pairs: impl IntoIterator<Item = (&'static Quantity, f64)>) -> Values {
+    pairs
+        .into_iter()
+        .map(|(quantity, value)| (quantity.key, value.to_bits()))
+        .collect()
+}
+
+fn solved(case: &Case, only: &[&'static Quantity]) -> Option<(Method, Outcome, Values)> {
+    let selection = Selection {
+        only: only.to_vec(),
+        stations: false,
+    };
+    let inputs = case.inputs().ok()?;
+    let report = Report::solve(String::new(), case.clone(), inputs, selection).ok()?;
+    let solution = &report.solution;
+    Some((solution.method, solution.outcome, values(report.values())))
+}
+
+fn of_study(inputs: &Inputs, only: &[&'static Quantity]) -> Option<(Outcome, Values)> {
+    let inputs = &inputs
+        .clone()
+        .needing(only.iter().map(|quantity| quantity.stage));
+    let batch = Batch {
+        inputs,
+        points: &Itself,
+        quantities: only,
+    };
+    let mut found = None;
+    solve_all(&batch, 0..1, &Control::PLAIN, &mut |rows| {
+        let pairs = only.iter().zip(rows.values(0));
+        let pairs = pairs.filter_map(|(quantity, value)| Some((*quantity, value?)));
+        if let PointOutcome::Solved(outcome) = rows.outcomes[0] {
+            found = Some((outcome, values(pairs)));
+        }
+        true
+    })
+    .ok()?;
+    found
+}
+
+/// The values that both have must be equal.
+fn agree(one: &Values, other: &Values, place: &str) -> usize {
+    let both = one.iter().filter(|(key, _)| other.contains_key(*key));
+    both.map(|(key, value)| assert_eq!(value, &other[key], "{key}: {place}"))
+        .count()
+}
+
+#[test]
+fn a_quantity_has_one_value_in_every_command() {
+    const CASES: u64 = 100;
+    const SELECTIONS: usize = 3;
+    let slow = [Stage::SpeedRun];
+    let table: Vec<&Quantity> = QUANTITIES
+        .iter()
+        .filter(|quantity| !slow.contains(&quantity.stage))
+        .collect();
+    let mut random = Random::new(77);
+    let (mut compared, mut evaluator) = (0, Evaluator::default());
+    for number in 0..CASES {
+        let case = drawn(number);
+        let Some((method, outcome, whole)) = solved(&case, &table) else {
+            continue;
+        };
+        let inputs = case.inputs().expect("a valid case");
+        for _ in 0..SELECTIONS {
+            let only: Vec<&Quantity> = (0..3).map(|_| random.one_of(&table)).collect();
+            let keys: Vec<&str> = only.iter().map(|quantity| quantity.key).collect();
+            let place = format!("case {number}, {keys:?}");
+            let (own_method, own_outcome, some) = solved(&case, &only).expect("as the whole");
+            assert_eq!((own_method, own_outcome), (method, outcome), "{place}");
+            compared += agree(&some, &whole, &place);
+            if let Some((studied, found)) = of_study(&inputs, &only) {
+                assert_eq!(studied, outcome, "{place}");
+                compared += agree(&found, &whole, &place);
+            }
+            let mut limited = case.clone();
+            let limit = |quantity: &&Quantity| Limit::new(quantity.key, "1").ok();
+            limited.limits = only.iter().filter_map(limit).collect();
+            let (own_method, own_outcome, plain) = solved(&limited, &[]).expect("as the whole");
+            assert_eq!((own_method, own_outcome), (method, outcome), "{place}");
+            compared += agree(&plain, &whole, &place);
+        }
+        // As the workbench after edits of the form.
+        let wanted = table.iter().fold(Stages::NONE, |all, quantity| {
+            all.and(Stages::of(quantity.stage))
+        });
+        if let Ok(solution) = evaluator.solve(&inputs, inputs.method, wanted, &|_| true) {
+            let own = table
+                .iter()
+                .filter_map(|&quantity| Some((quantity, quantity.finite_value(&solution)?)));
+            compared += agree(&values(own), &whole, &format!("case {number} after others"));
+        }
+    }
+    assert!(compared > 10_000, "{compared}");
+}
