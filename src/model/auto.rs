@@ -203,9 +203,12 @@ pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
     const NUMERICAL: f64 = 0.02;
     /// Least tolerance between stations relative to `model.within`.
     const READING: f64 = 0.1;
+    /// Enough to find the greatest difference of the methods.
+    const SAMPLES: usize = 256;
     Inputs {
         method,
         tolerance: (NUMERICAL * inputs.within).max(1e-12),
+        approach_samples: SAMPLES,
         station_tolerance: inputs.station_tolerance.max(READING * inputs.within),
         ..inputs.clone()
     }

@@ -290,6 +290,9 @@ pub struct Inputs {
     /// Permitted distance of the curve from the straight lines between its stations, relative to
     /// its peak, if their number is not given.
     pub station_tolerance: f64,
+    /// Number of even samples of the force from the first contact to E in the method `dynamic`, for
+    /// the comparison with the method `static`.
+    pub approach_samples: usize,
     /// Whether geometry and position use double-double arithmetic.
     pub accurate: bool,
     /// Stages of the limited and selected quantities, which the method `auto` computes besides the
@@ -325,6 +328,7 @@ impl Default for Inputs {
             within: 0.05,
             stations: Some(64),
             station_tolerance: 1e-3,
+            approach_samples: 0,
             accurate: false,
             needs: Stages::NONE,
         }

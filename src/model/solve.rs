@@ -5,9 +5,10 @@ mod by_method;
 mod repeat;
 mod setup;
 
+use super::dynamic::speeds::over_speed;
 use super::inputs::{Inputs, Method};
 use super::request::Earlier;
-use super::{Refusal, Solution, Stages};
+use super::{Refusal, Solution, SpeedCurve, Stage, Stages};
 use by_choice::solve_by_choice;
 use by_method::solve_by_method;
 pub use repeat::{Change, differ_in_load_alone, solve_repeated};
@@ -52,4 +53,21 @@ pub fn solve_after(
         return solve_by_choice(inputs, wanted, earlier, go_on);
     }
     solve_by_method(inputs, wanted, earlier, go_on)
+}
+
+/// The steady motion over the speed, rising and falling, by the method `dynamic`. `show` receives the
+/// growing curve and returns whether to continue.
+///
+/// # Errors
+/// Those of [`solve`], and [`Refusal::Stopped`] if `show` returns false.
+pub fn speeds(
+    inputs: &Inputs,
+    show: &mut dyn FnMut(&SpeedCurve) -> bool,
+) -> Result<SpeedCurve, Refusal> {
+    let inputs = Inputs {
+        method: Method::Dynamic,
+        ..inputs.clone()
+    };
+    let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
+    over_speed(&inputs, &solution, show)
 }

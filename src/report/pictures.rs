@@ -9,8 +9,9 @@ use super::svg::teeth::teeth;
 use super::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use super::{Report, Selection, tooth_chart};
 use crate::case::Case;
-use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve, speeds};
+use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve};
 use crate::model::inputs::Method;
+use crate::model::solve::speeds;
 use crate::model::{Inputs, Refusal};
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.

@@ -8,6 +8,7 @@ use std::io::{self, Write};
 use super::absence::Absence;
 use super::csv::{cell, write_rows};
 use crate::case::Case;
+use crate::case::fields::index_of;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::study::batch::Points;
@@ -99,6 +100,17 @@ impl ToleranceReport<'_> {
             .chain(computed)
             .chain([outcome])
             .collect()
+    }
+
+    /// How the base pitch deviations of a sample add, by its name in a case file.
+    fn combination(&self) -> &'static str {
+        let key = index_of("deviations.combination");
+        let text = key.and_then(|key| self.case.effective(key));
+        if self.study.design.draws_known_deviations() || text == Some("sum") {
+            "sum"
+        } else {
+            "independent"
+        }
     }
 
     /// Why no sample has a value of a quantity, if another method computes it.

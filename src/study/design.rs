@@ -103,7 +103,13 @@ impl Design {
                 )
             })
             .collect();
-        settings.join(", ")
+        let rule = self.draws_known_deviations();
+        let rule = rule.then(|| "deviations.combination = sum".to_owned());
+        settings
+            .into_iter()
+            .chain(rule)
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 }
 

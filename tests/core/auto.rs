@@ -8,7 +8,7 @@ use crate::table;
 use std::time::Instant;
 
 use tipstrike::model::inputs::Method;
-use tipstrike::model::{Inputs, Refusal, Solution, Stages, auto, solve};
+use tipstrike::model::{Inputs, Outcome, Refusal, Solution, Stages, auto, solve};
 use tipstrike::study::trade::{Answer, METHODS, Subject, stages};
 
 /// Accepted errors.
@@ -72,6 +72,14 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
             "{name}: {:?} for {recommended:?}",
             chosen.choice
         );
+        // Without contact the closed form is right and has no force.
+        if chosen.outcome == Outcome::NoCornerContact && recommended == Method::Exact {
+            assert!(
+                chosen.static_load.is_some() || chosen.dynamic.is_some(),
+                "{name}"
+            );
+            continue;
+        }
         if chosen.method != recommended {
             dearer.push(name);
             continue;

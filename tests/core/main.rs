@@ -29,6 +29,7 @@ mod auto;
 mod budget;
 mod clearing;
 mod coupling;
+mod deviations;
 mod mesh;
 mod motion;
 mod one_value;

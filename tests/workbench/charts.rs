@@ -10,7 +10,7 @@ use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use tipstrike::case::units::System;
-use tipstrike::model::dynamic::speeds::speeds;
+use tipstrike::model::solve::speeds;
 use tipstrike::model::{ContactState, Outcome};
 use tipstrike::report::graphs::{GRAPHS, Graph};
 use tipstrike::tui::testing::actions::{self, Action, Effect};

@@ -18,6 +18,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Stations between the first contact and E, and between E and the last contact.
     pub spacing: Spacing,
+    /// Number of even samples of the force from the first contact to E; 0 for none.
+    pub approach_samples: usize,
 }
 
 /// Inputs of a motion, besides mesh and masses.
@@ -78,6 +80,7 @@ impl Settings {
             backlash: Some(inputs.backlash).filter(|&backlash| backlash > 0.0),
             tolerance: inputs.tolerance,
             spacing: Spacing::of(inputs),
+            approach_samples: inputs.approach_samples,
         }
     }
 
@@ -93,6 +96,7 @@ impl Settings {
     fn without_stations(self) -> Settings {
         Settings {
             spacing: Spacing::Even(1),
+            approach_samples: 0,
             ..self
         }
     }

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use super::steady::{Start, Steady, steady};
 use super::{MotionInputs, Settings};
 use crate::model::budget::Meter;
-use crate::model::inputs::{Drive, Method};
+use crate::model::inputs::Drive;
 use crate::model::mesh::Mesh;
 use crate::model::resonance::ResonanceInputs;
 use crate::model::static_spectrum::static_spectrum;
-use crate::model::{Inputs, Refusal, Resonance, Solution, Stage, Stages, solve};
+use crate::model::{Inputs, Refusal, Resonance, Solution};
 
 /// Number of speeds of a run.
 pub const SPEEDS: usize = 121;
@@ -130,23 +130,10 @@ fn greatest(run: &[Option<AtSpeed>]) -> Option<&AtSpeed> {
 
 /// Computes the steady motion of a pair at each of [`SPEEDS`] speeds, first with rising speed, then
 /// with falling speed. Each motion starts from the previous one. `show` receives the growing curve
-/// and returns whether to continue.
+/// and returns whether to continue. The solution has geometry, load, masses and deviation.
 ///
 /// # Errors
 /// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `show` returns false.
-pub fn speeds(
-    inputs: &Inputs,
-    show: &mut dyn FnMut(&SpeedCurve) -> bool,
-) -> Result<SpeedCurve, Refusal> {
-    let inputs = Inputs {
-        method: Method::Dynamic,
-        ..inputs.clone()
-    };
-    let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
-    over_speed(&inputs, &solution, show)
-}
-
-/// Like [`speeds`], for a solution that has geometry, load, masses and deviation.
 pub(in crate::model) fn over_speed(
     inputs: &Inputs,
     solution: &Solution,

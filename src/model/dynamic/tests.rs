@@ -71,6 +71,7 @@ pub(super) fn settings(inputs: &Inputs, mass: f64) -> Settings {
         backlash: None,
         tolerance: 1e-10,
         spacing: Spacing::Even(16),
+        approach_samples: 0,
     }
 }
 

@@ -121,7 +121,7 @@ impl Watch {
     pub(super) fn finish(
         &self,
         motion: &Motion<'_>,
-        spacing: Spacing,
+        (spacing, samples): (Spacing, usize),
         effort: Effort,
     ) -> Result<Dynamic, Refusal> {
         let mesh = motion.mesh;
@@ -154,7 +154,7 @@ impl Watch {
             rattle: motion.has_backlash().then(|| self.rattle.found()),
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
             approach: early.map_or_else(Vec::new, |first| {
-                self.approach(motion, &swings.turns, first)
+                self.approach(motion, (&swings.turns, samples), first)
             }),
             stations,
             resolution,
@@ -167,9 +167,16 @@ impl Watch {
 
     /// The incoming pair's places and forces at even times and at the turning points of the force,
     /// from the first contact to E.
-    fn approach(&self, motion: &Motion<'_>, turns: &[f64], first: f64) -> Vec<(f64, f64)> {
-        const SAMPLES: usize = 32;
-        let even = (0..=SAMPLES).map(|at| first * (1.0 - at as f64 / SAMPLES as f64));
+    fn approach(
+        &self,
+        motion: &Motion<'_>,
+        (turns, samples): (&[f64], usize),
+        first: f64,
+    ) -> Vec<(f64, f64)> {
+        if samples == 0 {
+            return Vec::new();
+        }
+        let even = (0..=samples).map(|at| first * (1.0 - at as f64 / samples as f64));
         let turns = turns.iter().copied().filter(|&turn| turn < 0.0).take(TURNS);
         even.chain(turns)
             .filter_map(|t| Some((motion.place(t), self.moment(motion, t)?.force(t))))

@@ -28,7 +28,7 @@ macro_rules! peak {
                 label: concat!("peak speed, ", $way),
                 unit: "rad/s",
                 shown: "rpm",
-                digits: 3,
+                digits: 5,
                 equation: "max over speed",
                 stage: SpeedRun,
                 value: |s| Some(over_speed(s)?.$point()?.speed),

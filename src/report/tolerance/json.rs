@@ -21,6 +21,7 @@ struct Line<'a> {
     solved: usize,
     refused: Vec<Refused<'a>>,
     spread: Vec<Distribution<'a>>,
+    combination: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     corner_contact: Option<Interval>,
     limits: Vec<Compared<'a>>,
@@ -138,6 +139,7 @@ pub(super) fn write(report: &ToleranceReport, out: &mut dyn Write) -> io::Result
         solved: summary.solved,
         refused: refused(report),
         spread: spread(report),
+        combination: report.combination(),
         corner_contact: summary.contact.as_ref().map(Interval::of),
         limits: summary.limits.iter().map(limit).collect(),
         quantities: quantities.collect::<Result<_, serde_json::Error>>()?,

@@ -73,6 +73,18 @@ fn spread(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
         );
         writeln!(out, "  {:width$}  {value}, {words}", held.field)?;
     }
+    if report
+        .case
+        .spread
+        .iter()
+        .any(|held| held.field.ends_with(".base_pitch"))
+    {
+        let rule = match report.combination() {
+            "sum" => "f_pb1 + f_pb2: known with their signs",
+            _ => "sqrt(f_pb1^2 + f_pb2^2): independent",
+        };
+        writeln!(out, "  the base pitch deviations of a sample add as {rule}")?;
+    }
     Ok(())
 }
 

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use super::latest::{Running, Send, Worker};
 use crate::model::compliance::model_of;
-use crate::model::dynamic::speeds::speeds;
 use crate::model::inputs::Method;
+use crate::model::solve::speeds;
 use crate::model::{Inputs, Refusal, Stage, Stages, solve_while};
 use crate::report::tooth_chart::{absence, tooth_chart};
 use crate::report::whine::charts::spectra;
