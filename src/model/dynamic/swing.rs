@@ -15,12 +15,14 @@ pub(super) struct Swing {
     turns: Vec<f64>,
 }
 
-/// A stretch with a monotonic force: start time of its step and end time, in s, and rise of the
-/// force, in N.
+/// A stretch with a monotonic force.
 pub(super) struct Phase {
-    step: f64,
+    /// End time, in s.
     end: f64,
+    /// Rise of the force, in N.
     rise: f64,
+    /// Whether the tooth is apart before the stretch.
+    follows_gap: bool,
 }
 
 impl Swing {
@@ -48,13 +50,15 @@ impl Swing {
         self.turns.iter().map(|&part| self.time(part))
     }
 
-    pub(super) fn phases(&self) -> impl Iterator<Item = Phase> {
+    /// The stretches of the step. `follows_gap` says whether the tooth is apart before the step.
+    pub(super) fn phases(&self, follows_gap: bool) -> impl Iterator<Item = Phase> {
         let begins = std::iter::once(0.0).chain(self.turns.iter().copied());
         let ends = self.turns.iter().copied().chain([1.0]);
-        begins.zip(ends).map(|(begin, end)| Phase {
-            step: self.begin,
+        let stretches = begins.zip(ends).enumerate();
+        stretches.map(move |(index, (begin, end))| Phase {
             end: self.time(end),
             rise: self.force.at(end) - self.force.at(begin),
+            follows_gap: follows_gap && index == 0,
         })
     }
 
@@ -76,8 +80,7 @@ pub(super) fn end_of_first_impact(phases: &[Phase], peak: f64) -> Option<f64> {
     let none = ROUNDING * peak;
     let (mut has_fallen, mut last) = (false, None);
     for phase in phases {
-        let is_apart = |last: f64| phase.step - last > ROUNDING * phase.step.abs();
-        if has_fallen && (phase.rise > none || last.is_some_and(is_apart)) {
+        if has_fallen && (phase.rise > none || phase.follows_gap) {
             return last;
         }
         has_fallen |= phase.rise < -none;

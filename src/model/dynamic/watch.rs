@@ -37,6 +37,7 @@ pub(super) struct Watch {
 }
 
 /// Rise and fall of the incoming tooth's force in a run.
+#[derive(Default)]
 struct Swings {
     /// Greatest force, in N.
     peak: f64,
@@ -228,25 +229,24 @@ impl Watch {
         })
     }
 
-    fn each_swing<'a>(&'a self, motion: &'a Motion<'a>) -> impl Iterator<Item = Swing> {
-        self.carried(motion)
-            .map(|(course, incoming, step)| Swing::of(step, &course.force_along(incoming, step)))
-    }
-
     fn swings(&self, motion: &Motion<'_>) -> Swings {
-        let mut swings = Swings {
-            peak: 0.0,
-            peak_before_start: 0.0,
-            turns: Vec::new(),
-            phases: Vec::new(),
-        };
-        for swing in self.each_swing(motion) {
+        let mut swings = Swings::default();
+        let mut follows_gap = true;
+        for (passage, record) in self.records() {
+            if !record.touching.has(passage.incoming) {
+                follows_gap = true;
+                continue;
+            }
+            let course = passage.course(motion, record);
+            let force = course.force_along(passage.incoming, &record.step);
+            let swing = Swing::of(&record.step, &force);
             swings.peak = swings.peak.max(swing.peak());
             if swing.is_before_start() {
                 swings.peak_before_start = swings.peak;
             }
             swings.turns.extend(swing.turns());
-            swings.phases.extend(swing.phases());
+            swings.phases.extend(swing.phases(follows_gap));
+            follows_gap = false;
         }
         swings
     }
