@@ -83,6 +83,11 @@ pub struct Carrying {
 }
 
 impl Carrying {
+    /// Whether the pair `ahead` carries.
+    pub fn has(self, ahead: i32) -> bool {
+        usize::try_from(ahead - self.first).is_ok_and(|index| self.touching.has(index))
+    }
+
     /// The pairs that carry in only one of two positions, as base pitches ahead of the incoming
     /// pair.
     pub fn differences(self, other: Carrying) -> impl Iterator<Item = i32> {
@@ -91,11 +96,8 @@ impl Carrying {
                 .pairs()
                 .map(move |index| of.first.saturating_add_unsigned(index as u32))
         };
-        let has = |of: Carrying, ahead: i32| {
-            usize::try_from(ahead - of.first).is_ok_and(|index| of.touching.has(index))
-        };
         let only = move |one: Carrying, other: Carrying| {
-            pairs(one).filter(move |&ahead| !has(other, ahead))
+            pairs(one).filter(move |&ahead| !other.has(ahead))
         };
         only(self, other).chain(only(other, self))
     }

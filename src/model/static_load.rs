@@ -61,11 +61,19 @@ pub struct StaticLoad {
     pub resolution: Resolution,
 }
 
-/// The range in which the incoming pair can carry.
+/// A place of the incoming pair in m, and a place on the same side of every border of the mesh.
+type Place = (f64, f64);
+
+/// The range in which the incoming pair can carry. The sides of its ends are inside of the range.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
-    first: f64,
-    last: f64,
+    first: Place,
+    last: Place,
+}
+
+/// The place `s` from `one` to `other`, on their sides of the borders.
+fn between(s: f64, one: Place, other: Place) -> Place {
+    (s, s.max(one.1.min(other.1)).min(one.1.max(other.1)))
 }
 
 /// The shared load from the first contact of the incoming tooth to its last contact.
@@ -122,10 +130,8 @@ fn load_within(
     places.retain(|&(s, _)| from < s && s < to);
     places.insert(0, (from, from));
     places.push((to, to));
-    let balances = places.into_iter();
-    let mut balances: Vec<(f64, Balance)> = balances
-        .map(|(s, inside)| (s, balance(mesh, s, inside)))
-        .collect();
+    let at = |place: Place| (place, balance(mesh, place.0, place.1));
+    let mut balances: Vec<(Place, Balance)> = places.into_iter().map(at).collect();
     let is_beyond = |balance: &Balance| balance.displacement + mesh.error.max(0.0) > gap;
     if balances.iter().any(|(_, balance)| is_beyond(balance)) {
         return Err(Refusal::BeyondReach);
@@ -133,18 +139,17 @@ fn load_within(
     let Some(contact) = contact(mesh, &balances)? else {
         return Ok(StaticLoad::none());
     };
-    balances.retain(|&(s, _)| s > contact.first && s < contact.last);
+    let (first, last) = (contact.first.0, contact.last.0);
+    balances.retain(|&((s, _), _)| s > first && s < last);
     // The displacement is often greatest where the tooth begins or ends to carry.
-    let [first, last] = [contact.first, contact.last].map(|s| (s, balance(mesh, s, s)));
-    balances.insert(0, first);
-    balances.push(last);
+    balances.insert(0, at(contact.first));
+    balances.push(at(contact.last));
     let balances = with_bends(mesh, &balances);
     let peak_force = peak(mesh, &balances, |balance| balance.force);
     let (stations, resolution) = stations(mesh, contact, peak_force, spacing);
     Ok(StaticLoad {
-        first_contact_angle: (contact.first < 0.0).then(|| -contact.first / mesh.base_radii.1),
-        last_contact_angle: (contact.last > mesh.length)
-            .then(|| (contact.last - mesh.length) / mesh.base_radii.0),
+        first_contact_angle: (first < 0.0).then(|| -first / mesh.base_radii.1),
+        last_contact_angle: (last > mesh.length).then(|| (last - mesh.length) / mesh.base_radii.0),
         force_at_start: balance(mesh, 0.0, 0.0).force,
         peak_force,
         transmission_error: peak(mesh, &balances, |balance| balance.displacement)
@@ -184,7 +189,7 @@ fn lead(mesh: &Mesh, s: f64) -> f64 {
 }
 
 /// The same of the pair `ahead`. On a border, the second place selects the side.
-fn lead_of(mesh: &Mesh, ahead: i32, (s, inside): (f64, f64)) -> f64 {
+fn lead_of(mesh: &Mesh, ahead: i32, (s, inside): Place) -> f64 {
     let lead = mesh.pair_set(s, inside).lead(ahead, mesh.force);
     lead.clamp(-mesh.length, mesh.length)
 }
@@ -195,10 +200,9 @@ pub(super) fn reaches_ends(mesh: &Mesh) -> bool {
     lead(mesh, from) > 0.0 || lead(mesh, to) > 0.0
 }
 
-/// Samples between the borders and on both sides of each border, as the place of the incoming pair
-/// and a place on the same side of all borders. Friction jumps at the pitch point, and stiffness
-/// where a rounded tip begins to touch.
-fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<(f64, f64)> {
+/// Samples between the borders and on both sides of each border. Friction jumps at the pitch point,
+/// and stiffness where a rounded tip begins to touch.
+fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<Place> {
     /// Of the distance between two borders.
     const BESIDE: f64 = 1e-6;
     let borders = mesh.borders(from, to);
@@ -226,13 +230,7 @@ fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<(f64, f64)> {
 /// # Errors
 /// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
 pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
-    let leads = leads(mesh, &grid(mesh, mesh.ends().0, 0.0));
-    let has_end = leads.first().is_some_and(|&(_, lead)| lead <= 0.0);
-    if has_end {
-        Ok(greatest_lead(mesh, &leads).1)
-    } else {
-        Err(Refusal::BeyondReach)
-    }
+    greatest_lead(mesh, mesh.ends().0, 0.0)
 }
 
 /// The greatest lead of the outgoing pair after B, in m, see [`lead_before_start`].
@@ -240,13 +238,18 @@ pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
 /// # Errors
 /// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
 pub fn lead_after_end(mesh: &Mesh) -> Result<f64, Refusal> {
-    let leads = leads(mesh, &grid(mesh, mesh.length, mesh.ends().1));
-    let has_end = leads.last().is_some_and(|&(_, lead)| lead <= 0.0);
-    if has_end {
-        Ok(greatest(&leads, |s| lead(mesh, s)).1)
-    } else {
-        Err(Refusal::BeyondReach)
-    }
+    greatest_lead(mesh, mesh.ends().1, mesh.length)
+}
+
+/// The greatest lead of the incoming pair between an end of the mesh and a place, in m.
+fn greatest_lead(mesh: &Mesh, end: f64, to: f64) -> Result<f64, Refusal> {
+    let places = grid(mesh, end.min(to), end.max(to)).into_iter();
+    let leads: Vec<_> = places
+        .map(|place| (place.0, lead_of(mesh, 0, place)))
+        .collect();
+    let is_clear = lead(mesh, end) <= 0.0;
+    let found = is_clear.then(|| greatest(&leads, |s| lead(mesh, s)).1);
+    found.ok_or(Refusal::BeyondReach)
 }
 
 /// Work of [`lead_before_start`]: the number of places times the pairs at each place.
@@ -257,90 +260,103 @@ pub fn places_before_start(mesh: &Mesh) -> u64 {
     (grid(mesh, from, 0.0).len() * pairs) as u64
 }
 
-fn leads(mesh: &Mesh, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let lead = |&place: &(f64, f64)| (place.0, lead_of(mesh, 0, place));
-    places.iter().map(lead).collect()
-}
-
-/// The place before E with the greatest lead, and this lead.
-fn greatest_lead(mesh: &Mesh, leads: &[(f64, f64)]) -> (f64, f64) {
-    let before = leads.partition_point(|&(s, _)| s <= 0.0);
-    greatest(&leads[..before], |s| lead(mesh, s))
-}
-
 /// The range from the first to the last contact of the incoming pair. `None` if the pair never
 /// carries.
-fn contact(mesh: &Mesh, balances: &[(f64, Balance)]) -> Result<Option<Contact>, Refusal> {
+fn contact(mesh: &Mesh, balances: &[(Place, Balance)]) -> Result<Option<Contact>, Refusal> {
     let lead_of = |balance: &Balance| {
         let lead = balance.lead.unwrap_or(f64::INFINITY);
         lead.clamp(-mesh.length, mesh.length)
     };
-    let leads = balances.iter().map(|(s, balance)| (*s, lead_of(balance)));
-    let mut leads: Vec<(f64, f64)> = leads.collect();
-    let start = leads.partition_point(|&(s, _)| s <= 0.0);
-    if leads[..start].iter().all(|&(_, lead)| lead <= 0.0) {
-        // A short contact before E may be between two samples.
-        let greatest_lead = greatest_lead(mesh, &leads);
-        let at = leads.partition_point(|&(s, _)| s <= greatest_lead.0);
-        leads.insert(at, greatest_lead);
+    let leads = balances.iter().map(|(place, of)| (*place, lead_of(of)));
+    let mut leads: Vec<(Place, f64)> = leads.collect();
+    let first = first_touch(mesh, &leads)?;
+    leads.reverse();
+    let ends = first.zip(first_touch(mesh, &leads)?);
+    Ok(ends.map(|(first, last)| Contact { first, last }))
+}
+
+/// The place at which the incoming pair begins to carry, in the order of the samples. `None` if the
+/// pair never carries.
+fn first_touch(mesh: &Mesh, leads: &[(Place, f64)]) -> Result<Option<Place>, Refusal> {
+    let carrying = leads.iter().position(|&(_, lead)| lead > 0.0);
+    let mut apart: Vec<(Place, f64)> = leads[..carrying.unwrap_or(leads.len())].to_vec();
+    let mut carries = carrying.map(|first| leads[first].0);
+    // A short contact may be between two samples.
+    while let Some(hidden) = hidden_contact(mesh, &apart) {
+        let from = apart[0].0.0;
+        apart.retain(|&((s, _), _)| (s - from).abs() < (hidden - from).abs());
+        carries = Some((hidden, hidden));
     }
-    let carries = |index: &usize| leads[*index].1 > 0.0;
-    let (Some(first), Some(last)) = (
-        (0..leads.len()).find(carries),
-        (0..leads.len()).rfind(carries),
-    ) else {
+    let Some(carries) = carries else {
         return Ok(None);
     };
-    if first == 0 || last + 1 == leads.len() {
-        return Err(Refusal::BeyondReach);
+    let &(apart, _) = apart.last().ok_or(Refusal::BeyondReach)?;
+    Ok(Some(root_between(mesh, 0, apart, carries)))
+}
+
+/// A place between samples at which the incoming pair carries, although it carries at none of them.
+fn hidden_contact(mesh: &Mesh, apart: &[(Place, f64)]) -> Option<f64> {
+    let mut known: Vec<_> = apart.iter().map(|&((s, _), lead)| (s, lead)).collect();
+    known.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let (s, lead) = greatest(&known, |s| lead_of(mesh, 0, (s, s)));
+    (lead > 0.0).then_some(s)
+}
+
+/// The place at which the pair `ahead` begins or stops to carry, between a place where it is apart
+/// and a place where it carries, and its side on which the pair carries.
+fn root_between(mesh: &Mesh, ahead: i32, apart: Place, carries: Place) -> Place {
+    if apart.0.to_bits() == carries.0.to_bits() {
+        return carries;
     }
-    let touch = |apart: usize, carries: usize| {
-        let (apart, carries) = (leads[apart].0, leads[carries].0);
-        root::between(apart, carries, |s| {
-            let lead = lead(mesh, s);
-            // The pair carries here, whatever the rounding.
-            if s.to_bits() == carries.to_bits() {
-                lead.max(f64::MIN_POSITIVE)
-            } else {
-                lead
-            }
-        })
-    };
-    Ok(Some(Contact {
-        first: touch(first - 1, first),
-        last: touch(last + 1, last),
-    }))
+    let root = root::between(apart.0, carries.0, |s| {
+        let lead = lead_of(mesh, ahead, between(s, apart, carries));
+        // The samples decide whether the pair carries there, whatever the rounding.
+        if s.to_bits() == carries.0.to_bits() {
+            lead.max(f64::MIN_POSITIVE)
+        } else if s.to_bits() == apart.0.to_bits() {
+            lead.min(0.0)
+        } else {
+            lead
+        }
+    });
+    between(root, apart, carries)
 }
 
 /// Adds the places where a pair begins or stops to carry, at which all curves have a bend. The ends
 /// of the contact of the incoming pair are among the balances.
-fn with_bends(mesh: &Mesh, balances: &[(f64, Balance)]) -> Vec<(f64, Balance)> {
+fn with_bends(mesh: &Mesh, balances: &[(Place, Balance)]) -> Vec<(Place, Balance)> {
     let mut all = Vec::with_capacity(balances.len());
-    for (index, (s, here)) in balances.iter().enumerate() {
+    for (index, (place, here)) in balances.iter().enumerate() {
         if let Some((before, there)) = index.checked_sub(1).map(|before| balances[before]) {
-            let changes = there.carrying.differences(here.carrying);
             let is_at_end = index == 1 || index + 1 == balances.len();
-            let bends = changes.filter(|&ahead| before < *s && !(ahead == 0 && is_at_end));
-            let bends =
-                bends.map(|ahead| root::between(before, *s, |s| lead_of(mesh, ahead, (s, s))));
-            let mut bends: Vec<f64> = bends.filter(|bend| before < *bend && bend < s).collect();
-            bends.sort_by(f64::total_cmp);
+            let changes = there.carrying.differences(here.carrying);
+            let changes = changes.filter(|&ahead| before.0 < place.0 && !(ahead == 0 && is_at_end));
+            let bend = |ahead: i32| {
+                if here.carrying.has(ahead) {
+                    root_between(mesh, ahead, before, *place)
+                } else {
+                    root_between(mesh, ahead, *place, before)
+                }
+            };
+            let is_between = |bend: &Place| before.0 < bend.0 && bend.0 < place.0;
+            let mut bends: Vec<Place> = changes.map(bend).filter(is_between).collect();
+            bends.sort_by(|one, other| one.0.total_cmp(&other.0));
             all.extend(
                 bends
                     .into_iter()
-                    .map(|bend| (bend, balance(mesh, bend, bend))),
+                    .map(|(s, side)| ((s, side), balance(mesh, s, side))),
             );
         }
-        all.push((*s, *here));
+        all.push((*place, *here));
     }
     all
 }
 
 /// The greatest value over the contact, of which `balances` has both ends.
-fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
+fn peak(mesh: &Mesh, balances: &[(Place, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
     let known: Vec<(f64, f64)> = balances
         .iter()
-        .map(|(s, balance)| (*s, value(balance)))
+        .map(|((s, _), balance)| (*s, value(balance)))
         .collect();
     greatest(&known, |s| value(&balance(mesh, s, s))).1
 }
@@ -362,9 +378,10 @@ fn stations(
     spacing: Spacing,
 ) -> (Vec<MeshStation>, Resolution) {
     let most = STATIONS.min(CURVE_WORK / mesh.standing(0.0).count().max(1));
-    MeshStation::through_start(contact.first, contact.last, |from, to| {
+    MeshStation::through_start(contact.first.0, contact.last.0, |from, to| {
         spacing.stations(&[from, to], peak, most, |s| {
-            let balance = balance(mesh, s, s);
+            let (s, inside) = between(s, contact.first, contact.last);
+            let balance = balance(mesh, s, inside);
             (
                 balance.force,
                 MeshStation::at(
