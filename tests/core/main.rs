@@ -38,6 +38,7 @@ mod reference;
 mod relevance;
 mod relief;
 mod rounded;
+mod scaling;
 mod stiffness;
 mod studies;
 mod trade;

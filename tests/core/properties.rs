@@ -3,12 +3,13 @@
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` checks a million pairs
 //! instead of 25,000.
 use crate::envelope;
+use crate::scaling::{factor, scaled};
 
 use std::collections::BTreeMap;
 use std::thread;
 
 use envelope::{Corner, Random, pair};
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use tipstrike::model::{
     Inputs, Outcome, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages, geometry, notes, solve,
 };
@@ -204,56 +205,6 @@ fn default_path_is_nowhere_worse_than_1e_9() {
     }
     println!("worst {:e}: {}", worst.0, worst.1);
     assert!(worst.0 < 1e-9, "{:e}: {}", worst.0, worst.1);
-}
-
-/// Lengths times `length`, times times `time`, forces times `length`², so that every stress is
-/// unchanged.
-fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
-    let gear = |gear: &Gear| Gear {
-        face_width: gear.face_width * length,
-        bore_radius: gear.bore_radius * length,
-        density: gear.density * (time / length).powi(2),
-        tip_relief: gear.tip_relief * length,
-        root_relief: gear.root_relief * length,
-        tip_relief_length: gear.tip_relief_length.map(|of| of * length),
-        tip_chamfer: gear.tip_chamfer * length,
-        tip_radius: gear.tip_radius.map(|radius| radius * length),
-        base_pitch: gear.base_pitch.map(|deviation| deviation * length),
-        inertia: gear
-            .inertia
-            .map(|inertia| inertia * length.powi(3) * time.powi(2)),
-        ..gear.clone()
-    };
-    Inputs {
-        module: inputs.module * length,
-        centre_distance: inputs.centre_distance.map(|distance| distance * length),
-        driver: gear(&inputs.driver),
-        driven: gear(&inputs.driven),
-        base_pitch_deviation: inputs.base_pitch_deviation * length,
-        backlash: inputs.backlash * length,
-        drive: match inputs.drive {
-            Drive::Power(power) => Drive::Power(power * length.powi(3) / time),
-            Drive::Torque(torque) => Drive::Torque(torque * length.powi(3)),
-        },
-        speed: inputs.speed / time,
-        deflection: inputs.deflection.map(|deflection| deflection * length),
-        ..inputs.clone()
-    }
-}
-
-/// The factor of a unit under this scaling.
-fn factor(unit: &str, length: f64, time: f64) -> f64 {
-    match unit {
-        "m" => length,
-        "s" => time,
-        "m/s" => length / time,
-        "N" => length.powi(2),
-        "kg" => length * time.powi(2),
-        "kg m2" => length.powi(3) * time.powi(2),
-        "J" => length.powi(3),
-        "m2/N" | "1" | "rad" => 1.0,
-        _ => panic!("no factor for {unit}"),
-    }
 }
 
 #[test]
