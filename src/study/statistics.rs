@@ -1,5 +1,13 @@
 //! Figures of a sample: percentiles, mean, probabilities with 95 % intervals, a histogram.
 
+#[cfg(test)]
+mod tests;
+
+use statrs::distribution::{Binomial, ContinuousCDF, Discrete, StudentsT};
+
+/// Confidence of every interval.
+const CONFIDENCE: f64 = 0.95;
+
 /// The 97.5 % quantile of the normal distribution.
 pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
@@ -14,6 +22,15 @@ pub struct Estimate {
     pub to: f64,
 }
 
+/// A figure of a sample and, if the sample is large enough, the ends of its 95 % interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// The value.
+    pub value: f64,
+    /// The ends of the interval.
+    pub interval: Option<(f64, f64)>,
+}
+
 /// The percentiles of a summary, in percent.
 pub const PERCENTILES: [f64; 3] = [5.0, 50.0, 95.0];
 
@@ -23,11 +40,11 @@ pub struct Figures {
     /// Number of values.
     pub count: usize,
     /// Mean.
-    pub mean: Estimate,
+    pub mean: Figure,
     /// Standard deviation of the values.
     pub deviation: f64,
     /// The [`PERCENTILES`].
-    pub percentiles: [Estimate; 3],
+    pub percentiles: [Figure; 3],
     /// The least and the greatest value.
     pub range: (f64, f64),
     /// Number of values in bins of equal width over the range.
@@ -37,8 +54,8 @@ pub struct Figures {
 /// The figures of values; `None` without values.
 ///
 /// A percentile is interpolated between two values (type 7 of Hyndman & Fan 1996). The ends of its
-/// interval are the values at two ranks, from the normal approximation of the binomial distribution
-/// with 95 %. This is valid for any distribution of the values.
+/// interval are the values at two ranks, see [`least_count`]. The interval of the mean is that of
+/// Student's t.
 #[must_use]
 pub fn figures(values: &[f64], bins: usize) -> Option<Figures> {
     let count = values.len();
@@ -52,18 +69,20 @@ pub fn figures(values: &[f64], bins: usize) -> Option<Figures> {
     let squares = lanes(values, 0.0, |sum, value| sum + square(value), |a, b| a + b);
     let counted = Counted::of(values, (least, most), bins);
     let deviation = (squares / (count as f64 - 1.0).max(1.0)).sqrt();
-    let error = NORMAL_95 * deviation / (count as f64).sqrt();
+    let freedom = StudentsT::new(0.0, 1.0, count as f64 - 1.0).ok();
+    let half = freedom.map(|freedom| {
+        freedom.inverse_cdf(0.5 + 0.5 * CONFIDENCE) * deviation / (count as f64).sqrt()
+    });
     let places = PERCENTILES.map(|percent| Places::of(percent / 100.0, count));
-    let mut ranks: Vec<usize> = places.iter().flat_map(|places| places.ranks).collect();
+    let mut ranks: Vec<usize> = places.iter().flat_map(Places::ranks).collect();
     ranks.sort_unstable();
     ranks.dedup();
     let at_ranks = counted.ordered(values, &ranks);
     Some(Figures {
         count,
-        mean: Estimate {
+        mean: Figure {
             value: mean,
-            from: mean - error,
-            to: mean + error,
+            interval: half.map(|half| (mean - half, mean + half)),
         },
         deviation,
         percentiles: places.map(|places| places.percentile(&at_ranks)),
@@ -94,36 +113,83 @@ fn lanes(
     join(join(a, b), join(c, d))
 }
 
+/// The least number of values with a 95 % interval of a percentile, in percent.
+///
+/// # Formula
+/// ```text
+/// P(x_(r) <= quantile <= x_(s)) >= Σ_{k=r}^{s−1} C(n, k) p^k (1 − p)^(n−k) >= 0.95,   1 <= r < s <= n
+/// ```
+/// for any distribution of n independent values, x_(r) the value at rank r. The interval has the
+/// fewest ranks for which the sum is at least 0.95. Fewer values have no such ranks.
+///
+/// # Source
+/// Hahn & Meeker 1991, "Statistical Intervals", section 5.2.
+#[must_use]
+pub fn least_count(percent: f64) -> usize {
+    let mut counts = 2..;
+    let has_interval = |count: &usize| interval(percent / 100.0, *count).is_some();
+    counts.find(has_interval).unwrap_or(usize::MAX)
+}
+
+/// Ranks, from 0, of the ends of the interval of a quantile, see [`least_count`].
+fn interval(part: f64, count: usize) -> Option<[usize; 2]> {
+    let (n, odds) = (count as f64, part / (1.0 - part));
+    if count < 2 {
+        return None;
+    }
+    // The number of values below the quantile, from `low` to `high`.
+    let mode = ((n + 1.0) * part).floor().clamp(1.0, n - 1.0);
+    let mode_mass = Binomial::new(part, count as u64).ok()?.pmf(mode as u64);
+    let (mut low, mut high) = ((mode, mode_mass), (mode, mode_mass));
+    let mut covered = mode_mass;
+    while covered < CONFIDENCE {
+        let less = low.1 * low.0 / ((n - low.0 + 1.0) * odds);
+        let more = high.1 * (n - high.0) * odds / (high.0 + 1.0);
+        let less = Some(less).filter(|_| low.0 > 1.0);
+        let more = Some(more).filter(|_| high.0 < n - 1.0);
+        if less > more {
+            low = (low.0 - 1.0, less?);
+            covered += low.1;
+        } else {
+            high = (high.0 + 1.0, more?);
+            covered += high.1;
+        }
+    }
+    Some([low.0 as usize - 1, high.0 as usize])
+}
+
 /// Ranks for a percentile of sorted values.
 struct Places {
-    /// Ranks of the values below and above the percentile and of the ends of its interval.
-    ranks: [usize; 4],
+    /// Ranks of the values below and above the percentile.
+    ranks: [usize; 2],
+    /// Ranks of the ends of its interval.
+    interval: Option<[usize; 2]>,
     /// Position of the percentile between the value below and the value above, from 0 to 1.
     part: f64,
 }
 
 impl Places {
     fn of(part: f64, count: usize) -> Places {
-        let (count, last) = (count as f64, (count - 1) as f64);
-        let rank = part * last;
-        let margin = NORMAL_95 * (count * part * (1.0 - part)).sqrt();
-        let (from, to) = (
-            (count * part - margin).floor() - 1.0,
-            (count * part + margin).ceil(),
-        );
-        let ranks = [rank.floor(), rank.ceil(), from, to];
+        let rank = part * (count - 1) as f64;
         Places {
-            ranks: ranks.map(|rank| rank.clamp(0.0, last) as usize),
+            ranks: [rank.floor(), rank.ceil()].map(|rank| rank as usize),
+            interval: interval(part, count),
             part: rank - rank.floor(),
         }
     }
 
-    fn percentile(&self, values: &Ordered) -> Estimate {
-        let [below, above, from, to] = self.ranks.map(|rank| values.at(rank));
-        Estimate {
+    fn ranks(&self) -> impl Iterator<Item = usize> {
+        self.ranks
+            .into_iter()
+            .chain(self.interval.into_iter().flatten())
+    }
+
+    fn percentile(&self, values: &Ordered) -> Figure {
+        let [below, above] = self.ranks.map(|rank| values.at(rank));
+        let ends = self.interval.map(|ends| ends.map(|rank| values.at(rank)));
+        Figure {
             value: below + self.part * (above - below),
-            from,
-            to,
+            interval: ends.map(|[from, to]| (from, to)),
         }
     }
 }
@@ -232,82 +298,4 @@ pub fn probability(events: usize, samples: usize) -> Option<Estimate> {
         from: (centre - half).max(0.0).min(part),
         to: (centre + half).min(1.0).max(part),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn figures_of_a_known_sample() {
-        let found = figures(&(0..=100).rev().map(f64::from).collect::<Vec<_>>(), 10).unwrap();
-        let percentiles = found.percentiles.map(|estimate| estimate.value);
-        assert!(
-            percentiles
-                .iter()
-                .zip([5.0, 50.0, 95.0])
-                .all(|(a, b)| (a - b).abs() < 1e-12)
-        );
-        assert!((found.mean.value - 50.0).abs() < 1e-12);
-        assert!((found.deviation - 29.300_170_647_967_224).abs() < 1e-12);
-        assert_eq!(found.range, (0.0, 100.0));
-        assert_eq!(found.histogram, [10, 10, 10, 10, 10, 10, 10, 10, 10, 11]);
-        let median = found.percentiles[1];
-        assert!(median.from < 41.0 && median.from > 38.0 && median.to > 59.0 && median.to < 62.0);
-    }
-
-    #[test]
-    fn equal_values_and_a_single_value_have_figures_without_nan() {
-        for values in [vec![3.0], vec![3.0; 7]] {
-            let found = figures(&values, 10).unwrap();
-            assert_eq!(found.histogram.len(), 1);
-            assert!(found.deviation.abs() < f64::MIN_POSITIVE);
-            assert!(found.mean.from.is_finite() && found.percentiles[0].to.is_finite());
-        }
-        assert_eq!(figures(&[], 10), None);
-    }
-
-    #[test]
-    fn percentiles_are_those_of_the_sorted_values_whatever_their_distribution() {
-        let numbers = || (1..=5000_u32).map(|k| f64::from(k.wrapping_mul(2_654_435_761)));
-        let samples: [Vec<f64>; 4] = [
-            numbers().collect(),
-            // All but a few values are in one interval.
-            numbers().map(|x| (x / 2e8).exp()).collect(),
-            numbers().map(|x| (x / 1e9).round() - 2.0).collect(),
-            vec![-f64::MAX, 0.0, f64::MAX],
-        ];
-        for values in samples {
-            let found = figures(&values, 10).unwrap();
-            let mut sorted = values.clone();
-            sorted.sort_by(f64::total_cmp);
-            let ends = [found.range.0, found.range.1];
-            let wanted = [sorted[0], sorted[sorted.len() - 1]];
-            assert_eq!(ends.map(f64::to_bits), wanted.map(f64::to_bits));
-            for (percent, found) in PERCENTILES.iter().zip(&found.percentiles) {
-                let places = Places::of(percent / 100.0, sorted.len());
-                let [below, above, from, to] = places.ranks.map(|rank| sorted[rank]);
-                let value = below + places.part * (above - below);
-                let bits = |estimate: [f64; 3]| estimate.map(f64::to_bits);
-                assert_eq!(
-                    bits([found.value, found.from, found.to]),
-                    bits([value, from, to])
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn a_probability_has_wilsons_interval() {
-        // statsmodels.stats.proportion.proportion_confint(10, 100, method="wilson")
-        let found = probability(10, 100).unwrap();
-        assert!((found.from - 0.055_229_137).abs() < 1e-8, "{found:?}");
-        assert!((found.to - 0.174_365_661).abs() < 1e-8, "{found:?}");
-        let none = probability(0, 100).unwrap();
-        assert!(
-            none.from.abs() < 1e-15 && (none.to - 0.036_993_5).abs() < 1e-6,
-            "{none:?}"
-        );
-        assert_eq!(probability(0, 0), None);
-    }
 }

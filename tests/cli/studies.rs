@@ -360,6 +360,26 @@ fn a_tolerance_study_prints_percentiles_probabilities_and_the_ranking() {
 }
 
 #[test]
+fn a_percentile_of_few_samples_has_no_interval() {
+    let (_folder, case) = with_spread("\"deviations.base_pitch\" = { normal = \"3 um\" }");
+    let of = |samples: &str| {
+        let arguments = ["tolerance", &case, "--samples", samples];
+        let text = stdout_of(&arguments);
+        let json = stdout_of(&[&arguments[..], &["--format", "json"]].concat());
+        let figures = lines(&json)[0]["quantities"]["impact_force"]["figures"].clone();
+        let without = text.matches("(no 95 % interval below 59 values)").count();
+        let has = ["p5", "p50", "p95"].map(|name| {
+            let figure = &figures[name];
+            assert!(figure["value"].is_number(), "{text}");
+            figure.get("from").is_some() && figure.get("to").is_some()
+        });
+        (without, has)
+    };
+    assert_eq!(of("58"), (2, [false, true, false]));
+    assert_eq!(of("59"), (0, [true, true, true]));
+}
+
+#[test]
 fn a_bad_distribution_gets_place_cause_and_fix() {
     for (lines, code, part) in [
         (

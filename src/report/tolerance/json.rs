@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::ToleranceReport;
 use crate::report::json::write_line;
 use crate::study::batch::Points;
-use crate::study::statistics::{Estimate, Figures, PERCENTILES};
+use crate::study::statistics::{Estimate, Figure, Figures, PERCENTILES};
 use crate::study::tolerance::{Exceedance, OfQuantity};
 
 #[derive(Serialize)]
@@ -58,16 +58,27 @@ struct Compared<'a> {
 #[derive(Serialize)]
 struct Interval {
     value: f64,
-    from: f64,
-    to: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    from: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    to: Option<f64>,
 }
 
 impl Interval {
     fn of(estimate: &Estimate) -> Interval {
         Interval {
             value: estimate.value,
-            from: estimate.from,
-            to: estimate.to,
+            from: Some(estimate.from),
+            to: Some(estimate.to),
+        }
+    }
+
+    /// The ends are absent if the sample is too small for an interval.
+    fn of_figure(figure: &Figure) -> Interval {
+        Interval {
+            value: figure.value,
+            from: figure.interval.map(|ends| ends.0),
+            to: figure.interval.map(|ends| ends.1),
         }
     }
 }
@@ -100,12 +111,12 @@ struct Shape {
 impl Shape {
     fn of(figures: &Figures) -> Shape {
         debug_assert!(PERCENTILES.map(f64::to_bits) == [5.0, 50.0, 95.0].map(f64::to_bits));
-        let [p5, p50, p95] = figures.percentiles.each_ref().map(Interval::of);
+        let [p5, p50, p95] = figures.percentiles.each_ref().map(Interval::of_figure);
         Shape {
             p5,
             p50,
             p95,
-            mean: Interval::of(&figures.mean),
+            mean: Interval::of_figure(&figures.mean),
             standard_deviation: figures.deviation,
             least: figures.range.0,
             greatest: figures.range.1,

@@ -8,7 +8,7 @@ use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::report::{common_unit, shown_with};
 use crate::study::sobol::Indices;
-use crate::study::statistics::{Estimate, Figures, PERCENTILES};
+use crate::study::statistics::{Estimate, Figure, Figures, PERCENTILES, least_count};
 use crate::study::tolerance::{Exceedance, OfQuantity, Summary};
 
 /// Greatest length of a bar of a histogram, in characters.
@@ -154,14 +154,19 @@ fn quantity(
     let ends = [figures.range.0, figures.range.1].into_iter();
     let unit = common_unit(quantity, ends, System::Metric);
     let printed = |value: f64| shown_with(quantity, value, unit).to_string();
-    let mut row = |name: &str, estimate: &Estimate| {
-        let [value, from, to] = [estimate.value, estimate.from, estimate.to].map(printed);
-        writeln!(out, "  {name:<20}{value:>12} ({from} to {to})")
+    let mut row = |name: &str, figure: &Figure, least: usize| {
+        let value = printed(figure.value);
+        let ends = figure.interval.map(|(from, to)| [from, to].map(printed));
+        let interval = match ends {
+            Some([from, to]) => format!("({from} to {to})"),
+            None => format!("(no 95 % interval below {least} values)"),
+        };
+        writeln!(out, "  {name:<20}{value:>12} {interval}")
     };
-    for (percent, estimate) in PERCENTILES.iter().zip(&figures.percentiles) {
-        row(&format!("P{percent}"), estimate)?;
+    for (&percent, figure) in PERCENTILES.iter().zip(&figures.percentiles) {
+        row(&format!("P{percent}"), figure, least_count(percent))?;
     }
-    row("mean", &figures.mean)?;
+    row("mean", &figures.mean, 2)?;
     let deviation = printed(figures.deviation);
     writeln!(out, "  {:<20}{deviation:>12}", "standard deviation")?;
     histogram(figures, &printed, bar, out)?;
