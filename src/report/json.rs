@@ -3,6 +3,7 @@
 use super::{Report, stations};
 use crate::case::file::FORMAT;
 use crate::case::sanitize::is_hidden;
+use crate::model::inputs::Method;
 use crate::model::{Quantity, Stage};
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
@@ -72,15 +73,8 @@ struct Quantities<'a>(&'a Report);
 impl Serialize for Quantities<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let method = self.0.solution.method;
-        let of = |quantity: &Quantity| match quantity {
-            _ if method.shares_load() && quantity.is_of_free_impact() => Some("free-impact"),
-            _ if quantity.symbol_in(method) != quantity.symbol => {
-                Some("deviations-without-reliefs")
-            }
-            _ => None,
-        };
         let measured = |quantity: &Quantity, value| ValueWithUnit {
-            of: of(quantity),
+            of: subject(quantity, method),
             ..ValueWithUnit::new(quantity, value)
         };
         serializer.collect_map(
@@ -88,6 +82,17 @@ impl Serialize for Quantities<'_> {
                 .values()
                 .map(|(quantity, value)| (quantity.key, measured(quantity, value))),
         )
+    }
+}
+
+/// The subject of a quantity in a method, if it differs from the result of the method.
+pub(super) fn subject(quantity: &Quantity, method: Method) -> Option<&'static str> {
+    if method.shares_load() && quantity.is_of_free_impact() {
+        Some("free-impact")
+    } else if quantity.symbol_in(method) != quantity.symbol {
+        Some("deviations-without-reliefs")
+    } else {
+        None
     }
 }
 

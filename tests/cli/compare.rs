@@ -226,3 +226,41 @@ fn a_comparison_with_nothing_or_with_an_unknown_variant_is_wrong_usage() {
     assert_eq!(code, 2);
     assert!(errors.contains("did you mean slow?"), "{errors}");
 }
+
+/// `static` and `dynamic` define the equivalent error without the reliefs, `exact` with them.
+#[test]
+fn a_column_has_the_values_and_the_definitions_of_its_own_solve() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("gear.toml");
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    let methods = "\n[variants.rest]\nmodel.method = \"static\"\n\
+                   [variants.motion]\nmodel.method = \"dynamic\"\n";
+    fs::write(
+        &path,
+        text.replace("tip_relief = \"0 um\"", "tip_relief = \"9 um\"") + methods,
+    )
+    .unwrap();
+    let case = path.to_str().unwrap();
+    let compared = json(&["compare", case, "--format", "json"]);
+    for (column, method) in compared["columns"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(["exact", "static", "dynamic"])
+    {
+        let solved = json(&["solve", case, "--method", method, "--format", "json"]);
+        assert_eq!(column["method"], method);
+        for (key, quantity) in solved["quantities"].as_object().unwrap() {
+            let found = &column["quantities"][key];
+            for member in ["value", "of"] {
+                assert_eq!(found[member], quantity[member], "{method} {key} {member}");
+            }
+        }
+        let error = &column["quantities"]["equivalent_error"];
+        assert_eq!(error.get("difference"), None, "{method}: {error}");
+    }
+    let only = ["--only", "equivalent_error", "--variant", "rest,motion"];
+    let shared = json(&[&["compare", case, "--format", "json"], &only[..]].concat());
+    let between = &shared["columns"][2]["quantities"]["equivalent_error"];
+    assert_eq!(between.get("difference"), None, "{between}");
+}

@@ -11,7 +11,8 @@ use crate::case::sanitize::sanitize;
 use crate::model::Quantity;
 use crate::report::csv::{cell, write_rows};
 use crate::report::difference::percent;
-use crate::report::json::write_line;
+use crate::report::json::{subject, write_line};
+use crate::report::value;
 
 impl Comparison {
     /// Writes one row per quantity: its name and unit, the value of each column, and the
@@ -45,25 +46,44 @@ impl Comparison {
     }
 
     fn csv_row(&self, quantity: &Quantity) -> Vec<String> {
-        let values = self.values(quantity);
-        let base = values.first().copied().flatten();
-        // Flags have no difference.
-        let base = base.filter(|_| !quantity.is_flag());
-        let difference = |value: &Option<f64>| cell(value.zip(base).map(|(now, base)| now - base));
+        let values: Vec<_> = (0..self.columns.len())
+            .map(|at| self.own(quantity, at))
+            .collect();
         let cells = values.iter().map(|value| cell(*value));
+        let difference = |at: usize| {
+            let base = self.base(quantity, at);
+            cell(values[at].zip(base).map(|(now, base)| now - base))
+        };
         [quantity.key, quantity.unit]
             .map(str::to_owned)
             .into_iter()
             .chain(cells)
-            .chain(values.iter().skip(1).map(difference))
+            .chain((1..values.len()).map(difference))
             .collect()
     }
 
     /// The quantities with a value in some column.
     fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
         let quantities = self.selection.quantities();
-        let has_value = |quantity: &&Quantity| self.values(quantity).iter().any(Option::is_some);
-        quantities.filter(move |quantity| has_value(quantity))
+        let columns = 0..self.columns.len();
+        quantities
+            .filter(move |quantity| columns.clone().any(|at| self.own(quantity, at).is_some()))
+    }
+
+    /// The value of a quantity as the method of the column defines it.
+    fn own(&self, quantity: &Quantity, at: usize) -> Option<f64> {
+        value(quantity, self.columns[at].solution()?)
+    }
+
+    /// The value of the first column, if a difference of the column from it has a meaning: flags
+    /// have none, and values of different definitions have none.
+    fn base(&self, quantity: &Quantity, at: usize) -> Option<f64> {
+        let symbol = |at: usize| {
+            let solution = self.columns[at].solution()?;
+            Some(quantity.symbol_in(solution.method))
+        };
+        let is_alike = at > 0 && !quantity.is_flag() && symbol(at) == symbol(0);
+        self.own(quantity, 0).filter(|_| is_alike)
     }
 
     /// Writes one object in SI units without absent values.
@@ -125,15 +145,19 @@ impl Comparison {
     fn json_quantities(&self, at: usize) -> Value {
         let mut object = Map::new();
         for quantity in self.quantities() {
-            let values = self.values(quantity);
-            let Some(now) = values[at] else { continue };
+            let Some((now, solution)) = self.own(quantity, at).zip(self.columns[at].solution())
+            else {
+                continue;
+            };
             let mut member = if quantity.is_flag() {
                 json!({"value": now != 0.0, "unit": quantity.unit})
             } else {
                 json!({"value": now, "unit": quantity.unit})
             };
-            let base = values[0].filter(|_| at > 0 && !quantity.is_flag());
-            if let Some(base) = base {
+            if let Some(of) = subject(quantity, solution.method) {
+                member["of"] = json!(of);
+            }
+            if let Some(base) = self.base(quantity, at) {
                 member["difference"] = json!(now - base + 0.0);
                 if let Some(percent) = percent(quantity, now, base) {
                     member["percent"] = json!(percent + 0.0);
