@@ -10,7 +10,7 @@ use super::layout::{WIDTH, item};
 use crate::case::sanitize::sanitize;
 use crate::model::explanation::tidy;
 use crate::model::inputs::Method;
-use crate::study::relief::{Specification, TipReliefs};
+use crate::study::relief::{MOST_LOAD, Specification, TipReliefs};
 use numbers::{mm, percent, shape, um};
 use tables::{choices, harris, map};
 
@@ -141,12 +141,22 @@ impl ReliefReport<'_> {
 
     fn margin(&self) -> String {
         let (found, chosen) = (self.found, self.found.chosen());
+        let greatest = found.demand.loads.1;
+        let rest = match found.greatest_load {
+            Some(load) => {
+                let load = (1e3 * load).floor() / 1e3;
+                format!("at rest, the load can rise to {} %", percent(load))
+            }
+            None => format!(
+                "at rest, no load up to {} % causes corner contact",
+                percent(MOST_LOAD * greatest)
+            ),
+        };
         format!(
             "No corner contact at {} % of the load with each relief off by the tolerance: a gap of {} um \
-             remains, and the load can rise to {} %.",
-            percent(found.demand.loads.1),
+             remains; {rest}.",
+            percent(greatest),
             tidy(chosen.margin * 1e6, 2),
-            percent(found.greatest_load)
         )
     }
 

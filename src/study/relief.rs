@@ -21,6 +21,10 @@ use search::{Grid, Search};
 /// Step of an amount, in m: half a micrometre.
 pub const AMOUNT_STEP: f64 = 0.5e-6;
 
+/// The greatest load at which corner contact is looked for, relative to the greatest load of the
+/// demand.
+pub const MOST_LOAD: f64 = 64.0;
+
 /// Number of loads at which the transmission error is computed.
 const LOADS: usize = 6;
 
@@ -114,10 +118,10 @@ pub struct Specification {
     pub choices: Vec<Choice>,
     /// Index of the choice to specify.
     pub best: usize,
-    /// The greatest load without corner contact at rest, relative to the load of the case; at most
-    /// three times the greatest load of the demand. The motion is checked only at the greatest load
-    /// of the demand.
-    pub greatest_load: f64,
+    /// The greatest load without corner contact at rest, relative to the load of the case. `None`
+    /// if [`MOST_LOAD`] times the greatest load of the demand has no corner contact. The motion is
+    /// checked only at the greatest load of the demand.
+    pub greatest_load: Option<f64>,
     /// Path of contact on unrelieved flanks over the base pitch: the contact ratio without load.
     pub unloaded_contact_ratio: f64,
     /// One row per length, shortest first; one point per amount.

@@ -49,7 +49,8 @@ struct Line<'a> {
     tolerance: f64,
     relief: Reliefs,
     margin: f64,
-    greatest_load: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    greatest_load: Option<f64>,
     unloaded_contact_ratio: f64,
     choices: Vec<JsonChoice<'a>>,
     map: Vec<JsonPoint>,

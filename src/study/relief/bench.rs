@@ -109,7 +109,7 @@ impl PreparedMesh {
         self.overlap_of(reliefs, &self.corners)
     }
 
-    /// The same overlap under another force, in N.
+    /// The same overlap under `times` the force.
     ///
     /// # Errors
     /// Refusals of the mesh.
@@ -117,13 +117,13 @@ impl PreparedMesh {
         &self,
         reliefs: &TipReliefs,
         (inputs, solution): (&Inputs, &Solution),
-        force: f64,
+        times: f64,
     ) -> Result<f64, Refusal> {
         let most = reliefs.amounts[0] + reliefs.amounts[1] + 2.0 * self.tolerance;
-        let scale = (force / solution.mesh_force).max(1.0);
         let bare = bare(inputs);
-        let survey = Survey::new(&bare, solution, scale * most)?;
-        Ok(self.overlap_of(reliefs, &survey.corners(force)?))
+        let mut survey = Survey::new(&bare, solution, most)?;
+        survey.reach *= times.max(1.0);
+        Ok(self.overlap_of(reliefs, &survey.corners(times * solution.mesh_force)?))
     }
 
     fn overlap_of(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {

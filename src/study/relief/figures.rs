@@ -5,7 +5,7 @@ use std::cell::Cell;
 
 use super::bench::{PreparedMesh, tolerances};
 use super::search::Grid;
-use super::{Choice, Demand, NoRelief, TipReliefs};
+use super::{Choice, Demand, MOST_LOAD, NoRelief, TipReliefs};
 use crate::model::inputs::{Drive, Gear};
 use crate::model::static_load::{lead_after_end, lead_before_start};
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve_while};
@@ -143,26 +143,27 @@ impl Figures<'_> {
         })?)
     }
 
-    /// The greatest load without overlap, relative to the load of the case; at most three times the
-    /// greatest load of the range.
+    /// The greatest load without overlap at rest, relative to the load of the case. `None` if even
+    /// [`MOST_LOAD`] times the greatest load of the range has no overlap.
     pub(super) fn greatest_load(
         &self,
         bench: &PreparedMesh,
         reliefs: &TipReliefs,
-    ) -> Result<f64, NoRelief> {
-        const MOST: f64 = 3.0;
+    ) -> Result<Option<f64>, NoRelief> {
         const CLOSE: f64 = 1e-3;
         let greatest = self.demand.loads.1;
-        let force = self.at_most.1.mesh_force;
         let clears = |times: f64| {
-            let overlap = bench.overlap_under(reliefs, self.at_most, times * force)?;
+            let overlap = bench.overlap_under(reliefs, self.at_most, times)?;
             Ok::<bool, NoRelief>(overlap <= 0.0)
         };
-        let (mut low, mut high) = (1.0, MOST);
-        if clears(high)? {
-            return Ok(greatest * high);
+        let (mut low, mut high) = (1.0, 2.0);
+        while clears(high)? {
+            if high >= MOST_LOAD {
+                return Ok(None);
+            }
+            (low, high) = (high, 2.0 * high);
         }
-        while high - low > CLOSE {
+        while high - low > CLOSE * high {
             if !(self.go_on)(self.part.get()) {
                 return Err(NoRelief::Refused(Refusal::Stopped));
             }
@@ -173,6 +174,6 @@ impl Figures<'_> {
                 high = middle;
             }
         }
-        Ok(greatest * low)
+        Ok(Some(greatest * low))
     }
 }
