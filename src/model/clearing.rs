@@ -78,7 +78,7 @@ pub struct Clearing {
 ///
 /// # Formula
 /// ```text
-/// exact:    Δ,  because e_m counts in full and δ is independent of e_m
+/// exact:    Δ,  because e_m counts in full and δ is independent of e_m; rounded up in the last digits
 /// paper:    C with u(Δf − C/√2) = 0 by Eqs. 11-20;  at most √2 Δ, because Eq. 1 scales e_m
 /// static:   C with max over s ≤ 0 of x(s) + e − S(s) = 0
 /// dynamic:  C with max over t ≤ 0 of x(t) + e − S(t) = 0
@@ -117,7 +117,7 @@ pub fn clearing(
             .map(Some),
     };
     let (relief, withheld) = match found {
-        Ok(relief) => (relief, None),
+        Ok(relief) => (relief.map(|relief| enough(relief, inputs.tip_relief)), None),
         Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         Err(refusal) => (None, Some(refusal)),
     };
@@ -128,6 +128,12 @@ pub fn clearing(
         runs: search.runs(),
         work: search.meter.spent(),
     })
+}
+
+/// The relief, rounded up so far that the sum with the given relief is enough after its conversion
+/// to any unit and back. Each of sum, conversion and reading rounds the sum once.
+fn enough(relief: f64, given: f64) -> f64 {
+    relief + 4.0 * f64::EPSILON * (relief + given)
 }
 
 /// The tested reliefs and the work of the search.
