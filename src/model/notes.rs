@@ -39,6 +39,7 @@ const LOOKS: &[Look] = &[
     load::backlash_subtracted,
     load::deviations_added,
     load::lost_in_motion,
+    load::stiffness_step,
     load::back_strikes,
     load::not_cleared,
     load::inertia,

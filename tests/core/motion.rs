@@ -4,7 +4,7 @@ use tipstrike::case::Document;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
-use tipstrike::model::{Dynamic, Inputs, Solution, Stages, solve};
+use tipstrike::model::{Dynamic, Inputs, Solution, Stages, notes, solve};
 
 fn case(name: &str) -> Inputs {
     let path = format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -311,4 +311,42 @@ fn friction_that_would_lock_the_gears_is_refused_and_less_makes_the_force_jump_a
         (jump / expected - 1.0).abs() < 1e-6,
         "{jump} and not {expected}"
     );
+}
+
+/// The stiffness of a pair rises in one step where the contact leaves the tip radius, and the
+/// displacement does not.
+#[test]
+fn with_a_tip_radius_the_force_of_slow_gears_rises_with_the_stiffness() {
+    let mut inputs = Inputs {
+        method: Method::Dynamic,
+        base_pitch_deviation: 20e-6,
+        tooth_compliance: Some(ToothCompliance::FINITE_ELEMENT),
+        drive: Drive::Torque(80.0),
+        ..crate::support::standard_pair(59, 70, 1e-3)
+    };
+    inputs.driven.tip_radius = Some(0.145e-3);
+    for speed in [20.0, 2.0, 0.2] {
+        let inputs = Inputs {
+            speed,
+            ..inputs.clone()
+        };
+        let (solution, found) = dynamic(&inputs);
+        let rise = mesh(&inputs, &solution).stiffness_step();
+        assert!((1.1..1.2).contains(&rise), "{rise}");
+        let at_rest = solution
+            .static_load
+            .as_ref()
+            .expect("the load at rest")
+            .peak_force;
+        let off = found.peak_force / (rise * at_rest) - 1.0;
+        assert!(
+            off.abs() < 2e-3,
+            "{speed} rad/s: {off:e} off {rise} times {at_rest}"
+        );
+        let codes: Vec<_> = notes(&inputs, &solution)
+            .into_iter()
+            .map(|note| note.code)
+            .collect();
+        assert!(codes.contains(&"stiffness-step"), "{codes:?}");
+    }
 }

@@ -13,6 +13,14 @@ impl Mesh {
         (stiffness, gap - self.error_of(ahead))
     }
 
+    /// Stiffness of the incoming pair just after E over its stiffness just before E.
+    #[must_use]
+    pub fn stiffness_step(&self) -> f64 {
+        let beside = 1e-9 * self.base_pitch;
+        let [before, after] = [-beside, beside].map(|s| self.spring(0, self.zone(s), 0.0).0);
+        after / before
+    }
+
     /// Stiffness and gap of a pair from `s` to `s + length`, including its error, as polynomials
     /// from 0 to 1.
     pub(in crate::model) fn spring_along(

@@ -4,6 +4,7 @@ use super::{Note, four};
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
+use crate::numeric::decimal::significant;
 
 /// The method that `auto` chose and the reason.
 pub(super) fn method_taken(inputs: &Inputs, solution: &Solution) -> Option<Note> {
@@ -82,6 +83,21 @@ pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
             "all teeth lose contact for a time: the gears rattle".to_owned(),
         )
     })
+}
+
+/// The contact leaves the tip radius at E, and the stiffness of the pair rises in one step.
+pub(super) fn stiffness_step(_: &Inputs, solution: &Solution) -> Option<Note> {
+    const LEAST: f64 = 0.02;
+    solution.dynamic.as_ref()?.first_contact_angle?;
+    let rise = solution.mesh.as_ref()?.stiffness_step() - 1.0;
+    let message = || {
+        format!(
+            "at E the contact passes from the tip radius to the flank, and the stiffness of the pair \
+             rises by {} % in one step: so does its force, at any speed; method static has no such step",
+            significant(100.0 * rise, 3)
+        )
+    };
+    (rise > LEAST).then(|| Note::new("stiffness-step", message()))
 }
 
 /// The back flanks strike.

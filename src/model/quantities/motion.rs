@@ -1,6 +1,6 @@
 //! Rows of the motion: load sharing with inertia.
 
-use super::{PLAIN, Quantity, checks, of_driver};
+use super::{PLAIN, Quantity, Variant, checks, conditions, of_driver};
 use crate::model::Context;
 use crate::model::Stage::Dynamic;
 use crate::model::explanation::Formula::{self, Found, Text};
@@ -103,6 +103,15 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 54"],
         assumptions: IN_MOTION,
         checks: CHECKS,
+        variants: &[Variant::meaning(
+            conditions::driven_rounded,
+            "The peak force on the incoming tooth from its first contact to its last: the load on \
+                its root and its flank. At E the contact passes from the tip radius to the flank, and \
+                the stiffness of the pair rises in one step, but the displacement does not: the force \
+                rises by the same ratio at any speed, and the peak can stay above F_st,max as the \
+                speed falls. In a real pair the stiffness rises while the contact moves by its own \
+                width, so that the model overstates the peak at low speed.",
+        )],
         ..PLAIN
     },
     Quantity {
