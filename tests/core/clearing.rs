@@ -338,7 +338,9 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
                 let size = inputs.driven.tip_relief + solution.deviation.total + module;
                 relief - 32.0 * f64::EPSILON * size
             };
-            if !strikes(&inputs, inputs.driven.tip_relief + less.max(0.0)) {
+            // A relief that reaches F also eases the pair ahead: less relief can then be enough.
+            let is_long = inputs.driven.tip_relief_length.is_some();
+            if !is_long && !strikes(&inputs, inputs.driven.tip_relief + less.max(0.0)) {
                 failed.push(format!(
                     "pair {number}, {}: less than {relief:e} is enough",
                     method.name()
