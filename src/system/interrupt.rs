@@ -1,12 +1,22 @@
-//! Ctrl-C and SIGTERM of the commands: long work handles them, otherwise they end the program.
+//! Signals that end the commands, such as Ctrl-C: long work handles them, otherwise they end the
+//! program.
 
+use std::fs;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-/// The handled signals. SIGHUP is not one of them: a handler would undo `nohup`.
+/// Signals that end a program by default.
+#[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
+#[cfg(unix)]
+const SIGNALS: [i32; 8] = {
+    use signal_hook::consts::{SIGALRM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU};
+    [
+        SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU,
+    ]
+};
 
 /// No signal has this number.
 const NONE: usize = 0;
@@ -25,7 +35,7 @@ static STATE: LazyLock<Signals> = LazyLock::new(|| {
         heeding: AtomicUsize::new(0),
         is_default: Arc::new(AtomicBool::new(true)),
     };
-    for signal in SIGNALS {
+    for signal in handled() {
         let is_default = Arc::clone(&state.is_default);
         // If the system refuses the handler, the signal still ends the program.
         if signal_hook::flag::register_conditional_default(signal, is_default).is_ok() {
@@ -40,8 +50,22 @@ static STATE: LazyLock<Signals> = LazyLock::new(|| {
     state
 });
 
-/// Guard of work that handles Ctrl-C and SIGTERM itself, so that it can remove its progress bar and
-/// its temporary file.
+/// The signals to handle. Those that the caller ignores stay ignored: a handler of SIGHUP would undo
+/// `nohup`.
+fn handled() -> impl Iterator<Item = i32> {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mut lines = status.lines();
+    let ignored = lines.find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
+    // Bit 0 is SIGHUP.
+    let ignored = ignored.unwrap_or(1);
+    SIGNALS.into_iter().filter(move |signal| {
+        [SIGINT, SIGTERM].contains(signal) || (ignored >> (signal - 1)) & 1 == 0
+    })
+}
+
+/// Guard of work that handles the signals itself, so that it can remove its progress bar and its
+/// temporary file.
 pub(crate) struct Interrupt(&'static Signals);
 
 impl Interrupt {
@@ -90,7 +114,7 @@ mod tests {
 
     #[test]
     fn signals_end_the_program_again_once_no_work_heeds_them() {
-        for signal in SIGNALS {
+        for signal in handled() {
             let interrupt = Interrupt::install();
             assert!(interrupt.go_on());
             signal_hook::low_level::raise(signal).expect("a signal");
