@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::sweep::Grid;
 use super::tolerance::{Size, Tolerance};
-use crate::case::{Case, Document, Problem, stamp, unknown_quantity};
+use crate::case::{Case, Document, Problem, unknown_quantity};
 use crate::model::{Inputs, Quantity};
 
 /// A case and the study of that case.
@@ -67,14 +67,6 @@ pub enum Study {
 }
 
 impl Request {
-    /// A hash of the study and of this version of the program.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        let text = serde_json::to_string(self).unwrap_or_default();
-        let versioned = format!("{} {text}", env!("CARGO_PKG_VERSION"));
-        format!("{:016x}", stamp::hash(versioned.as_bytes()))
-    }
-
     /// Restores the study.
     ///
     /// # Errors

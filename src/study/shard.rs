@@ -37,15 +37,15 @@ impl<'a> ShardWriter<'a> {
             kind: KIND.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             shard,
-            hash: request.hash(),
             request: request.clone(),
         };
-        writeln!(out, "{}", serde_json::to_string(&header)?)?;
-        Ok(ShardWriter {
+        let mut writer = ShardWriter {
             out,
             hasher: SipHasher24::new(),
             rows: 0,
-        })
+        };
+        writer.line(&(serde_json::to_string(&header)? + "\n"))?;
+        Ok(writer)
     }
 
     /// Writes rows.
@@ -54,12 +54,15 @@ impl<'a> ShardWriter<'a> {
     /// Errors of the writer.
     pub fn write(&mut self, rows: &Rows) -> io::Result<()> {
         for row in 0..rows.outcomes.len() {
-            let line = line(rows, row)?;
-            self.hasher.write(line.as_bytes());
-            self.out.write_all(line.as_bytes())?;
+            self.line(&line(rows, row)?)?;
             self.rows += 1;
         }
         Ok(())
+    }
+
+    fn line(&mut self, line: &str) -> io::Result<()> {
+        self.hasher.write(line.as_bytes());
+        self.out.write_all(line.as_bytes())
     }
 
     /// Writes the last line, without which the shard is incomplete.

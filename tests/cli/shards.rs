@@ -120,6 +120,37 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
             "{message}"
         );
     }
+    // A changed first line: other parts of the study, a part that does not exist, fewer parts.
+    let renumbered = |file: &Path, part: &str| {
+        let text = fs::read_to_string(file).unwrap();
+        let (first, rest) = text.split_once('\n').unwrap();
+        let start = first.find("\"number\":").unwrap();
+        let end = start + first[start..].find('}').unwrap();
+        format!("{}{part}{}\n{rest}", &first[..start], &first[end..])
+    };
+    let swapped = folder.path().join("swapped.shard");
+    fs::write(&copy, renumbered(&files[0], "\"number\":2,\"of\":3")).unwrap();
+    fs::write(&swapped, renumbered(&files[1], "\"number\":3,\"of\":3")).unwrap();
+    let message = refusal(&[copy.clone(), swapped, files[2].clone()]);
+    assert!(message.contains("incomplete or changed"), "{message}");
+    for part in ["1,\"of\":1", "1,\"of\":0", "0,\"of\":0", "5,\"of\":3"] {
+        fs::write(&copy, renumbered(&files[2], &format!("\"number\":{part}"))).unwrap();
+        refusal(std::slice::from_ref(&copy));
+    }
+    let (rows, hash) = text.rsplit_once("{\"rows\":").unwrap();
+    let hash = hash.split_once(',').unwrap().1;
+    fs::write(&copy, format!("{rows}{{\"rows\":{},{hash}", usize::MAX)).unwrap();
+    refusal(std::slice::from_ref(&copy));
+    // A line without end, in the place of the study and of a row.
+    let first = text.split_inclusive('\n').next().unwrap();
+    for start in ["", first] {
+        fs::write(&copy, start).unwrap();
+        let file = fs::File::options().append(true).open(&copy).unwrap();
+        file.set_len(1 << 40).unwrap();
+        refusal(std::slice::from_ref(&copy));
+    }
+    let message = refusal(&[PathBuf::from("/dev/zero")]);
+    assert!(message.contains("this is not a shard"), "{message}");
     let message = refusal(&[PathBuf::from(TABLE_1)]);
     assert!(message.contains("this is not a shard"), "{message}");
     let (code, _, errors) = gather(&[folder.path().join("missing.shard")]);
@@ -131,12 +162,16 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
 /// A study with so many samples that it runs until a signal stops it.
 const ENDLESS: [&str; 4] = ["--samples", "20000000", "--ranking", "0"];
 
-/// Starts the program, sends it a signal once it has written a file into the folder, and returns
-/// the number of the signal that ended it.
+/// Starts the program in a shell with `trap`, sends it the signals one after the other once it has
+/// written a file into the folder, and returns the number of the signal that ended it.
 #[cfg(unix)]
-fn stopped_by(signal: &str, arguments: &[&str], folder: &Path) -> Option<i32> {
+fn stopped_by(signals: &[&str], trap: &str, arguments: &[&str], folder: &Path) -> Option<i32> {
     use std::os::unix::process::ExitStatusExt;
-    let mut program = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+    // The tests may run under `nohup`.
+    let script = format!("ulimit -c 0; {trap} exec \"$@\"");
+    let mut program = Command::new("env")
+        .args(["--default-signal", "sh", "-c", &script, "sh"])
+        .arg(env!("CARGO_BIN_EXE_tipstrike"))
         .args(arguments)
         .stdout(Stdio::null())
         .spawn()
@@ -158,10 +193,13 @@ fn stopped_by(signal: &str, arguments: &[&str], folder: &Path) -> Option<i32> {
         assert_eq!(program.try_wait().unwrap(), None, "{arguments:?}");
         std::thread::sleep(Duration::from_millis(20));
     }
-    let sent = Command::new("kill")
-        .args(["-s", signal, &program.id().to_string()])
-        .status();
-    assert!(sent.unwrap().success());
+    for signal in signals {
+        let sent = Command::new("kill")
+            .args(["-s", signal, &program.id().to_string()])
+            .status();
+        assert!(sent.unwrap().success());
+        std::thread::sleep(Duration::from_millis(200));
+    }
     program.wait().unwrap().signal()
 }
 
@@ -180,12 +218,22 @@ fn a_signal_ends_a_study_while_it_solves_or_writes_and_leaves_no_file() {
     let shard = [&study[..], &ENDLESS, &file, &["--shard", "1/2"]].concat();
     let rows = ["--samples", "1000000", "--ranking", "0", "--format", "csv"];
     let rows = [&study[..], &rows, &file].concat();
-    for arguments in [shard, rows] {
-        for (signal, number) in [("INT", 2), ("TERM", 15)] {
-            let ended = stopped_by(signal, &arguments, out.path());
-            assert_eq!(ended, Some(number), "{arguments:?}");
-            let left: Vec<_> = fs::read_dir(out.path()).unwrap().collect();
-            assert!(left.is_empty(), "{signal}: {left:?}");
-        }
+    let ends = |signals: &[&str], trap: &str, number: i32, arguments: &[&str]| {
+        let ended = stopped_by(signals, trap, arguments, out.path());
+        assert_eq!(ended, Some(number), "{signals:?} {arguments:?}");
+        let left: Vec<_> = fs::read_dir(out.path()).unwrap().collect();
+        assert!(left.is_empty(), "{signals:?}: {left:?}");
+    };
+    for (signal, number) in [
+        ("HUP", 1),
+        ("INT", 2),
+        ("QUIT", 3),
+        ("USR1", 10),
+        ("TERM", 15),
+    ] {
+        ends(&[signal], "", number, &shard);
     }
+    ends(&["INT"], "", 2, &rows);
+    // An ignored signal stays ignored, as under `nohup`.
+    ends(&["HUP", "TERM"], "trap '' HUP;", 15, &shard);
 }

@@ -1,19 +1,22 @@
 //! Complete shards, read and ordered for `gather`.
 
 use std::collections::BTreeSet;
-use std::fs::File;
+use std::fs::{self, File};
 use std::hash::Hasher;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use siphasher::sip::SipHasher24;
 
-use super::lines::{Footer, Header, KIND, MOST, Reason};
+use super::lines::{Footer, Header, KIND, Reason};
 use crate::case::Problem;
 use crate::study::batch::{PointOutcome, Rows};
 
 /// Number of rows per read.
 const PAGE: usize = 1024;
+
+/// Greatest length of a line, in bytes: the first line has the case.
+const LONGEST: u64 = 16 << 20;
 
 /// A complete shard of the requested study.
 #[derive(Debug)]
@@ -40,23 +43,26 @@ impl Complete {
     /// Returns an error if the file is not a shard, or if the shard is incomplete or changed.
     pub fn read(path: &Path) -> Result<Complete, ShardError> {
         let name = path.display();
-        let unreadable = |error| ShardError::Unreadable(format!("{name}: cannot be read: {error}"));
-        let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
-        let mut first = String::new();
-        let read = file.read_line(&mut first);
-        let header = match read {
-            Err(error) if error.kind() != io::ErrorKind::InvalidData => {
-                return Err(unreadable(error));
-            }
-            _ => serde_json::from_str::<Header>(&first).ok(),
+        let no_shard = || {
+            ShardError::Wrong(format!(
+                "{name}: this is not a shard: name files that --shard wrote"
+            ))
         };
-        let header = header
-            .filter(|header| header.kind == KIND && header.shard.of <= MOST)
-            .ok_or_else(|| {
-                ShardError::Wrong(format!(
-                    "{name}: this is not a shard: name files that --shard wrote"
-                ))
-            })?;
+        let unreadable = |error: io::Error| match error.kind() {
+            ErrorKind::InvalidData => no_shard(),
+            _ => ShardError::Unreadable(format!("{name}: cannot be read: {error}")),
+        };
+        // Opening a pipe waits for a writer.
+        if !fs::metadata(path).map_err(unreadable)?.is_file() {
+            return Err(no_shard());
+        }
+        let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
+        let mut first = Vec::new();
+        read_line(&mut file, &mut first).map_err(unreadable)?;
+        let header = serde_json::from_slice::<Header>(&first)
+            .ok()
+            .filter(|header| header.kind == KIND && header.shard.is_part())
+            .ok_or_else(no_shard)?;
         let version = env!("CARGO_PKG_VERSION");
         if header.version != version {
             return Err(ShardError::Wrong(format!(
@@ -64,18 +70,17 @@ impl Complete {
                 header.version
             )));
         }
-        let is_whole = header.hash == header.request.hash();
-        match body(file).map_err(unreadable)? {
-            Some(rows) if is_whole => Ok(Complete {
-                path: path.to_owned(),
-                header,
-                rows,
-            }),
-            _ => Err(ShardError::Wrong(format!(
+        let rows = body(file, first).map_err(unreadable)?.ok_or_else(|| {
+            ShardError::Wrong(format!(
                 "{name}: shard {} is incomplete or changed: run it again",
                 header.shard
-            ))),
-        }
+            ))
+        })?;
+        Ok(Complete {
+            path: path.to_owned(),
+            header,
+            rows,
+        })
     }
 
     /// Passes the rows to `take`; the first row has index `first`.
@@ -87,10 +92,13 @@ impl Complete {
         first: usize,
         take: &mut dyn FnMut(Rows) -> io::Result<()>,
     ) -> io::Result<()> {
-        let file = BufReader::new(File::open(&self.path)?);
-        let mut page = Rows::starting_at(first);
-        for line in file.lines().skip(1).take(self.rows) {
-            add(&line?, self.header.request.quantities.len(), &mut page)?;
+        let mut file = BufReader::new(File::open(&self.path)?);
+        let (mut line, mut page) = (Vec::new(), Rows::starting_at(first));
+        read_line(&mut file, &mut line)?;
+        for _ in 0..self.rows {
+            read_line(&mut file, &mut line)?;
+            let line = String::from_utf8_lossy(&line);
+            add(&line, self.header.request.quantities.len(), &mut page)?;
             if page.outcomes.len() == PAGE {
                 let next = page.range().end;
                 take(std::mem::replace(&mut page, Rows::starting_at(next)))?;
@@ -100,28 +108,36 @@ impl Complete {
     }
 }
 
-/// The number of rows, if it is equal to the number in the last line.
-fn body(mut file: impl BufRead) -> io::Result<Option<usize>> {
-    let (mut hasher, mut rows) = (SipHasher24::new(), 0);
-    let (mut line, mut next) = (Vec::new(), Vec::new());
-    file.read_until(b'\n', &mut line)?;
-    loop {
-        next.clear();
-        if file.read_until(b'\n', &mut next)? == 0 {
-            break;
-        }
+/// Reads a line with its end into `line`. Returns whether there is one.
+fn read_line(file: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
+    line.clear();
+    let length = file.take(LONGEST).read_until(b'\n', line)?;
+    if length as u64 == LONGEST {
+        return Err(ErrorKind::InvalidData.into());
+    }
+    Ok(length > 0)
+}
+
+/// The number of rows after the first line, if the last line has this number and the hash.
+fn body(mut file: impl BufRead, first: Vec<u8>) -> io::Result<Option<usize>> {
+    let (mut hasher, mut lines) = (SipHasher24::new(), 0_usize);
+    let (mut line, mut next) = (first, Vec::new());
+    while read_line(&mut file, &mut next)? {
         hasher.write(&line);
-        rows += 1;
+        lines += 1;
         std::mem::swap(&mut line, &mut next);
     }
     let footer = serde_json::from_slice::<Footer>(&line).ok();
-    let is_whole =
-        |footer: &Footer| footer.rows == rows && footer.hash == format!("{:016x}", hasher.finish());
-    Ok(footer.filter(is_whole).map(|_| rows))
+    let is_whole = |footer: &Footer| {
+        Some(footer.rows) == lines.checked_sub(1)
+            && footer.hash == format!("{:016x}", hasher.finish())
+    };
+    Ok(footer.filter(is_whole).map(|footer| footer.rows))
 }
 
 /// Adds the row of a line with `width` values.
 fn add(line: &str, width: usize, rows: &mut Rows) -> io::Result<()> {
+    let line = line.trim_end();
     let bad = || io::Error::other("a row of the shard cannot be read");
     let (code, rest) = line.split_once(' ').unwrap_or((line, ""));
     let code: usize = code.parse().map_err(|_| bad())?;
@@ -155,10 +171,11 @@ pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, ShardError> 
     let Some(one) = shards.first() else {
         return wrong("no shard is given: name every file that --shard wrote".to_owned());
     };
-    let (hash, of) = (one.header.hash.clone(), one.header.shard.of);
+    let (request, of) = (one.header.request.clone(), one.header.shard.of);
     let name = |shard: &Complete| shard.path.display().to_string();
     let first = name(one);
-    if let Some(foreign) = shards.iter().find(|shard| shard.header.hash != hash) {
+    let is_foreign = |shard: &&Complete| shard.header.request != request;
+    if let Some(foreign) = shards.iter().find(is_foreign) {
         let foreign = name(foreign);
         return wrong(format!(
             "{foreign}: this shard belongs to another study than {first}: gather one study at a time"

@@ -8,7 +8,7 @@ use crate::case::sanitize::quoted;
 use crate::study::request::Request;
 
 /// Greatest number of shards of a study.
-pub(super) const MOST: usize = 100_000;
+const MOST: usize = 100_000;
 
 /// The word in the first line of a shard.
 pub(super) const KIND: &str = "tipstrike-shard";
@@ -32,9 +32,7 @@ impl Shard {
         let numbers = parts
             .and_then(|(number, of)| Some((number.trim().parse().ok()?, of.trim().parse().ok()?)));
         match numbers {
-            Some((number, of)) if of <= MOST && (1..=of).contains(&number) => {
-                Ok(Shard { number, of })
-            }
+            Some((number, of)) if (Shard { number, of }).is_part() => Ok(Shard { number, of }),
             Some((_, of)) if of > MOST => Err(format!("write at most {MOST} shards")),
             Some((_, of)) if of > 0 => {
                 Err(format!("there is no such shard: write 1/{of} to {of}/{of}"))
@@ -44,6 +42,11 @@ impl Shard {
                 quoted(text)
             )),
         }
+    }
+
+    /// Whether there is such a part.
+    pub(super) fn is_part(self) -> bool {
+        self.of <= MOST && (1..=self.of).contains(&self.number)
     }
 
     /// The points of the shard.
@@ -71,13 +74,11 @@ pub struct Header {
     pub version: String,
     /// The part.
     pub shard: Shard,
-    /// The hash of study and version.
-    pub hash: String,
     /// The study.
     pub request: Request,
 }
 
-/// The last line of a shard.
+/// The last line of a shard: the number of rows, and the hash of the first line and the rows.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Footer {
     pub(super) rows: usize,
