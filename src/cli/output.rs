@@ -1,7 +1,8 @@
 //! The output of a study: a stream, or a file that appears only when it is complete.
 
 use super::exit::Failure;
-use crate::case::file::{Draft, SaveError, followed};
+use crate::case::file::{Draft, SaveError};
+use crate::system::files::is_same;
 use crate::system::interrupt::Interrupt;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -9,7 +10,7 @@ use std::path::Path;
 /// The destination of the results of a study.
 pub(super) enum Sink<'a> {
     Stream(&'a mut dyn Write),
-    /// Ctrl-C and SIGTERM stop the writing, so that the draft is deleted.
+    /// A signal stops the writing, so that the draft is deleted.
     File(Box<BufWriter<Draft>>, Interrupt),
 }
 
@@ -19,7 +20,7 @@ impl<'a> Sink<'a> {
         out: Option<&Path>,
         stream: &'a mut dyn Write,
     ) -> Result<Sink<'a>, SaveError> {
-        match out.filter(|path| *path != Path::new("-")) {
+        match named(out) {
             Some(path) => {
                 let interrupt = Interrupt::install();
                 let draft = Draft::create(path)?;
@@ -33,11 +34,11 @@ impl<'a> Sink<'a> {
     pub(super) fn finish(self) -> Result<(), Failure> {
         match self {
             Sink::Stream(_) => Ok(()),
-            Sink::File(writer, _interrupt) => {
-                let draft = writer
-                    .into_inner()
-                    .map_err(|error| Failure::Stream(error.into_error()))?;
-                draft.finish().map_err(Failure::File)
+            Sink::File(mut writer, _interrupt) => {
+                let flushed = writer.flush();
+                let (draft, _) = writer.into_parts();
+                flushed.map_err(|error| draft.unwritable(error))?;
+                Ok(draft.finish()?)
             }
         }
     }
@@ -71,21 +72,26 @@ impl Write for Sink<'_> {
     }
 }
 
-/// Refuses a file that cannot be written before long work starts.
-pub(super) fn check_out(out: Option<&Path>) -> Result<(), SaveError> {
-    Sink::open(out, &mut io::sink()).map(drop)
+/// The file of `--out`. The name `-` is the stream.
+fn named(out: Option<&Path>) -> Option<&Path> {
+    out.filter(|path| *path != Path::new("-"))
 }
 
-/// Refuses to overwrite a file that the command reads.
-pub(super) fn keep_inputs(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
-    let target = out.and_then(|out| followed(out).ok());
-    let is_input = |input: &&Path| followed(input).is_ok_and(|input| Some(input) == target);
-    match out.filter(|_| inputs.iter().any(is_input)) {
-        Some(out) => Err(Failure::Usage(format!(
+/// Refuses a file that the command reads or that cannot be written, before long work starts.
+pub(super) fn check_out(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
+    let Some(out) = named(out) else { return Ok(()) };
+    if inputs.iter().any(|input| is_same(input, out)) {
+        return Err(Failure::Usage(format!(
             "--out {}: this file is read by the command: choose another name",
             out.display()
-        ))),
-        None => Ok(()),
+        )));
+    }
+    let interrupt = Interrupt::install();
+    Draft::check(out)?;
+    if interrupt.go_on() {
+        Ok(())
+    } else {
+        Err(Failure::Interrupted)
     }
 }
 

@@ -5,9 +5,13 @@ mod other;
 #[cfg(unix)]
 mod unix;
 
+#[cfg(all(not(unix), feature = "cli"))]
+pub(crate) use other::is_same;
 #[cfg(not(unix))]
-pub(crate) use other::{keep, links, mode, names_a_folder, set_mode, with_mode};
+pub(crate) use other::{is_planted, keep, links, mode, names_a_folder, set_mode, with_mode};
+#[cfg(all(unix, feature = "cli"))]
+pub(crate) use unix::is_same;
 #[cfg(all(unix, feature = "tui"))]
 pub(crate) use unix::number;
 #[cfg(unix)]
-pub(crate) use unix::{keep, links, mode, names_a_folder, set_mode, with_mode};
+pub(crate) use unix::{is_planted, keep, links, mode, names_a_folder, set_mode, with_mode};

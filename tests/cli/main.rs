@@ -16,6 +16,7 @@ mod drawing_sizes;
 mod explain;
 mod import_command;
 mod meaning;
+mod output_files;
 mod program;
 mod report_command;
 mod reports;

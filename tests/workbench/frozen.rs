@@ -69,31 +69,31 @@ fn a_newer_format_is_shown_and_never_written() {
 }
 
 #[test]
-fn a_save_deletes_only_the_temporary_file_of_a_killed_save() {
+fn a_save_deletes_only_the_temporary_file_of_a_killed_save_on_this_machine() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    let dead = u32::MAX / 4;
-    let ours = std::process::id();
-    let old = SystemTime::now() - Duration::from_secs(3600);
+    let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").expect("this is Linux");
+    let boot = boot.trim();
     let names = [
-        format!(".tipstrike-{dead}-abc"),
-        format!(".tipstrike-{dead}-new"),
-        format!(".tipstrike-{ours}-abc"),
-        ".tipstrike-x".into(),
+        format!(".tipstrike-{boot}-killed"),
+        format!(".tipstrike-{boot}-used"),
+        ".tipstrike-00000000-0000-4000-8000-000000000000-abc".to_owned(),
+        format!(".tipstrike-{}-abc", u32::MAX / 4),
+        ".tipstrike-x".to_owned(),
     ];
-    for name in &names {
-        let path = desk.write(name, "left");
-        if !name.ends_with("new") {
-            fs::File::options()
-                .write(true)
-                .open(path)
-                .and_then(|file| file.set_modified(old))
-                .expect("our own file");
-        }
-    }
+    let old = SystemTime::now() - Duration::from_secs(3600);
+    let files = names.each_ref().map(|name| {
+        let file = fs::File::options()
+            .write(true)
+            .open(desk.write(name, "left"));
+        let file = file.expect("our own file");
+        file.set_modified(old).expect("our own file");
+        file
+    });
+    files[1].try_lock().expect("our own file");
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     assert!(desk.shows("saved "), "{}", desk.screen());
     assert_eq!(
         names.map(|name| desk.path(&name).exists()),
-        [false, true, true, true]
+        [false, true, true, true, true]
     );
 }

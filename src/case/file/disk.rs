@@ -126,7 +126,7 @@ impl Document {
             || self.origin.is_some() && self.name == name;
         let text = self.render();
         let mode = self.mode.filter(|_| is_own);
-        target.replace(text.as_bytes(), mode, path)?;
+        target.replace(text.as_bytes(), mode, path, false)?;
         let is_recreated = is_own && target.old.is_none();
         self.mode = fs::metadata(&target.path)
             .ok()

@@ -82,6 +82,10 @@ pub enum SaveError {
     /// The system refuses to write the file.
     #[error("{0}: cannot be written: {1}: {fix}", fix = fix(.1))]
     Unwritable(String, io::Error),
+    /// A result cannot replace its target, for the first reason. The second text is the file that has
+    /// the complete result.
+    #[error("{0}; the complete result is in {1}")]
+    Kept(Box<SaveError>, String),
 }
 
 /// A path as messages show it.

@@ -3,19 +3,18 @@
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
-use tempfile::NamedTempFile;
+use tempfile::{Builder, NamedTempFile, PersistError};
 
 use super::error::{SaveError, shown};
 use crate::system::files;
 
 /// Greatest number of symbolic links in a path.
 const MOST_LINKS: usize = 40;
-/// Prefix of temporary files. The process id follows.
+/// Prefix of temporary files.
 const TEMPORARY: &str = ".tipstrike-";
-/// Age of a temporary file that no save can still use.
-const STALE: Duration = Duration::from_secs(60);
+/// Prefix of a complete result that cannot replace its target.
+const RESULT: &str = "tipstrike-result-";
 
 /// Writes a file that is not a case, such as a report or the settings. Resolves links. On failure
 /// the old file stays. `over` allows replacing an existing file.
@@ -27,7 +26,7 @@ pub fn write(path: &Path, bytes: &[u8], over: bool) -> Result<(), SaveError> {
     if target.old.is_some() && !over {
         return Err(SaveError::AlreadyThere(shown(path)));
     }
-    target.replace(bytes, None, path)
+    target.replace(bytes, None, path, over)
 }
 
 /// The path after resolution of all symbolic links, for an existing or a new file.
@@ -43,7 +42,10 @@ fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
         match fs::read_link(&path) {
-            Ok(next) => path = path.parent().unwrap_or(&path).join(next),
+            Ok(next) => match refuse_planted(&path) {
+                Ok(()) => path = path.parent().unwrap_or(&path).join(next),
+                Err(error) => return Err((path, error)),
+            },
             Err(error) if is_no_link(&path, &error) => {
                 return place_of(&path).map_err(|error| (path, error));
             }
@@ -59,6 +61,21 @@ fn is_no_link(path: &Path, error: &io::Error) -> bool {
         error.kind(),
         ErrorKind::InvalidInput | ErrorKind::NotFound | ErrorKind::NotADirectory
     ) || fs::symlink_metadata(path).is_ok_and(|about| !about.is_symlink())
+}
+
+/// Refuses what Linux refuses with `fs.protected_symlinks` and `fs.protected_regular`, after the link
+/// is read: another user can replace his own link at any time, but not a trusted one.
+fn refuse_planted(path: &Path) -> io::Result<()> {
+    if !files::is_planted(path, folder_of(path))? {
+        return Ok(());
+    }
+    Err(io::Error::new(
+        ErrorKind::Unsupported,
+        format!(
+            "{} belongs to another user, in a folder where every user can create files",
+            shown(path)
+        ),
+    ))
 }
 
 /// The absolute path. The root, `.` and `..` are folders themselves.
@@ -86,6 +103,7 @@ pub(super) fn target_of(path: &Path) -> Result<Target, SaveError> {
     let target = resolve(path).map_err(|(last, error)| no_folder(path, &last, error))?;
     match fs::metadata(&target) {
         Ok(old) => {
+            refuse_planted(&target).map_err(|error| SaveError::Unwritable(name, error))?;
             replaceable(&target, &old, path)?;
             Ok(Target {
                 path: target,
@@ -150,54 +168,47 @@ fn replaceable(target: &Path, old: &fs::Metadata, path: &Path) -> Result<(), Sav
 }
 
 impl Target {
-    /// `mode` is the mode of a new file.
+    /// Writes a temporary file beside the target, then renames it. `mode` is the mode of a new file;
+    /// `over` allows replacing a file that another program created meanwhile.
     pub(super) fn replace(
         &self,
         bytes: &[u8],
         mode: Option<u32>,
         path: &Path,
+        over: bool,
     ) -> Result<(), SaveError> {
-        self.write(bytes, mode).map_err(|error| match error.kind() {
-            ErrorKind::AlreadyExists if self.old.is_none() => SaveError::AlreadyThere(shown(path)),
+        let is_private = self.old.is_some() || mode.is_some();
+        let written = begin(&self.path, is_private).and_then(|mut file| {
+            file.as_file_mut().write_all(bytes)?;
+            Ok(self.finish(file, mode, over)?)
+        });
+        written.map_err(|error| match error.kind() {
+            ErrorKind::AlreadyExists if !over => SaveError::AlreadyThere(shown(path)),
             _ => SaveError::Unwritable(shown(path), error),
         })
     }
 
-    /// Writes a temporary file beside the target, then renames it. Each step is on disk before the
-    /// next step.
-    fn write(&self, bytes: &[u8], mode: Option<u32>) -> io::Result<()> {
-        let mut file = self.begin(mode)?;
-        file.write_all(bytes)?;
-        self.finish(file, mode)
-    }
-
-    /// Creates a temporary file beside the target.
-    fn begin(&self, mode: Option<u32>) -> io::Result<NamedTempFile> {
-        // Others cannot read the file before its mode is set. The umask limits the mode of a new
-        // file.
-        let is_new = self.old.is_none() && mode.is_none();
-        let first = if is_new { 0o666 } else { 0o600 };
-        let prefix = format!("{TEMPORARY}{}-", std::process::id());
-        let mut builder = tempfile::Builder::new();
-        files::with_mode(builder.prefix(&prefix), first).tempfile_in(folder_of(&self.path))
-    }
-
-    /// Moves the complete file to the target.
-    fn finish(&self, file: NamedTempFile, mode: Option<u32>) -> io::Result<()> {
-        let folder = folder_of(&self.path);
-        if let Some(old) = &self.old {
-            files::keep(old, &self.path, file.as_file())?;
-        } else if let Some(mode) = mode {
-            files::set_mode(file.as_file(), mode)?;
-        }
-        file.as_file().sync_all()?;
-        match self.old {
-            Some(_) => file.persist(&self.path).map_err(|error| error.error)?,
-            // Does not replace a file that another program created meanwhile.
-            None => file
-                .persist_noclobber(&self.path)
-                .map_err(|error| error.error)?,
+    /// Moves the complete file to the target. Each step is on disk before the next step.
+    fn finish(
+        &self,
+        file: NamedTempFile,
+        mode: Option<u32>,
+        over: bool,
+    ) -> Result<(), PersistError> {
+        let prepared = match (&self.old, mode) {
+            (Some(old), _) => files::keep(old, &self.path, file.as_file()),
+            (None, Some(mode)) => files::set_mode(file.as_file(), mode),
+            (None, None) => Ok(()),
         };
+        if let Err(error) = prepared.and_then(|()| file.as_file().sync_all()) {
+            return Err(PersistError { error, file });
+        }
+        if over || self.old.is_some() {
+            file.persist(&self.path)?;
+        } else {
+            file.persist_noclobber(&self.path)?;
+        }
+        let folder = folder_of(&self.path);
         // The new file is in place even if flushing the folder fails.
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
         clear(folder);
@@ -205,76 +216,128 @@ impl Target {
     }
 }
 
+/// Creates a temporary file beside a file. The umask limits the mode of a file that is not private.
+fn begin(beside: &Path, is_private: bool) -> io::Result<NamedTempFile> {
+    let create = |prefix: &str| {
+        let mode = if is_private { 0o600 } else { 0o666 };
+        files::with_mode(Builder::new().prefix(prefix), mode).tempfile_in(folder_of(beside))
+    };
+    if let Some(prefix) = prefix_here() {
+        let file = create(&prefix)?;
+        // Before the lock, another save can remove the file.
+        if file.as_file().try_lock().is_ok() && file.path().exists() {
+            return Ok(file);
+        }
+    }
+    create(TEMPORARY)
+}
+
+/// The prefix of locked temporary files of this boot of this machine: one kernel has all their locks,
+/// in any container and on any file system. `None` if the system does not name its boot.
+fn prefix_here() -> Option<String> {
+    let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
+    Some(format!("{TEMPORARY}{}-", boot.trim()))
+}
+
+/// Removes temporary files of killed saves in a folder: those that a process of this machine locked
+/// and that are no longer locked. Ignores files that cannot be removed.
+fn clear(folder: &Path) {
+    let Some(prefix) = prefix_here() else { return };
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries {
+        let is_ours = entry.file_name().to_string_lossy().starts_with(&prefix);
+        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            let file = OpenOptions::new().write(true).open(entry.path());
+            if file.as_ref().is_ok_and(|file| file.try_lock().is_ok()) {
+                drop(fs::remove_file(entry.path()));
+            }
+        }
+    }
+}
+
 /// A file that replaces the target only after it is complete. If dropped before, it leaves no file.
 pub struct Draft {
-    target: Target,
+    path: PathBuf,
     file: NamedTempFile,
-    name: String,
 }
 
 impl Draft {
-    /// Creates the file.
+    /// Refuses a target that cannot be replaced, before long work starts.
+    ///
+    /// # Errors
+    /// The reason.
+    pub fn check(path: &Path) -> Result<(), SaveError> {
+        let target = target_of(path)?;
+        let file = begin(&target.path, true);
+        let tried = file.and_then(|file| match &target.old {
+            Some(old) => files::keep(old, &target.path, file.as_file()),
+            None => Ok(()),
+        });
+        tried.map_err(|error| SaveError::Unwritable(shown(path), error))
+    }
+
+    /// Creates the file. Only [`Draft::finish`] refuses a target that cannot be replaced.
     ///
     /// # Errors
     /// If the file cannot be created.
     pub fn create(path: &Path) -> Result<Draft, SaveError> {
-        let (target, name) = (target_of(path)?, shown(path));
-        match target.begin(None) {
-            Ok(file) => Ok(Draft { target, file, name }),
-            Err(error) => Err(SaveError::Unwritable(name, error)),
+        let place = resolve(path).map_err(|(last, error)| no_folder(path, &last, error))?;
+        let old = target_of(path).ok().and_then(|target| target.old);
+        let file = begin(&place, old.is_some())
+            .map_err(|error| SaveError::Unwritable(shown(path), error))?;
+        if let Some(old) = old {
+            // The target may vanish. The file then has its attributes, as far as possible.
+            let _ = files::keep(&old, &place, file.as_file());
         }
+        let path = path.to_owned();
+        Ok(Draft { path, file })
     }
 
-    /// Moves the complete file to the target.
+    /// Moves the complete file to the target, whether or not the target exists by now.
     ///
     /// # Errors
-    /// If the system refuses. The old file then stays.
+    /// If the system refuses. The old file then stays, and the error names the complete file beside it.
     pub fn finish(self) -> Result<(), SaveError> {
-        let Draft { target, file, name } = self;
-        target
-            .finish(file, None)
-            .map_err(|error| SaveError::Unwritable(name, error))
+        let Draft { path, file } = self;
+        let unwritable = |error| SaveError::Unwritable(shown(&path), error);
+        file.as_file().sync_all().map_err(unwritable)?;
+        match target_of(&path) {
+            Err(error) => Err(kept(file, error)),
+            Ok(target) => target
+                .finish(file, None, true)
+                .map_err(|PersistError { error, file }| kept(file, unwritable(error))),
+        }
     }
 
     /// The error of a failed write, with the name of the file.
     #[must_use]
     pub fn unwritable(&self, error: io::Error) -> SaveError {
-        SaveError::Unwritable(self.name.clone(), error)
+        SaveError::Unwritable(shown(&self.path), error)
     }
 }
 
 impl Write for Draft {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
+        self.file.as_file_mut().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+        self.file.as_file_mut().flush()
     }
 }
 
-/// Removes temporary files of killed saves in a folder. Ignores files that cannot be removed.
-fn clear(folder: &Path) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(is_left_over)) {
-        let about = entry.metadata();
-        let is_old = |about: &fs::Metadata| {
-            about
-                .modified()
-                .is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE))
-        };
-        if about.is_ok_and(|about| about.is_file() && is_old(&about)) {
-            drop(fs::remove_file(entry.path()));
-        }
+/// Keeps a complete file under a name that no save clears, and adds the name to the error.
+fn kept(file: NamedTempFile, error: SaveError) -> SaveError {
+    let name = file.path().to_string_lossy();
+    let random = name.rsplit('-').next().unwrap_or_default();
+    let place = file.path().with_file_name(format!("{RESULT}{random}"));
+    let place = match file.persist_noclobber(&place) {
+        Ok(_) => Ok(place),
+        // In a folder that is read-only by now, the file stays where it is.
+        Err(PersistError { file, .. }) => file.keep().map(|(_, place)| place),
+    };
+    match place {
+        Ok(place) if place.exists() => SaveError::Kept(Box::new(error), shown(&place)),
+        _ => error,
     }
-}
-
-// The process of the file has ended. On a shared disk the process can run on another machine, hence
-// the age.
-fn is_left_over(name: &str) -> bool {
-    let process = name
-        .strip_prefix(TEMPORARY)
-        .and_then(|rest| rest.split_once('-'))
-        .and_then(|(process, _)| process.parse().ok());
-    process.is_some_and(|process: u32| !Path::new("/proc").join(process.to_string()).exists())
 }

@@ -5,7 +5,7 @@ use crate::case::Problem;
 use crate::cli::Streams;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Destination;
-use crate::cli::output::{Sink, check_out, keep_inputs};
+use crate::cli::output::{Sink, check_out};
 use crate::report::sweep::{SweepTable, TableFormat};
 use crate::report::tolerance::ToleranceReport;
 use crate::study::batch::Points;
@@ -32,7 +32,7 @@ pub struct Options {
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let files: Vec<&Path> = options.files.iter().map(AsRef::as_ref).collect();
     let out = options.destination.out.as_deref();
-    keep_inputs(out, &files)?;
+    check_out(out, &files)?;
     let shards = files.iter().map(|file| Complete::read(file));
     let shards = shards.collect::<Result<Vec<_>, _>>().and_then(in_order);
     let shards = shards.map_err(|unfit| report(unfit, streams))?;
@@ -78,7 +78,6 @@ fn write(
             Ok(sweep::report(&table, &refusals, &request.name, streams))
         }
         Study::Tolerance(study) => {
-            check_out(out)?;
             let samples = samples(shards, study)?;
             let report = ToleranceReport {
                 name: &request.name,

@@ -1,10 +1,10 @@
 //! `plot`: writes a chart of a case, or its teeth, as a picture.
 
-use crate::case::file;
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::{CaseFile, Changes, Destination};
+use crate::cli::output::{check_out, write_to};
 use crate::cli::progress::follow;
 use crate::report::Report;
 use crate::report::pictures::{NoPicture, find, pictures};
@@ -38,8 +38,8 @@ pub struct Options {
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let ending = options.destination.out.as_deref().and_then(Path::extension);
-    if let (Some(out), Some(ending)) = (&options.destination.out, ending)
+    let out = options.destination.out.as_deref();
+    if let (Some(out), Some(ending)) = (out, out.and_then(Path::extension))
         && !ending.eq_ignore_ascii_case("svg")
     {
         let out = out.display();
@@ -47,9 +47,13 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
             "--out {out}: a picture is SVG: use the extension .svg"
         )));
     }
+    check_out(out, &[&options.input.case])?;
     let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
     let text = draw(&opened, options, streams)?;
-    write(options.destination.out.as_deref(), &text, streams)
+    write_to(out, streams.output.as_mut(), |sink| {
+        sink.write_all(text.as_bytes())
+    })?;
+    Ok(Exit::Done)
 }
 
 fn draw(opened: &Opened, options: &Options, streams: &mut Streams) -> Result<String, Exit> {
@@ -79,19 +83,6 @@ pub(super) fn solve(
 ) -> Result<Report, Exit> {
     let solved = opened.unsolved().solve(stations);
     solved.map_err(|refusal| opened.refused(&refusal, streams))
-}
-
-/// Writes a picture or a page to a file, which may exist, or to standard output.
-pub(super) fn write(
-    out: Option<&Path>,
-    text: &str,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    match out.filter(|path| path.as_os_str() != "-") {
-        Some(path) => file::write(path, text.as_bytes(), true)?,
-        None => streams.output.write_all(text.as_bytes())?,
-    }
-    Ok(Exit::Done)
 }
 
 fn charts() -> PossibleValuesParser {

@@ -4,7 +4,7 @@ use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::{CaseFile, Changes, Destination, FormatOption, OutputFormat};
-use crate::cli::output::{keep_inputs, write_to};
+use crate::cli::output::{check_out, write_to};
 use crate::cli::progress::follow;
 use crate::report::specification::ReliefReport;
 use crate::study::relief::demand;
@@ -55,7 +55,7 @@ pub struct Options {
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let out = options.destination.out.as_deref();
-    keep_inputs(out, &[&options.input.case])?;
+    check_out(out, &[&options.input.case])?;
     let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
     let demand = Demand {
         loads: options.load,

@@ -5,10 +5,12 @@ use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::Cases;
+use crate::cli::output::{check_out, write_to};
 use crate::cli::progress::follow;
 use crate::report::export::{ReportFormat, subject};
 use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 const AFTER_HELP: &str = "The HTML page needs no other file: verdict, inputs, results, charts, \
     teeth, limits, notes and the case files; one case prints on two A4 pages. Markdown has the \
@@ -34,9 +36,11 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
             ReportFormat::ENDINGS
         )));
     };
+    let cases: Vec<&Path> = options.input.cases.iter().map(AsRef::as_ref).collect();
+    check_out(Some(&options.out), &cases)?;
     let edits = options.input.changes.edits();
     let (mut subjects, mut worst) = (Vec::new(), Exit::Done);
-    for path in &options.input.cases {
+    for path in cases {
         let solved = cases::open(path, &edits, streams).and_then(|opened| {
             let report = plot::solve(&opened, format.has_stations(), streams)?;
             let file = opened.document.render();
@@ -53,5 +57,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         return Ok(worst);
     }
     let text = format.render(&subjects)?;
-    plot::write(Some(&options.out), &text, streams).map(|exit| exit.max(worst))
+    write_to(Some(&options.out), streams.output.as_mut(), |sink| {
+        sink.write_all(text.as_bytes())
+    })?;
+    Ok(worst)
 }

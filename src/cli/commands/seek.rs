@@ -5,7 +5,7 @@ use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::{CaseFile, Changes, Destination, FormatOption, Listing, Threads, count};
-use crate::cli::output::{keep_inputs, write_to};
+use crate::cli::output::{check_out, write_to};
 use crate::cli::progress::Running;
 use crate::numeric::decimal::shortest;
 use crate::report::seek::SeekReport;
@@ -56,7 +56,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let key = FIELDS[range.field].key;
     let out = options.destination.out.as_deref();
     cases::keep_varied(&edits.settings, &[key])?;
-    keep_inputs(out, &[&options.input.case])?;
+    check_out(out, &[&options.input.case])?;
     let first = (range.field, with_unit(&shortest(range.from), &range.unit));
     let mut opened = cases::open_varied(&options.input.case, &edits, &[first], streams)?;
     opened.need(condition.quantity());

@@ -6,7 +6,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::{
     CaseFile, Changes, FormatOption, QuantityList, RowFormat, StudyOptions, count,
 };
-use crate::cli::output::{Sink, keep_inputs};
+use crate::cli::output::{Sink, check_out};
 use crate::cli::progress::Running;
 use crate::cli::shards;
 use crate::model::Quantity;
@@ -62,7 +62,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let grid = Grid::parse(&options.vary, &options.points, options.log)
         .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
     let out = options.running.destination.out.as_deref();
-    keep_inputs(out, &[&options.input.case])?;
+    check_out(out, &[&options.input.case])?;
     let edits = options.changes.edits();
     let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
     cases::keep_varied(&edits.settings, &keys)?;

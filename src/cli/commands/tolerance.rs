@@ -5,7 +5,7 @@ use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::options::{Changes, FormatOption, OutputFormat, QuantityList, StudyOptions, count};
-use crate::cli::output::{check_out, keep_inputs, write_to};
+use crate::cli::output::{check_out, write_to};
 use crate::cli::progress::Running;
 use crate::cli::shards;
 use crate::model::Quantity;
@@ -60,7 +60,7 @@ pub struct Options {
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
     let out = options.running.destination.out.as_deref();
     check_size(options)?;
-    keep_inputs(out, &[&options.case])?;
+    check_out(out, &[&options.case])?;
     let mut opened = cases::open(&options.case, &options.changes.edits(), streams)?;
     opened.need(options.only.iter().flatten().copied());
     let study = study(options, &opened).map_err(|problem| {
@@ -81,7 +81,6 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         };
         return shards::run(shard, &request, &batch, &options.running, streams);
     }
-    check_out(out)?;
     let solve = |control: &Control| study.run(&opened.inputs, control);
     let samples = Running::new("solves", options.running.threads.jobs).run(solve)?;
     let whole = ToleranceReport {

@@ -1,7 +1,7 @@
 //! Systems without Unix owners, modes and access lists: a new file gets the permissions of the old
 //! one.
 
-use std::fs::{File, Metadata};
+use std::fs::{self, File, Metadata};
 use std::io;
 use std::path::{MAIN_SEPARATOR, Path};
 
@@ -18,6 +18,17 @@ pub(crate) fn mode(_: &Metadata) -> Option<u32> {
 /// Always 1: these systems report no hard links.
 pub(crate) fn links(_: &Metadata) -> u64 {
     1
+}
+
+/// Whether both paths lead to the same file.
+#[cfg(feature = "cli")]
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    matches!((fs::canonicalize(one), fs::canonicalize(other)), (Ok(one), Ok(other)) if one == other)
+}
+
+/// Always false: these systems have no sticky folders.
+pub(crate) fn is_planted(_: &Path, _: &Path) -> io::Result<bool> {
+    Ok(false)
 }
 
 /// Whether the path ends in a separator.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
-use std::fs::{File, Metadata, Permissions};
+use std::fs::{self, File, Metadata, Permissions};
 use std::io::{self, ErrorKind};
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
@@ -39,6 +39,22 @@ pub(crate) fn links(about: &Metadata) -> u64 {
 #[cfg(feature = "tui")]
 pub(crate) fn number(about: &Metadata) -> u64 {
     about.ino()
+}
+
+/// Whether both paths lead to the same file.
+#[cfg(feature = "cli")]
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    let inode = |path| fs::metadata(path).map(|about| (about.dev(), about.ino()));
+    matches!((inode(one), inode(other)), (Ok(one), Ok(other)) if one == other)
+}
+
+/// Whether a link or file can be a trap: it is in a sticky folder that every user can write, and
+/// belongs neither to this user nor to the owner of the folder.
+pub(crate) fn is_planted(path: &Path, folder: &Path) -> io::Result<bool> {
+    const STICKY_AND_OPEN: u32 = 0o1002;
+    let (about, folder) = (fs::symlink_metadata(path)?, fs::metadata(folder)?);
+    let trusted = [folder.uid(), rustix::process::geteuid().as_raw()];
+    Ok(folder.mode() & STICKY_AND_OPEN == STICKY_AND_OPEN && !trusted.contains(&about.uid()))
 }
 
 /// Whether the path ends in a separator.
