@@ -109,7 +109,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("method = \"exact\"", "method = \"exat\"", 0, 10, "model.method", "unknown choice `exat`", "did you mean exact?"),
     ("method = \"exact\"", "method = \"dinamic\"", 0, 10, "model.method", "unknown choice `dinamic`", "did you mean dynamic?"),
     ("method = \"exact\"", "method = 2", 0, 10, "model.method",
-        "expected a text in quotes, found a number", "\"exact\""),
+        "expected a text in quotes, found a number", "\"auto\""),
     ("method = \"exact\"", "method = exact", 0, 10, "model.method", "not in quotes", "write \"exact\""),
     ("title = \"Zhou & Chen 2014, Table 1\"", "title = [1]", 0, 9, "title", "an array", "title = "),
     // keys and tables

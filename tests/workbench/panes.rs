@@ -299,12 +299,7 @@ fn a_limit_that_is_not_met_is_in_the_verdict_and_every_limit_is_on_the_page() {
     }
     // The limit of the free impact is met, and the impact of the method exceeds it.
     let free = include_str!("../../cases/hydro-speed-up.toml");
-    let dynamic = format!("{free}\n[model]\nmethod = \"dynamic\"\n");
-    let dynamic = if free.contains("[model]") {
-        free.replace("[model]", "[model]\nmethod = \"dynamic\"")
-    } else {
-        dynamic
-    };
+    let dynamic = free.replace("method = \"exact\"", "method = \"dynamic\"");
     let mut desk = Desk::on(SMALL, "case.toml", &dynamic);
     assert!(desk.shows("! F_d,DE 4405.8 N > 4 kN"), "{}", desk.screen());
     desk.keys(&["Esc", "n"]);

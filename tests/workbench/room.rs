@@ -16,7 +16,7 @@ const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\
 
 /// The example with another method.
 fn hydro(size: Size, method: &str) -> Desk {
-    let text = format!("{HYDRO}\n[model]\nmethod = \"{method}\"\n");
+    let text = HYDRO.replace("method = \"exact\"", &format!("method = \"{method}\""));
     Desk::on(size, "case.toml", &text)
 }
 

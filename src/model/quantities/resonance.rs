@@ -91,7 +91,7 @@ const STEADY: &[&str] = &["m_red", "f_n", "F_0"];
 
 const OSCILLATOR: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988; steady motion \
     with more than one base pitch per period and jumps between rising and falling speed: Kahraman & \
-    Singh 1990.";
+    Singh 1990. The greatest factor is the max over speed.";
 
 fn over_speed(solution: &Solution) -> Option<&SpeedCurve> {
     solution.over_speed.as_ref()?.as_deref().ok()

@@ -34,6 +34,11 @@ pub struct Effect {
 /// The fields behind a quantity, in the order of the form. For method `auto`, the tolerance follows
 /// from `model.within`.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
+    // Every step would need a motion at every speed, and the greatest of them moves from speed to
+    // speed.
+    if quantity.stage == Stage::SpeedRun {
+        return Vec::new();
+    }
     // The change must exceed the error of the motion, and a step must not switch the stiffness
     // model.
     let tolerance = known.context.inputs.tolerance.min(FINE);

@@ -80,10 +80,10 @@ fn spread(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
         .any(|held| held.field.ends_with(".base_pitch"))
     {
         let rule = match report.combination() {
-            "sum" => "f_pb1 + f_pb2: known with their signs",
-            _ => "sqrt(f_pb1^2 + f_pb2^2): independent",
+            "sum" => "with their signs: known",
+            _ => "as squares: independent",
         };
-        writeln!(out, "  the base pitch deviations of a sample add as {rule}")?;
+        writeln!(out, "  base pitch deviations add {rule}")?;
     }
     Ok(())
 }

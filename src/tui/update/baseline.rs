@@ -21,7 +21,7 @@ pub(super) fn pin(app: &mut App) {
         .tab
         .answer
         .as_ref()
-        .filter(|answer| app.is_pinning && answer.stages == crate::model::Stages::EVERY)
+        .filter(|answer| app.is_pinning && answer.stages.covers(crate::model::Stages::EVERY))
     else {
         return;
     };
