@@ -10,6 +10,7 @@ use ratatui::layout::Size;
 use super::actions::Progress;
 use super::baseline::Baseline;
 use super::benchmark::TradeView;
+use super::commands::{Command, key_in};
 use super::dialogs::Prompt;
 use super::jobs::RunningExport;
 use super::keys::Place;
@@ -24,6 +25,7 @@ use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
+use crate::case::Document;
 use crate::case::fields::Kind;
 use crate::case::stamp::Stamp;
 use crate::case::{Case, Document};
@@ -46,8 +48,6 @@ pub struct App {
     pub layout: Layout,
     /// Whether letters go into the focused field while the form has the focus.
     pub(crate) is_editing: bool,
-    /// The case before the last key, if that key was a digit that started a new value.
-    pub(crate) before_digit: Option<Case>,
     /// The pinned results for comparison.
     pub baseline: Option<Baseline>,
     /// Whether to pin the results as soon as they are complete.
@@ -128,7 +128,6 @@ impl App {
             last_serial: 0,
             layout: Layout::new(size),
             is_editing: true,
-            before_digit: None,
             baseline: None,
             is_pinning: false,
             shows_cost: false,
@@ -193,6 +192,11 @@ impl App {
             None if self.is_fresh() => Place::TEXT.or(Place::FRESH),
             None => Place::TEXT,
         }
+    }
+
+    /// The key of a command in the present place, see [`key_in`].
+    pub(super) fn key_of(&self, command: Command) -> String {
+        key_in(self.place(), command)
     }
 
     fn place_of_pane(&self) -> Place {

@@ -185,16 +185,28 @@ pub(crate) fn keys_of(command: Command) -> String {
         .join(", ")
 }
 
-/// The first key of the command outside prompts; without a key, its name in the palette.
-pub(crate) fn key_of(command: Command) -> String {
-    let keys = keys_of(command);
-    match keys.split(", ").next() {
-        Some(key) if !key.is_empty() => key.to_owned(),
-        _ => BINDINGS
+/// The first key of the command in a place, and its name in the palette if it has no key. Esc
+/// precedes a key that a field takes as text.
+pub(crate) fn key_in(place: Place, command: Command) -> String {
+    let bound = || {
+        BINDINGS
             .iter()
-            .find(|binding| binding.command == command)
-            .map_or_else(String::new, |binding| format!(":{}", binding.name)),
-    }
+            .filter(|binding| binding.command == command && binding.places.meets(Place::WORK))
+    };
+    let key = |binding: &Binding| binding.chords.first().map(Chord::name);
+    let mut here = bound().filter(|binding| binding.places.meets(place));
+    let after_esc = || bound().find_map(key).map(|key| format!("Esc {key}"));
+    here.find_map(key).or_else(after_esc).unwrap_or_else(|| {
+        let leave = if place.meets(Place::COMMANDED) {
+            ""
+        } else {
+            "Esc "
+        };
+        format!(
+            "{leave}:{}",
+            bound().next().map_or("", |binding| binding.name)
+        )
+    })
 }
 
 fn is_listed(binding: &Binding) -> bool {

@@ -56,14 +56,6 @@ impl History {
         self.visited == Some(row)
     }
 
-    /// Drops the state before this visit if the case is in that state again.
-    pub(super) fn forget_visit(&mut self, case: &Case) {
-        if self.before_visit() == Some(case) {
-            self.past.pop();
-        }
-        self.visited = None;
-    }
-
     /// Ends the visit: the next edit stores a new state.
     pub(super) fn end_visit(&mut self) {
         self.visited = None;

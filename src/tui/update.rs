@@ -40,7 +40,6 @@ use super::dialogs::Prompt;
 use super::dialogs::page::Page;
 use super::dialogs::picker::{Context, List, Picker};
 use super::help;
-use super::keys::Place;
 use super::pane::Pane;
 use super::panes::{form, results};
 use super::rows;
@@ -65,9 +64,6 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
             return files::quit(app);
         }
         app.message = None;
-        app.before_digit = app.before_digit.take().filter(|_| {
-            matches!(action, Action::Do(Command::Leave)) && app.place().meets(Place::FORM)
-        });
     }
     let cursor = app.cursor;
     let mut effects = happen(app, action);

@@ -33,14 +33,14 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2", "G", "", "(impulse_ratio)."),
     ("Esc 2 G", "g", "", "F_S impact force, Eq. 57"),
     // Accuracy against run time.
-    ("Esc 5 m", "Enter", "", "; u undoes"),
+    ("Esc 5 m", "Enter", "", "; Ctrl-Z undoes"),
     ("Esc 5", "m", "", "Within 5.0 %: dynamic with"),
     ("Esc 5 m", "v", "", "▸ 5 Run time and difference from the reference"),
     ("Esc 5 m h", "l", "", " within 5.0 %; numbers"),
     ("Esc 5 m", "h", "", "] not within 5.0 %"),
     // The study.
     ("Esc", "6", "", "▸ 6 Study"),
-    ("Esc 6 l", "Enter", "", "; u undoes"),
+    ("Esc 6 l", "Enter", "", "; Ctrl-Z undoes"),
     ("Esc 6 l l", "h", "", "m = 5.05 mm:"),
     ("Esc 6", "l", "", "m = 5.05 mm:"),
     ("Esc 6", "Shift-Left", "", "m = 4.5 mm:"),

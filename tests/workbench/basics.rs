@@ -671,10 +671,10 @@ fn a_text_too_long_for_a_clipboard_is_not_sent() {
 fn notes_are_never_off_the_screen() {
     for size in [TINY, SMALL, LARGE, HUGE] {
         let mut desk = Desk::new(size);
-        assert!(desk.shows("press n") || desk.shows("Note: "), "{size}");
+        assert!(desk.shows("(Esc n)") || desk.shows("Note: "), "{size}");
         desk.keys(&["Esc", "2", "G"]);
         assert!(
-            desk.shows("press n") || desk.shows("Note: "),
+            desk.shows("(n)") || desk.shows("Note: "),
             "{}",
             desk.screen()
         );
@@ -693,9 +693,12 @@ fn long_work_shows_its_progress_and_esc_stops_it() {
         what: "trade".to_owned(),
         part: 0.25,
     })));
-    assert!(desk.shows("█████░") && desk.shows("25 % trade; Esc cancels"));
+    assert!(desk.shows("█████░") && desk.shows("25 % trade; Ctrl-C cancels"));
     desk.keys(&["Esc"]);
-    assert!(desk.has_cancelled && desk.app.has_line());
+    assert!(!desk.has_cancelled && !desk.app.has_line());
+    assert!(desk.shows("25 % trade; Esc cancels"));
+    desk.keys(&["Esc"]);
+    assert!(desk.has_cancelled);
     desk.act(Action::Progress(None));
     assert!(!desk.shows("25 %"));
 }
@@ -733,7 +736,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         desk.screen()
     );
     let mut stopped = desk.app.clone();
-    let effects = update(&mut stopped, Action::Do(Command::Leave));
+    let effects = update(&mut stopped, Action::Do(Command::Cancel));
     assert!(matches!(effects[..], [Effect::CancelSolve]) && stopped.message.is_some());
     assert!(
         stopped
@@ -768,11 +771,11 @@ fn a_slow_solve_shows_its_progress_and_esc_stops_it() {
     desk.act(Action::Solved(Box::new(half)));
     desk.act(Action::Solving(request.serial, 0.25));
     assert!(
-        desk.shows("25 % solving static; Esc cancels") && desk.shows("static pending"),
+        desk.shows("25 % solving static; Ctrl-C cancels") && desk.shows("static pending"),
         "{}",
         desk.screen()
     );
-    desk.keys(&["Esc"]);
+    desk.keys(&["Ctrl-C"]);
     assert!(
         desk.has_cancelled && desk.shows("method static is stopped") && !desk.shows("pending"),
         "{}",

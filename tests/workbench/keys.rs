@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use tipstrike::model::Stages;
-use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::actions::{Action, Progress};
 use tipstrike::tui::testing::rows;
 use tipstrike::tui::testing::solver::Request;
 
@@ -534,53 +534,76 @@ fn typing_replaces_the_value_and_a_move_keeps_it() {
 }
 
 #[test]
-fn escape_undoes_the_first_digit_and_the_digit_then_shows_its_pane() {
+fn the_first_digit_is_announced_with_the_keys_that_restore_the_value() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::new(size);
         let before = desk.app.tab.case.clone();
         assert!(desk.shows("Esc 2 Results"), "{}", desk.screen());
         desk.keys(&["2"]);
-        let announced = "module: 2 replaces 5 mm. Esc restores 5 mm; then 2 shows Results";
+        let announced = "module: 2 replaces 5 mm. Ctrl-Z restores 5 mm; Esc 2 shows Results";
         assert!(desk.shows(announced), "{}", desk.screen());
-        desk.keys(&["Esc"]);
+        desk.keys(&["Ctrl-Z"]);
         assert_eq!(desk.app.tab.case, before);
-        assert!(
-            desk.shows("module is 5 mm again") && desk.shows(" 2 Results"),
-            "{}",
-            desk.screen()
-        );
-        desk.keys(&["2"]);
+        desk.keys(&["Esc", "2"]);
         assert!(desk.shows("▸ 2 Results"), "{}", desk.screen());
-        desk.keys(&["u"]);
-        assert!(desk.shows("nothing to undo"), "{}", desk.screen());
+        assert_eq!(desk.app.tab.case, before);
     }
 }
 
 #[test]
-fn escape_keeps_every_other_edit() {
-    for (field, keys, text) in [
-        ("pair.module", &["12", "Esc"][..], "12 mm"),
-        ("pair.module", &["2", "Backspace", "3", "Esc"], "3 mm"),
-        ("pair.module", &["Shift-Up", "2", "Esc"], "2 mm"),
-        ("pair.module", &["End", "Backspace", "Esc"], "5 m"),
-        ("pair.module", &["2", "Ctrl-P", "Esc", "Esc"], "2 mm"),
-        ("title", &["a", "Esc"], "a"),
+fn leaving_a_field_keeps_its_value() {
+    for leave in [
+        "Esc", "Enter", "Tab", "BackTab", "Down", "Up", "PageDown", "F9", "Ctrl-O",
     ] {
+        for (field, typed, text) in [
+            ("pair.module", &["7"][..], "7 mm"),
+            ("pair.module", &["2", "Backspace", "3"], "3 mm"),
+            ("pair.module", &["Shift-Up", "2"], "2 mm"),
+            ("pair.module", &["n"], "n"),
+            ("driver.teeth", &["7"], "7"),
+            ("operation.torque", &["7"], "7 N m"),
+            ("title", &["a"], "a"),
+        ] {
+            let mut desk = Desk::new(SMALL);
+            desk.go_to(field).keys(typed).keys(&[leave, "Esc", "Esc"]);
+            let at = tipstrike::case::fields::index_of(field).expect("a field");
+            assert_eq!(desk.app.tab.case.text(at), Some(text), "{typed:?} {leave}");
+            let is_marked = desk.app.tab.problems.iter().any(|(row, _)| *row == at);
+            assert_eq!(is_marked, text == "n", "{typed:?} {leave}");
+        }
+    }
+}
+
+#[test]
+fn keys_of_hints_work_from_a_field_also_while_work_runs() {
+    for runs in [false, true] {
         let mut desk = Desk::new(SMALL);
-        desk.go_to(field).keys(keys);
-        let at = tipstrike::case::fields::index_of(field).expect("a field");
-        assert_eq!(desk.app.tab.case.text(at), Some(text), "{keys:?}");
+        let before = desk.app.tab.case.clone();
+        let progress = Progress {
+            what: "trade".to_owned(),
+            part: 0.25,
+        };
+        desk.act(Action::Progress(Some(progress).filter(|_| runs)));
+        assert!(desk.shows("notes (Esc n)"), "{}", desk.screen());
+        desk.keys(&["Esc"]);
+        assert!(desk.shows("notes (n)"), "{}", desk.screen());
+        desk.keys(&["n"]);
+        assert!(desk.shows("Outcome, limits, notes"), "{}", desk.screen());
+        assert_eq!(desk.app.tab.case, before);
     }
     let mut desk = Desk::new(SMALL);
-    desk.go_to("operation.torque").keys(&["7"]);
-    assert!(
-        desk.shows("power 15 kW replaced by the torque. torque: 7 starts a value. Esc removes 7"),
-        "{}",
-        desk.screen()
-    );
+    desk.keys(&["F5", "F5"]);
+    assert!(desk.shows("No benchmark yet: Esc 5 m"), "{}", desk.screen());
     desk.keys(&["Esc"]);
-    assert_eq!(desk.app.tab.case, desk.app.tab.saved);
-    desk.go_to("model.method").keys(&["Enter", "3"]);
+    assert!(desk.shows("No benchmark yet: 5 m"), "{}", desk.screen());
+    desk.keys(&["5"]);
+    assert!(desk.shows("No benchmark yet: m runs"), "{}", desk.screen());
+}
+
+#[test]
+fn a_choice_field_names_the_way_to_a_pane() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("model.method").keys(&["3"]);
     assert!(
         desk.shows("no choice begins with 3. Esc leaves the field; then 3 shows Chart"),
         "{}",

@@ -120,7 +120,7 @@ fn enter_uses_the_selected_setting_and_undo_reverts_it() {
         Method::Dynamic
     );
     assert!(
-        desk.shows(&format!("method {marked}; u undoes")),
+        desk.shows(&format!("method {marked}; Ctrl-Z undoes")),
         "{}",
         desk.screen()
     );

@@ -2,9 +2,10 @@
 
 use super::App;
 use crate::report;
-use crate::tui::commands::{Command, key_of};
+use crate::tui::commands::{Command, key_in};
 use crate::tui::cursor_range::CursorScope;
 use crate::tui::dialogs::Surroundings;
+use crate::tui::keys::Place;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart::Charts;
 use crate::tui::panes::form::Form;
@@ -98,12 +99,20 @@ impl App {
             shows_last_valid: tab.shows_last_valid(),
             shows_cost: self.shows_cost,
             is_focused: self.layout.focus() == Pane::Results,
-            next_fault: || key_of(Command::NextFault),
-            notes_key: || key_of(Command::Notes),
+            next_fault: || key_in(Place::FORM, Command::NextFault),
+            notes_key: self.notes_key(),
             units: self.settings.units,
             look: self.look,
             title: self.title(Pane::Results),
             area: self.layout.plan().results,
+        }
+    }
+
+    fn notes_key(&self) -> fn() -> String {
+        if self.has_line() {
+            || key_in(Place::FORM, Command::Notes)
+        } else {
+            || key_in(Place::FIELD, Command::Notes)
         }
     }
 
@@ -153,6 +162,7 @@ impl App {
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
             is_stale: self.tab.shows_last_valid(),
+            notes_key: self.notes_key(),
             work: &self.tab.chart_work,
             undone: self.tab.undone,
             units: self.settings.units,

@@ -211,8 +211,7 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::WORK, &[ctrl('o')], Do::Open, "open", "Open another case in a tab."),
     shown(Place::WORK, &[ctrl('q')], Do::Quit, "quit", "Quit; asks if there are unsaved edits."),
     shown(Place::FORM, &[key(KeyCode::Esc)], Do::Leave, "leave field",
-        "Leave the field; letters and digits are then commands. After the first digit, restore the \
-            value."),
+        "Leave the field and keep its value; letters and digits are then commands."),
     shown(Place::WORK, &[ctrl('t'), function(6)], Do::ToggleMethod, "method",
         "Switch the method: paper, exact, static, dynamic, auto."),
     listed(Place::WORK, &[], Do::Method(Method::Paper), "method paper",

@@ -110,6 +110,8 @@ pub struct Charts<'a> {
     pub(crate) cursor: Option<f64>,
     /// Whether the results are older than the form.
     pub(crate) is_stale: bool,
+    /// The key that shows the notes.
+    pub(crate) notes_key: fn() -> String,
     /// The chart that the worker computes for the case.
     pub work: &'a ChartWork,
     /// The first request after the last undo.

@@ -77,6 +77,15 @@ impl Title {
             .copied()
     }
 
+    /// The keys to type for a command of the pane.
+    pub(crate) fn key_to(&self, command: &str) -> String {
+        if self.has_focus {
+            command.to_owned()
+        } else {
+            format!("{}{command}", self.key())
+        }
+    }
+
     // While a field is edited, the key begins with Esc, since digits are part of the value. The
     // form has no key while one of its fields is edited.
     fn key(&self) -> String {
@@ -112,7 +121,6 @@ impl Title {
         let sayings = [
             (format!("{leave}{names}"), beside_names),
             (format!("{leave}{keys}"), BESIDE_KEYS),
-            (keys, BESIDE_KEYS),
         ];
         let fits = sayings
             .into_iter()

@@ -18,12 +18,12 @@ use plot::{LEVEL, draw_legend, draw_plot};
 
 /// Least height with a row for the legend.
 const TALL: u16 = 8;
-const INVITATION: &str = "No benchmark yet: m runs every method with its settings on this case for a few seconds. Esc stops the \
+const INVITATION: &str = "runs every method with its settings on this case for a few seconds. Esc stops the \
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
 
 pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     let title = title(pane, pane.title.room(pane.area.width));
-    let inner = pane.title.draw(title, pane.area, buffer);
+    let inner = pane.title.draw(&title, pane.area, buffer);
     if inner.is_empty() {
         return;
     }
@@ -32,11 +32,11 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
         .and_then(|traded| Some((traded, traded.trade.as_ref()?)));
     let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
         let words = if pane.traded.is_some() {
-            "Computing the reference."
+            "Computing the reference.".to_owned()
         } else {
-            INVITATION
+            format!("No benchmark yet: {} {INVITATION}", pane.title.key_to("m"))
         };
-        return text::draw_words(words, inner, buffer);
+        return text::draw_words(&words, inner, buffer);
     };
     if pane.view == TradeView::Table {
         return draw_table(pane, traded, trade, inner, buffer);
@@ -97,32 +97,37 @@ fn draw_table(
 }
 
 /// The longest title that fits, otherwise the shortest one.
-fn title(pane: &TradePane<'_>, room: usize) -> &'static str {
+fn title(pane: &TradePane<'_>, room: usize) -> String {
     let is_stale = |traded: &Traded| pane.inputs.is_none_or(|inputs| traded.is_stale(inputs));
-    let titles = match (pane.traded.is_some_and(is_stale), pane.view) {
-        (true, TradeView::Chart) => [
-            "OUTDATED, m runs it again: Accuracy against run time, both logarithmic",
-            "OUTDATED (m): Accuracy against run time",
-            "OUTDATED (m): Accuracy",
-        ],
-        (false, TradeView::Chart) => [
+    let titles = match pane.view {
+        TradeView::Chart => [
             "Accuracy against run time, both logarithmic",
             "Accuracy against run time",
             "Accuracy",
         ],
-        (true, TradeView::Table) => [
-            "OUTDATED, m runs it again: Run time and difference in %",
-            "OUTDATED (m): Time and difference in %",
-            "OUTDATED (m): Methods",
-        ],
-        (false, TradeView::Table) => [
+        TradeView::Table => [
             "Run time and difference from the reference in %",
             "Run time and difference in %",
             "Methods",
         ],
     };
-    let fits = |title: &&str| title.len() <= room;
-    titles.into_iter().find(fits).unwrap_or(titles[2])
+    let outdated = if pane.traded.is_some_and(is_stale) {
+        let key = pane.title.key_to("m");
+        [
+            format!("OUTDATED, {key} runs it again: "),
+            format!("OUTDATED ({key}): "),
+        ]
+    } else {
+        [String::new(), String::new()]
+    };
+    let starts = [&outdated[0], &outdated[1], &outdated[1]];
+    let titles = starts
+        .into_iter()
+        .zip(titles)
+        .map(|(start, title)| format!("{start}{title}"));
+    let mut titles: Vec<_> = titles.collect();
+    let at = titles.iter().position(|title| title.len() <= room);
+    titles.swap_remove(at.unwrap_or(2))
 }
 
 /// The areas of the legend, of the plot with its axes, and of the text below it.

@@ -1,6 +1,6 @@
 //! Esc and Ctrl-C: they end the topmost dialog or work first.
 
-use super::{cursor, edit, files, panes, study};
+use super::{cursor, files, panes, study};
 use crate::model::Stage;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
@@ -11,25 +11,25 @@ use crate::tui::tab::Tab;
 pub(super) const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again to \
     quit";
 
-/// Esc: closes or stops the topmost item; no edit is lost.
+/// Esc: closes a dialog, leaves the field, or stops the work; no edit is lost.
 pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     if let Some(mut prompt) = app.prompts.pop() {
         return prompt.dialog_mut().close();
     }
-    if let Some(case) = app.before_digit.take() {
-        return edit::take_back(app, case);
+    // Hints such as `Esc n` rely on one Esc to leave the field, also while work runs.
+    if app.has_line() {
+        app.tab.history.end_visit();
+        app.is_editing = false;
+        return Vec::new();
     }
-    // Every edit restarts a visible study, and Esc leaves the field.
     let stopped = stop(app, app.layout.focus() == Pane::Study);
     if !stopped.is_empty() {
         return stopped;
     }
-    if app.has_line() {
-        app.tab.history.end_visit();
-        app.is_editing = false;
-    } else if app.is_playing {
+    if app.is_playing {
         return cursor::stop(app);
-    } else if app.cursor.is_some() && app.layout.focus().is_lower() {
+    }
+    if app.cursor.is_some() && app.layout.focus().is_lower() {
         app.cursor = None;
     } else if app.layout.is_zoomed() {
         panes::zoom(app);

@@ -23,46 +23,31 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
-    let before = (letter.is_ascii_digit() && app.starts_new_edit()).then(|| app.tab.case.clone());
+    let before = (letter.is_ascii_digit() && app.starts_new_edit())
+        .then(|| rows::text(&app.tab.case, app.tab.form.focus).map(str::to_owned));
     let effects = paste(app, letter.encode_utf8(&mut [0; 4]));
     if let Some(before) = before {
-        announce(app, letter, &before);
-        app.before_digit = Some(before);
+        announce(app, letter, before.as_deref());
     }
     effects
 }
 
 // Reports the effect of a digit, because outside a field the same digit shows a pane.
-fn announce(app: &mut App, digit: char, before: &Case) {
+fn announce(app: &mut App, digit: char, before: Option<&str>) {
     let earlier = app.message.take();
     let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
     let label = rows::full_label(&app.tab.case, app.tab.form.focus);
-    let edit = match rows::text(before, app.tab.form.focus) {
-        Some(text) => {
-            let text = recovery::shown(Some(text));
-            format!("{label}: {digit} replaces {text}. Esc restores {text}")
+    let edit = match before {
+        Some(_) => {
+            let text = recovery::shown(before);
+            format!("{label}: {digit} replaces {text}. Ctrl-Z restores {text}")
         }
-        None => format!("{label}: {digit} starts a value. Esc removes {digit}"),
+        None => format!("{label}: {digit} starts a value. Ctrl-Z removes {digit}"),
     };
     let pane = Pane::of_digit(digit).map_or_else(String::new, |pane| {
-        format!("; then {digit} shows {}", pane.name())
+        format!("; Esc {digit} shows {}", pane.name())
     });
     app.say(format!("{earlier}{edit}{pane}"));
-}
-
-/// Esc after the digit that started a new value: restores the value and leaves the field.
-pub(super) fn take_back(app: &mut App, case: Case) -> Vec<Effect> {
-    let focus = app.tab.form.focus;
-    app.tab.history.forget_visit(&case);
-    app.is_editing = false;
-    let effects = solve(app.replace_case(case, focus));
-    let text = rows::text(&app.tab.case, focus).map(|text| recovery::shown(Some(text)));
-    app.say(format!(
-        "{} is {} again",
-        rows::full_label(&app.tab.case, focus),
-        text.unwrap_or_else(|| "empty".to_owned())
-    ));
-    effects
 }
 
 /// Inserts a pasted text into a line of text, without control characters. Several lines become one.
@@ -210,7 +195,7 @@ pub(super) fn undone_by(app: &App, case: &Case) -> &'static str {
     if *case == app.tab.case {
         ", unchanged"
     } else {
-        "; u undoes"
+        "; Ctrl-Z undoes"
     }
 }
 

@@ -7,6 +7,7 @@ use crate::report::pictures::{Picture, find};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
+use crate::tui::commands::Command;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::export::ExportTo;
 use crate::tui::dialogs::question::Question;
@@ -52,9 +53,10 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
     let is_picture = exports::is_picture(&path);
     let picture = picture(app).filter(|_| is_picture);
     if is_picture && picture.is_none() {
+        let [chart, teeth] = [Pane::Chart, Pane::Teeth].map(|pane| app.key_of(Command::Show(pane)));
         app.complain(format!(
-            "not exported: no chart is visible. Keys 3 and 4 show the chart and the teeth; {} \
-                write the report",
+            "not exported: no chart is visible. {chart} and {teeth} show the chart and the teeth; \
+                {} write the report",
             ReportFormat::ENDINGS
         ));
         return Vec::new();

@@ -7,7 +7,6 @@ use crate::model::{Inputs, QUANTITIES, Quantity};
 use crate::study::sweep::Grid;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::commands::{Command, key_of};
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::pane::Pane;
@@ -141,8 +140,7 @@ fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyPar
     let axes = Grid::of(axes)
         .map_err(|problem| {
             let problem = problem.for_form();
-            let key = key_of(Command::Study(StudyCommand::Second));
-            format!("{}: {key} leaves the map.", problem.cause)
+            format!("{}: s in this pane leaves the map.", problem.cause)
         })?
         .axes;
     let mut layers = layers(app, inputs, quantity);
@@ -155,7 +153,7 @@ fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyPar
 fn tolerance(app: &App, inputs: &Inputs, quantity: &Quantity) -> Result<StudyParameters, String> {
     if app.tab.case.spread.is_empty() {
         return Err("The case has no [spread]: add a line [spread] and below it lines such as \
-            \"deviations.base_pitch\" = { normal = \"4 um\" } to its file, and open it again. d shows the field over its range."
+            \"deviations.base_pitch\" = { normal = \"4 um\" } to its file, and open it again. d in this pane shows the field over its range."
             .to_owned());
     }
     Ok(StudyParameters::Tolerance(Box::new(ToleranceParameters {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::case::{Case, Document, Example};
 use crate::model::Stages;
 use crate::tui::app::App;
-use crate::tui::commands::{Command, key_of};
+use crate::tui::commands::Command;
 use crate::tui::pane::Pane;
 use crate::tui::solver::Request;
 use crate::tui::store;
@@ -84,7 +84,7 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
     app.say(format!(
         "new case: {missing} required fields are empty, the others show their defaults; \
          {} starts from an example",
-        key_of(Command::Example)
+        app.key_of(Command::Example)
     ));
     request
 }

@@ -5,6 +5,7 @@ use crate::case::{Case, Variant};
 use crate::model::{Inputs, Stage};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::commands::Command;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker, VARIANT};
 use crate::tui::jobs::Job;
@@ -43,14 +44,17 @@ pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
     case.keep_variant(variant);
     let effects = edit::replace(app, case);
     app.say(format!(
-        "variant {name} now has {count} {edits}; the form shows the case without them; u undoes"
+        "variant {name} now has {count} {edits}; the form shows the case without them; Ctrl-Z undoes"
     ));
     effects
 }
 
 fn recall(app: &mut App, name: &str) -> Vec<Effect> {
     let Ok(variant) = app.tab.case.variant(name).cloned() else {
-        app.say("no edits since the last save: change a field, then type :variant NAME");
+        let key = app.key_of(Command::Variant);
+        app.say(format!(
+            "no edits since the last save: change a field, then type {key} NAME"
+        ));
         return Vec::new();
     };
     let case = app.tab.case.with(&variant);
@@ -64,7 +68,10 @@ fn recall(app: &mut App, name: &str) -> Vec<Effect> {
 pub(super) fn next(app: &mut App) {
     let count = app.tab.case.variants.len();
     if count == 0 {
-        app.say("the case has no variants: :variant NAME saves the edits as one");
+        let key = app.key_of(Command::Variant);
+        app.say(format!(
+            "the case has no variants: {key} NAME saves the edits as one"
+        ));
         return;
     }
     let page = results::variants_page(&app.results());

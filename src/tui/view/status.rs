@@ -32,7 +32,10 @@ pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width);
     let (mut lines, mut is_long) = (Vec::new(), false);
     if let Some(progress) = app.progress.clone().or_else(|| solving(app)) {
-        lines.push(Line::styled(text::cut(&bar(&progress), width), theme.note));
+        // Esc first leaves the field.
+        let cancel = if app.has_line() { "Ctrl-C" } else { "Esc" };
+        let bar = format!("{}; {cancel} cancels", bar(&progress));
+        lines.push(Line::styled(text::cut(&bar, width), theme.note));
     }
     if let Some(message) = &app.message {
         let (mark, style) = if message.is_fault {
@@ -284,11 +287,7 @@ fn bar(progress: &Progress) -> String {
     };
     let full = (part * BAR as f64).floor() as usize;
     let bar = "█".repeat(full) + &"░".repeat(BAR - full);
-    format!(
-        "{bar} {:3.0} % {}; Esc cancels",
-        part * 100.0,
-        progress.what
-    )
+    format!("{bar} {:3.0} % {}", part * 100.0, progress.what)
 }
 
 fn short(binding: &Binding) -> String {

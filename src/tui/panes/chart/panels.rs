@@ -258,16 +258,21 @@ fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
     }
     Some(answer.of(active).map_or_else(
         || "This method has no valid results.".to_owned(),
-        |solution| nothing(solution, &label),
+        |solution| nothing(solution, &label, charts.notes_key),
     ))
 }
 
-fn nothing(solution: &Solution, label: &str) -> String {
+fn nothing(solution: &Solution, label: &str, notes_key: fn() -> String) -> String {
     match solution.outcome {
         Outcome::NoCornerContact => format!(
             "No corner contact: {}; no impact.",
             without_contact(solution)
         ),
-        Outcome::CornerContact => format!("No {label} between D and E; press n for the reason."),
+        Outcome::CornerContact => {
+            format!(
+                "No {label} between D and E; {} shows the reason.",
+                notes_key()
+            )
+        }
     }
 }

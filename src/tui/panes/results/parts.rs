@@ -116,7 +116,7 @@ fn shortened(pane: &Results<'_>, hidden: usize, width: usize) -> Option<String> 
         (_, 1) => "more line",
         _ => "more lines",
     };
-    let counted = format!("{count} {noun}: press {key}");
+    let counted = format!("{count} {noun} ({key})");
     if hidden > 0 {
         return Some(counted);
     }
@@ -134,7 +134,7 @@ fn shortened(pane: &Results<'_>, hidden: usize, width: usize) -> Option<String> 
         } else {
             String::new()
         };
-        format!("{NOTE}{}{others} (press {key})", names[..shown].join(", "))
+        format!("{NOTE}{}{others} ({key})", names[..shown].join(", "))
     });
     let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
     (count > 0).then(|| {
