@@ -76,6 +76,8 @@ pub enum Action {
     Previewed(Viewport, Box<Preview>),
     /// The access and the kept edits of an opened case.
     Claimed(Box<Claim>),
+    /// The journals of ended sessions, each with its description.
+    Journals(Vec<(PathBuf, String)>),
     /// The recent cases, the latest first.
     Recents(Vec<Recent>),
     /// The digests of the examples, in their order.
@@ -105,8 +107,10 @@ pub enum Effect {
     Remember(PathBuf),
     /// Adopts this journal, whose edits are now in the form.
     Adopt(PathBuf),
-    /// Deletes this journal, whose edits the user discarded.
-    Forget(PathBuf),
+    /// Deletes these journals, whose edits the user discarded.
+    Forget(Vec<PathBuf>),
+    /// Lists the journals of ended sessions and returns [`Action::Journals`].
+    Journals,
     /// Writes the settings.
     Keep(Settings),
     /// Copies a text to the clipboard of the user's terminal.

@@ -26,6 +26,7 @@ pub enum Command {
     Save,
     SaveAs,
     Reload,
+    Journals,
     Relief,
     Export,
     Open,

@@ -33,11 +33,14 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
             kept.err()
                 .map(|reason| Action::Failed(format!("the settings are not saved: {reason}")))
         }
-        Effect::Forget(journal) => {
+        Effect::Forget(journals) => {
             // A journal that cannot be deleted is offered again at the next start.
-            drop(fs::remove_file(journal));
+            for journal in journals {
+                drop(fs::remove_file(journal));
+            }
             None
         }
+        Effect::Journals => Some(Action::Journals(autosave.ended_sessions())),
         Effect::Solve(_)
         | Effect::Job(_)
         | Effect::Copy(_)

@@ -139,6 +139,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Exported(path, result) => export::done(app, &path, result),
         Action::Reported(text) => return copy::report(app, text),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
+        Action::Journals(journals) => recovery::list(app, journals),
         Action::Failed(reason) => app.complain(reason),
         result @ (Action::Listed(_)
         | Action::Found(_)
@@ -157,6 +158,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Save => files::save(app, Next::Stay),
         Command::SaveAs => files::ask_where(app, Next::Stay),
         Command::Reload => reload::ask(app),
+        Command::Journals => vec![Effect::Journals],
         Command::Relief => relief::ask(app),
         Command::Export => export::ask(app),
         Command::Open => browse::open(app, false),

@@ -432,6 +432,7 @@ impl Bench {
             | Effect::Remember(_)
             | Effect::Adopt(_)
             | Effect::Forget(_)
+            | Effect::Journals
             | Effect::Keep(_)
             | Effect::Mouse(_)
             | Effect::CancelWork

@@ -299,6 +299,31 @@ fn a_folder_or_file_system_without_locks_is_reported() {
 }
 
 #[test]
+fn journals_of_other_cases_are_reported_once_and_deleted_in_one_place() {
+    let mut tty = opened();
+    tty.type_in("\x151.25 in");
+    wait_for_journal(&mut tty, "1.25 in");
+    tty.send_signal("KILL");
+    tty.wait_for_end();
+    let other = tty.folder.path().join("other.toml");
+    fs::write(&other, TABLE_1).expect("room on the disk");
+    let mut next = Launch::of(Arc::clone(&tty.folder)).argument(&other).start();
+    next.wait_for("case.toml: unsaved edits of an ended session");
+    next.type_in("\x156 mm\x1bOQthird\r");
+    next.wait_for("saved ");
+    next.settle(Duration::from_millis(100));
+    assert!(next.shows("saved ") && !next.shows("ended session"));
+    next.type_in("\x10journals\r");
+    next.wait_for("case.toml: 1 edit");
+    next.type_in("d");
+    next.wait_until("no question", |tty| !tty.shows("Delete all"));
+    assert!(journals(next.folder.path()).is_empty());
+    next.type_in("\x10journals\r");
+    next.wait_for("no ended session left unsaved edits");
+    next.quit();
+}
+
+#[test]
 fn journals_keep_away_from_a_folder_that_others_may_write() {
     let launch = Launch::on_table_1().size(24, 200);
     let folder = Arc::clone(&launch.folder);
@@ -544,7 +569,7 @@ fn edits_of_the_built_in_case_are_journaled() {
     let other = folder.path().join("other.toml");
     fs::write(&other, TABLE_1).expect("room on the disk");
     let mut tty = Launch::of(Arc::clone(&folder)).argument(&other).start();
-    tty.wait_for("unsaved edits of the built-in case are kept");
+    tty.wait_for("the built-in case: unsaved edits of an ended session");
     // A new case has no file either, but is another case.
     tty.type_in("\x0e");
     tty.wait_for("required fields are empty");

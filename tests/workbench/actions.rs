@@ -59,6 +59,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2", "v", "", "the case has no variants"),
     ("", ":variant", "", "Commands"),
     ("X", ":reload", "", "[> Cancel <]"),
+    ("", ":journals", "", "no ended session left unsaved edits"),
     ("", ":relief", "", "Load range and tolerance"),
     // Chart and teeth.
     ("Esc 3", "Space", "", "[ticks]"),

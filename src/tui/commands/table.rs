@@ -272,6 +272,8 @@ pub static BINDINGS: &[Binding] = &[
         "Show the stages and the microseconds of the last solve beside the results."),
     listed(Place::WORK, &[function(8), alt('m')], Do::CycleMarker, "marker",
         "Switch the chart marker: Braille, blocks or dots."),
+    listed(Place::WORK, &[], Do::Journals, "journals",
+        "List the unsaved edits of ended sessions, and delete them on request."),
     listed(Place::WORK, &[], Do::Relief, "relief",
         "Find the tip relief to specify on both gears, and write it into the case."),
     listed(Place::WORK, &[], Do::CycleTheme, "theme", "Switch the colours: quiet, contrast, mono."),

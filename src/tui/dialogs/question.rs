@@ -53,8 +53,8 @@ pub(crate) enum Choice {
     SaveAs(Next),
     /// Restore kept edits into the form.
     Recover(Box<Offer>),
-    /// Delete this journal with its edits.
-    Forget(PathBuf),
+    /// Delete these journals with their edits.
+    Forget(Vec<PathBuf>),
     /// Return to the form.
     Cancel,
 }
@@ -216,9 +216,26 @@ impl Question {
             ),
             details: offer.changes.iter().map(recovery::line).collect(),
             buttons: vec![
-                ("Discard", Choice::Forget(offer.journal.clone())),
+                ("Discard", Choice::Forget(vec![offer.journal.clone()])),
                 ("Recover", Choice::Recover(Box::new(offer))),
                 ("Later", Choice::Cancel),
+            ],
+            marked: 1,
+        }
+    }
+
+    /// Lists the journals of ended sessions.
+    pub(crate) fn journals(journals: Vec<(PathBuf, String)>) -> Question {
+        let (places, details) = journals.into_iter().unzip();
+        Question {
+            title: "Unsaved edits",
+            text: "Sessions ended with these unsaved edits. A case offers its edits when it is \
+                opened."
+                .to_owned(),
+            details,
+            buttons: vec![
+                ("Delete all", Choice::Forget(places)),
+                ("Close", Choice::Cancel),
             ],
             marked: 1,
         }

@@ -3,7 +3,7 @@
 //!
 //! An idle workbench sleeps: a deadline exists only while a journal is behind the edits.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use crate::case::Case;
 use crate::case::changes::{self, Change};
 use crate::case::file::followed;
 use crate::case::stamp::Stamp;
-use crate::tui::store::{self, state::State};
+use crate::tui::store::state::State;
 
 /// Delay of the journal after the last edit.
 const AFTER_LAST: Duration = Duration::from_millis(900);
@@ -34,8 +34,10 @@ pub struct Autosave {
     journal_writer: Arc<JournalWriter>,
     /// The journals of this session; `None` if no folder is private.
     journals: Option<Journals>,
-    /// Folders in which earlier sessions may have written.
+    /// Folders in which earlier sessions may have written journals of the opened cases.
     others: Vec<Journals>,
+    /// Whether the journals of other cases were reported.
+    has_reported: bool,
     /// A message about the folder of journals, until it is shown.
     notice: Option<String>,
     /// The name of this session, and the lock that shows other sessions that it runs; from the
@@ -76,6 +78,7 @@ impl Autosave {
             journal_writer,
             journals: state.folder.as_ref().map(journals),
             others: state.others.iter().map(journals).collect(),
+            has_reported: false,
             notice: state.notice,
             session: None,
             locks: Locks::default(),
@@ -136,6 +139,11 @@ impl Autosave {
             _ => saving.write(),
         };
         (saving.path, result)
+    }
+
+    /// The journals of ended sessions, each with its description.
+    pub(crate) fn ended_sessions(&self) -> Vec<(PathBuf, String)> {
+        self.journals.iter().flat_map(Journals::list).collect()
     }
 
     /// Deletes a journal of an earlier session once the journal of this session contains its edits.
@@ -222,9 +230,8 @@ impl Autosave {
         let mut claim = Claim::of(open.id, Access::Own);
         claim.notices.extend(unlocked);
         claim.notices.extend(self.notice.take());
-        let folders = || self.journals.iter().chain(&self.others);
         let stamp = open.document.stamp();
-        for folder in folders() {
+        for folder in self.journals.iter().chain(&self.others) {
             let Found { journals, notices } = folder.left_behind(open.path, stamp);
             let offers = journals
                 .into_iter()
@@ -233,10 +240,11 @@ impl Autosave {
             claim.notices.extend(notices);
         }
         // Only when the workbench starts.
-        if self.tracked.len() == 1 && claim.offers.is_empty() {
-            let all = folders().flat_map(Journals::all_left_behind);
-            let others = all.filter(|journal| !journal.is_of(open.path, stamp));
-            claim.notices.extend(elsewhere(others));
+        if !std::mem::replace(&mut self.has_reported, true) && claim.offers.is_empty() {
+            let own = self.journals.as_ref();
+            claim
+                .notices
+                .extend(own.and_then(|own| own.report(open.path, stamp)));
         }
         claim
     }
@@ -313,27 +321,6 @@ impl Autosave {
                 .for_each(|journal| drop(fs::remove_file(journal)));
         }
     }
-}
-
-// Names other cases with unsaved edits of ended sessions.
-fn elsewhere(journals: impl Iterator<Item = Journal>) -> Option<String> {
-    let built_in = store::built_in().stamp();
-    let cases: BTreeSet<String> = journals
-        .map(|journal| match journal.case {
-            Some(path) => path.display().to_string(),
-            None if journal.base_stamp == built_in => "the built-in case".to_owned(),
-            None => "a new case".to_owned(),
-        })
-        .collect();
-    let more = if cases.len() > 1 {
-        format!(" and {} more", cases.len() - 1)
-    } else {
-        String::new()
-    };
-    let first = cases.into_iter().next()?;
-    Some(format!(
-        "unsaved edits of {first}{more} are kept: open it to restore them"
-    ))
 }
 
 // A journal without differences from the file is deleted.

@@ -1,20 +1,25 @@
 //! The folder of journals: writes journals, finds those of ended sessions, and moves damaged ones.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use super::clock;
 use super::journal::{Journal, JournalFault, MOST_BYTES};
 use super::lock::Lock;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::{Stamp, hash};
 use crate::system::paths;
-use crate::tui::store::state;
+use crate::tui::store::{self, state};
 
 /// The extension of a journal.
 const ENDING: &str = "toml";
 /// Number of letters of the case's name in the name of its journal.
 const MOST_LETTERS: usize = 40;
+
+/// Age in seconds of a journal that is not reported any more.
+const RECENT: u64 = 30 * 86400;
 
 /// The folders of journals and of session locks.
 #[derive(Debug, Clone)]
@@ -99,13 +104,44 @@ impl Journals {
         found
     }
 
-    /// The journals of every case from ended sessions.
-    pub(super) fn all_left_behind(&self) -> impl Iterator<Item = Journal> {
-        let journals = self
-            .named("")
-            .into_iter()
-            .filter_map(|path| read(&path).ok());
-        journals.filter(|journal| !self.is_written(journal))
+    /// The journals of every case from ended sessions, each with its case, its number of edits and
+    /// its age.
+    pub(super) fn list(&self) -> Vec<(PathBuf, String)> {
+        let journals = self.all_left_behind();
+        let described = journals.map(|(path, journal)| {
+            let count = journal.changes.len();
+            let edits = if count == 1 { "edit" } else { "edits" };
+            let missing = if is_missing(&journal) {
+                ", no such file"
+            } else {
+                ""
+            };
+            let age = clock::age(age_of(&journal));
+            let words = format!("{}: {count} {edits}, {age} old{missing}", name_of(&journal));
+            (path, words)
+        });
+        described.collect()
+    }
+
+    /// Reports recent journals of existing cases other than this one.
+    pub(super) fn report(&self, case: Option<&Path>, stamp: Stamp) -> Option<String> {
+        let others = self.all_left_behind().filter(|(_, journal)| {
+            !journal.is_of(case, stamp) && !is_missing(journal) && age_of(journal) < RECENT
+        });
+        let mut names: BTreeSet<String> = others.map(|(_, journal)| name_of(&journal)).collect();
+        let name = match names.len() {
+            0 | 1 => names.pop_first()?,
+            count => format!("{count} other cases"),
+        };
+        Some(format!(
+            "{name}: unsaved edits of an ended session; :journals lists them"
+        ))
+    }
+
+    fn all_left_behind(&self) -> impl Iterator<Item = (PathBuf, Journal)> {
+        let paths = self.named("").into_iter();
+        let journals = paths.filter_map(|path| read(&path).ok().map(|journal| (path, journal)));
+        journals.filter(|(_, journal)| !self.is_written(journal))
     }
 
     fn is_written(&self, journal: &Journal) -> bool {
@@ -171,6 +207,23 @@ fn set_aside(path: &Path, fault: &JournalFault) -> String {
     )
 }
 
+fn is_missing(journal: &Journal) -> bool {
+    journal.case.as_ref().is_some_and(|path| !path.exists())
+}
+
+/// In seconds.
+fn age_of(journal: &Journal) -> u64 {
+    clock::now().saturating_sub(journal.written)
+}
+
+fn name_of(journal: &Journal) -> String {
+    match &journal.case {
+        Some(path) => shown(path),
+        None if journal.base_stamp == store::built_in().stamp() => "the built-in case".to_owned(),
+        None => "a new case".to_owned(),
+    }
+}
+
 fn shown(path: &Path) -> String {
     sanitize(&path.display().to_string())
 }
@@ -188,4 +241,47 @@ fn stem(case: Option<&Path>) -> String {
         .take(MOST_LETTERS)
         .collect();
     format!("case-{letters}-{:016x}-", hash(paths::bytes(case)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_recent_journals_of_existing_cases_are_reported_and_all_are_listed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let journals = Journals::within(folder.path());
+        drop(journals.begin().expect("our own folder"));
+        let leave = |name: &str, age: u64| {
+            let case = folder.path().join(name);
+            let journal = Journal {
+                case: Some(case.clone()),
+                base_stamp: Stamp::of(b""),
+                written: clock::now() - age,
+                session: "ended".to_owned(),
+                changes: Vec::new(),
+            };
+            let place = journals.place(Some(&case), "ended", 0);
+            Journals::write(&place, &journal, false).expect("room on the disk");
+            case
+        };
+        let report =
+            |case: Option<&Path>| journals.report(case, Stamp::of(b"")).unwrap_or_default();
+        leave("deleted.toml", 60);
+        fs::write(leave("old.toml", 40 * 86400), "").expect("room on the disk");
+        assert_eq!(report(None), "");
+        let one = leave("one.toml", 60);
+        fs::write(&one, "").expect("room on the disk");
+        assert!(report(None).starts_with(&format!("{}: ", one.display())));
+        assert_eq!(report(Some(&one)), "");
+        fs::write(leave("two.toml", 60), "").expect("room on the disk");
+        assert!(report(None).starts_with("2 other cases: "));
+        let list = journals.list();
+        assert_eq!(list.len(), 4);
+        assert!(
+            list[0]
+                .1
+                .ends_with("deleted.toml: 0 edits, 1 min old, no such file")
+        );
+    }
 }

@@ -106,7 +106,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Leave => vec![Effect::Quit],
         Choice::ExportOver(path) => export::begin(app, path, true),
         Choice::Recover(offer) => recovery::recover(app, &offer),
-        Choice::Forget(journal) => vec![Effect::Forget(journal)],
+        Choice::Forget(journals) => vec![Effect::Forget(journals)],
         Choice::SaveAs(next) => {
             if !app.prompts.last().is_some_and(Prompt::is_save_as) {
                 return ask_where(app, next);

@@ -1,5 +1,7 @@
 //! Claims of opened cases: shows the process that has the case open, and offers unsaved edits.
 
+use std::path::PathBuf;
+
 use super::{solve, tabs};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
@@ -33,7 +35,13 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
         tab.access = access;
     }
     if !notices.is_empty() {
-        app.complain(notices.join("; "));
+        let said = app.message.take().map(|message| message.text);
+        app.complain(
+            said.into_iter()
+                .chain(notices)
+                .collect::<Vec<_>>()
+                .join("; "),
+        );
     }
     let name = app.tab.name();
     // The latest is on top.
@@ -43,6 +51,15 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
             .rev()
             .map(|offer| Prompt::Ask(Question::recover(&name, offer))),
     );
+}
+
+/// Shows the journals of ended sessions.
+pub(super) fn list(app: &mut App, journals: Vec<(PathBuf, String)>) {
+    if journals.is_empty() {
+        app.say("no ended session left unsaved edits");
+    } else {
+        app.prompts.push(Prompt::Ask(Question::journals(journals)));
+    }
 }
 
 /// Restores the kept edits into the form as one edit, which undo reverts.
