@@ -598,7 +598,9 @@ fn an_offer_for_a_changed_file_shows_the_present_differences() {
     tty.send_signal("TERM");
     tty.wait_for_end();
     fs::write(tty.case(), TABLE_1.replace("\"5 mm\"", "\"7 mm\"")).expect("room on the disk");
-    let mut next = again(&tty);
+    let case = tty.case();
+    let next = Launch::of(Arc::clone(&tty.folder)).argument(case);
+    let mut next = next.size(24, 160).start();
     next.wait_for(OFFER);
     next.wait_for("The file has changed");
     assert!(

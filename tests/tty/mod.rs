@@ -73,15 +73,19 @@ impl Launch {
 
     /// The workbench in an existing folder.
     pub(crate) fn of(folder: Arc<TempDir>) -> Launch {
-        let state = folder.path().to_str().expect("a name in UTF-8");
+        // The program sees no file of the user or of another test.
+        let place = |name: &str| folder.path().join(name).display().to_string();
         let variables = [
-            ("XDG_STATE_HOME", state),
-            ("XDG_CONFIG_HOME", state),
-            ("TERM", "xterm-256color"),
-            ("LC_ALL", "C.UTF-8"),
+            ("HOME", place("")),
+            ("XDG_STATE_HOME", place("")),
+            ("XDG_CONFIG_HOME", place("")),
+            ("XDG_RUNTIME_DIR", place("run")),
+            ("TMPDIR", place("tmp")),
+            ("TERM", "xterm-256color".to_owned()),
+            ("LC_ALL", "C.UTF-8".to_owned()),
         ];
         let variables = variables
-            .map(|(name, value)| (name.to_owned(), value.to_owned()))
+            .map(|(name, value)| (name.to_owned(), value))
             .to_vec();
         Launch {
             command: vec![PROGRAM.into()],
