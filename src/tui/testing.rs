@@ -85,7 +85,7 @@ pub mod session {
     pub use crate::tui::session::journal::Journal;
     pub use crate::tui::session::journal_writer::JournalWriter;
     pub use crate::tui::session::recovery::{Access, Claim, Offer};
-    pub use crate::tui::session::save::{Next, SaveFault};
+    pub use crate::tui::session::save::{Found, Next, SaveFault};
 }
 
 pub mod settings {

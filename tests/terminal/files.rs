@@ -19,11 +19,12 @@ use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::commands::Command as Do;
 use tipstrike::tui::testing::session::Next;
 use tipstrike::tui::testing::session::SaveFault;
+use tipstrike::tui::testing::session::{Found, Next};
 use tipstrike::tui::testing::update::update;
 use tty::{Launch, PROGRAM};
 
 fn edited() -> Desk {
-    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm");
     desk
 }
@@ -117,10 +118,40 @@ fn a_changed_file_is_reloaded_saved_elsewhere_overwritten_or_kept() {
 }
 
 #[test]
+fn overwrite_asks_again_after_a_change_that_was_not_shown() {
+    let theirs = |speed: &str| TABLE_1.replace("2000 rpm", speed);
+    let mut desk = edited();
+    meddle(&desk, "newer", &theirs("2100 rpm"));
+    desk.keys(&["Ctrl-S"]);
+    meddle(&desk, "same time", &theirs("2200 rpm"));
+    desk.keys(&["o"]);
+    assert!(
+        desk.shows("has changed on disk") && desk.shows("2200 rpm in the file"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.read("case.toml").contains("2200 rpm"));
+    desk.keys(&["o"]);
+    assert!(desk.app.prompts.is_empty() && desk.read("case.toml").contains("1500 rpm"));
+
+    let other = desk.write("other.toml", &theirs("2100 rpm"));
+    desk.keys(&["F2", "Ctrl-U", other.to_str().expect("UTF-8"), "Enter"]);
+    desk.write("other.toml", &theirs("2200 rpm"));
+    desk.keys(&["o"]);
+    assert!(desk.shows("The file exists") && desk.shows("2200 rpm in the file"));
+    fs::remove_file(&other).expect("our own file");
+    desk.keys(&["o"]);
+    assert!(desk.read("other.toml").contains("1500 rpm"));
+}
+
+#[test]
 fn a_failed_save_changes_nothing_and_skips_the_next_step() {
     let faults = [
-        SaveFault::Exists(Vec::new()),
-        SaveFault::Changed(vec!["speed".to_owned()]),
+        SaveFault::Exists(Found::default()),
+        SaveFault::Changed(Found {
+            lines: vec!["speed".to_owned()],
+            stamp: None,
+        }),
         SaveFault::Held("process 1 on another machine for 3 s".to_owned()),
         SaveFault::Failed("no room".to_owned()),
     ];
@@ -333,7 +364,7 @@ fn after_a_save_form_and_file_are_equal() {
 
 #[test]
 fn links_and_modes_stay_and_hard_links_are_refused() {
-    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     fs::create_dir(desk.path("sub")).expect("a folder");
     symlink("../case.toml", desk.path("sub/one.toml")).expect("a link");
     symlink("sub/one.toml", desk.path("two.toml")).expect("a link");

@@ -17,9 +17,9 @@ use tipstrike::case::Change;
 use tipstrike::case::Document;
 use tipstrike::case::sanitize::is_hidden;
 use tipstrike::tui::testing::actions::Action;
-use tipstrike::tui::testing::session::Next;
 use tipstrike::tui::testing::session::SaveFault;
 use tipstrike::tui::testing::session::{Access, Claim, Offer};
+use tipstrike::tui::testing::session::{Found, Next};
 use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::view;
 use tty::{Launch, PROGRAM};
@@ -191,6 +191,10 @@ fn foreign_texts() -> Vec<Action> {
         changes: vec![change],
         is_file_changed: true,
     };
+    let found = || Found {
+        lines: vec![words()],
+        stamp: None,
+    };
     let claim = Claim {
         id: 0,
         access: Access::Held(words()),
@@ -199,8 +203,8 @@ fn foreign_texts() -> Vec<Action> {
     };
     vec![
         Action::Failed(words()),
-        saved(SaveFault::Exists(vec![words()])),
-        saved(SaveFault::Changed(vec![words()])),
+        saved(SaveFault::Exists(found())),
+        saved(SaveFault::Changed(found())),
         saved(SaveFault::Held(words())),
         saved(SaveFault::Failed(words())),
         Action::Claimed(Box::new(claim)),

@@ -11,9 +11,10 @@ use unicode_width::UnicodeWidthStr;
 
 use super::boxes::{extent, frame, inside, room};
 use super::{Dialog, Outcome, Surroundings};
+use crate::case::stamp::Stamp;
 use crate::tui::keys::Place;
 use crate::tui::session::recovery::{self, Offer};
-use crate::tui::session::save::Next;
+use crate::tui::session::save::{Found, Next};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -43,8 +44,8 @@ pub(crate) enum Choice {
     Save(Next),
     /// Discard the edits and continue with the next step.
     Proceed(Next),
-    /// Overwrite the file with the form.
-    Overwrite(PathBuf, Next),
+    /// Overwrite the file, whose content has this stamp, with the form.
+    Overwrite(PathBuf, Option<Stamp>, Next),
     /// Overwrite the file with the export.
     ExportOver(PathBuf),
     /// Quit immediately.
@@ -101,20 +102,20 @@ impl Question {
         }
     }
 
-    /// Asks before overwriting an existing file; `details` are its differences from the form.
+    /// Asks before overwriting an existing file.
     #[must_use]
-    pub(crate) fn exists(path: &Path, details: Vec<String>, next: &Next) -> Question {
+    pub(crate) fn exists(path: &Path, found: Found, next: &Next) -> Question {
         Question {
             title: "The file exists",
             text: format!(
                 "{} exists. Overwrite replaces it with the form.",
                 path.display()
             ),
-            details,
+            details: found.lines,
             buttons: vec![
                 (
                     "Overwrite",
-                    Choice::Overwrite(path.to_owned(), next.clone()),
+                    Choice::Overwrite(path.to_owned(), found.stamp, next.clone()),
                 ),
                 ("Save as", Choice::SaveAs(next.clone())),
                 ("Cancel", Choice::Cancel),
@@ -159,22 +160,22 @@ impl Question {
         }
     }
 
-    /// Asks after another program wrote the file; `details` are its differences from the form.
+    /// Asks after another program wrote the file.
     #[must_use]
-    pub(crate) fn changed(path: &Path, details: Vec<String>, next: &Next) -> Question {
+    pub(crate) fn changed(path: &Path, found: Found, next: &Next) -> Question {
         Question {
             title: "The file has changed on disk",
             text: format!(
                 "{} was changed after it was opened here. Reload discards the edits in the form.",
                 path.display()
             ),
-            details,
+            details: found.lines,
             buttons: vec![
                 ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
                 ("Save as", Choice::SaveAs(next.clone())),
                 (
                     "Overwrite",
-                    Choice::Overwrite(path.to_owned(), next.clone()),
+                    Choice::Overwrite(path.to_owned(), found.stamp, next.clone()),
                 ),
                 ("Cancel", Choice::Cancel),
             ],

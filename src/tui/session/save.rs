@@ -1,11 +1,12 @@
 //! Saving a case, and the difference between its file and the form.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::recovery;
 use crate::case::Document;
 use crate::case::changes::{self, Change};
-use crate::case::file::{ReadError, SaveError, Saved};
+use crate::case::file::{MOST_BYTES, ReadError, SaveError, Saved, followed, read_bytes};
+use crate::case::stamp::Stamp;
 use crate::tui::store::at_home;
 
 /// The step after a save or after discarding edits.
@@ -38,15 +39,23 @@ pub struct Written {
 /// Why a case was not written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SaveFault {
-    /// A file with this name exists; its differences from the form, one line per field.
-    Exists(Vec<String>),
-    /// Another program has changed the file since it was read; its differences from the form, one
-    /// line per field.
-    Changed(Vec<String>),
+    /// A file with this name exists.
+    Exists(Found),
+    /// Another program has changed the file since it was read.
+    Changed(Found),
     /// Another session has the file open: its process, machine and age.
     Held(String),
     /// Another reason, as text.
     Failed(String),
+}
+
+/// The content of a file that a save would overwrite.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Found {
+    /// The stamp of the content; `None` if the file cannot be read.
+    pub stamp: Option<Stamp>,
+    /// The differences from the form, one line per field.
+    pub lines: Vec<String>,
 }
 
 /// A requested save.
@@ -67,8 +76,8 @@ pub(crate) enum Over {
     Nothing,
     /// The content that was read, if no other program has changed it.
     Own,
-    /// Any content.
-    Anything,
+    /// The content that the user saw, which has this stamp if it can be read.
+    Seen(Option<Stamp>),
 }
 
 impl Saving {
@@ -82,29 +91,34 @@ impl Saving {
     /// Writes the case. The caller must have the lock.
     pub(super) fn write(&self) -> Result<Box<Written>, SaveFault> {
         let path = &self.path;
-        // The write refuses a pipe or a device without a question.
-        if self.over == Over::Nothing && path.symlink_metadata().is_ok() && !path.is_dir() {
-            return Err(SaveFault::Exists(self.occupied()));
-        }
+        let is_there = path.symlink_metadata().is_ok() && !path.is_dir();
         let mut document = self.document.clone();
-        let result = if self.over == Over::Anything {
-            document.save_over(path)
-        } else {
-            document.save(path)
+        let result = match self.over {
+            // The write refuses a pipe or a device without a question.
+            Over::Nothing if is_there => return Err(SaveFault::Exists(self.occupied())),
+            Over::Seen(seen) if is_there && stamp_of(path) != seen => {
+                let is_own = document.path() == followed(path).ok().as_deref();
+                return Err(if is_own {
+                    SaveFault::Changed(self.changed())
+                } else {
+                    SaveFault::Exists(self.occupied())
+                });
+            }
+            Over::Seen(_) => document.save_over(path),
+            Over::Nothing | Over::Own => document.save(path),
         };
         match result {
             Ok(saved) => Ok(Box::new(Written { document, saved })),
-            Err(SaveError::ChangedOnDisk(_)) => {
-                let lines = self.differences(ONLY_SPACING, |change| self.by_whom(change));
-                Err(SaveFault::Changed(lines))
-            }
+            Err(SaveError::ChangedOnDisk(_)) => Err(SaveFault::Changed(self.changed())),
             Err(SaveError::AlreadyThere(_)) => Err(SaveFault::Exists(self.occupied())),
             Err(other) => Err(SaveFault::Failed(other.to_string())),
         }
     }
 
     /// The differences of the file from the form: one line per field with a remark, or `same`.
-    fn differences(&self, same: &str, remark: impl Fn(&Change) -> String) -> Vec<String> {
+    fn differences(&self, same: &str, remark: impl Fn(&Change) -> String) -> Found {
+        // The stamp first: a change before the next line then asks again.
+        let stamp = stamp_of(&self.path);
         let theirs = match Document::read_draft(&self.path) {
             Ok(theirs) => theirs.case,
             Err(error) => {
@@ -116,7 +130,10 @@ impl Saving {
                 } else {
                     "It is not a valid case: "
                 };
-                return vec![format!("{cause}{first}")];
+                return Found {
+                    stamp,
+                    lines: vec![format!("{cause}{first}")],
+                };
             }
         };
         let lines = changes::between(&theirs, &self.document.case)
@@ -132,16 +149,19 @@ impl Saving {
                     remark(&change)
                 )
             });
-        let lines: Vec<_> = lines.collect();
+        let mut lines: Vec<_> = lines.collect();
         if lines.is_empty() {
-            vec![same.to_owned()]
-        } else {
-            lines
+            lines.push(same.to_owned());
         }
+        Found { stamp, lines }
     }
 
-    fn occupied(&self) -> Vec<String> {
+    fn occupied(&self) -> Found {
         self.differences(ALL_THE_SAME, |_| String::new())
+    }
+
+    fn changed(&self) -> Found {
+        self.differences(ONLY_SPACING, |change| self.by_whom(change))
     }
 
     /// Where the field was changed since the document was read.
@@ -154,4 +174,10 @@ impl Saving {
         };
         format!(" ({by})")
     }
+}
+
+fn stamp_of(path: &Path) -> Option<Stamp> {
+    read_bytes(path, MOST_BYTES)
+        .ok()
+        .map(|bytes| Stamp::of(&bytes))
 }

@@ -102,7 +102,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Cancel => Vec::new(),
         Choice::Save(next) => save(app, next),
         Choice::Proceed(next) => go(app, next),
-        Choice::Overwrite(path, next) => vec![saving(app, path, Over::Anything, next)],
+        Choice::Overwrite(path, seen, next) => vec![saving(app, path, Over::Seen(seen), next)],
         Choice::Leave => vec![Effect::Quit],
         Choice::ExportOver(path) => export::begin(app, path, true),
         Choice::Recover(offer) => recovery::recover(app, &offer),
@@ -184,12 +184,12 @@ pub(super) fn saved(
             effects.extend(go(app, next));
             return effects;
         }
-        Err(SaveFault::Exists(lines)) => app
+        Err(SaveFault::Exists(found)) => app
             .prompts
-            .push(Prompt::Ask(Question::exists(&path, lines, &next))),
-        Err(SaveFault::Changed(lines)) => app
+            .push(Prompt::Ask(Question::exists(&path, found, &next))),
+        Err(SaveFault::Changed(found)) => app
             .prompts
-            .push(Prompt::Ask(Question::changed(&path, lines, &next))),
+            .push(Prompt::Ask(Question::changed(&path, found, &next))),
         Err(SaveFault::Held(holder)) => app
             .prompts
             .push(Prompt::Ask(Question::held(&path, &holder, &next))),
