@@ -1,19 +1,33 @@
 //! Waits for changes in the folders of the watched files without periodic wake-ups.
 
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
 #[cfg(target_os = "linux")]
 pub(crate) use linux::{Bell, Changes};
 #[cfg(not(target_os = "linux"))]
 pub(crate) use periodic::{Bell, Changes};
 
+/// The watched places.
+#[derive(Debug, Default)]
+pub(crate) struct Places {
+    /// Folders whose files are watched.
+    pub(crate) folders: BTreeSet<PathBuf>,
+    /// Folders and links that another folder or link may replace.
+    pub(crate) parts: BTreeSet<PathBuf>,
+}
+
 #[cfg(target_os = "linux")]
 mod linux {
-    use std::collections::{BTreeSet, HashMap};
+    use std::collections::BTreeSet;
     use std::io;
     use std::os::fd::OwnedFd;
     use std::path::PathBuf;
 
     use rustix::event::{EventfdFlags, PollFd, PollFlags, eventfd, poll};
     use rustix::fs::inotify::{self, CreateFlags, WatchFlags};
+
+    use super::Places;
 
     /// Ends a wait.
     #[derive(Debug)]
@@ -30,41 +44,41 @@ mod linux {
         }
     }
 
-    /// The folders whose changes end a wait.
+    /// The changes that end a wait.
     #[derive(Debug)]
     pub(crate) struct Changes {
         inotify: OwnedFd,
-        folders: HashMap<PathBuf, i32>,
+        watches: BTreeSet<i32>,
     }
 
     impl Changes {
         pub(crate) fn new() -> io::Result<Changes> {
             Ok(Changes {
                 inotify: inotify::init(CreateFlags::CLOEXEC)?,
-                folders: HashMap::new(),
+                watches: BTreeSet::new(),
             })
         }
 
-        /// Watches these folders and no others. Skips a folder that cannot be watched.
-        pub(crate) fn follow(&mut self, folders: &BTreeSet<PathBuf>) {
-            let inotify = &self.inotify;
-            self.folders.retain(|folder, number| {
-                let stays = folders.contains(folder);
-                if !stays {
-                    // The folder may be deleted, and its watch with it.
-                    let _ = inotify::remove_watch(inotify, *number);
-                }
-                stays
-            });
-            for folder in folders {
-                if self.folders.contains_key(folder) {
-                    continue;
-                }
-                let events = WatchFlags::CLOSE_WRITE | WatchFlags::MOVED_TO;
-                if let Ok(number) = inotify::add_watch(&self.inotify, folder, events) {
-                    self.folders.insert(folder.clone(), number);
-                }
+        /// Watches these places and no others. Skips a place that cannot be watched.
+        pub(crate) fn follow(&mut self, places: &Places) {
+            let content = WatchFlags::CLOSE_WRITE | WatchFlags::MOVED_TO | WatchFlags::CREATE;
+            // Of a link itself, not of its target.
+            let place = WatchFlags::MOVE_SELF | WatchFlags::DELETE_SELF | WatchFlags::DONT_FOLLOW;
+            // A path that leads to another folder than before gets a new watch.
+            let watch = |path: &PathBuf, events| {
+                inotify::add_watch(&self.inotify, path, events | WatchFlags::MASK_ADD).ok()
+            };
+            let folders = places
+                .folders
+                .iter()
+                .filter_map(|path| watch(path, content));
+            let parts = places.parts.iter().filter_map(|path| watch(path, place));
+            let watches = folders.chain(parts).collect();
+            for &unused in self.watches.difference(&watches) {
+                // The folder may be deleted, and its watch with it.
+                let _ = inotify::remove_watch(&self.inotify, unused);
             }
+            self.watches = watches;
         }
 
         /// Waits for a change in a folder, or for the bell.
@@ -90,9 +104,7 @@ mod linux {
 
 #[cfg(not(target_os = "linux"))]
 mod periodic {
-    use std::collections::BTreeSet;
     use std::io;
-    use std::path::PathBuf;
     use std::sync::{Condvar, Mutex, PoisonError};
     use std::time::Duration;
 
@@ -126,7 +138,7 @@ mod periodic {
             Ok(Changes)
         }
 
-        pub(crate) fn follow(&mut self, _: &BTreeSet<PathBuf>) {}
+        pub(crate) fn follow(&mut self, _: &super::Places) {}
 
         pub(crate) fn wait(&self, bell: &Bell) {
             let rings = bell.rings.lock();

@@ -23,12 +23,11 @@ use super::rows;
 use super::session::recovery::{Access, NEWER, OpenCase};
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
+use super::store::WatchedFile;
 use super::tab::Tab;
 use super::theme::Look;
 use crate::case::Document;
 use crate::case::fields::Kind;
-use crate::case::stamp::Stamp;
-use crate::case::{Case, Document};
 
 /// The whole state of the screen.
 #[derive(Debug, Clone)]
@@ -167,11 +166,14 @@ impl App {
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
-    /// The files of the open cases, with the stamps of their texts.
-    pub(super) fn files(&self) -> Vec<(PathBuf, Stamp)> {
+    /// The files of the open cases and their content.
+    pub(super) fn files(&self) -> Vec<WatchedFile> {
         let files = self.tabs().filter_map(|tab| {
-            let path = tab.document.path()?;
-            Some((path.to_owned(), tab.document.stamp()))
+            Some(WatchedFile {
+                path: tab.path.clone()?,
+                target: tab.document.path()?.to_owned(),
+                stamp: tab.document.stamp(),
+            })
         });
         files.collect()
     }

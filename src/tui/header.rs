@@ -42,7 +42,7 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
         } else {
             ""
         },
-        app.tab.access.mark(),
+        &app.tab.marks(),
         &last,
     ]
     .concat();
@@ -118,7 +118,7 @@ fn tab_name(at: usize, tab: &Tab) -> String {
         at + 1,
         text::cut(&tab.short_name(), LONGEST_NAME),
         if tab.is_unsaved() { "*" } else { "" },
-        tab.access.mark()
+        tab.marks()
     )
 }
 

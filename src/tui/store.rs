@@ -13,6 +13,7 @@ use crate::case::Document;
 use crate::case::file::ReadError;
 use crate::case::rexs;
 use crate::case::sanitize::sanitize;
+use crate::case::stamp::Stamp;
 
 /// The case that the workbench opens at the start.
 #[derive(Debug)]
@@ -32,6 +33,24 @@ pub(crate) struct Trouble {
     pub(crate) faults: Vec<String>,
     /// Whether the user named the file; otherwise it is the last case.
     pub(crate) was_asked: bool,
+}
+
+/// The file of an open case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct WatchedFile {
+    /// The path of the case.
+    pub(crate) path: PathBuf,
+    /// The file that was read, after resolution of links.
+    pub(crate) target: PathBuf,
+    /// The stamp of the text that was read.
+    pub(crate) stamp: Stamp,
+}
+
+impl WatchedFile {
+    /// Whether the document is the content that was read.
+    pub(crate) fn is_of(&self, document: &Document) -> bool {
+        document.stamp() == self.stamp && document.path() == Some(&self.target)
+    }
 }
 
 /// The document of the built-in case.

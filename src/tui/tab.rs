@@ -19,6 +19,7 @@ use crate::model::{Inputs, Refusal, Stages};
 
 /// An open case.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "the flags are independent")]
 pub struct Tab {
     /// Unique among all tabs, including closed ones.
     pub id: usize,
@@ -36,6 +37,8 @@ pub struct Tab {
     pub(crate) saving: Option<Case>,
     /// Whether the file may be written.
     pub(crate) access: Access,
+    /// Whether another program changed the file after it was read.
+    pub is_outdated: bool,
     /// The file that the user named and that could not be opened, if the built-in case replaces it.
     pub in_place_of: Option<PathBuf>,
     /// Focus, typed text and scrolling of the form.
@@ -112,6 +115,7 @@ impl Tab {
             document,
             path,
             origin: Origin::Given,
+            is_outdated: false,
             in_place_of: None,
             history: History::default(),
             problems: Vec::new(),
@@ -204,6 +208,16 @@ impl Tab {
             case: &self.case,
             is_held,
         }
+    }
+
+    /// The marks beside the name of the case.
+    pub(crate) fn marks(&self) -> String {
+        let outdated = if self.is_outdated {
+            " *changed on disk*"
+        } else {
+            ""
+        };
+        format!("{outdated}{}", self.access.mark())
     }
 
     /// The name of the case in the title and in questions.

@@ -10,7 +10,6 @@ pub(crate) mod studying;
 mod watching;
 
 use std::io;
-use std::path::PathBuf;
 
 use latest::{Send, Worker};
 use watching::Watcher;
@@ -18,9 +17,9 @@ use watching::Watcher;
 use super::benchmark::Measuring;
 use super::jobs::Job;
 use super::solver::Request;
+use super::store::WatchedFile;
 use super::study::StudyRequest;
 use super::worker_chart::ChartRequest;
-use crate::case::stamp::Stamp;
 
 /// The worker threads. The solver and the file watcher start at once, the others with their first
 /// request.
@@ -62,7 +61,7 @@ impl Workers {
     }
 
     /// Watches these files for changes by other programs.
-    pub(super) fn watch(&self, files: Vec<(PathBuf, Stamp)>) {
+    pub(super) fn watch(&self, files: Vec<WatchedFile>) {
         self.watcher.watch(files);
     }
 

@@ -8,6 +8,7 @@ use std::io::ErrorKind;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
@@ -17,7 +18,6 @@ use tipstrike::case::{Document, fields};
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::commands::Command as Do;
-use tipstrike::tui::testing::session::Next;
 use tipstrike::tui::testing::session::SaveFault;
 use tipstrike::tui::testing::session::{Found, Next};
 use tipstrike::tui::testing::update::update;
@@ -594,7 +594,7 @@ fn a_file_written_by_another_program_is_read_again_without_edits() {
     tty.type_in("\x158 mm");
     tty.wait_for("8 mm");
     fs::write(tty.case(), TABLE_1).expect("room on the disk");
-    tty.wait_for("changed on disk: :reload reads it again");
+    tty.wait_for("changed on disk: Esc :reload reads it");
     assert!(tty.shows("8 mm"));
     tty.type_in("\x1b");
     tty.settle(Duration::from_millis(200));
@@ -602,6 +602,83 @@ fn a_file_written_by_another_program_is_read_again_without_edits() {
     tty.wait_for("has unsaved edits");
     tty.type_in("d");
     tty.wait_for("5 mm");
+}
+
+#[test]
+fn another_file_at_the_path_of_the_case_is_read() {
+    for swap in ["link", "folder", "linked folder", "folder above"] {
+        let folder = Arc::new(tempfile::tempdir().expect("a folder"));
+        let at = |name: &str| folder.path().join(name);
+        for (place, module) in [("v1", "5 mm"), ("v2", "6 mm")] {
+            fs::create_dir_all(at(place).join("deep")).expect("a folder");
+            let text = TABLE_1.replace("5 mm", module);
+            fs::write(at(place).join("case.toml"), &text).expect("room on the disk");
+            fs::write(at(place).join("deep/case.toml"), &text).expect("room on the disk");
+        }
+        let link = |target: &str, name: &str| symlink(target, at(name)).expect("a link");
+        let rename = |from: &str, to: &str| fs::rename(at(from), at(to)).expect("our own");
+        let case = match swap {
+            "link" => {
+                link("v1/case.toml", "case.toml");
+                link("v2/case.toml", "next");
+                "case.toml"
+            }
+            "linked folder" => {
+                link("v1", "now");
+                link("v2", "next");
+                "now/case.toml"
+            }
+            "folder above" => "v1/deep/case.toml",
+            _ => "v1/case.toml",
+        };
+        let mut tty = Launch::of(Arc::clone(&folder)).argument(at(case)).start();
+        tty.wait_for("5 mm");
+        tty.settle(Duration::from_millis(100));
+        match swap {
+            "link" => rename("next", "case.toml"),
+            "linked folder" => rename("next", "now"),
+            _ => {
+                rename("v1", "old");
+                rename("v2", "v1");
+            }
+        }
+        tty.wait_for("6 mm");
+        tty.type_in("\x157 mm\x13");
+        tty.wait_for("saved ");
+        assert!(
+            fs::read_to_string(at(case)).is_ok_and(|text| text.contains("7 mm")),
+            "{swap}"
+        );
+        tty.quit();
+    }
+}
+
+#[test]
+fn a_change_of_the_file_at_the_moment_of_a_key_stays_visible() {
+    for delay in 0..12 {
+        let mut tty = Launch::on_table_1().start();
+        tty.wait_for("5 mm");
+        let theirs = TABLE_1.replace("20 deg", "21 deg");
+        fs::write(tty.case(), &theirs).expect("room on the disk");
+        tty.settle(Duration::from_millis(delay * 10 + 1));
+        tty.type_in("7");
+        tty.wait_for("7 mm");
+        for key in ["\x1b[D", "\x1b[C"] {
+            tty.settle(Duration::from_millis(40));
+            tty.type_in(key);
+        }
+        tty.wait_until("the change to be visible", |tty| {
+            tty.shows("*changed on disk*") || tty.shows("21 deg")
+        });
+        if tty.shows("*changed on disk*") {
+            fs::write(tty.case(), TABLE_1).expect("room on the disk");
+            tty.wait_until("the change to be reverted", |tty| !tty.shows("*changed"));
+        }
+        tty.type_in("\x11");
+        tty.wait_for("Discard");
+        tty.type_in("d");
+        tty.wait_for_end();
+    }
 }
 
 #[test]

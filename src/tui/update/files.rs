@@ -166,7 +166,7 @@ pub(super) fn saved(
                 app.focus_on(app.tab.form.focus);
             }
             app.tab.read_line_anew();
-            app.tab.document = document;
+            (app.tab.document, app.tab.is_outdated) = (document, false);
             (app.tab.in_place_of, app.tab.origin) = (None, Origin::Given);
             let how = match saved {
                 Saved::Written => "",

@@ -7,7 +7,7 @@ use crate::case::Document;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
-use crate::tui::commands::{Command, key_of};
+use crate::tui::commands::Command;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::question::Question;
 use crate::tui::session::recovery::Access;
@@ -35,13 +35,18 @@ pub(super) fn changed(
     path: &Path,
     found: Result<Box<Document>, Vec<String>>,
 ) -> Vec<Effect> {
-    let is_of_file = |tab: &&Tab| tab.document.path() == Some(path);
-    let Some(tab) = app.tabs().find(is_of_file) else {
+    let mut tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
+    let Some(tab) = tabs.find(|tab| tab.path.as_deref() == Some(path)) else {
         return Vec::new();
     };
     let (id, name) = (tab.id, ascii::printable(&tab.short_name()).into_owned());
+    tab.is_outdated = true;
     let document = match found {
-        Ok(document) if document.stamp() == tab.document.stamp() => return Vec::new(),
+        Ok(document) if document.stamp() == tab.document.stamp() => {
+            // A link may lead to a copy now.
+            (tab.document, tab.is_outdated) = (*document, false);
+            return Vec::new();
+        }
         Ok(document) => document,
         Err(faults) => {
             let fault = faults.into_iter().next().unwrap_or_default();
@@ -53,9 +58,9 @@ pub(super) fn changed(
         }
     };
     if tab.is_unsaved() {
-        let reload = key_of(Command::Reload);
+        let reload = app.key_of(Command::Reload);
         app.complain(format!(
-            "{name} changed on disk: {reload} reads it again, and asks about your edits"
+            "{name} changed on disk: {reload} reads it and asks about your edits"
         ));
         return Vec::new();
     }
@@ -80,6 +85,7 @@ fn take_over(tab: &mut Tab, document: Document) {
     }
     tab.saved = document.case.clone();
     tab.document = document;
+    tab.is_outdated = false;
 }
 
 /// Replaces the case of a hidden tab; the worker solves it once the tab is shown.

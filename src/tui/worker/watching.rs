@@ -1,24 +1,25 @@
 //! Watches the files of the open cases for changes by other programs.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{self, Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use crate::system::changes::{Bell, Changes};
+use crate::system::changes::{Bell, Changes, Places};
 use crate::system::files;
 
 use super::latest::Send;
-use crate::case::stamp::Stamp;
 use crate::tui::actions::Action;
-use crate::tui::store;
+use crate::tui::store::{self, WatchedFile};
 
 /// A file is read once its mark has not changed for this time, or after [`LOOKS`] checks.
 const QUIET: Duration = Duration::from_millis(60);
 const LOOKS: usize = 20;
+/// Greatest number of symbolic links to follow.
+const MOST_LINKS: usize = 40;
 
 /// The thread that watches the files; dropping this ends the thread.
 #[derive(Debug)]
@@ -44,8 +45,8 @@ impl Watcher {
         Ok(Watcher { watched })
     }
 
-    /// Watches these files, each with the stamp of its known text, and no others.
-    pub(super) fn watch(&self, files: Vec<(PathBuf, Stamp)>) {
+    /// Watches these files and no others.
+    pub(super) fn watch(&self, files: Vec<WatchedFile>) {
         let mut list = self.watched.list();
         if list.files != files {
             list.files = files;
@@ -69,7 +70,7 @@ struct Watched {
 
 #[derive(Debug, Default)]
 struct List {
-    files: Vec<(PathBuf, Stamp)>,
+    files: Vec<WatchedFile>,
     is_closed: bool,
 }
 
@@ -77,21 +78,23 @@ impl Watched {
     fn look(&self, changes: &mut Changes, send: &Send) {
         let mut seen: HashMap<PathBuf, Option<Mark>> = HashMap::new();
         while let Some(files) = self.files() {
-            seen.retain(|file, _| files.iter().any(|(path, _)| path == file));
-            changes.follow(&folders(&files));
-            for (file, known) in files {
-                let mark = Mark::of(&file);
-                let before = seen.insert(file.clone(), mark);
+            seen.retain(|path, _| files.iter().any(|file| file.path == *path));
+            changes.follow(&places(&files));
+            for file in files {
+                let mark = Mark::of(&file.path);
+                let before = seen.insert(file.path.clone(), mark);
                 // A deleted file has no content; a new file may replace it.
                 let Some(mark) = mark.filter(|_| before != Some(mark)) else {
                     continue;
                 };
-                let settled = settled(&file, mark);
-                seen.insert(file.clone(), settled);
-                let found = store::load(&file);
-                let is_known = matches!(&found, Ok(document) if document.stamp() == known);
-                let is_news = settled.is_some() && !is_known;
-                if is_news && !send(Action::FileChanged(file, found)) {
+                let settled = settled(&file.path, mark);
+                seen.insert(file.path.clone(), settled);
+                let found = store::load(&file.path);
+                // A later change may restore the known content.
+                let is_first = before.is_none();
+                let is_known = matches!(&found, Ok(document) if file.is_of(document));
+                let is_news = settled.is_some() && !(is_first && is_known);
+                if is_news && !send(Action::FileChanged(file.path, found)) {
                     return;
                 }
             }
@@ -100,7 +103,7 @@ impl Watched {
     }
 
     /// The files; `None` once the watcher is dropped.
-    fn files(&self) -> Option<Vec<(PathBuf, Stamp)>> {
+    fn files(&self) -> Option<Vec<WatchedFile>> {
         let list = self.list();
         (!list.is_closed).then(|| list.files.clone())
     }
@@ -110,18 +113,28 @@ impl Watched {
     }
 }
 
-/// The folders of the files and of the targets of links.
-fn folders(files: &[(PathBuf, Stamp)]) -> BTreeSet<PathBuf> {
-    let parent = |path: &Path| {
-        let parent = path.parent()?;
-        let is_here = parent.as_os_str().is_empty();
-        Some(if is_here { Path::new(".") } else { parent }.to_owned())
-    };
-    let target = |path: &PathBuf| fs::canonicalize(path).ok().and_then(|path| parent(&path));
-    let both = files
-        .iter()
-        .flat_map(|(path, _)| [parent(path), target(path)]);
-    both.flatten().collect()
+/// The places whose changes may change the content of the files.
+fn places(files: &[WatchedFile]) -> Places {
+    let mut places = Places::default();
+    for file in files {
+        let mut next = path::absolute(&file.path).ok();
+        for _ in 0..MOST_LINKS {
+            let Some(path) = next else { break };
+            let above = || path.ancestors().skip(1).map(Path::to_owned);
+            // A missing folder may appear again.
+            places
+                .folders
+                .extend(above().find(|folder| folder.is_dir()));
+            places.parts.extend(above());
+            next = fs::read_link(&path)
+                .ok()
+                .and_then(|target| Some(path.parent()?.join(target)));
+        }
+        places
+            .parts
+            .extend(file.target.ancestors().skip(1).map(Path::to_owned));
+    }
+    places
 }
 
 /// Properties that change when a file is written: its time, its length, the file itself.
