@@ -1,13 +1,13 @@
 //! Opens lock files without following links and without waiting for pipes.
 
-use std::fs::{File, Metadata, OpenOptions};
+use std::fs::{File, Metadata, OpenOptions, Permissions};
 use std::io;
-use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::Path;
 
 use rustix::fs::OFlags;
 
-/// Opens a file for reading and writing, and creates it if missing; every user can read it.
+/// Opens a file for reading and writing, and creates it if missing.
 pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
@@ -17,6 +17,11 @@ pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
 /// Opens a file for reading.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
     open_with(OpenOptions::new().read(true), path)
+}
+
+/// Makes an own file readable for every user.
+pub(crate) fn open_to_readers(file: &File) -> io::Result<()> {
+    file.set_permissions(Permissions::from_mode(0o644))
 }
 
 fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {

@@ -97,6 +97,8 @@ impl Lock {
     fn sign(&mut self) {
         let text = Holder::ourselves().to_text();
         let file = &mut self.file;
+        // Whatever the umask: a user who cannot read the file cannot find out who has the lock.
+        drop(locks::open_to_readers(file));
         drop(
             file.set_len(0)
                 .and_then(|()| file.rewind())
@@ -184,6 +186,7 @@ fn regular(file: io::Result<File>, path: &Path) -> io::Result<File> {
 mod tests {
     use super::*;
     use crate::tui::session::holder::host;
+    use std::os::unix::fs::PermissionsExt;
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread;
     use std::time::SystemTime;
@@ -229,6 +232,21 @@ mod tests {
         drop(lock);
         assert!(!path.exists() && !Lock::is_held(&path));
         drop(ours(&path));
+    }
+
+    #[test]
+    fn every_user_can_read_the_lock_of_a_user_with_a_strict_umask() {
+        let (_folder, path) = place();
+        let file = File::create(&path).expect("room on the disk");
+        file.set_permissions(fs::Permissions::from_mode(0o600))
+            .expect("our own file");
+        let lock = ours(&path);
+        let mode = fs::metadata(&path)
+            .expect("it is there")
+            .permissions()
+            .mode();
+        assert_eq!(mode & 0o777, 0o644);
+        drop(lock);
     }
 
     #[test]

@@ -82,6 +82,10 @@ fn lock_of(path: &Path) -> Option<PathBuf> {
 fn unlocked(path: &Path, place: &Path, error: &io::Error) -> String {
     let lock = name_of(place);
     let (cause, fix) = match error.kind() {
+        ErrorKind::PermissionDenied if place.symlink_metadata().is_ok() => (
+            format!("another user created its lock {lock}, which you cannot read"),
+            "ask whether that user has the case open",
+        ),
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             ("its folder is read-only".to_owned(), "save it elsewhere")
         }
@@ -102,4 +106,25 @@ fn brief(error: &io::Error) -> String {
 
 fn name_of(path: &Path) -> String {
     sanitize(&path.file_name().unwrap_or_default().to_string_lossy())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_that_cannot_be_read_is_not_called_a_read_only_folder() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let case = folder.path().join("case.toml");
+        let lock = lock_of(&case).expect("a name");
+        let denied = io::Error::from(ErrorKind::PermissionDenied);
+        assert!(unlocked(&case, &lock, &denied).contains("its folder is read-only"));
+        std::fs::write(&lock, "").expect("room on the disk");
+        let words = unlocked(&case, &lock, &denied);
+        assert!(!words.contains("read-only"), "{words}");
+        assert!(
+            words.contains("created its lock .case.toml.tipstrike"),
+            "{words}"
+        );
+    }
 }
