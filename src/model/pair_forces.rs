@@ -84,6 +84,7 @@ pub struct Carrying {
 
 impl Carrying {
     /// Whether the pair `ahead` carries.
+    #[must_use]
     pub fn has(self, ahead: i32) -> bool {
         usize::try_from(ahead - self.first).is_ok_and(|index| self.touching.has(index))
     }

@@ -53,12 +53,11 @@ pub(crate) fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
 /// The factor of a unit under this scaling.
 pub(crate) fn factor(unit: &str, length: f64, time: f64) -> f64 {
     match unit {
-        "m" => length,
+        "m" | "N/m" => length,
         "s" => time,
         "Hz" | "rad/s" => time.recip(),
         "m/s" => length / time,
         "N" => length.powi(2),
-        "N/m" => length,
         "kg" => length * time.powi(2),
         "kg m2" => length.powi(3) * time.powi(2),
         "J" => length.powi(3),
