@@ -69,9 +69,19 @@ impl Limit {
             return Err(check::unknown_quantity(&field, quantity));
         };
         let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
-        let usual = if known.shown == "1" { "" } else { known.shown };
-        let value =
-            units::parse(text, dimension, usual).map_err(|misread| Problem::of(&field, misread))?;
+        let usual = if matches!(known.shown, "1" | "yes/no") {
+            ""
+        } else {
+            known.shown
+        };
+        let value = units::parse(text, dimension, usual).map_err(|misread| {
+            let problem = Problem::of(&field, misread);
+            if known.is_flag() {
+                let fix = "write 0 to forbid it or 1 to permit it".to_owned();
+                return Problem { fix, ..problem };
+            }
+            problem
+        })?;
         Ok(Limit {
             quantity: known.key,
             text: text.to_owned(),

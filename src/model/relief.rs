@@ -1,5 +1,8 @@
 //! Tip and root relief along the flanks.
 
+use std::f64::consts::FRAC_PI_2;
+
+use super::Refusal;
 use super::geometry::Geometry;
 use super::inputs::{Gear, Inputs, ReliefShape};
 
@@ -43,6 +46,53 @@ impl Inputs {
             driven: of(&self.driven),
         }
     }
+}
+
+/// Refuses a relief that removes a whole tooth from both flanks.
+///
+/// # Formula
+/// ```text
+/// C < r_b (π/2 + 2 x tan α)/z + r_b inv α
+/// ```
+/// The right side is half the thickness of the tooth at the base circle, along which C is measured.
+///
+/// # Errors
+/// [`Refusal::ReliefTooLarge`].
+pub(super) fn check_reliefs(inputs: &Inputs, geometry: &Geometry) -> Result<(), Refusal> {
+    /// No tooth is thinner, in modules.
+    const SMALL: f64 = 0.1;
+    let gears = [
+        (
+            &inputs.driver,
+            &geometry.driver,
+            ["driver.tip_relief", "driver.root_relief"],
+        ),
+        (
+            &inputs.driven,
+            &geometry.driven,
+            ["driven.tip_relief", "driven.root_relief"],
+        ),
+    ];
+    for (gear, circles, keys) in gears {
+        let reliefs = [gear.tip_relief, gear.root_relief];
+        if reliefs
+            .iter()
+            .all(|relief| *relief <= SMALL * inputs.module)
+        {
+            continue;
+        }
+        let (angle, tangent) = (inputs.pressure_angle, inputs.pressure_angle.tan());
+        let at_reference = (FRAC_PI_2 + 2.0 * gear.profile_shift * tangent) / f64::from(gear.teeth);
+        let half = circles.base * (at_reference + tangent - angle);
+        if let Some((field, relief)) = keys.into_iter().zip(reliefs).find(|one| one.1 >= half) {
+            return Err(Refusal::ReliefTooLarge {
+                field,
+                relief,
+                half,
+            });
+        }
+    }
+    Ok(())
 }
 
 impl Reliefs {

@@ -1,7 +1,7 @@
 //! The tip relief to specify, compared with whole solves and with every relief of a grid.
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use tipstrike::case::Document;
+use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::{Drive, Gear, Method, ReliefShape, ToothCompliance};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, solve};
 use tipstrike::study::relief::{AMOUNT_STEP, Demand, NoRelief, Specification, TipReliefs, specify};
@@ -364,4 +364,32 @@ fn the_user_can_stop_a_search() {
         stopped,
         NoRelief::Refused(tipstrike::model::Refusal::Stopped)
     );
+}
+
+#[test]
+fn a_relief_as_thick_as_half_the_tooth_is_refused_by_name() {
+    for (key, amount, is_refused) in [
+        ("driven.tip_relief", "2.5 mm", false),
+        ("driven.tip_relief", "3 mm", true),
+        ("driver.root_relief", "3 mm", true),
+    ] {
+        for method in Method::ALL {
+            let mut case = Case::table_1();
+            let settings = [
+                ("pair.module", "3 mm"),
+                ("driver.bore_radius", "10 mm"),
+                ("driven.bore_radius", "10 mm"),
+            ];
+            for (key, value) in settings.into_iter().chain([(key, amount)]) {
+                case.set(key, value).unwrap();
+            }
+            let inputs = Inputs {
+                method,
+                ..case.inputs().unwrap()
+            };
+            let found = solve(&inputs, Stages::of(Stage::Deviation)).err();
+            let field = found.map(|refusal| refusal.field());
+            assert_eq!(field, is_refused.then_some(key), "{key} = {amount}");
+        }
+    }
 }

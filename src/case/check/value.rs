@@ -59,10 +59,23 @@ fn number(
     range: Range,
 ) -> Result<f64, Problem> {
     let (from, to) = ENDS[field];
-    let likely = || likely_unit(text, known, dimension, (from, to));
-    let value = units::parse(text, dimension, known.usual_unit())
-        .or_else(|_| units::parse(text, dimension, likely()))
-        .map_err(|misread| Problem::of(known.key, misread))?;
+    let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| {
+        let likely = likely_units(text, known, dimension, (from, to));
+        let of_unit = |unit: &str| units::parse(text, dimension, unit).err();
+        let [first, others @ ..] = &*likely else {
+            return Problem::of(known.key, misread);
+        };
+        let problem = Problem::of(known.key, of_unit(first).unwrap_or(misread));
+        // A bare number may mean several units.
+        let fixes = others.iter().filter_map(|unit| of_unit(unit));
+        let other = fixes.map(|other| other.fix).find(|fix| *fix != problem.fix);
+        let other = other.as_deref().and_then(|fix| fix.strip_prefix("write "));
+        let fix = match other {
+            Some(other) => format!("{} or {other}", problem.fix),
+            None => problem.fix,
+        };
+        Problem { fix, ..problem }
+    })?;
     // The same end in another unit can differ by rounding.
     let slack = 4.0 * f64::EPSILON;
     if value < from - slack * from.abs() {
@@ -86,22 +99,35 @@ fn number(
     Ok(value)
 }
 
-/// The unit that the user most likely meant for a bare number: the usual unit, or another unit with
-/// a value inside the range.
-fn likely_unit(
+/// The units that the user most likely meant for a bare number: the usual unit or another one with a
+/// value inside the range, and a second common unit if it fits, too.
+fn likely_units(
     text: &str,
     known: &Field,
     dimension: Dimension,
     (from, to): (f64, f64),
-) -> &'static str {
+) -> Vec<&'static str> {
+    const COMMON: usize = 2;
+    let usual = known.usual_unit();
     let fits = |unit: &&str| {
         let value = units::parse(&format!("{} {unit}", text.trim()), dimension, unit);
         value.is_ok_and(|value| (from..=to).contains(&value))
     };
-    std::iter::once(known.usual_unit())
-        .chain(dimension.symbols())
-        .find(fits)
-        .unwrap_or(known.usual_unit())
+    let others = || {
+        dimension
+            .symbols()
+            .filter(|&unit| unit != usual)
+            .filter(fits)
+    };
+    let first = std::iter::once(usual).chain(others()).find(fits);
+    let is_common = |unit: &&str| {
+        dimension
+            .symbols()
+            .take(COMMON)
+            .any(|common| common == *unit)
+    };
+    let second = others().find(|unit| is_common(unit) && Some(*unit) != first);
+    first.into_iter().chain(second).collect()
 }
 
 fn outside(

@@ -42,6 +42,16 @@ pub enum Refusal {
         /// r_b, in m.
         base: f64,
     },
+    /// A relief removes a whole tooth.
+    #[error("the relief of {:.4} mm leaves nothing of the tooth: half its thickness at the base circle is {:.4} mm", .relief / MILLIMETRE, .half / MILLIMETRE)]
+    ReliefTooLarge {
+        /// The key of the relief.
+        field: &'static str,
+        /// The relief, in m.
+        relief: f64,
+        /// Half the thickness of the tooth at the base circle, in m.
+        half: f64,
+    },
     /// The cutting rack's flanks meet above its tip.
     #[error(
         "the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for \

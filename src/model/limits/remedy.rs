@@ -61,6 +61,11 @@ impl Refusal {
                 *field,
                 "give a higher addendum or a smaller tip chamfer",
             ),
+            Refusal::ReliefTooLarge { field, .. } => (
+                "relief-too-large",
+                *field,
+                "give a smaller relief, usually below 0.02 modules",
+            ),
             Refusal::PointedRack { field, .. } => (
                 "pointed-rack",
                 *field,

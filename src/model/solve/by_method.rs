@@ -10,6 +10,7 @@ use crate::model::geometry::{GeometryInputs, precise};
 use crate::model::inputs::Inputs;
 use crate::model::load::{LoadInputs, mesh_force};
 use crate::model::masses::{MassInputs, Masses};
+use crate::model::relief::check_reliefs;
 use crate::model::request::{Earlier, Request};
 use crate::model::stage::{Stage, Stages};
 use crate::model::stations::{StationsInputs, stations};
@@ -72,6 +73,7 @@ impl<'a> Solving<'a> {
     /// Recomputes the stages from the load on in place. Geometry and masses of the solution stay.
     pub(super) fn repeat(&self, solution: &mut Solution) -> Result<(), Refusal> {
         let inputs = self.asked.inputs;
+        check_reliefs(inputs, &solution.geometry)?;
         solution.mesh_force = mesh_force(&LoadInputs::of(inputs), &solution.geometry);
         let deviation = self.deviation(&solution.geometry, solution.mesh_force)?;
         solution.deviation = deviation.rounded();
@@ -155,6 +157,7 @@ impl Solving<'_> {
             Some(earlier) => earlier.geometry,
             None => self.geometry(&mut ran)?,
         };
+        check_reliefs(inputs, &geometry)?;
         let mesh_force = if let Some(earlier) = self.asked.kept(Stage::Load) {
             earlier.mesh_force
         } else {
