@@ -494,10 +494,8 @@ fn the_baseline_is_common_to_tabs_and_has_its_curve_even_if_no_chart_was_visible
     let mut desk = three_cases(SMALL);
     desk.keys(&["Alt-1", "F5", "Esc", "b", "Alt-3"]);
     let pinned = desk.app.baseline.as_ref().expect("it is pinned");
-    assert_eq!(
-        (pinned.name.as_str(), pinned.answer.stages),
-        ("one.toml", Stages::EVERY)
-    );
+    assert_eq!(pinned.name, "one.toml");
+    assert!(pinned.answer.stages.covers(Stages::EVERY));
     desk.fill("driven.tip_relief", "20 um")
         .keys(&["Esc", "2", "z"]);
     assert!(

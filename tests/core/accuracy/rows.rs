@@ -6,7 +6,7 @@ use std::thread;
 
 use serde_json::Value;
 use tipstrike::model::inputs::{ContactCompliance, Drive, InertiaModel, Method, ToothCompliance};
-use tipstrike::model::{Inputs, QUANTITIES};
+use tipstrike::model::{Inputs, QUANTITIES, Refusal, Stage, Stages, solve};
 
 use crate::envelope::{self, Corner, Random};
 use crate::oracle::{self, number};
@@ -96,7 +96,15 @@ pub(crate) fn frozen() -> Vec<Row> {
         .expect("rows")
         .iter()
         .map(|row| read(row, &keys))
+        .filter(|row| has_teeth(&row.inputs))
         .collect()
+}
+
+/// Whether the reliefs leave something of the teeth. A relief that cancels a deviation of a
+/// centimetre does not.
+fn has_teeth(inputs: &Inputs) -> bool {
+    let found = solve(inputs, Stages::of(Stage::Deviation));
+    !matches!(found, Err(Refusal::ReliefTooLarge { .. }))
 }
 
 /// Computes the rows again on two threads and freezes them.
@@ -124,6 +132,7 @@ pub(crate) fn rows_of(corner: Corner, count: usize) -> Vec<Row> {
     let mut random = Random::new(corner as u64 + 1);
     let pairs = std::iter::repeat_with(|| envelope::pair(&mut random, corner));
     pairs
+        .filter(has_teeth)
         .filter_map(|inputs| Row::of(corner, inputs))
         .take(count)
         .collect()
