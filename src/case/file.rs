@@ -6,6 +6,7 @@ mod edit;
 mod error;
 mod excerpt;
 mod fault;
+mod layout;
 mod places;
 mod syntax;
 mod target;
@@ -203,7 +204,7 @@ impl Document {
     #[must_use]
     pub fn render(&self) -> String {
         let text = if self.is_changed() {
-            edit::render(self)
+            edit::render(&self.text, &self.loaded, &self.case)
         } else {
             self.text.clone()
         };

@@ -184,6 +184,26 @@ fn a_title_of_two_lines_keeps_the_comments_of_a_file_with_other_line_ends() {
 }
 
 #[test]
+fn an_edit_keeps_every_other_byte_of_any_file() {
+    let windows = TABLE_1
+        .replace(
+            "\"Zhou & Chen 2014, Table 1\"",
+            "\"\"\"\nas printed:\n# 1\"\"\"",
+        )
+        .replace('\n', "\r\n");
+    let mixed = windows.replacen("\r\n", "\n", 20);
+    let dotted = TABLE_1.replace("[driver]\nteeth", "[driver]\n\"teeth\"");
+    for text in [&windows, &mixed, &dotted, &windows.trim_end().to_owned()] {
+        let mut document = parsed(text);
+        document.case.set("deviations.base_pitch", "18 um").unwrap();
+        assert_eq!(
+            document.render(),
+            text.replacen("\"16 um\"", "\"18 um\"", 1)
+        );
+    }
+}
+
+#[test]
 fn removing_a_field_removes_only_its_own_comment() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "model.deflection", "");
@@ -246,9 +266,9 @@ fn other_layouts_of_the_same_case_are_edited_in_place() {
     write(&mut document, "driver.teeth", "21");
     write(&mut document, "driven.young", "200 GPa");
     write(&mut document, "operation.friction_coefficient", "0.1");
-    let expected = "format = 1\npair = { module = \"5 mm\" , pressure_angle = \"22 deg\" } # both\n\
+    let expected = "format = 1\npair = { module = \"5 mm\", pressure_angle = \"22 deg\" } # both\n\
         driver = { teeth = 21, face_width = \"8 mm\" }\n\
-        driven.teeth = 20\n  driven.face_width = \"8 mm\" # dotted\ndriven.young = \"200 GPa\"\n\
+        driven.teeth = 20\n  driven.face_width = \"8 mm\" # dotted\n  driven.young = \"200 GPa\"\n\
         [operation]\nspeed = \"2000 rpm\"\ntorque = \"70 N m\"\nfriction_coefficient = 0.1\n";
     assert_eq!(document.render(), expected);
     assert_eq!(parsed(&document.render()).case, document.case);

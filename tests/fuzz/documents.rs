@@ -18,7 +18,7 @@ use crate::{assert_safe, hold, texts};
 
 /// An edit of a document in the form or by `--set`.
 #[derive(Debug, Clone)]
-enum Edit {
+pub(crate) enum Edit {
     Field(usize, String),
     Limit(Index, String),
     Unspread,
@@ -224,7 +224,7 @@ fn the_headless_commands_report_errors_without_control_characters() {
     hold(150, &texts::mutated(), |text| assert_safe_headless(&text));
 }
 
-fn edits() -> impl Strategy<Value = Vec<Edit>> {
+pub(crate) fn edits() -> impl Strategy<Value = Vec<Edit>> {
     let text = prop_oneof![
         Just(String::new()),
         Just("2 kN".to_owned()),
@@ -242,7 +242,7 @@ fn edits() -> impl Strategy<Value = Vec<Edit>> {
 }
 
 impl Edit {
-    fn apply(&self, case: &mut Case) {
+    pub(crate) fn apply(&self, case: &mut Case) {
         match self {
             Edit::Field(field, text) => case.write(*field, text),
             // An invalid limit does not change the case.

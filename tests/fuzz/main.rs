@@ -13,6 +13,7 @@
 
 mod documents;
 mod form;
+mod layouts;
 mod properties;
 mod terminal;
 mod texts;

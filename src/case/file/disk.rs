@@ -125,6 +125,9 @@ impl Document {
         let is_own = self.origin.as_ref() == Some(&target.path)
             || self.origin.is_some() && self.name == name;
         let text = self.render();
+        if !super::edit::gives(text.trim_start_matches(super::BYTE_ORDER_MARK), &self.case) {
+            return Err(SaveError::OtherCase(name));
+        }
         let mode = self.mode.filter(|_| is_own);
         target.replace(text.as_bytes(), mode, path, false)?;
         let is_recreated = is_own && target.old.is_none();

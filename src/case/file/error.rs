@@ -55,6 +55,12 @@ pub enum SaveError {
             know"
     )]
     NewerFormat(String),
+    /// The new text does not give the edited case.
+    #[error(
+        "{0}: the layout of the file does not accept the edits: write them with an editor, then \
+            reload the file"
+    )]
+    OtherCase(String),
     /// The path is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
     NotAFile(String),

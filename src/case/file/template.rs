@@ -20,20 +20,6 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// The full dotted key.
-    pub(super) fn key(&self) -> String {
-        if self.table.is_empty() {
-            self.name.clone()
-        } else {
-            format!("{}.{}", self.table, self.name)
-        }
-    }
-
-    /// The key within the table, without quotes.
-    pub(super) fn bare_name(&self) -> &str {
-        self.name.trim_matches('"')
-    }
-
     pub(super) fn line(&self) -> String {
         format!("{} = {}", self.name, self.value)
     }
