@@ -8,6 +8,7 @@ mod model;
 mod operation;
 mod refusal;
 mod relief;
+mod scalar;
 mod source;
 mod stage;
 mod units;
@@ -75,7 +76,7 @@ pub fn read_document(path: &Path) -> Result<Document, ReadError> {
 /// If the bytes are not a REXS model, or the stage is not a spur gear pair.
 pub fn import(path: &Path, bytes: &[u8], stage: Option<&str>) -> Result<Imported, Refusal> {
     let name = path.display().to_string();
-    let model = archive::text(bytes).and_then(|text| parse(&text));
+    let model = archive::text(bytes).and_then(|text| parse(text.trim_start_matches('\u{feff}')));
     let chosen = model.and_then(|model| {
         let stages = stage::list(&model);
         let chosen = choose(&stages, stage)?.clone();
@@ -127,15 +128,9 @@ fn parse(text: &str) -> Result<Model, Refusal> {
             ));
         }
     };
-    if let Some(id) = model.repeated_id() {
-        return Err(Refusal::new(
-            format!("two components have the id {id:?}"),
-            "correct the model, in which each component has its own id",
-        ));
-    }
     let is_known = matches!(model.version.split('.').next(), Some("1" | "2"));
     if is_known {
-        return Ok(model);
+        return model.indexed();
     }
     Err(Refusal::new(
         format!("the model is of REXS version {:?}", model.version),
@@ -209,11 +204,12 @@ fn document(
     sources.extend(comments);
     let file = Path::new(name).file_name().unwrap_or_default();
     let notes = format!(
-        "stage {} of {} (REXS {}, {})",
+        "stage {} of {} (REXS {}, {} {})",
         stage.id,
         file.to_string_lossy(),
         model.version,
-        model.application
+        model.application,
+        model.application_version
     );
     // Both are text fields, which accept any text.
     let _ = case.set("title", &stage.title());

@@ -4,8 +4,10 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::time::{Duration, Instant};
 
 use tipstrike::case::rexs::{import, read_document};
+use tipstrike::case::sanitize::is_hidden;
 use tipstrike::case::{Document, fields};
 use zip::write::SimpleFileOptions;
 
@@ -221,8 +223,23 @@ fn values_that_cannot_be_read_or_occur_twice_stay_empty_and_are_named() {
 fn entities_bombs_and_texts_of_another_kind_are_refused() {
     let entity = "<!DOCTYPE m [<!ENTITY a \"aaaa\">]><model version=\"1.0\">&a;</model>";
     assert!(refusal_of(entity.as_bytes()).contains("declares a document type"));
-    let deep = "<model version=\"1.0\">".to_owned() + &"<a>".repeat(1_000_000);
-    assert!(refusal_of(deep.as_bytes()).contains("this is not XML"));
+    for cut in [
+        "",
+        "<a>",
+        "</a>",
+        "<a",
+        "<!--",
+        "</model>a",
+        "</model><model/>",
+    ] {
+        let text = format!("<model version=\"1.0\">{cut}");
+        assert!(
+            refusal_of(text.as_bytes()).contains("this is not XML"),
+            "{cut}"
+        );
+    }
+    let unknown = refusal_of(b"<model version=\"1.0\">\n &a;</model>");
+    assert!(unknown.contains("m.rexs: 2:2: this is not XML"), "{unknown}");
     let deep = "{\"model\":".to_owned() + &"[".repeat(1_000_000);
     assert!(refusal_of(deep.as_bytes()).contains("in JSON"));
     assert!(refusal_of(b"solid").contains("neither XML nor JSON"));
@@ -233,6 +250,166 @@ fn entities_bombs_and_texts_of_another_kind_are_refused() {
     assert!(refusal_of(&zipped(&[("a.rexs", 17 << 20)])).contains("longer than 16 MiB unpacked"));
     assert!(refusal_of(&zipped(&[("a.rexs", 9), ("b.rexs", 9)])).contains("has 2 models"));
     assert!(refusal_of(&zipped(&[("a.txt", 9)])).contains("has 0 models"));
+}
+
+/// A model in XML with this text as its components and relations.
+fn with_parts(parts: &str) -> Vec<u8> {
+    format!("<model version=\"1.0\">{parts}</model>").into_bytes()
+}
+
+#[test]
+fn a_hostile_model_is_refused_with_its_limit_within_a_second() {
+    let each =
+        |count: usize, part: &dyn Fn(usize) -> String| -> String { (0..count).map(part).collect() };
+    let nested = |count: usize| each(count, &|at| format!("<a xmlns:n{at}=\"u{at}\">"));
+    let component =
+        |kind: &'static str| move |at: usize| format!("<component id=\"{at}\" type=\"{kind}\"/>");
+    let components = |parts: String| with_parts(&format!("<components>{parts}</components>"));
+    let relations = |parts: String| with_parts(&format!("<relations>{parts}</relations>"));
+    let reference = |at: usize| format!("<ref role=\"part\" id=\"{at}\"/>");
+    let json =
+        |parts: String| format!("{{\"model\":{{\"version\":\"1.0\",{parts}}}}}").into_bytes();
+    let long = "n".repeat(10_000_000);
+    for (name, bytes, limit) in [
+        (
+            "spaces.rexs",
+            nested(8000).into_bytes(),
+            "the root element is \"a\"",
+        ),
+        (
+            "deep.rexs",
+            with_parts(&nested(8000)),
+            "100 nested elements",
+        ),
+        (
+            "attributes.rexs",
+            with_parts(&format!(
+                "<a {}/>",
+                each(400_000, &|at| format!(" a{at}=\"\""))
+            )),
+            "100 attributes in one element",
+        ),
+        (
+            "elements.rexs",
+            with_parts(&"<a/>".repeat(4_000_000)),
+            "no gear stage",
+        ),
+        (
+            "stages.rexs",
+            components(each(30_000, &component("cylindrical_stage"))),
+            "200 stages",
+        ),
+        (
+            "components.rexs",
+            components(each(60_000, &component("gear"))),
+            "50000 components",
+        ),
+        (
+            "entries.rexs",
+            components("<component/>".repeat(1_300_000)),
+            "300000 entries",
+        ),
+        (
+            "values.rexs",
+            components(format!(
+                "<component id=\"1\">{}</component>",
+                "<attribute id=\"a\">1</attribute>".repeat(200_000)
+            )),
+            "1000 attributes of one component",
+        ),
+        (
+            "relations.rexs",
+            relations(format!("<relation>{}</relation>", reference(7)).repeat(60_000)),
+            "1000 relations of one component",
+        ),
+        (
+            "references.rexs",
+            relations(format!("<relation>{}</relation>", each(60_000, &reference))),
+            "50 references of one relation",
+        ),
+        (
+            "name.rexs",
+            components(format!("<component id=\"{long}\"/>")),
+            "1000 bytes in a name",
+        ),
+        ("large.rexs", vec![b' '; 17 << 20], "longer than 16384 KiB"),
+        (
+            "lists.rexsj",
+            json(format!("\"a\":{}", "[".repeat(1_000_000))),
+            "300000 objects and lists",
+        ),
+        (
+            "objects.rexsj",
+            json(format!("\"components\":[{}[2]]", "[1],".repeat(3_000_000))),
+            "300000 objects and lists",
+        ),
+        (
+            "loads.rexsj",
+            json(format!(
+                "\"load_spectrum\":{{\"load_cases\":[{{\"id\":1,\"components\":[{}{{\"id\":1}}]}}]}}",
+                "{\"id\":1},".repeat(40_000)
+            )),
+            "1000 load cases of one component",
+        ),
+        (
+            "files.rexsz",
+            [b"PK\x03\x04", b"PK\x01\x02".repeat(2000).as_slice()].concat(),
+            "more than 1000 files",
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        let start = Instant::now();
+        let (code, case, message) = texts(&run(&["import", path.to_str().unwrap()]));
+        let time = start.elapsed();
+        assert!(message.contains(limit), "{name}: {message}");
+        assert_eq!((message.lines().count(), case.as_str()), (1, ""), "{name}");
+        assert!(message.len() < 400, "{name}: {message}");
+        assert!(
+            code == 3 || name == "large.rexs" && code == 5,
+            "{name}: {code}"
+        );
+        assert!(time < Duration::from_secs(1), "{name}: {time:?}");
+    }
+}
+
+#[test]
+fn a_large_model_of_an_ordinary_kind_is_imported() {
+    let table = format!("<array>{}</array>", "<c>1.0</c>".repeat(1_000_000));
+    let xml = edited(
+        "two-stages-1.0.rexs",
+        "<component id=\"5\" name=\"RW3\" type=\"shaft\"/>",
+        &format!("<component id=\"5\"><attribute id=\"t\">{table}</attribute></component>"),
+    );
+    assert!(import(Path::new("m.rexs"), &xml, None).is_ok());
+    let table = format!("[{}1.0]", "1.0, ".repeat(2_000_000));
+    let json = edited(
+        "spur-2.0.rexsj",
+        "\"attributes\": [",
+        &format!("\"attributes\": [{{\"id\": \"t\", \"array\": {table}}}, "),
+    );
+    assert!(import(Path::new("m.rexsj"), &json, None).is_ok());
+}
+
+#[test]
+fn the_output_has_no_hidden_character_and_the_case_keeps_its_title() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("controls.rexs");
+    let bytes = edited(
+        "two-stages-1.0.rexs",
+        "\"Stirnradstufe\"",
+        "\"&#x9b;31m \u{202e}live&#xfeff;\u{200b} \u{e0001}&#10;\\end&quot;\"",
+    );
+    fs::write(&path, bytes).unwrap();
+    let (code, case, message) = texts(&run(&["import", path.to_str().unwrap()]));
+    assert_eq!(code, 0, "{message}");
+    let hidden = |text: &str| text.replace('\n', "").chars().find(|&c| is_hidden(c));
+    assert_eq!((hidden(&case), hidden(&message)), (None, None));
+    let read_back = Document::parse("case.toml", &case).unwrap();
+    let title = read_back.case.text(fields::index_of("title").unwrap());
+    let expected = "\u{9b}31m \u{202e}live\u{feff}\u{200b} \u{e0001}\n\\end\"";
+    assert_eq!(title, Some(expected));
 }
 
 /// An archive of files of spaces.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::FORMAT;
 use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, index_of};
-use crate::case::sanitize::sanitize;
+use crate::case::sanitize::{is_hidden, sanitize};
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, Override, Variant, check};
 
@@ -244,18 +244,19 @@ fn is_toml_number(text: &str) -> bool {
         && exponent.is_none_or(digits)
 }
 
-/// A TOML string on one line, because a line end in a string would look like a line end of the
-/// file.
+/// A TOML string on one line without hidden characters: a line end in a string would look like a
+/// line end of the file, and a control character would reach the terminal.
 fn string(text: &str) -> String {
-    let quoted = toml_edit::Value::from(text).to_string();
-    let on_one_line = || {
-        serde_json::Value::from(text)
-            .to_string()
-            .replace('\u{7f}', "\\u007f")
-    };
-    if quoted.contains(['\n', '\r']) {
-        on_one_line()
-    } else {
-        quoted
+    if !text.contains(is_hidden) {
+        return toml_edit::Value::from(text).to_string();
     }
+    let mut quoted = String::new();
+    for c in serde_json::Value::from(text).to_string().chars() {
+        if is_hidden(c) {
+            let _ = write!(quoted, "\\U{:08x}", u32::from(c));
+        } else {
+            quoted.push(c);
+        }
+    }
+    quoted
 }

@@ -11,6 +11,7 @@ use super::refusal::Refusal;
 use crate::case::file::MOST_MODEL_BYTES;
 
 const ZIP: &[u8] = b"PK";
+const DIRECTORY_ENTRY: &[u8] = b"PK\x01\x02";
 const MOST_FILES: usize = 1000;
 
 /// The text of a model.
@@ -24,26 +25,25 @@ pub(super) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Refusal> {
         Cow::Borrowed(bytes) => std::str::from_utf8(bytes).map(Cow::Borrowed).ok(),
         Cow::Owned(bytes) => String::from_utf8(bytes).map(Cow::Owned).ok(),
     };
-    let text = text.ok_or_else(|| {
+    text.ok_or_else(|| {
         Refusal::new(
             "the text of the model is not UTF-8",
             "export the model as UTF-8",
         )
-    })?;
-    Ok(match text {
-        Cow::Borrowed(text) => Cow::Borrowed(text.trim_start_matches('\u{feff}')),
-        Cow::Owned(text) => Cow::Owned(text.trim_start_matches('\u{feff}').to_owned()),
     })
 }
 
 fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
-    if archive.len() > MOST_FILES {
+    // Each entry of the directory takes memory, so the entries are counted before it is read.
+    let entries = bytes.windows(DIRECTORY_ENTRY.len());
+    let entries = entries.filter(|four| *four == DIRECTORY_ENTRY);
+    if entries.count() > MOST_FILES {
         return Err(Refusal::new(
-            format!("the archive has {} files", archive.len()),
+            format!("the archive has more than {MOST_FILES} files"),
             "pack the model alone",
         ));
     }
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
     let models: Vec<String> = archive
         .file_names()
         .filter_map(Result::ok)

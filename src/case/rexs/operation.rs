@@ -1,6 +1,6 @@
 //! The driver of a stage, its speed and its torque.
 
-use super::model::{Attribute, Component, Model, find};
+use super::model::{Component, Model, find};
 use super::source::{Found, Reading, Values, Wanted, found};
 use super::stage::TEETH;
 use crate::case::units::{self, Dimension};
@@ -42,8 +42,7 @@ fn gear_data<'a>(
     gear: &'a str,
 ) -> impl Iterator<Item = &'a Component> {
     model
-        .relations
-        .iter()
+        .relations_of(gear)
         .filter(move |relation| {
             relation.kind == "stage_gear_data"
                 && relation.role("stage") == Some(stage)
@@ -173,12 +172,8 @@ fn transferred(reading: Reading, factor: f64, unit: &str) -> Reading {
 fn value(model: &Model, part: &Component, wanted: Wanted) -> Result<Option<Reading>, String> {
     let label = part.label();
     let mut cases: Vec<(&str, Reading)> = Vec::new();
-    for case in &model.load_cases {
-        let own = case.components.iter().filter(|(id, _)| *id == part.id);
-        let given: Vec<&Attribute> = own
-            .filter_map(|(_, attributes)| find(attributes, wanted.id))
-            .collect();
-        for attribute in given {
+    for (case, attributes) in model.loads_of(&part.id) {
+        if let Some(attribute) = find(attributes, wanted.id) {
             let label = format!("{label} in load case {}", case.id);
             cases.push((case.id.as_str(), wanted.reading(attribute, &label)?));
         }

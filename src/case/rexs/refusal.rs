@@ -12,6 +12,17 @@ pub struct Refusal {
     fix: String,
 }
 
+/// Refuses more than `most` of the named parts.
+pub(super) fn within(count: usize, most: usize, parts: &str) -> Result<(), Refusal> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(Refusal::new(
+        format!("the model has more than {most} {parts}"),
+        "export the gear pair alone and without results",
+    ))
+}
+
 impl Refusal {
     pub(super) fn new(cause: impl Into<String>, fix: impl Into<String>) -> Refusal {
         Refusal {

@@ -3,6 +3,7 @@
 use super::gear::{Gear, Keys};
 use super::model::{Component, Model};
 use super::source::{Found, Reading, Values, Wanted, agreed, found};
+use crate::case::sanitize::quoted;
 use crate::case::units;
 
 /// Reads amount, length and shape of both reliefs; `base` is the base diameter, in m.
@@ -120,7 +121,8 @@ fn shape(relief: &Component, values: &mut Values) {
             source,
         },
         other => Found::Absent(format!(
-            "{source} is {other}; a case has linear or parabolic"
+            "{source} is {}; a case has linear or parabolic",
+            quoted(other)
         )),
     };
     values.put_once(KEY, found);

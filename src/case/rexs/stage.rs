@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::model::{Component, Model};
 use super::source::Wanted;
+use crate::case::sanitize::cut;
 use crate::case::units::Dimension;
 
 /// A gear stage of a model.
@@ -92,9 +93,8 @@ pub(super) fn listed(stages: &[Stage]) -> String {
 
 /// The stages in the order of the model.
 pub(super) fn list(model: &Model) -> Vec<Stage> {
-    let stages = model.components.iter();
-    stages
-        .filter(|component| component.kind.ends_with("_stage"))
+    model
+        .stages()
         .map(|component| Stage {
             id: component.id.clone(),
             name: component.name.clone(),
@@ -157,7 +157,7 @@ fn helix(gear: &Component) -> Option<String> {
         |&id| match Wanted::new(id, Dimension::Angle, "deg").read(gear) {
             Ok(Some(angle)) if angle.value.abs() > NONE => Some(angle.text),
             Ok(_) => None,
-            Err(_) => gear.attribute(id).map(|angle| angle.value.clone()),
+            Err(_) => gear.attribute(id).map(|angle| cut(&angle.value)),
         },
     )
 }

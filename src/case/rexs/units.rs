@@ -1,6 +1,7 @@
 //! Unit names of REXS.
 
 use super::model::Attribute;
+use crate::case::sanitize::quoted;
 use crate::case::units::{self, Dimension};
 
 /// The name in a case file. `None` for an unknown unit.
@@ -24,6 +25,9 @@ fn spelled(unit: &str) -> Option<&'static str> {
     })
 }
 
+/// Greatest length of a number, in bytes.
+const MOST_DIGITS: usize = 100;
+
 /// The value with its unit as written in a case file, and in SI. The default unit is that of the
 /// schema.
 pub(super) fn read(
@@ -36,6 +40,9 @@ pub(super) fn read(
     let unit = if unit.is_empty() { usual } else { unit };
     let number = attribute.value.as_str();
     let number = number.strip_suffix(".0").unwrap_or(number);
+    if number.len() > MOST_DIGITS {
+        return Err(format!("{} is too long for a number", quoted(number)));
+    }
     let text = format!("{number} {unit}").trim_end().to_owned();
     let value = units::parse(&text, dimension, usual).map_err(|error| error.cause)?;
     Ok((text, value))
