@@ -239,8 +239,11 @@ fn entities_bombs_and_texts_of_another_kind_are_refused() {
         );
     }
     let unknown = refusal_of(b"<model version=\"1.0\">\n &a;</model>");
-    assert!(unknown.contains("m.rexs: 2:2: this is not XML"), "{unknown}");
-    let deep = "{\"model\":".to_owned() + &"[".repeat(1_000_000);
+    assert!(
+        unknown.contains("m.rexs: 2:2: this is not XML"),
+        "{unknown}"
+    );
+    let deep = "{\"model\":".to_owned() + &"[".repeat(100_000);
     assert!(refusal_of(deep.as_bytes()).contains("in JSON"));
     assert!(refusal_of(b"solid").contains("neither XML nor JSON"));
     assert!(refusal_of(b"<model version=\"3.1\"/>").contains("REXS version \"3.1\""));

@@ -5,6 +5,7 @@ use super::source::{Found, Reading, Values, Wanted, found};
 use super::stage::TEETH;
 use crate::case::units::{self, Dimension};
 
+const MOST_SHAFTS: usize = 10;
 const SPEED: Wanted = Wanted::new("rotational_speed", Dimension::AngularVelocity, "rpm");
 const TORQUE: Wanted = Wanted::new("torque_around_u_axis", Dimension::Torque, "N m");
 const TORQUE_OF_GEAR: Wanted = Wanted::new("torque", Dimension::Torque, "N m");
@@ -78,7 +79,7 @@ pub(super) fn read(model: &Model, stage: &str, gears: [&Component; 2], values: &
 /// The speed of the driver or of its shaft, or the speed of the driven gear times the ratio.
 fn speed(model: &Model, gears: [&Component; 2], ratio: f64) -> Result<Option<Reading>, String> {
     for (gear, factor) in gears.into_iter().zip([1.0, ratio]) {
-        for part in std::iter::once(gear).chain(shafts(model, gear)) {
+        for part in std::iter::once(gear).chain(shafts(model, gear)?) {
             if let Some(reading) = value(model, part, SPEED)? {
                 return Ok(Some(transferred(reading, factor, "rpm")));
             }
@@ -103,7 +104,8 @@ fn load(
         }
     }
     for (gear, factor) in gears.into_iter().zip([1.0, 1.0 / ratio]) {
-        for shaft in shafts(model, gear).filter(|shaft| carries_one_gear(model, shaft)) {
+        let shafts = shafts(model, gear)?.into_iter();
+        for shaft in shafts.filter(|shaft| carries_one_gear(model, shaft)) {
             if let Some(found) = load_on(model, shaft, factor)? {
                 return Ok(Some(found));
             }
@@ -112,10 +114,16 @@ fn load(
     Ok(None)
 }
 
-fn shafts<'a>(model: &'a Model, gear: &'a Component) -> impl Iterator<Item = &'a Component> {
-    model
-        .related("assembly", ("part", &gear.id), "assembly")
-        .filter(|assembly| assembly.kind == "shaft")
+/// The shafts of a gear: one in a usual model.
+fn shafts<'a>(model: &'a Model, gear: &'a Component) -> Result<Vec<&'a Component>, String> {
+    let assemblies = model.related("assembly", ("part", &gear.id), "assembly");
+    let shafts = assemblies.filter(|assembly| assembly.kind == "shaft");
+    let shafts: Vec<&Component> = shafts.take(MOST_SHAFTS + 1).collect();
+    if shafts.len() > MOST_SHAFTS {
+        let label = gear.label();
+        return Err(format!("{label} is on more than {MOST_SHAFTS} shafts"));
+    }
+    Ok(shafts)
 }
 
 fn carries_one_gear(model: &Model, shaft: &Component) -> bool {
