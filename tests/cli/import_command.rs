@@ -295,7 +295,7 @@ fn a_hostile_model_is_refused_with_its_limit_within_a_second() {
         (
             "elements.rexs",
             with_parts(&"<a/>".repeat(4_000_000)),
-            "no gear stage",
+            "2000000 elements",
         ),
         (
             "stages.rexs",

@@ -8,6 +8,8 @@ use quick_xml::{Reader, XmlVersion};
 use super::model::{Attribute, Component, LoadCase, MOST_ENTRIES, Model, Ref, Relation};
 use super::refusal::{Refusal, within};
 
+/// Greatest number of elements and references, which need time but no memory.
+const MOST_ELEMENTS: usize = 2_000_000;
 const MOST_DEPTH: usize = 100;
 const MOST_XML_ATTRIBUTES: usize = 100;
 
@@ -52,6 +54,7 @@ struct State {
     /// The open attribute while it can be scalar.
     attribute: Option<Attribute>,
     entries: usize,
+    elements: usize,
     has_root: bool,
 }
 
@@ -69,6 +72,13 @@ const NAMES: [&str; 9] = [
 
 impl State {
     fn read(&mut self, event: &Event) -> Result<(), Refusal> {
+        if matches!(
+            event,
+            Event::Start(_) | Event::Empty(_) | Event::GeneralRef(_)
+        ) {
+            self.elements += 1;
+            within(self.elements, MOST_ELEMENTS, "elements and references")?;
+        }
         match event {
             Event::Start(element) => self.open(element),
             Event::Empty(element) => {
@@ -120,6 +130,10 @@ impl State {
             attribute.map_err(|error| malformed(&error))?;
             count += 1;
             within(count, MOST_XML_ATTRIBUTES, "attributes in one element")?;
+        }
+        if known.is_none() {
+            self.attribute = None;
+            return Ok(());
         }
         let text = |name| attribute(element, name);
         let component = || {
