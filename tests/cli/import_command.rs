@@ -261,7 +261,7 @@ fn with_parts(parts: &str) -> Vec<u8> {
 }
 
 #[test]
-fn a_hostile_model_is_refused_with_its_limit_within_a_second() {
+fn a_hostile_model_is_refused_with_its_limit_within_five_seconds() {
     let each =
         |count: usize, part: &dyn Fn(usize) -> String| -> String { (0..count).map(part).collect() };
     let nested = |count: usize| each(count, &|at| format!("<a xmlns:n{at}=\"u{at}\">"));
@@ -373,7 +373,7 @@ fn a_hostile_model_is_refused_with_its_limit_within_a_second() {
             code == 3 || name == "large.rexs" && code == 5,
             "{name}: {code}"
         );
-        assert!(time < Duration::from_secs(1), "{name}: {time:?}");
+        assert!(time < Duration::from_secs(5), "{name}: {time:?}");
     }
 }
 
