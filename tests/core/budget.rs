@@ -378,7 +378,7 @@ const SLOW: [(&str, &str, &str); 13] = [
     ("1210-dynamic", "corner-contact", "22.628"),
     ("1738-dynamic", "corner-contact", "22.628"),
     ("1895-auto", "corner-contact", "22.628"),
-    ("2171-auto", "refused: relief-too-large", ""),
+    ("2171-auto", "corner-contact, clearing-relief-not-found", ""),
     ("2506-dynamic", "corner-contact", "22.628"),
     ("2822-dynamic", "corner-contact", "22.628"),
     ("3071-auto", "corner-contact", "22.628"),
