@@ -156,7 +156,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // In a field with choices.
     ("METHOD", "Right", "", "‹ static ›"),
     ("METHOD", "Left", "", "‹ paper ›"),
-    ("METHOD Right", "Backspace", "", "‹ (exact) ›"),
+    ("METHOD Right", "Backspace", "", "‹ (auto) ›"),
     ("METHOD", "?", "", "Every valid edit"),
     // In prompts.
     ("Ctrl-O", "Tab", "", "│ DIR/case.toml"),
