@@ -64,18 +64,15 @@ impl Theirs {
 }
 
 fn main() {
-    let arguments: Vec<String> = std::env::args()
-        .skip(1)
-        .filter(|argument| argument != "--bench")
-        .collect();
+    let arguments: Vec<String> =
+        std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     if arguments.iter().any(|argument| argument == "--test") {
         return;
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let case = arguments.first().map_or_else(
-        || root.join("tests/reference/mesh/table-1.toml"),
-        PathBuf::from,
-    );
+    let case = arguments
+        .first()
+        .map_or_else(|| root.join("tests/reference/mesh/table-1.toml"), PathBuf::from);
     match scipy(root, &case) {
         Some((setup, theirs)) => compare(&case, setup, &theirs),
         None => println!("SKIPPED: python3 with scipy is not here, so nothing is compared"),
@@ -85,9 +82,8 @@ fn main() {
 fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
     let reference = std::fs::read_to_string(case.with_extension("json")).expect("a reference");
     let reference: Value = serde_json::from_str(&reference).expect("JSON");
-    let ours: Vec<Ours> = (3..=11)
-        .map(|exponent| our_own(case, &reference, 10f64.powi(-exponent)))
-        .collect();
+    let ours: Vec<Ours> =
+        (3..=11).map(|exponent| our_own(case, &reference, 10f64.powi(-exponent))).collect();
     println!("{}: ours", case.display());
     ours.iter().for_each(Ours::tell);
     println!(
@@ -96,12 +92,7 @@ fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
     );
     let mut least = (f64::INFINITY, f64::INFINITY);
     for run in theirs {
-        let shown = format!(
-            "  {}: error {:.1e}, {:.1} ms",
-            run.name,
-            run.error,
-            1e3 * run.run
-        );
+        let shown = format!("  {}: error {:.1e}, {:.1} ms", run.name, run.error, 1e3 * run.run);
         match run.ratios(setup, &ours) {
             Some((whole, alone)) => {
                 println!("{shown}: {whole:.0} times whole, {alone:.0} times the run alone");
@@ -110,10 +101,7 @@ fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
             None => println!("{shown}: nearer than any of ours"),
         }
     }
-    println!(
-        "least: {:.0} times whole, {:.0} times the run alone",
-        least.0, least.1
-    );
+    println!("least: {:.0} times whole, {:.0} times the run alone", least.0, least.1);
 }
 
 /// Set-up time and all runs of the SciPy script; `None` if SciPy is not installed.
@@ -125,27 +113,17 @@ fn scipy(root: &Path, case: &Path) -> Option<(f64, Vec<Theirs>)> {
         .output();
     let output = output.ok().filter(|output| output.status.success())?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    let lines: Vec<Value> = text
-        .lines()
-        .filter_map(|line| serde_json::from_str(line).ok())
-        .collect();
+    let lines: Vec<Value> =
+        text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let setup = lines.first()?["setup_seconds"].as_f64()?;
     Some((setup, lines[1..].iter().map(their_own).collect()))
 }
 
 fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
     let document = Document::read(case).unwrap_or_else(|error| panic!("{error}"));
-    let inputs = document
-        .case
-        .inputs()
-        .unwrap_or_else(|problems| panic!("{}", problems[0]));
+    let inputs = document.case.inputs().unwrap_or_else(|problems| panic!("{}", problems[0]));
     // The quantities of the SciPy run need no stations.
-    let inputs = Inputs {
-        method: Method::Dynamic,
-        tolerance,
-        stations: Some(1),
-        ..inputs
-    };
+    let inputs = Inputs { method: Method::Dynamic, tolerance, stations: Some(1), ..inputs };
     let wanted = Stages::of(Stage::Dynamic);
     let solved = || solve(black_box(&inputs), wanted).unwrap_or_else(|refusal| panic!("{refusal}"));
     let solution = solved();
@@ -174,9 +152,7 @@ fn error(solution: &Solution, reference: &Value) -> f64 {
         let found = (Quantity::find(key)?.value)(solution)?;
         Some((found / expected - 1.0).abs())
     };
-    KEYS.iter()
-        .filter_map(|(key, _)| off(key))
-        .fold(0.0, f64::max)
+    KEYS.iter().filter_map(|(key, _)| off(key)).fold(0.0, f64::max)
 }
 
 /// The least time of many runs, as for SciPy.
@@ -190,23 +166,9 @@ fn least_time(work: impl Fn() -> bool) -> f64 {
 }
 
 fn their_own(line: &Value) -> Theirs {
-    let error = KEYS
-        .iter()
-        .filter_map(|(_, name)| line[name].as_f64())
-        .fold(0.0, f64::max);
-    let split = if line["split"] == true {
-        ", restarted at kinks"
-    } else {
-        ""
-    };
-    let name = format!(
-        "{} at {}{split}",
-        line["method"].as_str().unwrap_or_default(),
-        line["rtol"]
-    );
-    Theirs {
-        name,
-        error,
-        run: line["seconds"].as_f64().expect("a time"),
-    }
+    let error = KEYS.iter().filter_map(|(_, name)| line[name].as_f64()).fold(0.0, f64::max);
+    let split = if line["split"] == true { ", restarted at kinks" } else { "" };
+    let name =
+        format!("{} at {}{split}", line["method"].as_str().unwrap_or_default(), line["rtol"]);
+    Theirs { name, error, run: line["seconds"].as_f64().expect("a time") }
 }

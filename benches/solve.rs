@@ -10,19 +10,15 @@ use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use tipstrike::model::{Inputs, Stage, Stages, solve};
 
 fn table_1(method: Method) -> Inputs {
-    let mut inputs = Case::table_1()
-        .inputs()
-        .unwrap_or_else(|_| unreachable!("the built-in case is valid"));
+    let mut inputs =
+        Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));
     inputs.method = method;
     inputs
 }
 
 fn closed_form(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("closed form");
-    let accurate = Inputs {
-        accurate: true,
-        ..table_1(Method::Exact)
-    };
+    let accurate = Inputs { accurate: true, ..table_1(Method::Exact) };
     for (name, inputs) in [
         ("paper", table_1(Method::Paper)),
         ("exact", table_1(Method::Exact)),
@@ -36,10 +32,7 @@ fn closed_form(criterion: &mut Criterion) {
 }
 
 fn stations(criterion: &mut Criterion) {
-    let inputs = Inputs {
-        stations: Some(256),
-        ..table_1(Method::Exact)
-    };
+    let inputs = Inputs { stations: Some(256), ..table_1(Method::Exact) };
     criterion.bench_function("exact with 256 stations", |bencher| {
         bencher.iter(|| solve(black_box(&inputs), Stages::ALL));
     });
@@ -49,22 +42,13 @@ fn stations(criterion: &mut Criterion) {
 fn shared_load(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("shared load");
     for teeth in ToothCompliance::ALL {
-        let usual = Inputs {
-            tooth_compliance: Some(teeth),
-            deflection: None,
-            ..table_1(Method::Static)
-        };
-        let shared = Inputs {
-            stations: Some(256),
-            ..usual.clone()
-        };
+        let usual =
+            Inputs { tooth_compliance: Some(teeth), deflection: None, ..table_1(Method::Static) };
+        let shared = Inputs { stations: Some(256), ..usual.clone() };
         let (method, inertia) = (Stages::of(Stage::Static), Stages::of(Stage::Dynamic));
-        group.bench_function(
-            format!("static with 256 stations, {}", teeth.name()),
-            |bencher| {
-                bencher.iter(|| solve(black_box(&shared), method));
-            },
-        );
+        group.bench_function(format!("static with 256 stations, {}", teeth.name()), |bencher| {
+            bencher.iter(|| solve(black_box(&shared), method));
+        });
         for cycles in [20, 40, 80] {
             let inputs = Inputs {
                 method: Method::Dynamic,

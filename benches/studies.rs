@@ -39,10 +39,7 @@ fn main() {
 fn case(folder: &Path) -> PathBuf {
     let table_1 = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/zhou-chen-2014.toml");
     let text = fs::read_to_string(table_1).expect("Table 1");
-    let kept: Vec<&str> = text
-        .lines()
-        .filter(|line| !line.starts_with("deflection"))
-        .collect();
+    let kept: Vec<&str> = text.lines().filter(|line| !line.starts_with("deflection")).collect();
     let (driver, driven) = kept.join("\n").split_once("[driven]").map_or_else(
         || panic!("no driven gear"),
         |(driver, driven)| (driver.to_owned(), driven.to_owned()),
@@ -68,27 +65,14 @@ fn quickest(arguments: &[&str]) -> (f64, String) {
             .expect("the program starts");
         let seconds = begin.elapsed().as_secs_f64();
         assert!(output.status.success(), "{arguments:?}");
-        (
-            seconds,
-            String::from_utf8_lossy(&output.stdout).into_owned(),
-        )
+        (seconds, String::from_utf8_lossy(&output.stdout).into_owned())
     };
     let runs = (0..RUNS).map(|_| run());
-    runs.min_by(|one, other| one.0.total_cmp(&other.0))
-        .expect("a run")
+    runs.min_by(|one, other| one.0.total_cmp(&other.0)).expect("a run")
 }
 
 fn sampled<'a>(case: &'a str, samples: &'a str) -> Vec<&'a str> {
-    vec![
-        "tolerance",
-        case,
-        "--samples",
-        samples,
-        "--ranking",
-        "0",
-        "--format",
-        "json",
-    ]
+    vec!["tolerance", case, "--samples", samples, "--ranking", "0", "--format", "json"]
 }
 
 fn tolerance(case: &str) {
@@ -97,11 +81,7 @@ fn tolerance(case: &str) {
     println!("tolerance of impact_force by method exact, three fields spread:");
     for samples in ["100000", "1000000"] {
         let (ours, text) = quickest(&sampled(case, samples));
-        println!(
-            "  {samples} samples: ours {:.1} ms, start {:.1} ms",
-            1e3 * ours,
-            1e3 * start
-        );
+        println!("  {samples} samples: ours {:.1} ms, start {:.1} ms", 1e3 * ours, 1e3 * start);
         let Some((whole, inside, theirs)) = numpy(samples) else {
             println!("  SKIPPED: python3 with NumPy is not here");
             continue;
@@ -133,17 +113,13 @@ fn numpy(samples: &str) -> Option<(f64, f64, Value)> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/tolerance.py");
     let run = || {
         let begin = Instant::now();
-        let output = Command::new(&python)
-            .args([script, samples])
-            .output()
-            .ok()?;
+        let output = Command::new(&python).args([script, samples]).output().ok()?;
         let whole = begin.elapsed().as_secs_f64();
         let found: Value = serde_json::from_slice(&output.stdout).ok()?;
         Some((whole, found["seconds"].as_f64()?, found))
     };
     let runs = (0..RUNS).map(|_| run()).collect::<Option<Vec<_>>>()?;
-    runs.into_iter()
-        .min_by(|one, other| one.0.total_cmp(&other.0))
+    runs.into_iter().min_by(|one, other| one.0.total_cmp(&other.0))
 }
 
 /// A resonance curve: the motion over the speed.
@@ -206,10 +182,7 @@ fn map(case: &str) {
         "--only",
         "static_transmission_error",
     ];
-    println!(
-        "60 x 30 map of the static transmission error: {:.3} s",
-        quickest(&arguments).0
-    );
+    println!("60 x 30 map of the static transmission error: {:.3} s", quickest(&arguments).0);
 }
 
 fn processes(case: &str) {

@@ -13,9 +13,8 @@ use tipstrike::tui::testing::teeth::{Centre, TeethView};
 use tipstrike::tui::testing::theme::Look;
 
 fn pictures(criterion: &mut Criterion) {
-    let inputs = Case::table_1()
-        .inputs()
-        .unwrap_or_else(|_| unreachable!("the built-in case is valid"));
+    let inputs =
+        Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));
     let solution =
         solve(&inputs, Stages::ALL).unwrap_or_else(|_| unreachable!("the built-in case is solved"));
     let mut group = criterion.benchmark_group("teeth at 200x60");
@@ -25,11 +24,7 @@ fn pictures(criterion: &mut Criterion) {
         ("path", Centre::PitchPoint, 0),
         ("pair", Centre::Pair, 0),
     ] {
-        let view = TeethView {
-            centre,
-            zoom,
-            ..TeethView::default()
-        };
+        let view = TeethView { centre, zoom, ..TeethView::default() };
         let picture = Picture {
             inputs: &inputs,
             solution: &solution,

@@ -71,18 +71,9 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
 fn picture(table: &Table) -> String {
     let table_1 = tipstrike::case::Case::table_1();
     let pair = table_1.inputs().expect("the built-in case is valid");
-    let stations = METHODS.map(|method| {
-        (
-            format!("{}: stations", method.name()),
-            Setting::usual(method, &pair),
-            1,
-        )
-    });
-    let tolerances = (
-        "dynamic: tolerance".to_owned(),
-        Setting::usual(Method::Dynamic, &pair),
-        0,
-    );
+    let stations = METHODS
+        .map(|method| (format!("{}: stations", method.name()), Setting::usual(method, &pair), 1));
+    let tolerances = ("dynamic: tolerance".to_owned(), Setting::usual(Method::Dynamic, &pair), 0);
     let series: Vec<Series> = stations
         .into_iter()
         .chain([tolerances])
@@ -100,18 +91,12 @@ fn picture(table: &Table) -> String {
             };
             let mut settings: Vec<Setting> = table::settings().into_iter().filter(alike).collect();
             settings.sort_by(|one, other| {
-                other
-                    .tolerance
-                    .unwrap_or(0.0)
-                    .total_cmp(&one.tolerance.unwrap_or(0.0))
+                other.tolerance.unwrap_or(0.0).total_cmp(&one.tolerance.unwrap_or(0.0))
             });
             let points = settings
                 .iter()
                 .filter_map(|setting| point(table, setting, *setting == usual, error));
-            Series {
-                name,
-                points: points.collect(),
-            }
+            Series { name, points: points.collect() }
         })
         .collect();
     svg(&Plot {
@@ -123,13 +108,6 @@ fn picture(table: &Table) -> String {
 }
 
 fn point(table: &Table, setting: &Setting, is_usual: bool, error: usize) -> Option<Point> {
-    let row: &Row = table
-        .0
-        .iter()
-        .find(|row| row.setting == setting.to_string())?;
-    Some(Point {
-        seconds: row.seconds?,
-        error: row.errors[error]?.0,
-        is_usual,
-    })
+    let row: &Row = table.0.iter().find(|row| row.setting == setting.to_string())?;
+    Some(Point { seconds: row.seconds?, error: row.errors[error]?.0, is_usual })
 }

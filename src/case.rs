@@ -69,11 +69,7 @@ impl Limit {
             return Err(check::unknown_quantity(&field, quantity));
         };
         let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
-        let usual = if matches!(known.shown, "1" | "yes/no") {
-            ""
-        } else {
-            known.shown
-        };
+        let usual = if matches!(known.shown, "1" | "yes/no") { "" } else { known.shown };
         let value = units::parse(text, dimension, usual).map_err(|misread| {
             let problem = Problem::of(&field, misread);
             if known.is_flag() {
@@ -82,11 +78,7 @@ impl Limit {
             }
             problem
         })?;
-        Ok(Limit {
-            quantity: known.key,
-            text: text.to_owned(),
-            value,
-        })
+        Ok(Limit { quantity: known.key, text: text.to_owned(), value })
     }
 }
 
@@ -143,9 +135,7 @@ impl Case {
     /// The value, in SI, that follows from other fields if the case does not give it.
     #[must_use]
     pub fn derived(&self, field: usize, inputs: &Inputs) -> Option<f64> {
-        let derived = FIELDS[field]
-            .derived
-            .filter(|_| self.text(field).is_none())?;
+        let derived = FIELDS[field].derived.filter(|_| self.text(field).is_none())?;
         derived(inputs).filter(|value| value.is_finite())
     }
 
@@ -197,17 +187,9 @@ impl Case {
     /// Writes the limit of a quantity, with a valid or an invalid text. An empty text leaves an
     /// empty limit until [`Case::drop_empty_limits`].
     pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
-        let unread = Limit {
-            quantity,
-            text: text.to_owned(),
-            value: f64::INFINITY,
-        };
+        let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY };
         let limit = Limit::new(quantity, text).unwrap_or(unread);
-        match self
-            .limits
-            .iter_mut()
-            .find(|held| held.quantity == quantity)
-        {
+        match self.limits.iter_mut().find(|held| held.quantity == quantity) {
             Some(held) => *held = limit,
             None => self.limits.push(limit),
         }
@@ -215,8 +197,7 @@ impl Case {
 
     /// Removes the empty limits except the limit of the named quantity.
     pub fn drop_empty_limits(&mut self, but: Option<&str>) {
-        self.limits
-            .retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
+        self.limits.retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
     }
 
     /// Checks the text of one field alone.
@@ -278,11 +259,7 @@ impl Case {
             return Ok(());
         }
         let limit = Limit::new(quantity, text)?;
-        match self
-            .limits
-            .iter_mut()
-            .find(|held| held.quantity == limit.quantity)
-        {
+        match self.limits.iter_mut().find(|held| held.quantity == limit.quantity) {
             Some(held) => *held = limit,
             None => self.limits.push(limit),
         }

@@ -35,10 +35,7 @@ impl Streams<'static> {
     /// The streams of the process.
     #[must_use]
     pub fn standard() -> Streams<'static> {
-        Streams {
-            output: Box::new(BufWriter::new(io::stdout())),
-            errors: Box::new(io::stderr()),
-        }
+        Streams { output: Box::new(BufWriter::new(io::stdout())), errors: Box::new(io::stderr()) }
     }
 }
 
@@ -68,54 +65,34 @@ pub fn parse(
 ) -> Result<Arguments, Exit> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let matches = Arguments::command().try_get_matches_from(&arguments);
-    if let Some(line) = matches
-        .as_ref()
-        .err()
-        .and_then(|error| no_command(error, &arguments))
-    {
+    if let Some(line) = matches.as_ref().err().and_then(|error| no_command(error, &arguments)) {
         streams.say(&line);
         return Err(Exit::Usage);
     }
-    matches
-        .and_then(|matches| Arguments::from_arg_matches(&matches))
-        .map_err(|error| {
-            let text: String = error
-                .render()
-                .to_string()
-                .lines()
-                .map(|line| sanitize(line) + "\n")
-                .collect();
-            if error.use_stderr() {
-                let _ = streams.errors.write_all(text.as_bytes());
-                return Exit::Usage;
-            }
-            let printed = streams.output.write_all(text.as_bytes());
-            finish(
-                printed.map(|()| Exit::Done).map_err(Failure::Stream),
-                streams,
-            )
-        })
+    matches.and_then(|matches| Arguments::from_arg_matches(&matches)).map_err(|error| {
+        let text: String =
+            error.render().to_string().lines().map(|line| sanitize(line) + "\n").collect();
+        if error.use_stderr() {
+            let _ = streams.errors.write_all(text.as_bytes());
+            return Exit::Usage;
+        }
+        let printed = streams.output.write_all(text.as_bytes());
+        finish(printed.map(|()| Exit::Done).map_err(Failure::Stream), streams)
+    })
 }
 
 /// The message for a first word that looks like a mistyped command.
 fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
-    let first = arguments
-        .get(1)?
-        .to_str()
-        .filter(|first| !first.starts_with('-'))?;
+    let first = arguments.get(1)?.to_str().filter(|first| !first.starts_with('-'))?;
     let command = Arguments::command();
-    let is_command = command
-        .get_subcommands()
-        .any(|known| known.get_name() == first)
-        || first == "help";
+    let is_command =
+        command.get_subcommands().any(|known| known.get_name() == first) || first == "help";
     let is_case = Path::new(first).extension().is_some() || Path::new(first).exists();
     if error.kind() != ErrorKind::ArgumentConflict || is_command || is_case {
         return None;
     }
-    let known = command
-        .get_subcommands()
-        .map(|known| known.get_name().to_owned())
-        .collect::<Vec<_>>();
+    let known =
+        command.get_subcommands().map(|known| known.get_name().to_owned()).collect::<Vec<_>>();
     let fix = suggest::fix(first, known.iter().map(String::as_str), || {
         "`tipstrike help` lists the commands".to_owned()
     });
@@ -161,14 +138,8 @@ mod tests {
     #[test]
     fn messages_contain_no_control_characters() {
         let mut said = Vec::new();
-        Streams {
-            output: Box::new(io::sink()),
-            errors: Box::new(&mut said),
-        }
-        .say("a\u{1b}[2J\u{9b}\nb\u{202e}");
-        assert_eq!(
-            String::from_utf8_lossy(&said),
-            "a\\u{1b}[2J\\u{9b}\\nb\\u{202e}\n"
-        );
+        Streams { output: Box::new(io::sink()), errors: Box::new(&mut said) }
+            .say("a\u{1b}[2J\u{9b}\nb\u{202e}");
+        assert_eq!(String::from_utf8_lossy(&said), "a\\u{1b}[2J\\u{9b}\\nb\\u{202e}\n");
     }
 }

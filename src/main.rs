@@ -10,10 +10,7 @@ fn main() -> ExitCode {
     let mut streams = Streams::standard();
     match cli::parse(std::env::args_os(), &mut streams) {
         Err(exit) => exit.into(),
-        Ok(Arguments {
-            command: Some(command),
-            ..
-        }) => cli::run(&command, &mut streams).into(),
+        Ok(Arguments { command: Some(command), .. }) => cli::run(&command, &mut streams).into(),
         Ok(Arguments { case, .. }) => workbench(case, &mut streams),
     }
 }

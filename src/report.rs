@@ -84,14 +84,8 @@ impl Selection {
     /// The stages that the requested quantities need.
     #[must_use]
     pub fn stages(&self) -> Stages {
-        let stations = if self.stations {
-            Stages::STATIONS
-        } else {
-            Stages::NONE
-        };
-        self.quantities().fold(stations, |stages, quantity| {
-            stages.and(Stages::of(quantity.stage))
-        })
+        let stations = if self.stations { Stages::STATIONS } else { Stages::NONE };
+        self.quantities().fold(stations, |stages, quantity| stages.and(Stages::of(quantity.stage)))
     }
 }
 
@@ -124,10 +118,8 @@ impl Report {
         selection: Selection,
     ) -> Result<Report, Refusal> {
         let inputs = inputs.needing(selection.only.iter().map(|quantity| quantity.stage));
-        let solution = model::solve(
-            &inputs,
-            selection.stages().and(inputs.method.deciding_stages()),
-        )?;
+        let solution =
+            model::solve(&inputs, selection.stages().and(inputs.method.deciding_stages()))?;
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
@@ -141,19 +133,8 @@ impl Report {
         selection: Selection,
     ) -> Report {
         let mut notes = model::notes(&inputs, &solution);
-        notes.extend(
-            selection
-                .quantities()
-                .filter_map(|quantity| not_finite(quantity, &solution)),
-        );
-        Report {
-            name,
-            case,
-            inputs,
-            solution,
-            notes,
-            selection,
-        }
+        notes.extend(selection.quantities().filter_map(|quantity| not_finite(quantity, &solution)));
+        Report { name, case, inputs, solution, notes, selection }
     }
 
     /// The title of the case, empty without one; not sanitized for a terminal.
@@ -165,9 +146,7 @@ impl Report {
     /// The text of a field as the user wrote it, empty without one; not sanitized for a terminal.
     #[must_use]
     pub fn text(&self, key: &str) -> &str {
-        index_of(key)
-            .and_then(|field| self.case.text(field))
-            .unwrap_or_default()
+        index_of(key).and_then(|field| self.case.text(field)).unwrap_or_default()
     }
 
     /// The requested quantities that have a value, in SI: finite, and zero without a sign.
@@ -188,10 +167,7 @@ pub fn shown(quantity: &Quantity, value: f64) -> Shown {
 #[must_use]
 pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     if quantity.is_flag() {
-        return Shown {
-            number: if value == 0.0 { "no" } else { "yes" }.to_owned(),
-            unit: "",
-        };
+        return Shown { number: if value == 0.0 { "no" } else { "yes" }.to_owned(), unit: "" };
     }
     let (number, unit) = units::system::shown(value, quantity.shown, quantity.digits, system);
     Shown { number, unit }
@@ -204,10 +180,7 @@ pub fn common_unit(
     values: impl Iterator<Item = f64>,
     system: System,
 ) -> &'static str {
-    let greatest = values
-        .map(f64::abs)
-        .filter(|value| value.is_finite())
-        .fold(0.0, f64::max);
+    let greatest = values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max);
     units::system::unit_for(greatest, quantity.shown, quantity.digits, system)
 }
 
@@ -233,12 +206,9 @@ pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
 #[must_use]
 pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> Option<f64> {
     match quantity.key {
-        "equivalent_error" => Some(
-            solution
-                .deviation
-                .equivalent_error_as_in(solution.method, other)
-                + 0.0,
-        ),
+        "equivalent_error" => {
+            Some(solution.deviation.equivalent_error_as_in(solution.method, other) + 0.0)
+        }
         _ => value(quantity, solution),
     }
 }
@@ -250,15 +220,12 @@ pub fn number(value: f64, unit: &str, digits: usize) -> String {
 }
 
 fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
-    (quantity.value)(solution.having(quantity.stage))
-        .filter(|value| !value.is_finite())
-        .map(|_| Note {
+    (quantity.value)(solution.having(quantity.stage)).filter(|value| !value.is_finite()).map(|_| {
+        Note {
             code: "not-finite",
-            message: format!(
-                "{} exceeds the range of numbers and is omitted",
-                quantity.key
-            ),
-        })
+            message: format!("{} exceeds the range of numbers and is omitted", quantity.key),
+        }
+    })
 }
 
 #[cfg(test)]
@@ -267,11 +234,7 @@ mod tests {
     use crate::model::Stage;
 
     fn text(value: f64, unit: &'static str, digits: usize) -> String {
-        let quantity = Quantity {
-            shown: unit,
-            digits,
-            ..QUANTITIES[0]
-        };
+        let quantity = Quantity { shown: unit, digits, ..QUANTITIES[0] };
         shown(&quantity, value).to_string()
     }
 
@@ -309,11 +272,7 @@ mod tests {
             let dimension = units::Dimension::of_unit(quantity.unit).unwrap();
             let text = shown_in(quantity, 0.123_456_7, system).to_string();
             let read = units::parse(&text, dimension, "").unwrap();
-            assert!(
-                (read / 0.123_456_7 - 1.0).abs() < 6e-4,
-                "{}: {text}",
-                quantity.key
-            );
+            assert!((read / 0.123_456_7 - 1.0).abs() < 6e-4, "{}: {text}", quantity.key);
         }
     }
 
@@ -323,10 +282,7 @@ mod tests {
             only: keys.iter().filter_map(|key| Quantity::find(key)).collect(),
             stations: false,
         };
-        assert_eq!(
-            only(&["approach_angle_driven"]).stages(),
-            Stages::of(Stage::Position)
-        );
+        assert_eq!(only(&["approach_angle_driven"]).stages(), Stages::of(Stage::Position));
         let both = only(&["contact_ratio", "normal_velocity"]).stages();
         assert!(
             both.has(Stage::Velocity) && !both.has(Stage::Compliance) && !both.has(Stage::Stations)
@@ -337,12 +293,7 @@ mod tests {
                 && !whole.has(Stage::Stations)
         );
         assert!(
-            Selection {
-                stations: true,
-                ..only(&["contact_ratio"])
-            }
-            .stages()
-            .has(Stage::Stations)
+            Selection { stations: true, ..only(&["contact_ratio"]) }.stages().has(Stage::Stations)
         );
     }
 }

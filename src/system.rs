@@ -24,8 +24,5 @@ pub(crate) mod users;
 #[cfg(feature = "cli")]
 pub fn report_file_limit_as_error() {
     #[cfg(unix)]
-    drop(signal_hook::flag::register(
-        signal_hook::consts::SIGXFSZ,
-        std::sync::Arc::default(),
-    ));
+    drop(signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default()));
 }

@@ -88,15 +88,10 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
     let journal_writer = match begin(&events) {
         Ok(journal_writer) => journal_writer,
         Err(error) => {
-            return fail(
-                TERMINAL_LOST,
-                &format!("the system cannot start a thread: {error}"),
-            );
+            return fail(TERMINAL_LOST, &format!("the system cannot start a thread: {error}"));
         }
     };
-    let ended = catch_unwind(AssertUnwindSafe(|| {
-        session(case, events, screen, &journal_writer)
-    }));
+    let ended = catch_unwind(AssertUnwindSafe(|| session(case, events, screen, &journal_writer)));
     if matches!(ended, Ok(Ok(End::Left))) {
         return ExitCode::SUCCESS;
     }
@@ -107,10 +102,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
         Ok(Err(error)) => no_answer(&error),
         Err(_) => fail(
             PANICKED,
-            &format!(
-                "internal error: {}",
-                terminal::last_panic().unwrap_or_default()
-            ),
+            &format!("internal error: {}", terminal::last_panic().unwrap_or_default()),
         ),
     }
 }
@@ -142,10 +134,7 @@ fn keep_what_is_left(journal_writer: &JournalWriter) {
 }
 
 fn no_answer(error: &io::Error) -> ExitCode {
-    fail(
-        TERMINAL_LOST,
-        &format!("the terminal does not answer: {error}"),
-    )
+    fail(TERMINAL_LOST, &format!("the terminal does not answer: {error}"))
 }
 
 fn fail(code: u8, words: &str) -> ExitCode {
@@ -155,9 +144,5 @@ fn fail(code: u8, words: &str) -> ExitCode {
 
 // Errors of a closed terminal or pipe are ignored.
 fn tell(words: &str) {
-    drop(writeln!(
-        io::stderr(),
-        "tipstrike: {}",
-        ascii::printable(words)
-    ));
+    drop(writeln!(io::stderr(), "tipstrike: {}", ascii::printable(words)));
 }

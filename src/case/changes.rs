@@ -21,18 +21,12 @@ pub struct Change {
 pub fn between(from: &Case, to: &Case) -> Vec<Change> {
     let (old, new) = (texts(from), texts(to));
     let find = |texts: &[(String, String)], key: &str| {
-        texts
-            .iter()
-            .find(|(own, _)| own == key)
-            .map(|(_, text)| text.clone())
+        texts.iter().find(|(own, _)| own == key).map(|(_, text)| text.clone())
     };
     let mut keys: Vec<&String> = FIELDS
         .iter()
         .filter_map(|field| {
-            old.iter()
-                .chain(&new)
-                .map(|(key, _)| key)
-                .find(|key| *key == field.key)
+            old.iter().chain(&new).map(|(key, _)| key).find(|key| *key == field.key)
         })
         .collect();
     for (key, _) in old.iter().chain(&new) {
@@ -40,24 +34,15 @@ pub fn between(from: &Case, to: &Case) -> Vec<Change> {
             keys.push(key);
         }
     }
-    let change = |key: &String| Change {
-        key: key.clone(),
-        from: find(&old, key),
-        to: find(&new, key),
-    };
-    keys.into_iter()
-        .map(change)
-        .filter(|change| change.from != change.to)
-        .collect()
+    let change =
+        |key: &String| Change { key: key.clone(), from: find(&old, key), to: find(&new, key) };
+    keys.into_iter().map(change).filter(|change| change.from != change.to).collect()
 }
 
 /// The text of a case under a key. `None` if the case does not have it.
 #[must_use]
 pub fn text_of(case: &Case, key: &str) -> Option<String> {
-    texts(case)
-        .into_iter()
-        .find(|(own, _)| own == key)
-        .map(|(_, text)| text)
+    texts(case).into_iter().find(|(own, _)| own == key).map(|(_, text)| text)
 }
 
 /// The label of a key: the label of the field, with its gear if both gears have the field. A limit
@@ -73,10 +58,7 @@ pub fn label(key: &str) -> String {
         let field = key.strip_prefix("spread.")?.trim_matches('"');
         Some(format!("spread of {}", of_field(field)?))
     };
-    of_field(key)
-        .or_else(of_limit)
-        .or_else(of_spread)
-        .unwrap_or_else(|| key.to_owned())
+    of_field(key).or_else(of_limit).or_else(of_spread).unwrap_or_else(|| key.to_owned())
 }
 
 impl Case {
@@ -126,10 +108,7 @@ impl Variant {
             let other = fields::index_of(key).and_then(|field| FIELDS[field].partner());
             other.is_some_and(|other| {
                 let is_written = |change: &&Change| change.key == FIELDS[other].key;
-                changes
-                    .iter()
-                    .find(is_written)
-                    .is_some_and(|change| change.to.is_some())
+                changes.iter().find(is_written).is_some_and(|change| change.to.is_some())
             })
         };
         let overrides = changes
@@ -149,23 +128,14 @@ fn texts(case: &Case) -> Vec<(String, String)> {
         .iter()
         .enumerate()
         .filter_map(|(index, field)| Some((field.key.to_owned(), case.text(index)?.to_owned())));
-    let limits = case
-        .limits
-        .iter()
-        .map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
-    let spreads = case
-        .spread
-        .iter()
-        .map(|held| (spread::place(held.field), held.in_words()));
+    let limits =
+        case.limits.iter().map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
+    let spreads = case.spread.iter().map(|held| (spread::place(held.field), held.in_words()));
     let overrides = case.variants.iter().flat_map(|variant| {
         let of = |change: &Override| (variant.place(&change.key), change.text.clone());
         variant.overrides.iter().map(of)
     });
-    fields
-        .chain(limits)
-        .chain(spreads)
-        .chain(overrides)
-        .collect()
+    fields.chain(limits).chain(spreads).chain(overrides).collect()
 }
 
 #[cfg(test)]
@@ -184,12 +154,9 @@ mod tests {
             case.write(fields::index_of(key).expect("a field"), text);
         }
         case.limits = vec![Limit::new("dynamic_factor", "1.5").expect("a limit")];
-        case.spread
-            .push(Spread::new("pair.module", "normal", "4 um").expect("a distribution"));
-        let change = |key: &str, text: &str| Override {
-            key: key.to_owned(),
-            text: text.to_owned(),
-        };
+        case.spread.push(Spread::new("pair.module", "normal", "4 um").expect("a distribution"));
+        let change =
+            |key: &str, text: &str| Override { key: key.to_owned(), text: text.to_owned() };
         let overrides = vec![
             change("driven.tip_relief", "48 um"),
             change("model.deflection", ""),
@@ -213,8 +180,7 @@ mod tests {
             assert!(!changes.is_empty());
             for change in &changes {
                 assert_eq!(text_of(&case, &change.key), change.from);
-                case.apply(&change.key, change.to.as_deref())
-                    .expect("the text of a case");
+                case.apply(&change.key, change.to.as_deref()).expect("the text of a case");
             }
             assert_eq!(between(&case, &to), []);
             assert_eq!(case, to);

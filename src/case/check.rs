@@ -17,11 +17,7 @@ pub use value::{field_range, field_value};
 /// The inputs of the model, or all problems of the case.
 pub(super) fn inputs(case: &Case) -> Result<Inputs, Vec<Problem>> {
     let (inputs, problems) = read(case, &[]);
-    if problems.is_empty() {
-        Ok(inputs)
-    } else {
-        Err(problems)
-    }
+    if problems.is_empty() { Ok(inputs) } else { Err(problems) }
 }
 
 /// The inputs that can be read, and all problems of the case. Skips the fields in `wrong`.
@@ -57,10 +53,8 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
 
 /// Problems of the limits with a text. Valid limits are not read again.
 fn limits(case: &Case) -> impl Iterator<Item = Problem> {
-    let unread = case
-        .limits
-        .iter()
-        .filter(|limit| !limit.text.is_empty() && limit.value.is_infinite());
+    let unread =
+        case.limits.iter().filter(|limit| !limit.text.is_empty() && limit.value.is_infinite());
     unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err())
 }
 
@@ -85,11 +79,7 @@ pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem
 /// The field as a line of a file, with an example value.
 pub(super) fn assignment(field: &Field) -> String {
     let example = field.example();
-    let value = if field.is_bare() {
-        example.to_owned()
-    } else {
-        format!("\"{example}\"")
-    };
+    let value = if field.is_bare() { example.to_owned() } else { format!("\"{example}\"") };
     format!("{} = {value}", field.name())
 }
 
@@ -109,11 +99,7 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
     match (case.text(field), case.text(other)) {
         (None, None) if field < other && known.absent == Absent::Either => {
             let cause = format!("neither {} nor {} is given", known.key, named.key);
-            Some(Problem::new(
-                known.key,
-                cause,
-                format!("write {}", addition(known)),
-            ))
+            Some(Problem::new(known.key, cause, format!("write {}", addition(known))))
         }
         (Some(_), Some(_)) => given_twice(case, field),
         _ => None,

@@ -43,19 +43,14 @@ pub fn fields_of(
     let quick = quickest_of(quantity, inputs, own);
     let dependence = |field| {
         let small = small_step(field, case, &quick);
-        let after = small
-            .as_ref()
-            .map(|(_, inputs)| Outcome::of(quantity, inputs));
+        let after = small.as_ref().map(|(_, inputs)| Outcome::of(quantity, inputs));
         let moves = own.is_none()
             || quantity.is_flag()
             || after.is_some_and(|after| after.differs(own) == Some(true))
             || is_moved(quantity, own, field, case, &quick)
                 .or_else(|| is_moved_freely(quantity, field, case, &quick))
                 .unwrap_or_default();
-        let step = small.zip(after).map(|((text, _), after)| Step {
-            text,
-            value: after.value(),
-        });
+        let step = small.zip(after).map(|((text, _), after)| Step { text, value: after.value() });
         moves.then_some(Dependence { field, step })
     };
     (0..FIELDS.len())
@@ -73,10 +68,7 @@ fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs
     let is_telling = !quantity.is_flag() && own.is_some_and(|own| own != 0.0);
     let quick = without_field(inputs)
         .filter(|_| is_telling)
-        .map(|tooth| Inputs {
-            tooth_compliance: Some(tooth),
-            ..inputs.clone()
-        });
+        .map(|tooth| Inputs { tooth_compliance: Some(tooth), ..inputs.clone() });
     let is_same = |quick: &Inputs| Outcome::of(quantity, quick).differs(own) == Some(false);
     quick.filter(is_same).unwrap_or_else(|| inputs.clone())
 }
@@ -193,13 +185,8 @@ fn is_moved_freely(
     case: &Case,
     inputs: &Inputs,
 ) -> Option<bool> {
-    let free = Inputs {
-        centre_distance: None,
-        ..inputs.clone()
-    };
-    inputs
-        .centre_distance
-        .filter(|_| quantity.key != "centre_distance")?;
+    let free = Inputs { centre_distance: None, ..inputs.clone() };
+    inputs.centre_distance.filter(|_| quantity.key != "centre_distance")?;
     is_moved(quantity, value_of(quantity, &free), field, case, &free)
 }
 
@@ -263,10 +250,7 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     /// unusual values.
     const SHARES: [f64; 3] = [0.0, 0.381_966, 0.618_034];
     // Every stage that reads the tooth model also reads the fields that decide its range.
-    let held = Inputs {
-        tooth_compliance: Some(model_of(inputs)),
-        ..inputs.clone()
-    };
+    let held = Inputs { tooth_compliance: Some(model_of(inputs)), ..inputs.clone() };
     let with = move |put: &dyn Fn(&mut Inputs)| {
         let mut other = held.clone();
         put(&mut other);
@@ -274,14 +258,14 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     };
     match FIELDS[field].kind {
         Kind::Text => Vec::new(),
-        Kind::Number(_, range, put) => SHARES
-            .map(|share| with(&|other| put(other, within(range, share))))
-            .into(),
-        Kind::Count(from, to, put) => [from, to]
-            .map(|count| with(&|other| put(other, count)))
-            .into(),
-        Kind::Choice(names, put) => (0..names.len())
-            .map(|at| with(&|other| put(other, at)))
-            .collect(),
+        Kind::Number(_, range, put) => {
+            SHARES.map(|share| with(&|other| put(other, within(range, share)))).into()
+        }
+        Kind::Count(from, to, put) => {
+            [from, to].map(|count| with(&|other| put(other, count))).into()
+        }
+        Kind::Choice(names, put) => {
+            (0..names.len()).map(|at| with(&|other| put(other, at))).collect()
+        }
     }
 }

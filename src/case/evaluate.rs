@@ -62,10 +62,7 @@ impl Evaluator {
         let inputs = if inputs.method == method {
             inputs
         } else {
-            by_method = Inputs {
-                method,
-                ..inputs.clone()
-            };
+            by_method = Inputs { method, ..inputs.clone() };
             &by_method
         };
         let by = |solved: &Solved| solved.inputs.method == method;
@@ -74,18 +71,11 @@ impl Evaluator {
             let at = self.solved.len();
             let inputs = inputs.clone();
             let setup = None;
-            self.solved.push(Solved {
-                inputs,
-                solution,
-                setup,
-            });
+            self.solved.push(Solved { inputs, solution, setup });
             return Ok(&self.solved[at].solution);
         };
         let solved = &mut self.solved[at];
-        let earlier = Earlier {
-            inputs: &solved.inputs,
-            solution: &solved.solution,
-        };
+        let earlier = Earlier { inputs: &solved.inputs, solution: &solved.solution };
         solved.solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
         solved.inputs.clone_from(inputs);
         solved.setup = None;
@@ -107,16 +97,9 @@ impl Evaluator {
         let Point { inputs, wanted, .. } = *point;
         let by = |solved: &Solved| solved.inputs.method == inputs.method;
         let repeated = self.solved.iter().position(by).and_then(|at| {
-            let Solved {
-                inputs: before,
-                solution,
-                setup,
-            } = &mut self.solved[at];
-            let change = if point.differs_in_load_alone {
-                Change::LoadAlone
-            } else {
-                Change::Unknown
-            };
+            let Solved { inputs: before, solution, setup } = &mut self.solved[at];
+            let change =
+                if point.differs_in_load_alone { Change::LoadAlone } else { Change::Unknown };
             let repeated = solve_repeated((before, change), solution, setup, inputs, wanted)?;
             Some((at, repeated))
         });
@@ -153,9 +136,7 @@ mod tests {
         let mut evaluator = Evaluator::default();
         let (before, after) = (Case::table_1(), edited(key, text));
         let mut run = |case: &Case| {
-            evaluator
-                .solve(&case.inputs().unwrap(), method, Stages::EVERY, &|_| true)
-                .unwrap()
+            evaluator.solve(&case.inputs().unwrap(), method, Stages::EVERY, &|_| true).unwrap()
         };
         assert_eq!(run(&before).ran, run_fresh(method, &before).ran);
         let (kept, fresh) = (run(&after), run_fresh(method, &after));
@@ -172,39 +153,18 @@ mod tests {
     }
 
     fn run_fresh(method: Method, case: &Case) -> Solution {
-        solve(
-            &Inputs {
-                method,
-                ..case.inputs().unwrap()
-            },
-            Stages::EVERY,
-        )
-        .unwrap()
+        solve(&Inputs { method, ..case.inputs().unwrap() }, Stages::EVERY).unwrap()
     }
 
     #[test]
     fn an_edit_runs_only_the_stages_that_depend_on_it() {
-        for method in [
-            Method::Paper,
-            Method::Exact,
-            Method::Static,
-            Method::Dynamic,
-        ] {
+        for method in [Method::Paper, Method::Exact, Method::Static, Method::Dynamic] {
             assert_eq!(ran(method, "title", "another"), Stages::NONE);
             let density = ran(method, "driver.density", "7900 kg/m3");
-            for stage in [
-                Stage::Geometry,
-                Stage::Position,
-                Stage::Velocity,
-                Stage::Mesh,
-                Stage::Static,
-            ] {
-                assert!(
-                    !density.has(stage),
-                    "{}: density runs {}",
-                    method.name(),
-                    stage.name()
-                );
+            for stage in
+                [Stage::Geometry, Stage::Position, Stage::Velocity, Stage::Mesh, Stage::Static]
+            {
+                assert!(!density.has(stage), "{}: density runs {}", method.name(), stage.name());
             }
             assert!(density.has(Stage::Masses) && density.has(Stage::Impact));
             assert_eq!(density.has(Stage::Dynamic), method == Method::Dynamic);
@@ -214,10 +174,7 @@ mod tests {
         let damping = ran(Method::Dynamic, "model.damping_ratio", "0.1");
         assert_eq!(
             damping,
-            Stages::NONE
-                .with(Stage::Dynamic)
-                .with(Stage::SteadyMotion)
-                .with(Stage::Clearing)
+            Stages::NONE.with(Stage::Dynamic).with(Stage::SteadyMotion).with(Stage::Clearing)
         );
         let stations = ran(Method::Exact, "model.stations", "32");
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));
@@ -228,28 +185,19 @@ mod tests {
     fn a_reused_mesh_of_coupled_pairs_gives_the_bits_of_a_fresh_one() {
         let at = |speed: &str| {
             let mut case = Case::table_1();
-            for (key, text) in [
-                ("model.tooth_compliance", "finite-element"),
-                ("operation.speed", speed),
-            ] {
+            for (key, text) in
+                [("model.tooth_compliance", "finite-element"), ("operation.speed", speed)]
+            {
                 case.write(index_of(key).unwrap(), text);
             }
             // The same torque gives the same mesh.
-            Inputs {
-                drive: Drive::Torque(71.6),
-                method: Method::Dynamic,
-                ..case.inputs().unwrap()
-            }
+            Inputs { drive: Drive::Torque(71.6), method: Method::Dynamic, ..case.inputs().unwrap() }
         };
         let mut evaluator = Evaluator::default();
         let wanted = Stages::of(Stage::Dynamic);
         for speed in ["2000 rpm", "300 rpm", "9000 rpm"] {
             let inputs = at(speed);
-            let point = Point {
-                inputs: &inputs,
-                wanted,
-                differs_in_load_alone: false,
-            };
+            let point = Point { inputs: &inputs, wanted, differs_in_load_alone: false };
             let kept: Result<_, Refusal> = evaluator.solve_point(&point, |_| Ok(()), &|_| true);
             let kept = kept.unwrap();
             assert_eq!(kept.ran.has(Stage::Mesh), speed == "2000 rpm");
@@ -262,17 +210,10 @@ mod tests {
     fn only_newly_wanted_stages_run() {
         let (mut evaluator, case) = (Evaluator::default(), Case::table_1());
         let inputs = case.inputs().unwrap();
-        let mut ran = |wanted| {
-            evaluator
-                .solve(&inputs, Method::Exact, wanted, &|_| true)
-                .unwrap()
-                .ran
-        };
+        let mut ran =
+            |wanted| evaluator.solve(&inputs, Method::Exact, wanted, &|_| true).unwrap().ran;
         assert!(ran(Stages::of(Stage::Position)).has(Stage::Position));
-        assert_eq!(
-            ran(Stages::of(Stage::Velocity)),
-            Stages::NONE.with(Stage::Velocity)
-        );
+        assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE.with(Stage::Velocity));
         assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE);
     }
 }

@@ -66,10 +66,8 @@ mod tests {
             .map(|entry| entry.unwrap().file_name().into_string().unwrap());
         // The workbench keeps the lock file of an open case beside it.
         let kept: BTreeSet<String> = names.filter(|name| !name.starts_with('.')).collect();
-        let known: BTreeSet<String> = EXAMPLES
-            .iter()
-            .map(|example| format!("{}.toml", example.name))
-            .collect();
+        let known: BTreeSet<String> =
+            EXAMPLES.iter().map(|example| format!("{}.toml", example.name)).collect();
         assert_eq!(kept, known, "list it in src/case/examples.rs");
         for example in EXAMPLES {
             assert!(
@@ -81,13 +79,7 @@ mod tests {
 
     #[test]
     fn a_misspelled_name_suggests_the_example() {
-        assert_eq!(
-            Example::find("fzg-type-c.toml").map(|example| example.name),
-            Ok("fzg-type-c")
-        );
-        assert_eq!(
-            Example::find("fzg-type"),
-            Err("did you mean fzg-type-c?".to_owned())
-        );
+        assert_eq!(Example::find("fzg-type-c.toml").map(|example| example.name), Ok("fzg-type-c"));
+        assert_eq!(Example::find("fzg-type"), Err("did you mean fzg-type-c?".to_owned()));
     }
 }

@@ -172,10 +172,7 @@ impl Field {
     }
 
     const fn instead_of(self, alternative: &'static str, derived: Derive) -> Field {
-        Field {
-            alternative: Some(alternative),
-            ..self.derived(derived)
-        }
+        Field { alternative: Some(alternative), ..self.derived(derived) }
     }
 
     const fn derived(self, derived: Derive) -> Field {
@@ -217,11 +214,7 @@ impl Field {
     /// Whether a file contains the value without quotes.
     #[must_use]
     pub fn is_bare(&self) -> bool {
-        self.is_flag()
-            || matches!(
-                self.kind,
-                Kind::Count(..) | Kind::Number(Dimension::Number, ..)
-            )
+        self.is_flag() || matches!(self.kind, Kind::Count(..) | Kind::Number(Dimension::Number, ..))
     }
 
     /// A valid text of the field, as an example.
@@ -244,12 +237,9 @@ impl Field {
             Kind::Number(_, range, _) if range.unit.is_empty() => {
                 format!("{} to {}", shortest(range.from), shortest(range.to))
             }
-            Kind::Number(_, range, _) => format!(
-                "{} to {} {}",
-                shortest(range.from),
-                shortest(range.to),
-                range.unit
-            ),
+            Kind::Number(_, range, _) => {
+                format!("{} to {} {}", shortest(range.from), shortest(range.to), range.unit)
+            }
             Kind::Text => String::new(),
             Kind::Choice(names, _) => names.join(", "),
         }

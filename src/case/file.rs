@@ -129,11 +129,8 @@ impl Document {
     fn parse_newer(name: &str, text: &str) -> Document {
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = tree::read_newer(unmarked);
-        let (loaded, name, marked) = (
-            reading.case.clone(),
-            name.to_owned(),
-            unmarked.len() < text.len(),
-        );
+        let (loaded, name, marked) =
+            (reading.case.clone(), name.to_owned(), unmarked.len() < text.len());
         let (case, places) = (reading.case, reading.places);
         Document {
             case,
@@ -208,11 +205,7 @@ impl Document {
         } else {
             self.text.clone()
         };
-        if self.marked {
-            format!("{BYTE_ORDER_MARK}{text}")
-        } else {
-            text
-        }
+        if self.marked { format!("{BYTE_ORDER_MARK}{text}") } else { text }
     }
 
     /// Line and column, from 1, of a field's value. If the text does not have the field, the place
@@ -231,10 +224,8 @@ impl Document {
     /// Later problems at their places in the file, sorted by place.
     #[must_use]
     pub(crate) fn faults(&self, problems: Vec<Problem>) -> Vec<Fault> {
-        let mut faults: Vec<Fault> = problems
-            .into_iter()
-            .map(|problem| self.fault(problem))
-            .collect();
+        let mut faults: Vec<Fault> =
+            problems.into_iter().map(|problem| self.fault(problem)).collect();
         faults.sort_by_key(|fault| (fault.line, fault.column));
         faults
     }
@@ -242,9 +233,7 @@ impl Document {
     /// Replaces the source by the saved text and the case by its content. The file does not keep
     /// spaces around a number.
     fn settle(&mut self, text: &str, name: String, origin: PathBuf) {
-        text.strip_prefix(BYTE_ORDER_MARK)
-            .unwrap_or(text)
-            .clone_into(&mut self.text);
+        text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).clone_into(&mut self.text);
         self.stamp = Stamp::of(text.as_bytes());
         let reading = tree::read(&self.text);
         if reading.is_draft() {

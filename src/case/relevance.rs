@@ -63,10 +63,7 @@ fn with_speed(inputs: &Inputs) -> Cow<'_, Inputs> {
     if inputs.speed > 0.0 {
         return Cow::Borrowed(inputs);
     }
-    Cow::Owned(Inputs {
-        speed: 1.0,
-        ..inputs.clone()
-    })
+    Cow::Owned(Inputs { speed: 1.0, ..inputs.clone() })
 }
 
 /// Whether any stage reads the field. For the method `auto`, any stage of the methods to choose
@@ -74,16 +71,11 @@ fn with_speed(inputs: &Inputs) -> Cow<'_, Inputs> {
 fn acts(field: usize, inputs: &Inputs) -> bool {
     let inputs = &*with_speed(inputs);
     let by = |method| {
-        let inputs = Inputs {
-            method,
-            ..inputs.clone()
-        };
+        let inputs = Inputs { method, ..inputs.clone() };
         is_read(field, &inputs)
     };
     let by_stages = || match inputs.method {
-        Method::Auto => [Method::Exact, Method::Static, Method::Dynamic]
-            .into_iter()
-            .any(by),
+        Method::Auto => [Method::Exact, Method::Static, Method::Dynamic].into_iter().any(by),
         _ => is_read(field, inputs),
     };
     match FIELDS[field].read_when {

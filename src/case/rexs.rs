@@ -44,19 +44,13 @@ pub struct Imported {
 pub fn is_model(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let name = name.to_ascii_lowercase();
-    [".rexs", ".rexsj", ".rexsz", ".rexs.zip"]
-        .iter()
-        .any(|ending| name.ends_with(ending))
+    [".rexs", ".rexsj", ".rexsz", ".rexs.zip"].iter().any(|ending| name.ends_with(ending))
 }
 
 /// The path of the case file beside a model. For a case, the path itself.
 #[must_use]
 pub fn case_path(path: &Path) -> PathBuf {
-    if is_model(path) {
-        path.with_extension("toml")
-    } else {
-        path.to_owned()
-    }
+    if is_model(path) { path.with_extension("toml") } else { path.to_owned() }
 }
 
 /// Reads the only spur stage of a REXS model as a case.
@@ -86,13 +80,7 @@ pub fn import(path: &Path, bytes: &[u8], stage: Option<&str>) -> Result<Imported
     let values = read(&model, &chosen).map_err(|refusal| refusal.of(&name))?;
     let remarks = values.remarks.clone();
     let (document, absent) = document(&name, &model, &chosen, values);
-    Ok(Imported {
-        document,
-        stages,
-        stage: chosen.id,
-        absent,
-        remarks,
-    })
+    Ok(Imported { document, stages, stage: chosen.id, absent, remarks })
 }
 
 /// The values of the model for the fields of the case.
@@ -156,22 +144,16 @@ fn choose<'a>(stages: &'a [Stage], wanted: Option<&str>) -> Result<&'a Stage, Re
             )),
         };
     }
-    let mut spur = stages
-        .iter()
-        .filter(|stage| matches!(stage.kind, Kind::Spur { .. }));
+    let mut spur = stages.iter().filter(|stage| matches!(stage.kind, Kind::Spur { .. }));
     match (spur.next(), spur.next()) {
         (Some(only), None) => Ok(only),
         (Some(_), Some(_)) => Err(Refusal::new(
             "the model has several spur stages",
-            format!(
-                "choose one with `tipstrike import --stage ID`: {}",
-                listed()
-            ),
+            format!("choose one with `tipstrike import --stage ID`: {}", listed()),
         )),
-        _ if stages.is_empty() => Err(Refusal::new(
-            "the model has no gear stage",
-            "choose a model with a spur stage",
-        )),
+        _ if stages.is_empty() => {
+            Err(Refusal::new("the model has no gear stage", "choose a model with a spur stage"))
+        }
         _ => Err(Refusal::new(
             "the model has no spur stage",
             format!("choose a model with one; here {}", listed()),
@@ -198,9 +180,7 @@ fn document(
             Found::Absent(reason) => absent.push((key, reason)),
         }
     }
-    let comments = absent
-        .iter()
-        .map(|(key, reason)| (*key, format!("Left empty: {reason}.")));
+    let comments = absent.iter().map(|(key, reason)| (*key, format!("Left empty: {reason}.")));
     sources.extend(comments);
     let file = Path::new(name).file_name().unwrap_or_default();
     let notes = format!(

@@ -74,10 +74,7 @@ mod tests {
     #[test]
     fn no_control_character_passes() {
         assert_eq!(sanitize("a\u{1b}[2Jb\u{9b}c\n"), r"a\u{1b}[2Jb\u{9b}c\n");
-        assert_eq!(
-            sanitize("\u{202e}abc\u{200b}\u{feff}"),
-            r"\u{202e}abc\u{200b}\u{feff}"
-        );
+        assert_eq!(sanitize("\u{202e}abc\u{200b}\u{feff}"), r"\u{202e}abc\u{200b}\u{feff}");
     }
 
     #[test]

@@ -25,13 +25,8 @@ pub enum Shape {
 
 impl Shape {
     /// Every shape.
-    pub const ALL: [Shape; 5] = [
-        Shape::Normal,
-        Shape::Uniform,
-        Shape::Triangular,
-        Shape::Truncated,
-        Shape::Grade,
-    ];
+    pub const ALL: [Shape; 5] =
+        [Shape::Normal, Shape::Uniform, Shape::Triangular, Shape::Truncated, Shape::Grade];
 
     /// The name in a case file.
     #[must_use]
@@ -74,12 +69,7 @@ impl Spread {
         } else {
             width(&place, dimension, field, text)?
         };
-        Ok(Spread {
-            field: field.key,
-            shape,
-            text: text.to_owned(),
-            width,
-        })
+        Ok(Spread { field: field.key, shape, text: text.to_owned(), width })
     }
 
     /// The problem of an entry without exactly one shape and one width. `shape` is the name of its
@@ -113,10 +103,7 @@ impl Spread {
 /// A field that can have a distribution, and its dimension.
 fn spreadable(place: &str, key: &str) -> Result<(&'static Field, Dimension), Problem> {
     let Some(field) = index_of(key).map(|index| &FIELDS[index]) else {
-        return Err(Problem {
-            field: place.to_owned(),
-            ..check::unknown_key(key)
-        });
+        return Err(Problem { field: place.to_owned(), ..check::unknown_key(key) });
     };
     let (cause, fix) = match field.kind {
         Kind::Number(dimension, ..) => return Ok((field, dimension)),
@@ -124,10 +111,9 @@ fn spreadable(place: &str, key: &str) -> Result<(&'static Field, Dimension), Pro
             format!("{key} is a whole number and has no distribution"),
             format!("remove the line; `tipstrike sweep --vary '{key}=FROM..TO'` varies {key}"),
         ),
-        Kind::Text | Kind::Choice(..) => (
-            format!("{key} is not a number and has no distribution"),
-            "remove the line".to_owned(),
-        ),
+        Kind::Text | Kind::Choice(..) => {
+            (format!("{key} is not a number and has no distribution"), "remove the line".to_owned())
+        }
     };
     Err(Problem::new(place, cause, fix))
 }
@@ -160,25 +146,19 @@ fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
     if field.name() != "base_pitch" {
         return Err(Problem::new(
             place,
-            format!(
-                "a grade gives a base pitch deviation, and {} is not one",
-                field.key
-            ),
+            format!("a grade gives a base pitch deviation, and {} is not one", field.key),
             "use normal, uniform, triangular or truncated",
         ));
     }
     let class = text.trim().parse().ok();
-    class
-        .filter(|class| iso_1328::CLASSES.contains(class))
-        .map(f64::from)
-        .ok_or_else(|| {
-            let (from, to) = (iso_1328::CLASSES.start(), iso_1328::CLASSES.end());
-            Problem::new(
-                place,
-                format!("{} is no flank tolerance class", quoted(text)),
-                format!("write a whole number from {from} to {to}"),
-            )
-        })
+    class.filter(|class| iso_1328::CLASSES.contains(class)).map(f64::from).ok_or_else(|| {
+        let (from, to) = (iso_1328::CLASSES.start(), iso_1328::CLASSES.end());
+        Problem::new(
+            place,
+            format!("{} is no flank tolerance class", quoted(text)),
+            format!("write a whole number from {from} to {to}"),
+        )
+    })
 }
 
 /// The key of a distribution in messages.
@@ -187,13 +167,10 @@ pub(super) fn place(key: &str) -> String {
 }
 
 fn named(place: &str, name: &str) -> Result<Shape, Problem> {
-    Shape::ALL
-        .into_iter()
-        .find(|shape| shape.name() == name)
-        .ok_or_else(|| {
-            let known = Shape::ALL.into_iter().map(Shape::name);
-            let all: Vec<&str> = known.clone().collect();
-            let fix = suggest::fix(name, known, || format!("use one of {}", all.join(", ")));
-            Problem::new(place, format!("unknown distribution {}", quoted(name)), fix)
-        })
+    Shape::ALL.into_iter().find(|shape| shape.name() == name).ok_or_else(|| {
+        let known = Shape::ALL.into_iter().map(Shape::name);
+        let all: Vec<&str> = known.clone().collect();
+        let fix = suggest::fix(name, known, || format!("use one of {}", all.join(", ")));
+        Problem::new(place, format!("unknown distribution {}", quoted(name)), fix)
+    })
 }

@@ -17,10 +17,7 @@ impl Stamp {
     /// The stamp of a text.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Stamp {
-        Stamp {
-            length: bytes.len() as u64,
-            hash: hash(bytes),
-        }
+        Stamp { length: bytes.len() as u64, hash: hash(bytes) }
     }
 }
 

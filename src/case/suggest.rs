@@ -53,10 +53,7 @@ mod tests {
     fn a_misspelling_finds_its_name_and_another_word_finds_none() {
         let known = ["module", "pressure_angle", "centre_distance"];
         assert_eq!(nearest("modul", known.into_iter()), Some("module"));
-        assert_eq!(
-            nearest("center_distance", known.into_iter()),
-            Some("centre_distance")
-        );
+        assert_eq!(nearest("center_distance", known.into_iter()), Some("centre_distance"));
         assert_eq!(nearest("colour", known.into_iter()), None);
         assert_eq!(nearest("mu", ["mm", "um", "m"].into_iter()), Some("um"));
     }

@@ -56,10 +56,7 @@ fn defaults_replace_missing_values() {
     assert_eq!(inputs.deflection, None);
     assert_eq!(inputs.drive, Drive::Torque(70.0));
     assert_eq!(case.effective(field("driver.young")), Some("206 GPa"));
-    assert_eq!(
-        case.effective(field("model.deflection")),
-        Some("from the load")
-    );
+    assert_eq!(case.effective(field("model.deflection")), Some("from the load"));
     assert_eq!(case.effective(field("operation.power")), None);
 }
 
@@ -96,21 +93,9 @@ fn the_ends_of_a_range_are_inside_in_any_unit() {
 #[test]
 fn a_value_beyond_its_range_is_refused_with_the_limit() {
     for (key, text, cause) in [
-        (
-            "pair.module",
-            "0 mm",
-            "`0 mm` is below the limit of 0.05 mm",
-        ),
-        (
-            "pair.module",
-            "51 mm",
-            "`51 mm` is above the limit of 50 mm",
-        ),
-        (
-            "driver.face_width",
-            "-8 mm",
-            "`-8 mm` is below the limit of 0.1 mm",
-        ),
+        ("pair.module", "0 mm", "`0 mm` is below the limit of 0.05 mm"),
+        ("pair.module", "51 mm", "`51 mm` is above the limit of 50 mm"),
+        ("driver.face_width", "-8 mm", "`-8 mm` is below the limit of 0.1 mm"),
         ("driver.teeth", "4", "`4` is below the limit of 5"),
         ("driver.teeth", "-4", "`-4` is below the limit of 5"),
         ("driver.teeth", "1001", "`1001` is above the limit of 1000"),
@@ -119,11 +104,7 @@ fn a_value_beyond_its_range_is_refused_with_the_limit() {
     ] {
         let problem = with(&[(key, text)]).check_field(field(key)).unwrap_err();
         assert_eq!(problem.field, key);
-        assert!(
-            problem.cause.contains(cause),
-            "{key} = {text}: {}",
-            problem.cause
-        );
+        assert!(problem.cause.contains(cause), "{key} = {text}: {}", problem.cause);
     }
 }
 
@@ -141,27 +122,15 @@ fn exactly_one_of_power_and_torque_is_given() {
 fn a_bore_is_smaller_than_the_root_circle() {
     let problem = only_problem(&with(&[("driven.bore_radius", "43.76 mm")]));
     assert_eq!(problem.field, "driven.bore_radius");
-    assert!(
-        problem.cause.contains("root circle's 43.75 mm"),
-        "{}",
-        problem.cause
-    );
+    assert!(problem.cause.contains("root circle's 43.75 mm"), "{}", problem.cause);
     assert!(with(&[("driven.bore_radius", "43.7 mm")]).inputs().is_ok());
 }
 
 #[test]
 fn a_ratio_beyond_fifty_is_refused() {
-    let far = [
-        ("driver.teeth", "12"),
-        ("driven.teeth", "601"),
-        ("driver.bore_radius", ""),
-    ];
+    let far = [("driver.teeth", "12"), ("driven.teeth", "601"), ("driver.bore_radius", "")];
     assert!(only_problem(&with(&far)).cause.contains("601/12"));
-    let near = [
-        ("driver.teeth", "12"),
-        ("driven.teeth", "600"),
-        ("driver.bore_radius", ""),
-    ];
+    let near = [("driver.teeth", "12"), ("driven.teeth", "600"), ("driver.bore_radius", "")];
     assert!(with(&near).inputs().is_ok());
 }
 
@@ -174,19 +143,8 @@ fn all_problems_are_reported_in_the_order_of_the_fields() {
         ("operation.speed", ""),
     ]);
     let problems = case.inputs().unwrap_err();
-    let fields: Vec<&str> = problems
-        .iter()
-        .map(|problem| problem.field.as_str())
-        .collect();
-    assert_eq!(
-        fields,
-        [
-            "pair.module",
-            "driven.teeth",
-            "operation.speed",
-            "model.method"
-        ]
-    );
+    let fields: Vec<&str> = problems.iter().map(|problem| problem.field.as_str()).collect();
+    assert_eq!(fields, ["pair.module", "driven.teeth", "operation.speed", "model.method"]);
     assert_eq!(problems[3].fix, "did you mean exact?");
 }
 
@@ -204,11 +162,7 @@ fn set_accepts_the_keys_of_the_command_line() {
     assert_eq!((inputs.module, inputs.driver.profile_shift), (4e-3, 0.3));
     assert_eq!(inputs.drive, Drive::Torque(70.0));
     assert_eq!(inputs.deflection, None);
-    let limits: Vec<_> = case
-        .limits
-        .iter()
-        .map(|limit| (limit.quantity, limit.value))
-        .collect();
+    let limits: Vec<_> = case.limits.iter().map(|limit| (limit.quantity, limit.value)).collect();
     assert_eq!(limits, [("impact_force", 3000.0), ("dynamic_factor", 1.5)]);
 }
 
@@ -219,27 +173,13 @@ fn a_refused_set_leaves_the_case_unchanged() {
         ("module", "4 mm", "unknown key", "did you mean pair.module?"),
         ("pair.module", "4", "has no unit", "\"4 mm\""),
         ("driver.teeth", "20 mm", "unit `mm`", "write 20"),
-        (
-            "limits.impact_forc",
-            "4 N",
-            "unknown quantity",
-            "did you mean impact_force?",
-        ),
+        ("limits.impact_forc", "4 N", "unknown quantity", "did you mean impact_force?"),
         ("limits.impact_force", "4", "has no unit", "\"4 N\""),
-        (
-            "limits.dynamic_factor",
-            "4 N",
-            "unit `N` is not allowed here",
-            "write 4",
-        ),
+        ("limits.dynamic_factor", "4 N", "unit `N` is not allowed here", "write 4"),
     ] {
         let mut case = Case::table_1();
         let problem = case.set(key, value).unwrap_err();
-        assert!(
-            problem.cause.contains(cause),
-            "{key}={value}: {}",
-            problem.cause
-        );
+        assert!(problem.cause.contains(cause), "{key}={value}: {}", problem.cause);
         assert!(problem.fix.contains(fix), "{key}={value}: {}", problem.fix);
         assert_eq!(case, Case::table_1());
     }

@@ -77,9 +77,7 @@ impl Dimension {
     #[must_use]
     pub fn si_unit(self) -> &'static str {
         let mut units = units_of(self).iter();
-        units
-            .find(|unit| matches!(unit.scale, Scale::Ten(0)))
-            .map_or("", |unit| unit.symbol)
+        units.find(|unit| matches!(unit.scale, Scale::Ten(0))).map_or("", |unit| unit.symbol)
     }
 
     /// The symbols of its units, common units first.
@@ -99,10 +97,7 @@ pub struct ParseError {
 
 impl ParseError {
     pub(super) fn new(cause: impl Into<String>, fix: impl Into<String>) -> ParseError {
-        ParseError {
-            cause: cause.into(),
-            fix: fix.into(),
-        }
+        ParseError { cause: cause.into(), fix: fix.into() }
     }
 }
 
@@ -112,9 +107,7 @@ pub fn factor(unit: &str) -> Option<f64> {
     if matches!(unit, "" | "1") {
         return Some(1.0);
     }
-    let unit = FAMILIES
-        .iter()
-        .find_map(|family| find(unit, family.units))?;
+    let unit = FAMILIES.iter().find_map(|family| find(unit, family.units))?;
     Some(match unit.scale {
         Scale::Ten(exponent) if exponent < 0 => 1.0 / 10f64.powi(-exponent),
         Scale::Ten(exponent) => 10f64.powi(exponent),
@@ -135,11 +128,7 @@ pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Parse
         (Dimension::Number, "") => Scale::Ten(0),
         (Dimension::Number, _) => return Err(unit_unwanted(number, unit)),
         (_, "") => return Err(unit_missing(number, dimension, usual)),
-        _ => {
-            find(unit, units_of(dimension))
-                .ok_or_else(|| unit_wrong(unit, dimension))?
-                .scale
-        }
+        _ => find(unit, units_of(dimension)).ok_or_else(|| unit_wrong(unit, dimension))?.scale,
     };
     let value = match scale {
         Scale::Ten(exponent) => number::shifted(number, exponent),
@@ -161,28 +150,21 @@ pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Parse
 /// possible in this unit.
 #[must_use]
 pub fn text(value: f64, unit: &str) -> String {
-    let number = match FAMILIES
-        .iter()
-        .find_map(|family| find(unit, family.units))
-        .map(|unit| unit.scale)
-    {
-        None => number::plain(value, 0),
-        Some(Scale::Ten(exponent)) => number::plain(value, -exponent),
-        Some(Scale::Times(factor, rest)) => {
-            let near = number::plain(value / factor, 0);
-            (12..17)
-                .map(|digits| format!("{:.digits$e}", value / factor))
-                .find(|short| {
-                    times(number::shifted(short, 0), factor, rest).to_bits() == value.to_bits()
-                })
-                .map_or(near, |short| number::plain(number::shifted(&short, 0), 0))
-        }
-    };
-    if matches!(unit, "" | "1") {
-        number
-    } else {
-        format!("{number} {unit}")
-    }
+    let number =
+        match FAMILIES.iter().find_map(|family| find(unit, family.units)).map(|unit| unit.scale) {
+            None => number::plain(value, 0),
+            Some(Scale::Ten(exponent)) => number::plain(value, -exponent),
+            Some(Scale::Times(factor, rest)) => {
+                let near = number::plain(value / factor, 0);
+                (12..17)
+                    .map(|digits| format!("{:.digits$e}", value / factor))
+                    .find(|short| {
+                        times(number::shifted(short, 0), factor, rest).to_bits() == value.to_bits()
+                    })
+                    .map_or(near, |short| number::plain(number::shifted(&short, 0), 0))
+            }
+        };
+    if matches!(unit, "" | "1") { number } else { format!("{number} {unit}") }
 }
 
 /// The product with a factor in two parts, rounded once.
@@ -199,11 +181,8 @@ fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
     if unit.len() > LONGEST {
         return None;
     }
-    let spelled = |text: &str| {
-        units
-            .iter()
-            .find(|unit| unit.symbol == text || unit.aliases.contains(&text))
-    };
+    let spelled =
+        |text: &str| units.iter().find(|unit| unit.symbol == text || unit.aliases.contains(&text));
     spelled(unit).or_else(|| spelled(&plain_spelling(unit)))
 }
 
@@ -249,18 +228,12 @@ fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> ParseError {
 fn unit_wrong(unit: &str, dimension: Dimension) -> ParseError {
     let fitting = dimension.symbols().collect::<Vec<_>>().join(", ");
     if let Some(other) = Dimension::of_unit(unit) {
-        let cause = format!(
-            "{} is a unit of {}, not of {}",
-            quoted(unit),
-            bare(other),
-            bare(dimension)
-        );
+        let cause =
+            format!("{} is a unit of {}, not of {}", quoted(unit), bare(other), bare(dimension));
         return ParseError::new(cause, format!("use one of {fitting}"));
     }
-    let (known, after) = unit.split_at(
-        unit.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.')
-            .len(),
-    );
+    let (known, after) =
+        unit.split_at(unit.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len());
     if !after.is_empty() && find(known.trim_end(), units_of(dimension)).is_some() {
         return ParseError::new(
             format!("{after} after the unit"),

@@ -33,10 +33,7 @@ impl Variant {
             let place = index_of(&change.key).unwrap_or(FIELDS.len());
             (place, change.key.clone())
         });
-        Variant {
-            name: name.to_owned(),
-            overrides,
-        }
+        Variant { name: name.to_owned(), overrides }
     }
 
     /// Checks the name of a variant.
@@ -114,10 +111,7 @@ impl Case {
 
     /// Adds a variant to the case, or replaces the variant with the same name.
     pub fn keep_variant(&mut self, variant: Variant) {
-        let same = self
-            .variants
-            .iter_mut()
-            .find(|known| known.name == variant.name);
+        let same = self.variants.iter_mut().find(|known| known.name == variant.name);
         match same {
             Some(known) => *known = variant,
             None => self.variants.push(variant),
@@ -135,14 +129,10 @@ impl Case {
         overrides.retain(|change| change.key != key);
         if let Some(text) = text {
             Case::empty().apply(key, Some(text))?;
-            overrides.push(Override {
-                key: key.to_owned(),
-                text: text.to_owned(),
-            });
+            overrides.push(Override { key: key.to_owned(), text: text.to_owned() });
         }
         self.keep_variant(Variant::new(name, overrides));
-        self.variants
-            .retain(|variant| !variant.overrides.is_empty());
+        self.variants.retain(|variant| !variant.overrides.is_empty());
         Ok(())
     }
 }
@@ -184,10 +174,7 @@ mod tests {
                 .is_err_and(|problem| problem.fix.contains("[variants.relieved]"))
         );
         case.keep_variant(variant);
-        assert!(
-            case.variant("releived")
-                .is_err_and(|problem| problem.fix.contains("relieved"))
-        );
+        assert!(case.variant("releived").is_err_and(|problem| problem.fix.contains("relieved")));
         assert!(case.variant("relieved").is_ok());
         for name in ["", "a b", "a.b", "\u{1b}[2J", &"x".repeat(41)] {
             assert!(Variant::check_name(name).is_err(), "{name}");

@@ -10,10 +10,7 @@ use std::sync::LazyLock;
 static VERSION: LazyLock<String> = LazyLock::new(|| {
     let version = env!("CARGO_PKG_VERSION");
     let commit = option_env!("TIPSTRIKE_COMMIT");
-    commit.map_or_else(
-        || version.to_owned(),
-        |commit| format!("{version} ({commit})"),
-    )
+    commit.map_or_else(|| version.to_owned(), |commit| format!("{version} ({commit})"))
 });
 
 /// Compute corner contact in spur gear pairs: position, force and duration of the tip impact

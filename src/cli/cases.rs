@@ -44,11 +44,7 @@ impl Opened {
 
     /// The case, to solve for a report or a picture.
     pub(super) fn unsolved(&self) -> Unsolved<'_> {
-        Unsolved {
-            name: &self.name,
-            case: &self.document.case,
-            inputs: &self.inputs,
-        }
+        Unsolved { name: &self.name, case: &self.document.case, inputs: &self.inputs }
     }
 
     /// Reports a refusal of the model at the field that its fix names first.
@@ -91,9 +87,7 @@ pub(super) fn open_varied(
 /// Refuses to set a field that a study varies.
 pub(super) fn keep_varied(settings: &[Setting], varied: &[&str]) -> Result<(), Failure> {
     let is_varied = |setting: &&Setting| {
-        varied
-            .iter()
-            .any(|key| *key == setting.key || Case::are_exclusive(key, &setting.key))
+        varied.iter().any(|key| *key == setting.key || Case::are_exclusive(key, &setting.key))
     };
     match settings.iter().find(is_varied) {
         Some(setting) => Err(Failure::Usage(format!(
@@ -125,16 +119,8 @@ pub(super) fn read_model(
     })?;
     let name = path.display();
     for stage in &imported.stages {
-        let mark = if stage.id == imported.stage {
-            ", imported"
-        } else {
-            ""
-        };
-        streams.say(&format!(
-            "{name}: stage {}: {}{mark}",
-            stage.label(),
-            stage.kind
-        ));
+        let mark = if stage.id == imported.stage { ", imported" } else { "" };
+        streams.say(&format!("{name}: stage {}: {}{mark}", stage.label(), stage.kind));
     }
     for remark in &imported.remarks {
         streams.say(&format!("{name}: {remark}"));
@@ -157,12 +143,9 @@ pub(super) fn changed(
         Exit::Usage
     })?;
     match document.case.inputs() {
-        Ok(inputs) => Ok(Opened {
-            name: named(name, edits),
-            document,
-            inputs,
-            edits: edits.clone(),
-        }),
+        Ok(inputs) => {
+            Ok(Opened { name: named(name, edits), document, inputs, edits: edits.clone() })
+        }
         Err(problems) => {
             for refused in refused(&document, problems, edits) {
                 streams.say(&refused.line);
@@ -187,10 +170,8 @@ pub(super) fn refused(
     edits: &Edits,
 ) -> Vec<Refused> {
     problems.sort_by_key(|problem| document.place(&problem.field));
-    let placed = |problem: Problem| Refused {
-        line: placed(document, problem.clone(), edits),
-        problem,
-    };
+    let placed =
+        |problem: Problem| Refused { line: placed(document, problem.clone(), edits), problem };
     problems.into_iter().map(placed).collect()
 }
 
@@ -242,11 +223,7 @@ fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
 /// changed field may also contradict another field.
 fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
     let settings = &edits.settings;
-    if let Some(setting) = settings
-        .iter()
-        .rev()
-        .find(|setting| setting.key == problem.field)
-    {
+    if let Some(setting) = settings.iter().rev().find(|setting| setting.key == problem.field) {
         let worded = on_command_line(setting, &problem);
         return format!("{}, {worded}", document.name());
     }
@@ -269,10 +246,7 @@ fn in_variant(document: &Document, problem: Problem, edits: &Edits) -> Problem {
     let variant = edits.variant.as_deref();
     let variant = variant.and_then(|name| document.case.variant(name).ok());
     match variant.filter(|variant| variant.overrides(&problem.field)) {
-        Some(variant) => Problem {
-            field: variant.place(&problem.field),
-            ..problem
-        },
+        Some(variant) => Problem { field: variant.place(&problem.field), ..problem },
         None => problem,
     }
 }

@@ -28,15 +28,9 @@ impl Exit {
     /// Every exit code with its meaning.
     pub(super) const MEANINGS: [(Exit, &'static str); 6] = [
         (Exit::Done, "done"),
-        (
-            Exit::Exceeded,
-            "a limit is exceeded, or its quantity has no value",
-        ),
+        (Exit::Exceeded, "a limit is exceeded, or its quantity has no value"),
         (Exit::Usage, "wrong usage, or no terminal for the workbench"),
-        (
-            Exit::BadCase,
-            "an invalid case, or a case that cannot be solved",
-        ),
+        (Exit::BadCase, "an invalid case, or a case that cannot be solved"),
         (Exit::NewerFormat, "a case of a newer format"),
         (Exit::Unreadable, "a file cannot be read or written"),
     ];

@@ -101,9 +101,7 @@ pub struct StudyOptions {
 
 /// Parses a number of points or samples.
 pub(super) fn count(text: &str) -> Result<usize, String> {
-    text.trim()
-        .parse()
-        .map_err(|_| "write a whole number, such as 101".to_owned())
+    text.trim().parse().map_err(|_| "write a whole number, such as 101".to_owned())
 }
 
 /// A usage error with one line.

@@ -88,11 +88,7 @@ pub(super) fn check_out(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Fail
     }
     let interrupt = Interrupt::install();
     Draft::check(out)?;
-    if interrupt.go_on() {
-        Ok(())
-    } else {
-        Err(Failure::Interrupted)
-    }
+    if interrupt.go_on() { Ok(()) } else { Err(Failure::Interrupted) }
 }
 
 /// Writes results with `write` to a file, which appears when it is complete, or to the stream.

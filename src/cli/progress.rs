@@ -26,11 +26,7 @@ impl Bar {
             shown.set_style(style.progress_chars("=> "));
         }
         shown.set_message(what);
-        Bar {
-            begun: Instant::now(),
-            shown,
-            is_up: Cell::new(false),
-        }
+        Bar { begun: Instant::now(), shown, is_up: Cell::new(false) }
     }
 
     /// A bar that also shows the rate.

@@ -76,11 +76,7 @@ pub enum Reason {
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     let Ok(solution) = closed_form else {
-        return Choice {
-            method: Method::Dynamic,
-            reason: Reason::Refused,
-            inertia: None,
-        };
+        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
     };
     match solution.outcome {
         Outcome::NoCornerContact => sharing(inputs, Reason::NoContact, 1.0),
@@ -99,11 +95,7 @@ pub(super) fn beside(inputs: &Inputs, method: Method) -> Option<Method> {
 
 fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     let (Some(impact), Some(velocity)) = (&solution.impact, &solution.velocity) else {
-        return Choice {
-            method: Method::Dynamic,
-            reason: Reason::Refused,
-            inertia: None,
-        };
+        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
     };
     let deviation = &solution.deviation;
     let load = solution.mesh_force / impact.force;
@@ -116,17 +108,9 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     } else if load > inputs.within {
         Reason::LoadShared(load)
     } else {
-        return Choice {
-            method: Method::Exact,
-            reason: Reason::FreeImpact,
-            inertia: None,
-        };
+        return Choice { method: Method::Exact, reason: Reason::FreeImpact, inertia: None };
     };
-    sharing(
-        inputs,
-        reason,
-        swing(2.0 * impact.duration_spring(), velocity.transit_time),
-    )
+    sharing(inputs, reason, swing(2.0 * impact.duration_spring(), velocity.transit_time))
 }
 
 /// `static` if the effect of inertia is small. Otherwise `dynamic`, also if a trial must decide.
@@ -137,16 +121,9 @@ fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
         (least, _) if least > inputs.within => Inertia::AtLeast(least),
         (least, most) => Inertia::Between(least, most),
     };
-    let method = if matches!(inertia, Inertia::AtMost(_)) {
-        Method::Static
-    } else {
-        Method::Dynamic
-    };
-    Choice {
-        method,
-        reason,
-        inertia: Some(inertia),
-    }
+    let method =
+        if matches!(inertia, Inertia::AtMost(_)) { Method::Static } else { Method::Dynamic };
+    Choice { method, reason, inertia: Some(inertia) }
 }
 
 impl Choice {
@@ -161,16 +138,8 @@ impl Choice {
     pub fn tried(self, inputs: &Inputs, adds: f64) -> Choice {
         /// The difference is sampled and can be slightly larger between the samples.
         const SURE: f64 = 0.9;
-        let method = if adds <= SURE * inputs.within {
-            Method::Static
-        } else {
-            Method::Dynamic
-        };
-        Choice {
-            method,
-            inertia: Some(Inertia::Tried(adds)),
-            ..self
-        }
+        let method = if adds <= SURE * inputs.within { Method::Static } else { Method::Dynamic };
+        Choice { method, inertia: Some(Inertia::Tried(adds)), ..self }
     }
 }
 
@@ -231,37 +200,27 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
         _ => 1.0,
     };
     let over = |difference: f64, force: f64| {
-        if difference == 0.0 {
-            0.0
-        } else {
-            (difference / force).abs()
-        }
+        if difference == 0.0 { 0.0 } else { (difference / force).abs() }
     };
     let peaks = over(still.peak_force - moved.peak_force, moved.peak_force);
-    let approach = over(
-        still.force_at_start - moved.peak_approach_force,
-        moved.peak_approach_force,
-    );
+    let approach =
+        over(still.force_at_start - moved.peak_approach_force, moved.peak_approach_force);
     let off = |&(place, force): &(f64, f64)| {
         over(force - balance(mesh, place, place).force, moved.peak_force)
     };
     let before = moved.approach.iter();
-    before
-        .map(off)
-        .fold(angles.max(peaks), f64::max)
-        .max(if moved.first_contact_angle.is_some() {
-            approach
-        } else {
-            0.0
-        })
+    before.map(off).fold(angles.max(peaks), f64::max).max(if moved.first_contact_angle.is_some() {
+        approach
+    } else {
+        0.0
+    })
 }
 
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "auto chose {}: {}", self.method.name(), self.reason)?;
-        self.inertia.map_or(Ok(()), |inertia| {
-            write!(f, "; inertia changes the shared load by {inertia}")
-        })
+        self.inertia
+            .map_or(Ok(()), |inertia| write!(f, "; inertia changes the shared load by {inertia}"))
     }
 }
 
@@ -296,11 +255,9 @@ impl fmt::Display for Reason {
                 )
             }
             Reason::Impulse(ratio) => write!(f, "the impulse ratio is {}", significant(*ratio, 4)),
-            Reason::LoadShared(part) => write!(
-                f,
-                "the shared load is {} times the impact force",
-                significant(*part, 3)
-            ),
+            Reason::LoadShared(part) => {
+                write!(f, "the shared load is {} times the impact force", significant(*part, 3))
+            }
         }
     }
 }

@@ -61,10 +61,7 @@ impl Meter {
     /// A meter with no work counted.
     #[must_use]
     pub fn new(limit: u64) -> Meter {
-        Meter {
-            limit,
-            spent: Cell::new(0),
-        }
+        Meter { limit, spent: Cell::new(0) }
     }
 
     /// Adds `work`. Returns whether the total is within the limit.

@@ -109,12 +109,12 @@ pub fn clearing(
         (Outcome::NoCornerContact, _) => Ok(None),
         (_, Trial::Deviation) => Ok(Some(solution.deviation.total)),
         (_, Trial::Printed(shape)) => printed_relief_to_clear(shape, &solution.kept.deviation),
-        (_, Trial::AtRest(mesh)) => search
-            .least(inputs.tip_relief, (mesh, None), solution, go_on)
-            .map(Some),
-        (_, Trial::InMotion(mesh, motion)) => search
-            .least(inputs.tip_relief, (mesh, Some(motion)), solution, go_on)
-            .map(Some),
+        (_, Trial::AtRest(mesh)) => {
+            search.least(inputs.tip_relief, (mesh, None), solution, go_on).map(Some)
+        }
+        (_, Trial::InMotion(mesh, motion)) => {
+            search.least(inputs.tip_relief, (mesh, Some(motion)), solution, go_on).map(Some)
+        }
     };
     let (relief, withheld) = match found {
         Ok(relief) => (relief.map(|relief| enough(relief, inputs.tip_relief)), None),
@@ -144,10 +144,7 @@ struct Search {
 
 impl Search {
     fn new() -> Search {
-        Search {
-            meter: Meter::new(SEARCH_WORK),
-            tries: RefCell::new(Vec::new()),
-        }
+        Search { meter: Meter::new(SEARCH_WORK), tries: RefCell::new(Vec::new()) }
     }
 
     /// The least additional relief, in m, by the static balance or by a motion.
@@ -223,15 +220,8 @@ fn relieved(
             approach(mesh, &motion.settings(solution.reduced_mass), meter, go_on)?
         } else {
             meter.spend(places_before_start(mesh));
-            Approach {
-                lead: lead_before_start(mesh)?,
-                contact_lost: false,
-            }
+            Approach { lead: lead_before_start(mesh)?, contact_lost: false }
         };
-        Ok(Tried {
-            relief,
-            lead,
-            contact_lost,
-        })
+        Ok(Tried { relief, lead, contact_lost })
     })
 }

@@ -57,10 +57,7 @@ impl ElasticGear {
             rack: Rack::of(inputs, gear),
             // The rounding of the tip moves the load but does not change the stiffness of the
             // tooth.
-            shape: GearShape {
-                tip_radius: None,
-                ..gear.shape(inputs.module)
-            },
+            shape: GearShape { tip_radius: None, ..gear.shape(inputs.module) },
             bore_radius: gear.bore_radius,
             young: gear.young,
             poisson: gear.poisson,
@@ -102,10 +99,7 @@ impl ComplianceInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> ComplianceInputs {
-        ComplianceInputs {
-            tip_radius: inputs.driven.tip_radius,
-            elasticity: inputs.elasticity(),
-        }
+        ComplianceInputs { tip_radius: inputs.driven.tip_radius, elasticity: inputs.elasticity() }
     }
 
     /// The driven tip on the driver's flank.
@@ -237,10 +231,7 @@ impl Teeth {
         Ok(TeethCompliance {
             model: self.elasticity.tooth,
             driver: self.driver.at(place.radius_driver)?,
-            driven: self
-                .driven
-                .at(place.radius_driven)
-                .map_err(Refusal::at_driven)?,
+            driven: self.driven.at(place.radius_driven).map_err(Refusal::at_driven)?,
         })
     }
 
@@ -251,9 +242,7 @@ impl Teeth {
     pub fn contacts(&self, place: &ContactPlace) -> Result<[Option<ContactLaw>; 2], Refusal> {
         Ok([
             self.driver.contact(place.radius_driver)?,
-            self.driven
-                .contact(place.radius_driven)
-                .map_err(Refusal::at_driven)?,
+            self.driven.contact(place.radius_driven).map_err(Refusal::at_driven)?,
         ])
     }
 
@@ -302,9 +291,7 @@ impl Teeth {
     ) -> Result<f64, Refusal> {
         // The force pushes a driver's tooth back towards the later pairs, and a driven tooth
         // towards the earlier pairs.
-        let driver = self
-            .driver
-            .neighbour(earlier.radius_driver, later.radius_driver, pitches)?;
+        let driver = self.driver.neighbour(earlier.radius_driver, later.radius_driver, pitches)?;
         let driven = self
             .driven
             .neighbour(earlier.radius_driven, later.radius_driven, -pitches)
@@ -326,9 +313,7 @@ impl Teeth {
     pub fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal> {
         Ok([
             self.driver.abscissa(place.radius_driver)?,
-            self.driven
-                .abscissa(place.radius_driven)
-                .map_err(Refusal::at_driven)?,
+            self.driven.abscissa(place.radius_driven).map_err(Refusal::at_driven)?,
         ])
     }
 
@@ -358,9 +343,6 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the models.
     pub fn pair(&self, place: &ContactPlace) -> Result<PairCompliance, Refusal> {
-        Ok(PairCompliance {
-            contact: self.spring(place)?,
-            teeth: self.at(place)?.sum(),
-        })
+        Ok(PairCompliance { contact: self.spring(place)?, teeth: self.at(place)?.sum() })
     }
 }

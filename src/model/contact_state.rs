@@ -65,19 +65,9 @@ pub enum Phase {
 /// if no tooth strikes.
 #[must_use]
 pub fn first_contact(solution: &Solution) -> Option<f64> {
-    let at_rest = solution
-        .static_load
-        .as_ref()
-        .map(|load| load.first_contact_angle);
-    let moving = solution
-        .dynamic
-        .as_ref()
-        .map(|dynamic| dynamic.first_contact_angle);
-    moving.or(at_rest).unwrap_or(
-        solution
-            .position
-            .map(|position| position.approach_angle_driven),
-    )
+    let at_rest = solution.static_load.as_ref().map(|load| load.first_contact_angle);
+    let moving = solution.dynamic.as_ref().map(|dynamic| dynamic.first_contact_angle);
+    moving.or(at_rest).unwrap_or(solution.position.map(|position| position.approach_angle_driven))
 }
 
 /// The driver's angle before E at the first contact, in rad, by the solution's method. `None` if no
@@ -121,9 +111,7 @@ impl ContactState {
     pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<ContactState> {
         let last =
             (solution.geometry.start - solution.geometry.end) / solution.geometry.driver.base;
-        let roll_angle = roll_angle
-            .max(last - MOST_ANGLE)
-            .min(MOST_ANGLE * inputs.ratio());
+        let roll_angle = roll_angle.max(last - MOST_ANGLE).min(MOST_ANGLE * inputs.ratio());
         let moment = if roll_angle < last {
             run_out(inputs, solution, roll_angle, last)?
         } else if roll_angle < 0.0 {
@@ -145,11 +133,7 @@ impl ContactState {
     /// therefore exactly `factor` times the opening, and flanks in contact touch at every factor.
     #[must_use]
     pub fn lead(&self, factor: f64) -> f64 {
-        if self.phase == Phase::RunOut {
-            0.0
-        } else {
-            self.gap - factor * self.opening
-        }
+        if self.phase == Phase::RunOut { 0.0 } else { self.gap - factor * self.opening }
     }
 
     /// Whether the pair touches.
@@ -164,13 +148,7 @@ impl ContactState {
     }
 
     fn is_sound(&self) -> bool {
-        let numbers = [
-            self.point.x,
-            self.point.y,
-            self.radius_driver,
-            self.gap,
-            self.opening,
-        ];
+        let numbers = [self.point.x, self.point.y, self.radius_driver, self.gap, self.opening];
         numbers
             .iter()
             .chain(&[self.normal_velocity, self.sliding_velocity])
@@ -269,9 +247,5 @@ fn opening(solution: &Solution, gap: f64) -> f64 {
         _ => total,
     };
     let left = gap - closed;
-    if left > ROUNDING * closed.abs() {
-        left
-    } else {
-        0.0
-    }
+    if left > ROUNDING * closed.abs() { left } else { 0.0 }
 }

@@ -46,10 +46,7 @@ impl DeviationInputs {
     pub fn of(inputs: &Inputs) -> DeviationInputs {
         let given = GivenDeviations::of(inputs);
         let is_by_load = given.deflection.is_none();
-        DeviationInputs {
-            given,
-            elasticity: is_by_load.then(|| inputs.elasticity()),
-        }
+        DeviationInputs { given, elasticity: is_by_load.then(|| inputs.elasticity()) }
     }
 }
 
@@ -61,11 +58,7 @@ impl GivenDeviations {
             method: inputs.method,
             base_pitches: inputs.base_pitches(),
             combination: inputs.effective_combination(),
-            backlash: if inputs.method == Method::Paper {
-                inputs.backlash
-            } else {
-                0.0
-            },
+            backlash: if inputs.method == Method::Paper { inputs.backlash } else { 0.0 },
             driven_tip_relief: inputs.driven.tip_relief,
             driver_root_relief: inputs.driver.root_relief,
             deflection: inputs.given_deflection(),
@@ -100,9 +93,8 @@ pub(super) fn deviation(
     given: &GivenDeviations,
     by_load: impl FnOnce() -> Result<Deflected, Refusal>,
 ) -> Result<Deviation<TwoFloat>, Refusal> {
-    let deflected = given
-        .deflection
-        .map_or_else(by_load, |deflection| Ok(Deflected::alone(deflection)))?;
+    let deflected =
+        given.deflection.map_or_else(by_load, |deflection| Ok(Deflected::alone(deflection)))?;
     let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
     let with_reliefs = equivalent_error(given);
     let equivalent_error = if given.method.shares_load() {
@@ -186,10 +178,7 @@ pub(super) struct Deflected {
 
 impl Deflected {
     fn alone(pairs_ahead: f64) -> Deflected {
-        Deflected {
-            pairs_ahead,
-            incoming_pair: 0.0,
-        }
+        Deflected { pairs_ahead, incoming_pair: 0.0 }
     }
 }
 
@@ -252,10 +241,7 @@ impl LoadedPairs {
         let teeth = teeth()?;
         let place =
             |along: f64| teeth.under(&ContactPlace::on_line_of_action(geometry, along), 0.0);
-        let places: Places = std::iter::once(geometry.start)
-            .chain(ahead)
-            .map(place)
-            .collect();
+        let places: Places = std::iter::once(geometry.start).chain(ahead).map(place).collect();
         let coupling = if method == Method::Paper {
             0.0
         } else {
@@ -266,11 +252,7 @@ impl LoadedPairs {
         } else {
             Carriers::Apart(springs(teeth, &places)?, coupling)
         };
-        Ok(LoadedPairs {
-            width: teeth.width(),
-            places,
-            pairs,
-        })
+        Ok(LoadedPairs { width: teeth.width(), places, pairs })
     }
 
     /// The two parts of the combined deflection δ when the incoming pair is at E, in m.
@@ -357,10 +339,7 @@ fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Def
     if !pairs_ahead.is_finite() {
         return Err(Refusal::IndefiniteCompliance);
     }
-    Ok(Deflected {
-        pairs_ahead,
-        incoming_pair: pairs.pushed(0, &forces),
-    })
+    Ok(Deflected { pairs_ahead, incoming_pair: pairs.pushed(0, &forces) })
 }
 
 impl Deviation {

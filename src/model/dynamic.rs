@@ -128,17 +128,8 @@ pub fn dynamic(
             }
         }
         run.check_reach()?;
-        let effort = Effort {
-            work: meter.spent(),
-            ..run.effort
-        };
-        run.watch
-            .finish(
-                motion,
-                (settings.spacing, settings.approach_samples),
-                effort,
-            )
-            .map(Some)
+        let effort = Effort { work: meter.spent(), ..run.effort };
+        run.watch.finish(motion, (settings.spacing, settings.approach_samples), effort).map(Some)
     })
 }
 
@@ -193,14 +184,8 @@ pub fn approach(
             }
         }
         run.check_reach()?;
-        let lead = run
-            .lead
-            .filter(|lead| lead.is_finite())
-            .ok_or(Refusal::BeyondReach)?;
-        Ok(Some(Approach {
-            lead,
-            contact_lost: run.watch.contact_lost(),
-        }))
+        let lead = run.lead.filter(|lead| lead.is_finite()).ok_or(Refusal::BeyondReach)?;
+        Ok(Some(Approach { lead, contact_lost: run.watch.contact_lost() }))
     })
 }
 
@@ -251,9 +236,7 @@ impl<'a> Run<'a> {
             next: 1,
             t: motion.time(start),
             y: State::new(displacement, 0.0),
-            touching: touching
-                .map(|(pair, _)| PairName::working(pair.ahead))
-                .collect(),
+            touching: touching.map(|(pair, _)| PairName::working(pair.ahead)).collect(),
             borders,
             turned: Touching::NONE,
             is_even: true,
@@ -314,27 +297,19 @@ impl<'a> Run<'a> {
     /// Skips the rest of the warm-up after a base pitch that equals the base pitch before.
     fn skip_what_repeats(&mut self) {
         let (mesh, s) = (self.motion.mesh, self.borders[self.next - 1]);
-        if self.misses_back
-            || !self
-                .repeats
-                .repeats(self.motion, s, &self.y, &self.touching)
-        {
+        if self.misses_back || !self.repeats.repeats(self.motion, s, &self.y, &self.touching) {
             return;
         }
         let pitches = ((mesh.ends().0 - s) / mesh.base_pitch).floor();
         let to = s + pitches * mesh.base_pitch;
-        let border = self
-            .borders
-            .iter()
-            .position(|border| (border - to).abs() <= ALIKE * mesh.base_pitch);
+        let border =
+            self.borders.iter().position(|border| (border - to).abs() <= ALIKE * mesh.base_pitch);
         let Some(border) = border.filter(|_| pitches >= 1.0) else {
             return;
         };
         self.next = border + 1;
         self.t = self.motion.time(self.borders[border]);
-        self.touching
-            .iter_mut()
-            .for_each(|pair| *pair = pair.moved(-(pitches as i32)));
+        self.touching.iter_mut().for_each(|pair| *pair = pair.moved(-(pitches as i32)));
     }
 
     /// Advances by one step, at most to `end`. Returns the pairs that touch afterwards, and the
@@ -360,11 +335,7 @@ impl<'a> Run<'a> {
             step = step.cut(event.part);
         }
         // A step to a border ends exactly on the border, independent of rounding.
-        self.t = if event.is_none() && step.length >= end - self.t {
-            end
-        } else {
-            step.end()
-        };
+        self.t = if event.is_none() && step.length >= end - self.t { end } else { step.end() };
         if step.length > 0.0 {
             self.y = step.state(1.0);
             self.turned = Touching::NONE;
@@ -384,18 +355,12 @@ impl<'a> Run<'a> {
     /// Counts work of the motion.
     fn count(&self, work: u64) -> Result<(), Refusal> {
         if self.watch.bytes() + self.motion.bytes() > MOTION_BYTES {
-            return Err(Refusal::MotionTooLarge {
-                bytes: MOTION_BYTES,
-                done: self.part_done(),
-            });
+            return Err(Refusal::MotionTooLarge { bytes: MOTION_BYTES, done: self.part_done() });
         }
         if self.meter.spend(work) {
             return Ok(());
         }
-        Err(Refusal::MotionTooLong {
-            steps: self.effort.steps,
-            done: self.part_done(),
-        })
+        Err(Refusal::MotionTooLong { steps: self.effort.steps, done: self.part_done() })
     }
 
     /// A pair gains or loses contact.

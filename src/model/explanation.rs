@@ -76,13 +76,7 @@ pub(super) const fn step(
     formula: Formula,
     value: fn(&Context) -> Option<f64>,
 ) -> Step {
-    Step {
-        symbol,
-        meaning,
-        unit,
-        formula,
-        value,
-    }
+    Step { symbol, meaning, unit, formula, value }
 }
 
 /// A range of validity and the values of a case.
@@ -103,11 +97,7 @@ impl Finding {
     /// A finding, as the result of a [`Check`].
     #[must_use]
     pub fn new(range: impl Into<String>, here: impl Into<String>, inside: bool) -> Option<Finding> {
-        Some(Finding {
-            range: range.into(),
-            here: here.into(),
-            inside,
-        })
+        Some(Finding { range: range.into(), here: here.into(), inside })
     }
 }
 
@@ -145,9 +135,8 @@ pub fn tidy(value: f64, digits: usize) -> String {
         return full;
     }
     let short = full.trim_end_matches('0').trim_end_matches('.');
-    let exact = short
-        .parse::<f64>()
-        .is_ok_and(|found| (found - value).abs() <= EXACT * value.abs());
+    let exact =
+        short.parse::<f64>().is_ok_and(|found| (found - value).abs() <= EXACT * value.abs());
     if exact { short.to_owned() } else { full }
 }
 

@@ -161,15 +161,9 @@ impl Field {
         [loaded, measured]: [Lanes<L>; 2],
         pitches: i32,
     ) -> Lanes<L> {
-        let series = self
-            .cross
-            .get((pitches.unsigned_abs() as usize).wrapping_sub(1));
+        let series = self.cross.get((pitches.unsigned_abs() as usize).wrapping_sub(1));
         series.map_or(Lanes::all(0.0), |series| {
-            if pitches < 0 {
-                series.at(loaded, measured)
-            } else {
-                series.at(measured, loaded)
-            }
+            if pitches < 0 { series.at(loaded, measured) } else { series.at(measured, loaded) }
         })
     }
 
@@ -242,9 +236,8 @@ impl Field {
             let pairs = values.iter().zip(loads);
             pairs.map(|(value, load)| value + extra(load)).collect()
         };
-        let surface = per_load(&values.surface, &|load| {
-            surface_slope(input.poisson) * load.half_width.ln()
-        });
+        let surface =
+            per_load(&values.surface, &|load| surface_slope(input.poisson) * load.half_width.ln());
         let depth = per_load(&values.centre, &|load| {
             depth_loss(input.poisson) * (load.half_width / load.depth).powi(2)
         });
@@ -260,10 +253,7 @@ impl Field {
             }),
             surface: steep.series(&surface),
             depth: smooth.series(&depth),
-            cross: values
-                .cross
-                .each_ref()
-                .map(|cross| smooth.cross_series(cross)),
+            cross: values.cross.each_ref().map(|cross| smooth.cross_series(cross)),
         }
     }
 }

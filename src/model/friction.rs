@@ -18,10 +18,7 @@ impl FrictionInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> FrictionInputs {
-        FrictionInputs {
-            method: inputs.method,
-            speed: inputs.speed,
-        }
+        FrictionInputs { method: inputs.method, speed: inputs.speed }
     }
 }
 

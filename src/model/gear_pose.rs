@@ -87,10 +87,7 @@ impl Placed {
     /// The gear turned by an angle, in rad.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Placed {
-        Placed {
-            turn: self.turn + angle,
-            ..*self
-        }
+        Placed { turn: self.turn + angle, ..*self }
     }
 }
 
@@ -109,11 +106,7 @@ pub fn driven_tangent_point(geometry: &Geometry) -> Point2<f64> {
 /// The point of the line of action at the distance `length` from N₁, in m.
 #[must_use]
 pub fn on_line_of_action(geometry: &Geometry, length: f64) -> Point2<f64> {
-    Point2::from(foot(
-        geometry.driver.base,
-        length,
-        geometry.working_pressure_angle,
-    ))
+    Point2::from(foot(geometry.driver.base, length, geometry.working_pressure_angle))
 }
 
 /// The driven tip on its circle. For a rounded tip, the point of its arc that faces the driver's
@@ -164,11 +157,7 @@ mod tests {
                 (inputs.driver.addendum, inputs.driven.addendum) = (0.7, 0.7);
             }
             let solution = solve(&inputs, Stages::CLOSED_FORM).unwrap();
-            (
-                format!("z {driver}/{driven} x {first}/{second}"),
-                inputs,
-                solution,
-            )
+            (format!("z {driver}/{driven} x {first}/{second}"), inputs, solution)
         };
         kinds.map(pair).into()
     }
@@ -194,9 +183,7 @@ mod tests {
 
     /// Least distance between two polylines.
     fn distance(one: &[Point2<f64>], other: &[Point2<f64>]) -> (f64, Point2<f64>) {
-        let pairs = one
-            .iter()
-            .flat_map(|p| other.iter().map(move |q| ((p - q).norm(), *p)));
+        let pairs = one.iter().flat_map(|p| other.iter().map(move |q| ((p - q).norm(), *p)));
         pairs.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap()
     }
 
@@ -208,26 +195,17 @@ mod tests {
                 let length = geometry.start + part * (geometry.end - geometry.start);
                 let angle = (geometry.start - length) / geometry.driver.base;
                 let placing = GearPose::nominal(&inputs, &geometry, angle);
-                let (driver, driven) = (
-                    working_flank(&placing.driver, 1000),
-                    working_flank(&placing.driven, 1000),
-                );
+                let (driver, driven) =
+                    (working_flank(&placing.driver, 1000), working_flank(&placing.driven, 1000));
                 let (gap, place) = distance(&driver, &driven);
-                assert!(
-                    gap < 1e-3 * inputs.module,
-                    "{name}: {gap:e} m apart at {part}"
-                );
+                assert!(gap < 1e-3 * inputs.module, "{name}: {gap:e} m apart at {part}");
                 let off = (place - on_line_of_action(&geometry, length)).norm();
                 assert!(
                     off < 0.1 * inputs.module,
                     "{name}: {off:e} m from the line of action at {part}"
                 );
-                let gaps = driven
-                    .iter()
-                    .map(|point| gap_to_struck_flank(&placing.driver, *point));
-                let least = gaps
-                    .filter(|gap| gap.is_finite())
-                    .fold(f64::INFINITY, f64::min);
+                let gaps = driven.iter().map(|point| gap_to_struck_flank(&placing.driver, *point));
+                let least = gaps.filter(|gap| gap.is_finite()).fold(f64::INFINITY, f64::min);
                 assert!(
                     (-1e-12..1e-6 * inputs.module).contains(&least),
                     "{name}: gap {least:e} m at {part}"
@@ -249,11 +227,7 @@ mod tests {
                     "{name}: the tooth's tip is not the tip"
                 );
                 let gap = gap_to_struck_flank(&placing.driver, tip);
-                assert!(
-                    (gap - moment.gap).abs() < 1e-12,
-                    "{name}: {gap:e} m for {:e}",
-                    moment.gap
-                );
+                assert!((gap - moment.gap).abs() < 1e-12, "{name}: {gap:e} m for {:e}", moment.gap);
                 let flank = working_flank(&placing.driver, 200_000);
                 let (nearest, _) = distance(&flank, &[tip]);
                 assert!(
@@ -273,10 +247,7 @@ mod tests {
                 let moment = ContactState::at(&inputs, &solution, part * contact).unwrap();
                 let placing = GearPose::nominal(&inputs, &solution.geometry, part * contact);
                 let lead = moment.lead(factor) / solution.geometry.driver.base;
-                (
-                    gap_to_struck_flank(&placing.driver.turned(-lead), moment.point),
-                    moment.opening,
-                )
+                (gap_to_struck_flank(&placing.driver.turned(-lead), moment.point), moment.opening)
             };
             for factor in [1.0, 7.5, 100.0] {
                 for part in [2.0, 1.5, 1.1, 1.01, 1.0001] {
@@ -287,10 +258,7 @@ mod tests {
                     );
                 }
                 for part in [1.0, 0.7, 0.1, 0.0] {
-                    assert!(
-                        gap_at(part, factor).0.abs() < 1e-13,
-                        "{name}: no touch at {part}"
-                    );
+                    assert!(gap_at(part, factor).0.abs() < 1e-13, "{name}: no touch at {part}");
                 }
             }
         }
@@ -303,10 +271,7 @@ mod tests {
             let centre = Point2::new(geometry.centre_distance, 0.0);
             let first = driver_tangent_point(&geometry).coords.norm() - geometry.driver.base;
             let second = (driven_tangent_point(&geometry) - centre).norm() - geometry.driven.base;
-            assert!(
-                first.abs() < 1e-15 && second.abs() < 1e-15,
-                "{name}: {first:e} {second:e}"
-            );
+            assert!(first.abs() < 1e-15 && second.abs() < 1e-15, "{name}: {first:e} {second:e}");
         }
     }
 }

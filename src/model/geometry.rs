@@ -91,16 +91,12 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     let tangent_length = base_sum * tangent;
     let start = tangent_length - driven.tip_curvature;
     if start <= T::zero() {
-        return Err(Refusal::Interference {
-            start: start.rounded(),
-        });
+        return Err(Refusal::Interference { start: start.rounded() });
     }
     let base_pitch = T::PI * shape.module.into() * alpha.sine_cosine().1;
     let approach_length = driven.tip_curvature - driven.base * tangent;
-    let (centre_approach, centre_curvature) = (
-        approach_length - driven.edge,
-        driven.tip_curvature - driven.edge,
-    );
+    let (centre_approach, centre_curvature) =
+        (approach_length - driven.edge, driven.tip_curvature - driven.edge);
     let working_pressure_angle = tangent.angle_to(T::one());
     let end = driver.tip_curvature;
     let tip_losses = tip_losses(shape, &driver.rounded(), &driven.rounded());
@@ -119,10 +115,7 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     if let Some(field) = tip_losses.greatest.filter(|_| is_rounded)
         && contact_ratio < T::one()
     {
-        return Err(Refusal::RoundingBreaksContact {
-            field,
-            ratio: contact_ratio.rounded(),
-        });
+        return Err(Refusal::RoundingBreaksContact { field, ratio: contact_ratio.rounded() });
     }
     Ok(Geometry {
         ratio: T::count(shape.driven.teeth).over(T::count(shape.driver.teeth)),
@@ -154,9 +147,7 @@ pub(super) fn precise(
     plain: Option<&Geometry>,
 ) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
     let close_call = plain.is_none_or(|geometry| geometry.needs_precision(inputs.bores));
-    (inputs.is_accurate || close_call)
-        .then(|| geometry(&inputs.shape))
-        .transpose()
+    (inputs.is_accurate || close_call).then(|| geometry(&inputs.shape)).transpose()
 }
 
 /// tan t.
@@ -182,16 +173,11 @@ fn working_tangent<T: Real>(shape: &PairShape, alpha: T, base_sum: T) -> Result<
     if let Some(given) = shape.centre_distance {
         let distance: T = given.into();
         if distance <= base_sum {
-            return Err(Refusal::CentreDistanceJams {
-                distance: given,
-                least: base_sum.rounded(),
-            });
+            return Err(Refusal::CentreDistanceJams { distance: given, least: base_sum.rounded() });
         }
         return Ok((
             distance,
-            ((distance - base_sum) * (distance + base_sum))
-                .root()
-                .over(base_sum),
+            ((distance - base_sum) * (distance + base_sum)).root().over(base_sum),
         ));
     }
     let angle = alpha + working_angle_rise(shape, alpha)?;
@@ -211,17 +197,11 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
     let shifts = <T as From<f64>>::from(driver.profile_shift) + driven.profile_shift.into();
     let rise = (two * shifts * tangent).over(T::count(driver.teeth + driven.teeth));
     if tangent - alpha + rise <= T::zero() {
-        return Err(Refusal::ShiftsLeaveNoMesh {
-            sum: shifts.rounded(),
-        });
+        return Err(Refusal::ShiftsLeaveNoMesh { sum: shifts.rounded() });
     }
     let largest = <T as From<f64>>::from(LARGEST_ANGLE) - alpha;
     let parabola = rise.over(tangent * tangent);
-    let mut angle = if parabola < largest {
-        parabola
-    } else {
-        largest
-    };
+    let mut angle = if parabola < largest { parabola } else { largest };
     for _ in 0..STEPS {
         let step_tangent = tangent_of(angle);
         let opened =

@@ -71,11 +71,7 @@ impl Inputs {
     #[must_use]
     pub fn effective_combination(&self) -> Combination {
         let [driver, driven] = self.base_pitches();
-        if driver * driven < 0.0 {
-            Combination::Sum
-        } else {
-            self.combination
-        }
+        if driver * driven < 0.0 { Combination::Sum } else { self.combination }
     }
 
     /// The common base pitch deviation of both gears whose combined deviation is that of this pair

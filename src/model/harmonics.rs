@@ -36,11 +36,7 @@ pub(super) struct Fourier {
 
 impl Fourier {
     pub(super) fn new() -> Fourier {
-        Fourier {
-            sums: [[0.0; 2]; HARMONICS],
-            least: f64::INFINITY,
-            most: f64::NEG_INFINITY,
-        }
+        Fourier { sums: [[0.0; 2]; HARMONICS], least: f64::INFINITY, most: f64::NEG_INFINITY }
     }
 
     /// Adds a smooth piece between two parts of the period. `value` is a function of the part of
@@ -73,10 +69,7 @@ impl Fourier {
     pub(super) fn spectrum(&self, periods: u32) -> Spectrum {
         let amplitude =
             |[cosine, sine]: [f64; 2]| 2.0 * cosine.hypot(sine) / f64::from(periods.max(1));
-        Spectrum {
-            amplitudes: self.sums.map(amplitude),
-            peak_to_peak: self.most - self.least,
-        }
+        Spectrum { amplitudes: self.sums.map(amplitude), peak_to_peak: self.most - self.least }
     }
 }
 
@@ -92,10 +85,7 @@ mod tests {
         }
         for (order, amplitude) in (1..).zip(fourier.spectrum(1).amplitudes) {
             let expected = 1.0 / (std::f64::consts::PI * f64::from(order));
-            assert!(
-                (amplitude / expected - 1.0).abs() < 1e-12,
-                "{order}: {amplitude}"
-            );
+            assert!((amplitude / expected - 1.0).abs() < 1e-12, "{order}: {amplitude}");
         }
     }
 
@@ -114,10 +104,7 @@ mod tests {
                 9 => 0.02,
                 _ => 0.0,
             };
-            assert!(
-                (amplitude - expected).abs() < 1e-14,
-                "{order}: {amplitude:e}"
-            );
+            assert!((amplitude - expected).abs() < 1e-14, "{order}: {amplitude:e}");
         }
     }
 }

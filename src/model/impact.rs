@@ -74,11 +74,7 @@ impl Impact {
     /// spheres is 4.53398 times as long, because the paper omits the prefactor.
     #[must_use]
     pub fn duration_printed(&self) -> f64 {
-        let Terms {
-            approach,
-            curvature_radius,
-            ..
-        } = self.terms;
+        let Terms { approach, curvature_radius, .. } = self.terms;
         let ratio = self.terms.reduced_mass * self.terms.give / PI;
         (ratio * ratio / (approach * curvature_radius)).powf(0.2)
     }
@@ -151,10 +147,8 @@ pub fn impact(
 ) -> Result<Impact, Refusal> {
     let width = inputs.compliance.elasticity.width;
     let effective_mass = masses.effective(geometry, tip);
-    let (force, pair_compliance) = spring.impact(
-        teeth.sum(),
-        velocity.normal * (width * effective_mass).sqrt(),
-    )?;
+    let (force, pair_compliance) =
+        spring.impact(teeth.sum(), velocity.normal * (width * effective_mass).sqrt())?;
     Ok(Impact {
         force,
         effective_mass,

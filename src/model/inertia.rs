@@ -55,10 +55,7 @@ impl Inputs {
                 (InertiaModel::BaseCircle, None) => Body::BaseCircle(blank),
             }
         };
-        [
-            body("driver.bore_radius", &self.driver),
-            body("driven.bore_radius", &self.driven),
-        ]
+        [body("driver.bore_radius", &self.driver), body("driven.bore_radius", &self.driven)]
     }
 
     /// The inertia model of a gear without a given inertia. The method `paper` has only one model.
@@ -96,16 +93,10 @@ impl Inertia {
     /// [`Refusal::BoreTooLarge`] if the bore is larger than the body.
     pub fn of<T: Real>(body: &Body, circles: &Circles<T>) -> Result<Inertia, Refusal> {
         let disc = |blank: &Blank, is_fallback| {
-            disc(blank, circles).map(|moment| Inertia {
-                moment,
-                is_fallback,
-            })
+            disc(blank, circles).map(|moment| Inertia { moment, is_fallback })
         };
         match body {
-            Body::Given(moment) => Ok(Inertia {
-                moment: *moment,
-                is_fallback: false,
-            }),
+            Body::Given(moment) => Ok(Inertia { moment: *moment, is_fallback: false }),
             Body::BaseCircle(blank) => disc(blank, false),
             Body::Outline(blank, rack, addendum) => {
                 let circles = whole(&circles.rounded(), rack, *addendum);
@@ -127,11 +118,7 @@ impl Inertia {
 /// The circles of the gear without chamfer and rounding of the tip.
 fn whole(circles: &Circles, rack: &Rack, addendum: f64) -> Circles {
     let tip = circles.reference + rack.module * (addendum + rack.profile_shift);
-    Circles {
-        tip,
-        tip_curvature: ((tip - circles.base) * (tip + circles.base)).sqrt(),
-        ..*circles
-    }
+    Circles { tip, tip_curvature: ((tip - circles.base) * (tip + circles.base)).sqrt(), ..*circles }
 }
 
 /// J of the disc to the base circle, in kg m².
@@ -188,10 +175,7 @@ pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> Option<f
 fn flank_moment(profile: &Profile) -> Option<f64> {
     let base = profile.circles().base;
     let half_angle = |roll: f64| profile.base_half_angle() - roll + roll.atan();
-    let (start, tip) = (
-        profile.junction.roll,
-        profile.circles().tip_curvature / base,
-    );
+    let (start, tip) = (profile.junction.roll, profile.circles().tip_curvature / base);
     if half_angle(start) <= 0.0 {
         return None;
     }

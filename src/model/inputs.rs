@@ -104,13 +104,8 @@ pub enum Method {
 
 impl Method {
     /// Every method, fastest first, then `auto`.
-    pub const ALL: [Method; 5] = [
-        Method::Paper,
-        Method::Exact,
-        Method::Static,
-        Method::Dynamic,
-        Method::Auto,
-    ];
+    pub const ALL: [Method; 5] =
+        [Method::Paper, Method::Exact, Method::Static, Method::Dynamic, Method::Auto];
     /// The methods with a solution in microseconds.
     pub const CLOSED_FORM: [Method; 2] = [Method::Paper, Method::Exact];
 
@@ -127,10 +122,8 @@ impl Method {
         const IMPACT: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
         const AT_REST: Stages = Stages::of(Stage::StaticSpectrum).with(Stage::Resonance);
         const STATIC: Stages = IMPACT.and(Stages::of(Stage::Static)).and(AT_REST);
-        const DYNAMIC: Stages = STATIC
-            .with(Stage::Dynamic)
-            .with(Stage::SteadyMotion)
-            .with(Stage::SpeedRun);
+        const DYNAMIC: Stages =
+            STATIC.with(Stage::Dynamic).with(Stage::SteadyMotion).with(Stage::SpeedRun);
         match self {
             Method::Paper | Method::Exact => Stages::ALL.with(Stage::Clearing),
             Method::Static => STATIC,

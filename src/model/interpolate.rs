@@ -55,11 +55,7 @@ impl Interpolated {
     /// The impact of the methods `paper` and `exact`.
     #[must_use]
     pub fn impact(&self) -> Option<&Station> {
-        if let Interpolated::Impact(station) = self {
-            Some(station)
-        } else {
-            None
-        }
+        if let Interpolated::Impact(station) = self { Some(station) } else { None }
     }
 
     /// The load, in the methods `static` and `dynamic`.
@@ -89,22 +85,10 @@ fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Stati
 
 /// The balance from the first contact to the last.
 fn at_rest(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<MeshStation> {
-    let (first, last) = (
-        stations.first()?.roll_angle_driver,
-        stations.last()?.roll_angle_driver,
-    );
-    let s = (last..=first)
-        .contains(&roll_angle)
-        .then_some(0.0 - roll_angle * mesh.base_radii.0)?;
+    let (first, last) = (stations.first()?.roll_angle_driver, stations.last()?.roll_angle_driver);
+    let s = (last..=first).contains(&roll_angle).then_some(0.0 - roll_angle * mesh.base_radii.0)?;
     let balance = balance(mesh, s, s);
-    Some(MeshStation::at(
-        mesh,
-        s,
-        balance.force,
-        balance.total,
-        balance.displacement,
-        None,
-    ))
+    Some(MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None))
 }
 
 /// The motion from the first contact to the last.
@@ -124,14 +108,7 @@ fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Inte
     let total = forces.iter().sum();
     let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
     let force = incoming.map_or(0.0, |incoming| forces[incoming]);
-    Some(Interpolated::Between(MeshStation::at(
-        mesh,
-        s,
-        force,
-        total,
-        displacement,
-        Some(time),
-    )))
+    Some(Interpolated::Between(MeshStation::at(mesh, s, force, total, displacement, Some(time))))
 }
 
 /// Displacement and time between two stations, by the cubic through value and slope at both
@@ -164,10 +141,7 @@ mod tests {
     fn curve(method: Method, stations: usize) -> (Inputs, Solution, Vec<(f64, f64)>) {
         let (inputs, solution) = solved(method, stations);
         let of = |stations: &[MeshStation]| {
-            stations
-                .iter()
-                .map(|one| (one.roll_angle_driver, one.force))
-                .collect()
+            stations.iter().map(|one| (one.roll_angle_driver, one.force)).collect()
         };
         let curve = match method {
             Method::Dynamic => of(&solution.dynamic.as_ref().unwrap().stations),
@@ -182,19 +156,16 @@ mod tests {
     }
 
     fn force(interpolated: Interpolated) -> f64 {
-        interpolated.impact().map_or_else(
-            || interpolated.load().unwrap().force,
-            |station| station.impact_force,
-        )
+        interpolated
+            .impact()
+            .map_or_else(|| interpolated.load().unwrap().force, |station| station.impact_force)
     }
 
     #[test]
     fn values_between_stations_agree_with_those_of_a_finer_solve() {
-        for (method, good_to) in [
-            (Method::Exact, 1e-12),
-            (Method::Static, 1e-9),
-            (Method::Dynamic, 5e-3),
-        ] {
+        for (method, good_to) in
+            [(Method::Exact, 1e-12), (Method::Static, 1e-9), (Method::Dynamic, 5e-3)]
+        {
             let (inputs, coarse, _) = curve(method, 64);
             let (_, _, fine) = curve(method, 2048);
             let peak = fine.iter().map(|(_, force)| *force).fold(0.0, f64::max);
@@ -236,20 +207,11 @@ mod tests {
 
     #[test]
     fn there_are_no_values_without_contact() {
-        for method in [
-            Method::Paper,
-            Method::Exact,
-            Method::Static,
-            Method::Dynamic,
-        ] {
+        for method in [Method::Paper, Method::Exact, Method::Static, Method::Dynamic] {
             let (inputs, solution, curve) = curve(method, 64);
             let (first, last) = (curve[0].0, curve[curve.len() - 1].0);
             for angle in [first * 1.001, last - 1e-3, f64::NAN, f64::INFINITY] {
-                assert_eq!(
-                    Interpolated::at(&inputs, &solution, angle),
-                    None,
-                    "{method:?} {angle}"
-                );
+                assert_eq!(Interpolated::at(&inputs, &solution, angle), None, "{method:?} {angle}");
             }
             assert!(
                 Interpolated::at(&inputs, &solution, first).is_some()

@@ -44,17 +44,11 @@ mod tests {
 
     #[test]
     fn tolerances_agree_with_the_standard() {
-        for (class, module, diameter, micrometres) in [
-            (5, 2e-3, 0.1, 6.0),
-            (6, 2e-3, 0.1, 8.5),
-            (7, 5e-3, 0.1, 14.0),
-            (1, 1e-3, 0.02, 1.4),
-        ] {
+        for (class, module, diameter, micrometres) in
+            [(5, 2e-3, 0.1, 6.0), (6, 2e-3, 0.1, 8.5), (7, 5e-3, 0.1, 14.0), (1, 1e-3, 0.02, 1.4)]
+        {
             let allowed = pitch_tolerance(class, module, diameter);
-            assert!(
-                (allowed * 1e6 - micrometres).abs() < 1e-9,
-                "{class}: {allowed}"
-            );
+            assert!((allowed * 1e6 - micrometres).abs() < 1e-9, "{class}: {allowed}");
         }
     }
 }

@@ -14,9 +14,7 @@ impl LoadInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> LoadInputs {
-        LoadInputs {
-            torque: inputs.torque(),
-        }
+        LoadInputs { torque: inputs.torque() }
     }
 }
 

@@ -53,29 +53,17 @@ pub(super) fn share(
     let present = own.filter(|&stage| asked.wanted.has(stage));
     solution.stages = present.fold(solution.stages, Stages::with);
     solution.ran = solution.ran.and(shared.ran);
-    let static_angle = shared
-        .static_load
-        .as_ref()
-        .map(|load| load.first_contact_angle);
-    let dynamic_angle = shared
-        .dynamic
-        .as_ref()
-        .map(|dynamic| dynamic.first_contact_angle);
+    let static_angle = shared.static_load.as_ref().map(|load| load.first_contact_angle);
+    let dynamic_angle = shared.dynamic.as_ref().map(|dynamic| dynamic.first_contact_angle);
     if let Some(angle) = dynamic_angle.or(static_angle) {
-        solution.outcome = if angle.is_some() {
-            Outcome::CornerContact
-        } else {
-            Outcome::NoCornerContact
-        };
+        solution.outcome =
+            if angle.is_some() { Outcome::CornerContact } else { Outcome::NoCornerContact };
     }
     let limited = [
         shared.static_load.as_ref().map(|load| load.resolution),
         shared.dynamic.as_ref().map(|dynamic| dynamic.resolution),
     ];
-    let resolution = limited
-        .into_iter()
-        .flatten()
-        .fold(Resolution::Full, Resolution::and);
+    let resolution = limited.into_iter().flatten().fold(Resolution::Full, Resolution::and);
     solution.stations_withheld = solution.stations_withheld.or(resolution.refusal());
     solution.mesh = Some(shared.mesh);
     solution.static_load = shared.static_load;
@@ -94,15 +82,8 @@ fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
     const TIMES: f64 = 2.5;
     const TIMES_APART: f64 = 4.0;
     let deviation = &solution.deviation;
-    let (deflection, error) = (
-        deviation.loaded_deflection(),
-        deviation.equivalent_error.abs(),
-    );
-    let times = if error > deflection {
-        TIMES_APART
-    } else {
-        TIMES
-    };
+    let (deflection, error) = (deviation.loaded_deflection(), deviation.equivalent_error.abs());
+    let times = if error > deflection { TIMES_APART } else { TIMES };
     let reach = times * (deflection + error + inputs.reliefs.sum());
     (0.5 * (2.0 * reach.log2()).ceil()).exp2()
 }
@@ -118,13 +99,7 @@ pub(super) fn on_mesh<T>(
     earlier: Option<&Arc<Mesh>>,
     find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
-    Meshes {
-        inputs,
-        solution,
-        earlier,
-        computed: Vec::new(),
-    }
-    .find(find)
+    Meshes { inputs, solution, earlier, computed: Vec::new() }.find(find)
 }
 
 /// The meshes of a pair, each with a larger range of gaps than the one before. Every result uses
@@ -154,18 +129,11 @@ impl Meshes<'_> {
         if let Some(mesh) = self.computed.get(number) {
             return Ok(Arc::clone(mesh));
         }
-        let Solution {
-            geometry,
-            mesh_force,
-            deviation,
-            ..
-        } = self.solution;
+        let Solution { geometry, mesh_force, deviation, .. } = self.solution;
         let load = (*mesh_force, deviation.equivalent_error);
         let last = self.computed.last();
-        let reach = last.map_or_else(
-            || first_reach(self.inputs, self.solution),
-            |mesh| FURTHER * mesh.reach(),
-        );
+        let reach = last
+            .map_or_else(|| first_reach(self.inputs, self.solution), |mesh| FURTHER * mesh.reach());
         let mesh = Arc::new(match last.or(self.earlier) {
             Some(earlier) => Mesh::after(earlier, self.inputs, geometry, load, reach)?,
             None => Mesh::new(self.inputs, geometry, load.0, load.1, reach)?,
@@ -183,31 +151,21 @@ fn run(
 ) -> Result<Shared, Refusal> {
     let (inputs, mass) = (asked.inputs, solution.reduced_mass);
     let of_mesh = inputs.mesh();
-    let kept = asked
-        .kept(Stage::Mesh)
-        .and_then(|earlier| earlier.mesh.clone());
+    let kept = asked.kept(Stage::Mesh).and_then(|earlier| earlier.mesh.clone());
     if kept.is_none() {
         asked.note(Stage::Mesh, |_| false);
     }
     let mut meshes = Meshes {
         inputs: &of_mesh,
         solution,
-        earlier: asked
-            .kept(Stage::Geometry)
-            .and_then(|earlier| earlier.mesh.as_ref()),
+        earlier: asked.kept(Stage::Geometry).and_then(|earlier| earlier.mesh.as_ref()),
         computed: Vec::new(),
     };
     let first = first_reach(&of_mesh, solution);
-    meshes.computed.extend(
-        kept.iter()
-            .filter(|mesh| mesh.reach().to_bits() == first.to_bits())
-            .cloned(),
-    );
-    let mut run = StageRun {
-        asked,
-        ran: Stages::NONE,
-        meshes,
-    };
+    meshes
+        .computed
+        .extend(kept.iter().filter(|mesh| mesh.reach().to_bits() == first.to_bits()).cloned());
+    let mut run = StageRun { asked, ran: Stages::NONE, meshes };
     let static_load = run.stage(
         Stage::Static,
         |earlier| earlier.static_load.clone(),
@@ -251,11 +209,7 @@ fn run(
             late(mesh, found.map(Arc::new))
         },
     )?;
-    let StageRun {
-        mut ran,
-        mut meshes,
-        ..
-    } = run;
+    let StageRun { mut ran, mut meshes, .. } = run;
     let mesh = match kept {
         // No stage needs a new mesh.
         Some(kept) if meshes.computed.len() <= 1 => kept,

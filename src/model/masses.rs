@@ -18,9 +18,7 @@ impl MassInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> MassInputs {
-        MassInputs {
-            bodies: inputs.bodies(),
-        }
+        MassInputs { bodies: inputs.bodies() }
     }
 }
 

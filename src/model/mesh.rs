@@ -82,10 +82,7 @@ impl Mesh {
     /// The mesh without deviation of the incoming pair.
     #[must_use]
     pub fn without_error(&self) -> Mesh {
-        Mesh {
-            error: 0.0,
-            ..self.clone()
-        }
+        Mesh { error: 0.0, ..self.clone() }
     }
 
     /// Work of the computation, in units of the [budget](super::budget).
@@ -131,10 +128,8 @@ impl Mesh {
     #[must_use]
     pub fn pair_set(&self, s: f64, inside: f64) -> PairSet {
         let inside = self.on_flank(inside);
-        let pairs: OfPairs<Pair> = self
-            .standing(inside)
-            .map(|(ahead, zone)| self.pair(ahead, zone, s, inside))
-            .collect();
+        let pairs: OfPairs<Pair> =
+            self.standing(inside).map(|(ahead, zone)| self.pair(ahead, zone, s, inside)).collect();
         let first = pairs.first().map_or(0, |pair| pair.ahead);
         let couplings = self.couplings_of(first, pairs.len(), s, inside);
         PairSet::new(pairs, couplings)
@@ -188,12 +183,7 @@ impl Mesh {
         } else {
             1.0
         };
-        Pair {
-            ahead,
-            stiffness,
-            gap: gap - self.error_of(ahead),
-            weight,
-        }
+        Pair { ahead, stiffness, gap: gap - self.error_of(ahead), weight }
     }
 
     /// Refuses a lead of the driver, in m, with which pairs beyond the ends of the mesh may touch.
@@ -213,12 +203,7 @@ impl Mesh {
         let series = &self.zones[self.zone(self.on_flank(s))].series;
         let [stiffness, gap, lever, sliding] = series.at(s);
         (
-            Place {
-                stiffness,
-                gap,
-                lever,
-                sliding: self.driver_speed * sliding,
-            },
+            Place { stiffness, gap, lever, sliding: self.driver_speed * sliding },
             series.slope(GAP, s),
         )
     }
@@ -232,28 +217,19 @@ impl Mesh {
     fn on_flank(&self, s: f64) -> f64 {
         const AFTER: f64 = 1e-9;
         let pitches = (s / self.base_pitch).round();
-        if s - pitches * self.base_pitch == 0.0 {
-            s + AFTER * self.base_pitch
-        } else {
-            s
-        }
+        if s - pitches * self.base_pitch == 0.0 { s + AFTER * self.base_pitch } else { s }
     }
 
     fn zone(&self, at: f64) -> usize {
-        self.zones
-            .partition_point(|zone| zone.to < at)
-            .min(self.zones.len() - 1)
+        self.zones.partition_point(|zone| zone.to < at).min(self.zones.len() - 1)
     }
 
     /// The places of the incoming pair from `from` to `to` at which a pair passes into another
     /// zone. Between two of them all functions of the mesh are smooth.
     #[must_use]
     pub fn borders(&self, from: f64, to: f64) -> Vec<f64> {
-        let edges = self
-            .zones
-            .iter()
-            .map(|zone| zone.from)
-            .chain(self.zones.last().map(|zone| zone.to));
+        let edges =
+            self.zones.iter().map(|zone| zone.from).chain(self.zones.last().map(|zone| zone.to));
         let mut found: Vec<f64> = edges
             .flat_map(|edge| {
                 let first = ((from - edge) / self.base_pitch).ceil() as i64;

@@ -78,8 +78,5 @@ const LOOKS: &[Look] = &[
 /// The notes on the results.
 #[must_use]
 pub fn notes(inputs: &Inputs, solution: &Solution) -> Vec<Note> {
-    LOOKS
-        .iter()
-        .filter_map(|look| look(inputs, solution))
-        .collect()
+    LOOKS.iter().filter_map(|look| look(inputs, solution)).collect()
 }

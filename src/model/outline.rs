@@ -52,13 +52,8 @@ pub enum Piece {
 
 impl Piece {
     /// Every piece, from the root to the tip.
-    pub const ALL: [Piece; 5] = [
-        Piece::Fillet,
-        Piece::Flank,
-        Piece::Edge,
-        Piece::Bevel,
-        Piece::Tip,
-    ];
+    pub const ALL: [Piece; 5] =
+        [Piece::Fillet, Piece::Flank, Piece::Edge, Piece::Bevel, Piece::Tip];
 }
 
 impl Outline {
@@ -70,9 +65,7 @@ impl Outline {
     pub fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Outline {
         let profile = Profile::of(&Rack::of(inputs, gear), circles);
         let (fillet_end, flank_end) = (fillet_end(&profile), flank_end(&profile));
-        let edge = gear
-            .tip_radius
-            .and_then(|radius| widest_edge(&profile, flank_end, radius));
+        let edge = gear.tip_radius.and_then(|radius| widest_edge(&profile, flank_end, radius));
         let sharp = if flank_end > profile.junction.roll {
             profile.involute_at(flank_end)
         } else {
@@ -89,11 +82,7 @@ impl Outline {
             flank_end: edge.map_or(flank_end, |edge| edge.roll),
             edge,
             bevel,
-            tip_radius: if pointed || bevel.is_some() {
-                end.coords.norm()
-            } else {
-                circles.tip
-            },
+            tip_radius: if pointed || bevel.is_some() { end.coords.norm() } else { circles.tip },
             tip_half_angle: end.y.atan2(end.x),
         }
     }
@@ -127,10 +116,9 @@ impl Outline {
     pub fn at(&self, piece: Piece, part: f64) -> Point2<f64> {
         let between = |from: f64, to: f64| from + part * (to - from);
         match (piece, self.edge, self.bevel) {
-            (Piece::Fillet, ..) => self
-                .profile
-                .fillet_at(between(FRAC_PI_2, self.fillet_end))
-                .point(),
+            (Piece::Fillet, ..) => {
+                self.profile.fillet_at(between(FRAC_PI_2, self.fillet_end)).point()
+            }
             (Piece::Edge, Some(edge), _) => {
                 let string = FRAC_PI_2 - self.profile.load_angle(edge.roll);
                 edge.centre + along(between(string, self.tip_half_angle)) * edge.radius
@@ -158,9 +146,8 @@ impl Outline {
         );
         let land = (0..=steps)
             .map(|step| Point2::from(along(space + part(step) * (root - space)) * radius));
-        let rise = self
-            .pieces()
-            .flat_map(|piece| (0..=steps).map(move |step| self.at(piece, part(step))));
+        let rise =
+            self.pieces().flat_map(|piece| (0..=steps).map(move |step| self.at(piece, part(step))));
         let half: Vec<_> = land.chain(rise).collect();
         let lower = half.iter().map(|point| Point2::new(point.x, -point.y));
         lower.chain(half.iter().rev().copied()).collect()
@@ -176,9 +163,7 @@ fn tip_roll(profile: &Profile) -> f64 {
 /// of the flanks.
 fn flank_end(profile: &Profile) -> f64 {
     let (start, tip) = (profile.junction.roll, tip_roll(profile));
-    last_where(start.min(tip), tip, |roll| {
-        profile.involute_at(roll).half_thickness >= 0.0
-    })
+    last_where(start.min(tip), tip, |roll| profile.involute_at(roll).half_thickness >= 0.0)
 }
 
 /// Angle of the rack's normal at which the fillet ends, in rad: at the junction, or before on the
@@ -246,11 +231,8 @@ mod tests {
                 let off = radius * (point.y.atan2(point.x) - involute_angle(&inputs, radius));
                 // Near the base circle acos amplifies an error of 1e-16 in the radius to 1e-8 of
                 // the angle.
-                let tolerance = if radius < 1.0001 * outline.profile().circles().base {
-                    1e-9
-                } else {
-                    1e-12
-                };
+                let tolerance =
+                    if radius < 1.0001 * outline.profile().circles().base { 1e-9 } else { 1e-12 };
                 assert!(
                     off.abs() < tolerance * inputs.module,
                     "{name}: error {off:e} m at {radius}"
@@ -265,10 +247,7 @@ mod tests {
             let pieces: Vec<_> = outline.pieces().collect();
             for pair in pieces.windows(2) {
                 let gap = (outline.at(pair[0], 1.0) - outline.at(pair[1], 0.0)).norm();
-                assert!(
-                    gap < 1e-9 * inputs.module,
-                    "{name}: {gap:e} m between {pair:?}"
-                );
+                assert!(gap < 1e-9 * inputs.module, "{name}: {gap:e} m between {pair:?}");
             }
             let root = outline.at(Piece::Fillet, 0.0).coords.norm();
             assert!(
@@ -276,10 +255,7 @@ mod tests {
                 "{name}"
             );
             let tip = outline.at(Piece::Tip, 1.0);
-            assert!(
-                tip.y.abs() < 1e-15 && (tip.x - outline.tip_radius()).abs() < 1e-15,
-                "{name}"
-            );
+            assert!(tip.y.abs() < 1e-15 && (tip.x - outline.tip_radius()).abs() < 1e-15, "{name}");
         }
     }
 
@@ -323,10 +299,7 @@ mod tests {
             );
             let tip = outline.at(Piece::Edge, 1.0).coords;
             let across = tip.normalize().dot(&out.normalize());
-            assert!(
-                across.abs() < 1e-3,
-                "{name}: kink of {across} at the tip, {edge:?}"
-            );
+            assert!(across.abs() < 1e-3, "{name}: kink of {across} at the tip, {edge:?}");
         }
     }
 
@@ -353,11 +326,8 @@ mod tests {
     #[test]
     fn pointed_teeth_end_at_the_intersection_of_their_flanks() {
         let mut inputs = standard_pair(12, 60, 5e-3);
-        (
-            inputs.driver.addendum,
-            inputs.driver.profile_shift,
-            inputs.driven.addendum,
-        ) = (1.4, 0.6, 0.3);
+        (inputs.driver.addendum, inputs.driver.profile_shift, inputs.driven.addendum) =
+            (1.4, 0.6, 0.3);
         let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
         let outline = Outline::of(&inputs, &inputs.driver, &circles);
         assert!(outline.profile().tip_thickness() < 0.0);

@@ -93,9 +93,7 @@ impl Carrying {
     /// pair.
     pub fn differences(self, other: Carrying) -> impl Iterator<Item = i32> {
         let pairs = |of: Carrying| {
-            of.touching
-                .pairs()
-                .map(move |index| of.first.saturating_add_unsigned(index as u32))
+            of.touching.pairs().map(move |index| of.first.saturating_add_unsigned(index as u32))
         };
         let only = move |one: Carrying, other: Carrying| {
             pairs(one).filter(move |&ahead| !other.has(ahead))
@@ -111,10 +109,7 @@ impl PairSet {
         pairs: impl IntoIterator<Item = Pair>,
         couplings: impl IntoIterator<Item = [f64; PITCHES]>,
     ) -> PairSet {
-        PairSet {
-            pairs: pairs.into_iter().collect(),
-            couplings: couplings.into_iter().collect(),
-        }
+        PairSet { pairs: pairs.into_iter().collect(), couplings: couplings.into_iter().collect() }
     }
 
     /// The pairs, the rearmost first.
@@ -140,10 +135,7 @@ impl PairSet {
         for pair in &mut pairs {
             pair.gap += more(pair.ahead);
         }
-        PairSet {
-            pairs,
-            couplings: self.couplings.clone(),
-        }
+        PairSet { pairs, couplings: self.couplings.clone() }
     }
 
     /// The balance between `force`, in N, and the forces that turn the driver.
@@ -208,11 +200,7 @@ impl PairSet {
     #[must_use]
     pub fn forces(&self, displacement: f64) -> OfPairs<f64> {
         if self.couplings.is_empty() {
-            return self
-                .pairs
-                .iter()
-                .map(|pair| pair.alone(displacement))
-                .collect();
+            return self.pairs.iter().map(|pair| pair.alone(displacement)).collect();
         }
         self.solved(Until::Displacement(displacement)).1
     }
@@ -239,9 +227,7 @@ impl PairSet {
     pub fn leads(&self, touching: Touching, displacement: f64) -> Vec<f64> {
         let gap = |index: usize| self.pairs[index].gap;
         if self.couplings.is_empty() {
-            return (0..self.pairs.len())
-                .map(|index| displacement - gap(index))
-                .collect();
+            return (0..self.pairs.len()).map(|index| displacement - gap(index)).collect();
         }
         let own = self.own();
         let Some(lines) = self.lines(&own, touching) else {
@@ -265,9 +251,7 @@ impl PairSet {
         let own = self.own();
         let compliances = self.compliances(&own);
         let others = (0..forces.len()).filter(|&other| other != index);
-        others
-            .map(|other| compliances.at(index, other) * forces[other])
-            .sum()
+        others.map(|other| compliances.at(index, other) * forces[other]).sum()
     }
 
     /// Whether the compliances are positive definite, so that the set of touching pairs is unique.
@@ -283,11 +267,7 @@ impl PairSet {
         let (mut stiffness, mut preload, mut displacement) = (0.0, force, f64::INFINITY);
         let mut last: Option<(f64, usize)> = None;
         loop {
-            let gaps = self
-                .pairs
-                .iter()
-                .enumerate()
-                .map(|(index, pair)| (pair.gap, index));
+            let gaps = self.pairs.iter().enumerate().map(|(index, pair)| (pair.gap, index));
             let further = gaps.filter(|gap| last.is_none_or(|last| *gap > last));
             let next = further.min_by(|one, other| one.0.total_cmp(&other.0));
             let Some((gap, index)) = next.filter(|(gap, _)| *gap < displacement) else {
@@ -302,17 +282,11 @@ impl PairSet {
     }
 
     fn own(&self) -> OfPairs<f64> {
-        self.pairs
-            .iter()
-            .map(|pair| pair.stiffness.recip())
-            .collect()
+        self.pairs.iter().map(|pair| pair.stiffness.recip()).collect()
     }
 
     fn compliances<'a>(&'a self, own: &'a [f64]) -> Compliances<'a> {
-        Compliances {
-            own,
-            couplings: &self.couplings,
-        }
+        Compliances { own, couplings: &self.couplings }
     }
 }
 

@@ -94,10 +94,7 @@ pub(super) fn printed_turns<T: Real>(geometry: &Geometry<T>, deviation: &Deviati
     let turn = |from: T, by: T| (base * by).angle_to(base * base + from * (from - by));
     let error = deviation.equivalent_error;
     let ahead = geometry.start + geometry.base_pitch - error;
-    [
-        turn(geometry.start, error),
-        turn(ahead, deviation.combined_deflection),
-    ]
+    [turn(geometry.start, error), turn(ahead, deviation.combined_deflection)]
 }
 
 /// The required additional tip relief of the driven gear by the printed equations, in m. `None` if
@@ -121,14 +118,7 @@ pub(super) fn printed_relief_to_clear(
     let left = |relief: f64| {
         let equivalent_error =
             deviation.equivalent_error - twofloat::consts::FRAC_1_SQRT_2 * TwoFloat::from(relief);
-        printed_contact(
-            &geometry,
-            &Deviation {
-                equivalent_error,
-                ..*deviation
-            },
-        )
-        .rounded()
+        printed_contact(&geometry, &Deviation { equivalent_error, ..*deviation }).rounded()
     };
     let all = std::f64::consts::SQRT_2 * deviation.total.rounded();
     Ok((left(0.0) > 0.0).then(|| UP * root::between(0.0, all, left)))
@@ -176,18 +166,8 @@ pub(super) fn position(
         None if inputs.method == Method::Exact => (contact, plain.total),
         None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
-    let closed_gap = if inputs.method == Method::Exact {
-        plain.total
-    } else {
-        closed_gap
-    };
-    checked(
-        inputs.tip_radius,
-        geometry,
-        plain.total,
-        contact,
-        closed_gap,
-    )
+    let closed_gap = if inputs.method == Method::Exact { plain.total } else { closed_gap };
+    checked(inputs.tip_radius, geometry, plain.total, contact, closed_gap)
 }
 
 /// The contact in double-double arithmetic, from the angle of the f64 search, and the closed gap.
@@ -205,14 +185,7 @@ fn precise_contact(
     let contact = tip.rounded();
     let closed = gap(geometry, &tip).rounded();
     let lost = largest_term(&geometry.rounded(), &contact) > LOST * closed;
-    (
-        contact,
-        if lost {
-            gap_by_quadrature(&geometry.rounded(), &contact)
-        } else {
-            closed
-        },
-    )
+    (contact, if lost { gap_by_quadrature(&geometry.rounded(), &contact) } else { closed })
 }
 
 /// The contact as a position if it is on the driver's flank: ρ₁ must not grow by more than the path
@@ -237,9 +210,7 @@ fn checked(
         });
     }
     if geometry.driven.edge > 0.0 && contact.normal_radius_driven < 0.0 {
-        return Err(Refusal::BeyondRounding {
-            arm: contact.normal_radius_driven,
-        });
+        return Err(Refusal::BeyondRounding { arm: contact.normal_radius_driven });
     }
     Ok(Some(Position {
         approach_angle_driver: contact.angle * geometry.ratio,
@@ -269,10 +240,7 @@ mod tests {
             inputs.deflection = Some(deviation);
             let solution = solve(&inputs, Stages::of(Stage::Position)).unwrap();
             let closed = gap(&solution.geometry, &solution.position.unwrap().contact);
-            assert!(
-                (closed / deviation - 1.0).abs() < 1e-9,
-                "{closed:e} closed of {deviation:e}"
-            );
+            assert!((closed / deviation - 1.0).abs() < 1e-9, "{closed:e} closed of {deviation:e}");
         }
     }
 }

@@ -52,10 +52,7 @@ impl Profile {
     #[must_use]
     pub fn cut_by(rack: &Rack, circles: &Circles, rounding: f64) -> Profile {
         let flank = Profile::without_junction(rack, circles, rounding);
-        Profile {
-            junction: flank.find_junction(rack.pressure_angle),
-            ..flank
-        }
+        Profile { junction: flank.find_junction(rack.pressure_angle), ..flank }
     }
 
     /// The profile without the search for the junction, for the involute alone.
@@ -79,11 +76,7 @@ impl Profile {
             rounding: rounding * module,
             centre_depth: (rack.dedendum - rounding - shift) * module,
             centre_offset: (flank_room - rounding * (1.0 - sine) / cosine) * module,
-            junction: Junction {
-                normal: alpha,
-                roll: 0.0,
-                undercut: false,
-            },
+            junction: Junction { normal: alpha, roll: 0.0, undercut: false },
         }
     }
 
@@ -135,9 +128,7 @@ impl Profile {
     /// Radius of the junction: the form circle of the tooth, in m.
     #[must_use]
     pub fn form_radius(&self) -> f64 {
-        self.circles
-            .base
-            .hypot(self.circles.base * self.junction.roll)
+        self.circles.base.hypot(self.circles.base * self.junction.roll)
     }
 
     /// Thickness of the tooth at its tip circle, in m; negative if the flanks meet below.
@@ -172,10 +163,8 @@ impl Profile {
         let reach = self.rounding + depth / sine;
         let reach_slope = -depth * cosine / (sine * sine);
         let (across, up) = (-reach * cosine, radius - reach * sine);
-        let (across_slope, up_slope) = (
-            -reach_slope * cosine + reach * sine,
-            -reach_slope * sine - reach * cosine,
-        );
+        let (across_slope, up_slope) =
+            (-reach_slope * cosine + reach * sine, -reach_slope * sine - reach * cosine);
         let turn = (self.centre_offset - depth * cosine / sine) / radius - self.half_pitch;
         let turn_slope = depth / (sine * sine) / radius;
         let (turn_sine, turn_cosine) = turn.sin_cos();
@@ -209,11 +198,7 @@ impl Profile {
         let roll =
             (self.circles.reference * sine - self.rounding - self.centre_depth / sine) / base;
         if roll >= 0.0 {
-            return Junction {
-                normal: alpha,
-                roll,
-                undercut: false,
-            };
+            return Junction { normal: alpha, roll, undercut: false };
         }
         let normal = self.crossing(alpha);
         let section = self.fillet_at(normal);
@@ -301,11 +286,7 @@ mod tests {
             let flank = profile.involute_at(profile.junction.roll);
             let gap =
                 (fillet.along - flank.along).hypot(fillet.half_thickness - flank.half_thickness);
-            assert!(
-                gap < 1e-9 * module,
-                "{name}: {gap:e} m apart, {:?}",
-                profile.junction
-            );
+            assert!(gap < 1e-9 * module, "{name}: {gap:e} m apart, {:?}", profile.junction);
         }
     }
 
@@ -316,14 +297,7 @@ mod tests {
             .filter(|(_, profile, _)| profile.junction.undercut)
             .map(|(name, ..)| name)
             .collect();
-        assert_eq!(
-            undercut,
-            [
-                "z 9 x 0 alpha 20",
-                "z 12 x -0.2 alpha 20",
-                "z 25 x 0 alpha 14.5"
-            ]
-        );
+        assert_eq!(undercut, ["z 9 x 0 alpha 20", "z 12 x -0.2 alpha 20", "z 25 x 0 alpha 14.5"]);
     }
 
     #[test]

@@ -110,19 +110,11 @@ pub struct Variant {
 
 impl Variant {
     const fn meaning(when: When, meaning: &'static str) -> Variant {
-        Variant {
-            when,
-            meaning,
-            assumptions: None,
-        }
+        Variant { when, meaning, assumptions: None }
     }
 
     const fn words(when: When, meaning: &'static str, assumptions: &'static str) -> Variant {
-        Variant {
-            when,
-            meaning,
-            assumptions: Some(assumptions),
-        }
+        Variant { when, meaning, assumptions: Some(assumptions) }
     }
 }
 
@@ -144,21 +136,13 @@ impl Quantity {
     /// The symbol in a method. It differs from the closed form if the definition differs.
     #[must_use]
     pub fn symbol_in(&self, method: Method) -> &'static str {
-        if self.leaves_reliefs_out(method) {
-            "Δf_0"
-        } else {
-            self.symbol
-        }
+        if self.leaves_reliefs_out(method) { "Δf_0" } else { self.symbol }
     }
 
     /// The label in a method.
     #[must_use]
     pub fn label_in(&self, method: Method) -> &'static str {
-        if self.leaves_reliefs_out(method) {
-            "error without reliefs"
-        } else {
-            self.label
-        }
+        if self.leaves_reliefs_out(method) { "error without reliefs" } else { self.label }
     }
 
     // `static` and `dynamic` apply the reliefs to the flanks and exclude them from Δf.
@@ -169,16 +153,13 @@ impl Quantity {
     /// Meaning and use of the quantity in a case with these inputs.
     #[must_use]
     pub fn meaning_in(&self, inputs: &Inputs) -> &'static str {
-        self.variant(inputs)
-            .map_or(self.meaning, |variant| variant.meaning)
+        self.variant(inputs).map_or(self.meaning, |variant| variant.meaning)
     }
 
     /// The assumptions of the formula in a case with these inputs.
     #[must_use]
     pub fn assumptions_in(&self, inputs: &Inputs) -> &'static str {
-        self.variant(inputs)
-            .and_then(|variant| variant.assumptions)
-            .unwrap_or(self.assumptions)
+        self.variant(inputs).and_then(|variant| variant.assumptions).unwrap_or(self.assumptions)
     }
 
     fn variant(&self, inputs: &Inputs) -> Option<&'static Variant> {
@@ -214,9 +195,7 @@ impl Quantity {
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Quantity> {
         let has_symbol = |quantity: &&Quantity| {
-            let mut symbols = Method::ALL
-                .map(|method| quantity.symbol_in(method))
-                .into_iter();
+            let mut symbols = Method::ALL.map(|method| quantity.symbol_in(method)).into_iter();
             symbols.any(|symbol| symbol == name)
         };
         Quantity::find(name).or_else(|| QUANTITIES.iter().find(has_symbol))
@@ -332,11 +311,7 @@ mod tests {
                 stem(theirs) != stem(symbol) && stem(theirs).eq_ignore_ascii_case(stem(symbol))
             };
             assert_eq!(symbols.iter().find(clash), None, "{key} {symbol}");
-            assert_eq!(
-                Quantity::named(symbol).map(|found| found.key),
-                Some(*key),
-                "{symbol}"
-            );
+            assert_eq!(Quantity::named(symbol).map(|found| found.key), Some(*key), "{symbol}");
         }
     }
 }

@@ -40,11 +40,7 @@ impl Inputs {
             tip_length: gear.tip_relief_length,
             root_length: gear.root_relief_length,
         };
-        Reliefs {
-            shape: self.relief_shape,
-            driver: of(&self.driver),
-            driven: of(&self.driven),
-        }
+        Reliefs { shape: self.relief_shape, driver: of(&self.driver), driven: of(&self.driven) }
     }
 }
 
@@ -62,34 +58,19 @@ pub(super) fn check_reliefs(inputs: &Inputs, geometry: &Geometry) -> Result<(), 
     /// No tooth is thinner, in modules.
     const SMALL: f64 = 0.1;
     let gears = [
-        (
-            &inputs.driver,
-            &geometry.driver,
-            ["driver.tip_relief", "driver.root_relief"],
-        ),
-        (
-            &inputs.driven,
-            &geometry.driven,
-            ["driven.tip_relief", "driven.root_relief"],
-        ),
+        (&inputs.driver, &geometry.driver, ["driver.tip_relief", "driver.root_relief"]),
+        (&inputs.driven, &geometry.driven, ["driven.tip_relief", "driven.root_relief"]),
     ];
     for (gear, circles, keys) in gears {
         let reliefs = [gear.tip_relief, gear.root_relief];
-        if reliefs
-            .iter()
-            .all(|relief| *relief <= SMALL * inputs.module)
-        {
+        if reliefs.iter().all(|relief| *relief <= SMALL * inputs.module) {
             continue;
         }
         let (angle, tangent) = (inputs.pressure_angle, inputs.pressure_angle.tan());
         let at_reference = (FRAC_PI_2 + 2.0 * gear.profile_shift * tangent) / f64::from(gear.teeth);
         let half = circles.base * (at_reference + tangent - angle);
         if let Some((field, relief)) = keys.into_iter().zip(reliefs).find(|one| one.1 >= half) {
-            return Err(Refusal::ReliefTooLarge {
-                field,
-                relief,
-                half,
-            });
+            return Err(Refusal::ReliefTooLarge { field, relief, half });
         }
     }
     Ok(())
@@ -131,16 +112,8 @@ impl Relief {
             let tip_length = gear.tip_length.unwrap_or(usual);
             let root_length = gear.root_length.unwrap_or(usual);
             [
-                Ramp {
-                    amount: gear.tip,
-                    full: tip,
-                    none: tip - tip_length,
-                },
-                Ramp {
-                    amount: gear.root,
-                    full: root,
-                    none: root + root_length,
-                },
+                Ramp { amount: gear.tip, full: tip, none: tip - tip_length },
+                Ramp { amount: gear.root, full: root, none: root + root_length },
             ]
         };
         let (start, end, length) = (geometry.start, geometry.end, geometry.tangent_length);
@@ -164,10 +137,7 @@ impl Relief {
     #[must_use]
     pub fn at(&self, driver: f64, driven: f64) -> f64 {
         let sum = |ramps: &[Ramp; 2], curvature: f64| -> f64 {
-            ramps
-                .iter()
-                .map(|ramp| ramp.at(curvature, self.shape))
-                .sum()
+            ramps.iter().map(|ramp| ramp.at(curvature, self.shape)).sum()
         };
         sum(&self.driver, driver) + sum(&self.driven, driven)
     }
@@ -193,19 +163,12 @@ impl Relief {
     /// Upper bound of the relief of both flanks together, in m.
     #[must_use]
     pub fn most(&self) -> f64 {
-        self.driver
-            .iter()
-            .chain(&self.driven)
-            .map(|ramp| ramp.amount)
-            .sum()
+        self.driver.iter().chain(&self.driven).map(|ramp| ramp.amount).sum()
     }
 }
 
 fn ends(ramps: &[Ramp; 2]) -> impl Iterator<Item = f64> {
-    ramps
-        .iter()
-        .filter(|ramp| ramp.amount > 0.0)
-        .flat_map(|ramp| [ramp.none, ramp.full])
+    ramps.iter().filter(|ramp| ramp.amount > 0.0).flat_map(|ramp| [ramp.none, ramp.full])
 }
 
 impl Ramp {

@@ -16,9 +16,7 @@ impl ResonanceInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> ResonanceInputs {
-        ResonanceInputs {
-            speed: inputs.speed,
-        }
+        ResonanceInputs { speed: inputs.speed }
     }
 }
 

@@ -64,10 +64,7 @@ pub fn speeds(
     inputs: &Inputs,
     show: &mut dyn FnMut(&SpeedCurve) -> bool,
 ) -> Result<SpeedCurve, Refusal> {
-    let inputs = Inputs {
-        method: Method::Dynamic,
-        ..inputs.clone()
-    };
+    let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
     let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
     over_speed(&inputs, &solution, show)
 }

@@ -23,9 +23,7 @@ impl Spacing {
     /// The spacing of the case.
     #[must_use]
     pub fn of(inputs: &Inputs) -> Spacing {
-        inputs
-            .stations
-            .map_or(Spacing::AsNeeded(inputs.station_tolerance), Spacing::Even)
+        inputs.stations.map_or(Spacing::AsNeeded(inputs.station_tolerance), Spacing::Even)
     }
 
     /// The values of `at` at the stations from the first to the last of `ends`, including both.
@@ -76,11 +74,7 @@ impl Spacing {
             Spacing::Even(count) => {
                 let count = count.max(1);
                 let place = |step| {
-                    if step == count {
-                        to
-                    } else {
-                        from + (to - from) * step as f64 / count as f64
-                    }
+                    if step == count { to } else { from + (to - from) * step as f64 / count as f64 }
                 };
                 (0..=count).map(|step| at(place(step)).1).for_each(keep);
                 Resolution::Full
@@ -103,11 +97,7 @@ impl Resolution {
     /// The resolution of two parts of a curve together.
     #[must_use]
     pub fn and(self, other: Resolution) -> Resolution {
-        if self == Resolution::Full {
-            other
-        } else {
-            self
-        }
+        if self == Resolution::Full { other } else { self }
     }
 
     /// The reason for missing stations.
@@ -129,9 +119,7 @@ mod tests {
     const MOST: usize = 40_000;
 
     fn places(spacing: Spacing, ends: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
-        spacing
-            .stations(ends, 1.0, MOST, |place| (f(place), place))
-            .0
+        spacing.stations(ends, 1.0, MOST, |place| (f(place), place)).0
     }
 
     /// The greatest distance of the curve from the straight lines between the places.
@@ -149,18 +137,12 @@ mod tests {
 
     #[test]
     fn even_places_include_both_ends() {
-        assert_eq!(
-            places(Spacing::Even(4), &[0.0, 1.2, 2.0], |_| 0.0),
-            [0.0, 0.5, 1.0, 1.5, 2.0]
-        );
+        assert_eq!(places(Spacing::Even(4), &[0.0, 1.2, 2.0], |_| 0.0), [0.0, 0.5, 1.0, 1.5, 2.0]);
     }
 
     #[test]
     fn a_straight_curve_needs_only_its_ends() {
-        assert_eq!(
-            places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x),
-            [2.0, 0.0]
-        );
+        assert_eq!(places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x), [2.0, 0.0]);
     }
 
     #[test]
@@ -169,17 +151,11 @@ mod tests {
             ("an arch", |x| x * (2.0 - x)),
             ("a swing", |x| (3.0 * x).sin()),
             ("a bend just after the beginning", |x| {
-                if x < 0.04 {
-                    10.0 * x
-                } else {
-                    0.4 + 0.1 * (x - 0.04)
-                }
+                if x < 0.04 { 10.0 * x } else { 0.4 + 0.1 * (x - 0.04) }
             }),
             ("a bend", |x| (x - 1.23).abs()),
             ("a steep beginning", |x: f64| (0.5 * x).powf(0.75)),
-            ("a decaying oscillation", |x| {
-                (40.0 * x).sin() * (-3.0 * x).exp()
-            }),
+            ("a decaying oscillation", |x| (40.0 * x).sin() * (-3.0 * x).exp()),
         ];
         for (name, curve) in curves {
             for tolerance in [1e-1, 1e-2, 1e-3, 1e-4] {
@@ -214,19 +190,14 @@ mod tests {
 
     #[test]
     fn the_highest_place_is_a_station() {
-        let found = places(Spacing::AsNeeded(0.1), &[0.0, 0.3, 2.0], |x| {
-            1.0 - (x - 0.3).powi(2)
-        });
+        let found = places(Spacing::AsNeeded(0.1), &[0.0, 0.3, 2.0], |x| 1.0 - (x - 0.3).powi(2));
         assert!(found.contains(&0.3), "{found:?}");
     }
 
     #[test]
     fn an_infinitely_curved_function_stays_within_its_budget() {
         let rough = |x: f64| (1e9 * x).sin();
-        for ends in [
-            vec![0.0, 2.0],
-            (0..=100_000).map(|end| 2e-5 * f64::from(end)).collect(),
-        ] {
+        for ends in [vec![0.0, 2.0], (0..=100_000).map(|end| 2e-5 * f64::from(end)).collect()] {
             let mut looks = 0;
             let at = |place: f64| {
                 looks += 1;
@@ -239,9 +210,7 @@ mod tests {
         }
         let curve = |x: f64| (x.sin(), x);
         assert_eq!(
-            Spacing::AsNeeded(1e-3)
-                .stations(&[0.0, 2.0], 1.0, MOST, curve)
-                .1,
+            Spacing::AsNeeded(1e-3).stations(&[0.0, 2.0], 1.0, MOST, curve).1,
             Resolution::Full
         );
     }

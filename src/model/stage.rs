@@ -105,15 +105,13 @@ impl Stage {
             Stage::Mesh => geometry.with(Stage::Load).with(Stage::Deviation),
             Stage::Static | Stage::StaticSpectrum => Stages::NONE.with(Stage::Mesh),
             // The explanations show the natural frequency.
-            Stage::Dynamic => Stages::NONE
-                .with(Stage::Mesh)
-                .with(Stage::Masses)
-                .with(Stage::Resonance),
+            Stage::Dynamic => {
+                Stages::NONE.with(Stage::Mesh).with(Stage::Masses).with(Stage::Resonance)
+            }
             Stage::Resonance => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
-            Stage::SpeedRun => Stages::NONE
-                .with(Stage::Mesh)
-                .with(Stage::Masses)
-                .with(Stage::Resonance),
+            Stage::SpeedRun => {
+                Stages::NONE.with(Stage::Mesh).with(Stage::Masses).with(Stage::Resonance)
+            }
             // A quantity divides by the static force.
             Stage::SteadyMotion => Stages::NONE
                 .with(Stage::Mesh)
@@ -128,14 +126,10 @@ impl Stage {
                 .with(Stage::Static)
                 .with(Stage::Dynamic),
             Stage::Velocity | Stage::Compliance => geometry.with(Stage::Position),
-            Stage::Impact => pair
-                .with(Stage::Position)
-                .with(Stage::Velocity)
-                .with(Stage::Compliance),
-            Stage::Friction => pair
-                .with(Stage::Position)
-                .with(Stage::Velocity)
-                .with(Stage::Impact),
+            Stage::Impact => {
+                pair.with(Stage::Position).with(Stage::Velocity).with(Stage::Compliance)
+            }
+            Stage::Friction => pair.with(Stage::Position).with(Stage::Velocity).with(Stage::Impact),
             Stage::Band => pair.with(Stage::Deviation).with(Stage::Impact),
             Stage::Stations => pair.with(Stage::Position).with(Stage::Impact),
         }
@@ -163,9 +157,8 @@ impl Stages {
     /// Every stage of the methods `paper` and `exact` except the required relief.
     pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
     /// The stages that compute stations, in their methods.
-    pub const STATIONS: Stages = Stages::of(Stage::Stations)
-        .and(Stages::of(Stage::Static))
-        .with(Stage::Dynamic);
+    pub const STATIONS: Stages =
+        Stages::of(Stage::Stations).and(Stages::of(Stage::Static)).with(Stage::Dynamic);
     /// Every stage except the motion over the speed, which takes a hundred times as long as the
     /// others.
     pub const EVERY: Stages = Stages::ALL

@@ -31,10 +31,7 @@ impl StaticInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> StaticInputs {
-        StaticInputs {
-            speed: inputs.speed,
-            spacing: Spacing::of(inputs),
-        }
+        StaticInputs { speed: inputs.speed, spacing: Spacing::of(inputs) }
     }
 }
 
@@ -208,9 +205,7 @@ fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<Place> {
     let borders = mesh.borders(from, to);
     let between = |ends: &[f64]| {
         let (from, to, length) = (ends[0], ends[1], ends[1] - ends[0]);
-        let samples = (SAMPLES * length / mesh.base_pitch)
-            .ceil()
-            .max(LEAST_SAMPLES) as usize;
+        let samples = (SAMPLES * length / mesh.base_pitch).ceil().max(LEAST_SAMPLES) as usize;
         let beside = BESIDE * length;
         (0..=samples).map(move |step| {
             let s = from + length * step as f64 / samples as f64;
@@ -244,9 +239,7 @@ pub fn lead_after_end(mesh: &Mesh) -> Result<f64, Refusal> {
 /// The greatest lead of the incoming pair between an end of the mesh and a place, in m.
 fn greatest_lead(mesh: &Mesh, end: f64, to: f64) -> Result<f64, Refusal> {
     let places = grid(mesh, end.min(to), end.max(to)).into_iter();
-    let leads: Vec<_> = places
-        .map(|place| (place.0, lead_of(mesh, 0, place)))
-        .collect();
+    let leads: Vec<_> = places.map(|place| (place.0, lead_of(mesh, 0, place))).collect();
     let is_clear = lead(mesh, end) <= 0.0;
     let found = is_clear.then(|| greatest(&leads, |s| lead(mesh, s)).1);
     found.ok_or(Refusal::BeyondReach)
@@ -341,11 +334,7 @@ fn with_bends(mesh: &Mesh, balances: &[(Place, Balance)]) -> Vec<(Place, Balance
             let is_between = |bend: &Place| before.0 < bend.0 && bend.0 < place.0;
             let mut bends: Vec<Place> = changes.map(bend).filter(is_between).collect();
             bends.sort_by(|one, other| one.0.total_cmp(&other.0));
-            all.extend(
-                bends
-                    .into_iter()
-                    .map(|(s, side)| ((s, side), balance(mesh, s, side))),
-            );
+            all.extend(bends.into_iter().map(|(s, side)| ((s, side), balance(mesh, s, side))));
         }
         all.push((*place, *here));
     }
@@ -354,10 +343,8 @@ fn with_bends(mesh: &Mesh, balances: &[(Place, Balance)]) -> Vec<(Place, Balance
 
 /// The greatest value over the contact, of which `balances` has both ends.
 fn peak(mesh: &Mesh, balances: &[(Place, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
-    let known: Vec<(f64, f64)> = balances
-        .iter()
-        .map(|((s, _), balance)| (*s, value(balance)))
-        .collect();
+    let known: Vec<(f64, f64)> =
+        balances.iter().map(|((s, _), balance)| (*s, value(balance))).collect();
     greatest(&known, |s| value(&balance(mesh, s, s))).1
 }
 
@@ -384,14 +371,7 @@ fn stations(
             let balance = balance(mesh, s, inside);
             (
                 balance.force,
-                MeshStation::at(
-                    mesh,
-                    s,
-                    balance.force,
-                    balance.total,
-                    balance.displacement,
-                    None,
-                ),
+                MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None),
             )
         })
     })

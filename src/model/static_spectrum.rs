@@ -61,10 +61,7 @@ pub fn static_spectrum(mesh: &Mesh) -> Result<StaticSpectrum, Refusal> {
             tooth_force = tooth_force.max(peak((from, to), force).1);
         }
     }
-    Ok(StaticSpectrum {
-        spectrum: fourier.spectrum(1),
-        tooth_force,
-    })
+    Ok(StaticSpectrum { spectrum: fourier.spectrum(1), tooth_force })
 }
 
 /// The greatest value of a smooth function and its place.
@@ -86,9 +83,8 @@ fn pieces(mesh: &Mesh, (from, to): (f64, f64), inside: f64) -> Vec<f64> {
         let carries = carries.filter(|(_, force)| *force > 0.0);
         carries.map(|(pair, _)| pair.ahead).collect::<Vec<i32>>()
     };
-    let places: Vec<f64> = (0..=LOOKS)
-        .map(|step| from + (to - from) * step as f64 / LOOKS as f64)
-        .collect();
+    let places: Vec<f64> =
+        (0..=LOOKS).map(|step| from + (to - from) * step as f64 / LOOKS as f64).collect();
     let sets: Vec<Vec<i32>> = places.iter().map(|&s| touching(s)).collect();
     let mut cuts = vec![from, to];
     for (ends, sets) in places.windows(2).zip(sets.windows(2)) {

@@ -160,12 +160,7 @@ pub fn stations(
     };
     let at = |angle: f64| {
         let station = station(inputs, geometry, &teeth, masses, angle);
-        (
-            station
-                .as_ref()
-                .map_or(f64::NAN, |station| station.impact_force),
-            station,
-        )
+        (station.as_ref().map_or(f64::NAN, |station| station.impact_force), station)
     };
     let resolution = inputs.spacing.walk(
         &[position.approach_angle_driven, 0.0],
@@ -197,14 +192,7 @@ pub fn station(
         let place = inputs.impact.compliance.place(geometry, &tip);
         let (teeth, spring) = (teeth.at(&place)?, teeth.spring(&place)?);
         let elastic = (&teeth, &spring);
-        Some(impact(
-            &inputs.impact,
-            geometry,
-            masses,
-            &tip,
-            elastic,
-            &velocity,
-        )?)
+        Some(impact(&inputs.impact, geometry, masses, &tip, elastic, &velocity)?)
     } else {
         None
     };

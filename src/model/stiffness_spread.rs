@@ -81,10 +81,7 @@ impl StiffnessModels {
     /// The models of a pair whose case names no tooth compliance.
     #[must_use]
     pub fn by_default(inputs: &Inputs) -> StiffnessModels {
-        StiffnessModels::of(&Inputs {
-            tooth_compliance: None,
-            ..inputs.clone()
-        })
+        StiffnessModels::of(&Inputs { tooth_compliance: None, ..inputs.clone() })
     }
 
     /// Every tooth model with every contact model that it needs.
@@ -93,9 +90,7 @@ impl StiffnessModels {
             let own = tooth.has_contact.then_some(None);
             let others = contact::MODELS.map(Some);
             let others = others.into_iter().filter(|_| !tooth.has_contact);
-            own.into_iter()
-                .chain(others)
-                .map(move |contact| StiffnessModels { tooth, contact })
+            own.into_iter().chain(others).map(move |contact| StiffnessModels { tooth, contact })
         })
     }
 
@@ -104,8 +99,7 @@ impl StiffnessModels {
         let covers = tooth::MODELS.map(|model| (model.covers)(inputs));
         let covering = move |models: &StiffnessModels| {
             let all = tooth::MODELS.iter().zip(covers);
-            all.into_iter()
-                .any(|(model, covers)| covers && model.name == models.tooth.name)
+            all.into_iter().any(|(model, covers)| covers && model.name == models.tooth.name)
         };
         StiffnessModels::all().filter(covering)
     }
@@ -113,9 +107,9 @@ impl StiffnessModels {
     /// The inputs with these models.
     #[must_use]
     pub fn in_place_of(&self, inputs: &Inputs) -> Inputs {
-        let contact = self.contact.map_or(inputs.contact_compliance, |contact| {
-            ContactCompliance::named(contact.name)
-        });
+        let contact = self
+            .contact
+            .map_or(inputs.contact_compliance, |contact| ContactCompliance::named(contact.name));
         Inputs {
             tooth_compliance: Some(ToothCompliance::named(self.tooth.name)),
             contact_compliance: contact,
@@ -126,18 +120,15 @@ impl StiffnessModels {
     /// The symbol of the impact force by these models.
     #[must_use]
     pub fn symbol(&self) -> String {
-        let contact = self
-            .contact
-            .map_or(String::new(), |contact| format!(",{}", contact.index));
+        let contact = self.contact.map_or(String::new(), |contact| format!(",{}", contact.index));
         format!("F_{}{contact}", self.tooth.index)
     }
 
     /// The names of the models.
     #[must_use]
     pub fn names(&self) -> String {
-        let contact = self
-            .contact
-            .map_or(String::new(), |contact| format!(" and {}", contact.name));
+        let contact =
+            self.contact.map_or(String::new(), |contact| format!(" and {}", contact.name));
         format!("{}{contact}", self.tooth.name)
     }
 }
@@ -148,16 +139,8 @@ impl StiffnessModels {
 /// has no result.
 #[must_use]
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
-    StiffnessModels::others(inputs)
-        .filter_map(|models| solved(&models.in_place_of(inputs)))
-        .fold(
-            Band {
-                low: force,
-                high: force,
-            },
-            |band, force| Band {
-                low: band.low.min(force),
-                high: band.high.max(force),
-            },
-        )
+    StiffnessModels::others(inputs).filter_map(|models| solved(&models.in_place_of(inputs))).fold(
+        Band { low: force, high: force },
+        |band, force| Band { low: band.low.min(force), high: band.high.max(force) },
+    )
 }

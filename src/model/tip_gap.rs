@@ -76,14 +76,9 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
 
     let from = geometry.start_point;
     let chord = Vector2::new(middle_sine, middle_cosine) * chord_length;
-    let polar = Turn {
-        along: from.dot(&from) + from.dot(&chord),
-        across: from.perp(&chord),
-    };
-    let flank = Turn {
-        along: base * base + centre_curvature * start,
-        across: base * curvature_growth,
-    };
+    let polar = Turn { along: from.dot(&from) + from.dot(&chord), across: from.perp(&chord) };
+    let flank =
+        Turn { along: base * base + centre_curvature * start, across: base * curvature_growth };
     let normal = polar.and(&flank);
 
     let normal_turn = normal.angle();
@@ -173,9 +168,7 @@ pub(super) fn gap_without(loss: f64, geometry: &Geometry, tip: &TipContact) -> f
 
 /// The largest term of the gap in closed form, in m, to within a factor of 2.
 pub(super) fn largest_term(geometry: &Geometry, tip: &TipContact) -> f64 {
-    tip.curvature_growth
-        .abs()
-        .max(geometry.driven.base * tip.angle)
+    tip.curvature_growth.abs().max(geometry.driven.base * tip.angle)
 }
 
 /// Normal gap S(u), in m, as the integral of dS/du = r_b2 − r_b2', without cancellation.
@@ -219,11 +212,7 @@ pub fn angle_by_growth(geometry: &Geometry, grown_square: f64) -> f64 {
     let [[sine, cosine]] = geometry.start_direction_driven.data.0;
     let risen = fallen * (2.0 * cosine - fallen);
     let end_sine = (sine * sine + risen).sqrt();
-    let sine_growth = if sine > 0.0 {
-        risen / (end_sine + sine)
-    } else {
-        end_sine - sine
-    };
+    let sine_growth = if sine > 0.0 { risen / (end_sine + sine) } else { end_sine - sine };
     (cosine * sine_growth + fallen * sine).atan2(cosine * (cosine - fallen) + sine * end_sine)
 }
 
@@ -240,11 +229,8 @@ pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
     let (sine, cosine) = tip.polar_angle.sin_cos();
     moved.start_direction_driven = Vector2::new(sine, cosine);
     moved.working_pressure_angle += tip.normal_turn;
-    moved.start_point = foot(
-        geometry.driver.base,
-        moved.start + moved.driven.edge,
-        moved.working_pressure_angle,
-    );
+    moved.start_point =
+        foot(geometry.driver.base, moved.start + moved.driven.edge, moved.working_pressure_angle);
     moved
 }
 

@@ -14,9 +14,7 @@ impl VelocityInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> VelocityInputs {
-        VelocityInputs {
-            driven_speed: inputs.driven_speed(),
-        }
+        VelocityInputs { driven_speed: inputs.driven_speed() }
     }
 }
 

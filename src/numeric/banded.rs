@@ -113,9 +113,8 @@ mod tests {
             for row in &mut rows {
                 row[0] += 1.0;
             }
-            let expected: Vec<[f64; 2]> = (0..size)
-                .map(|at| [1.0 + at as f64, (at as f64).cos()])
-                .collect();
+            let expected: Vec<[f64; 2]> =
+                (0..size).map(|at| [1.0 + at as f64, (at as f64).cos()]).collect();
             let entry = |row: usize, column: usize| {
                 let (low, high) = (row.min(column), row.max(column));
                 rows[high].get(high - low).copied().unwrap_or(0.0)
@@ -123,9 +122,7 @@ mod tests {
             let mut right: Vec<[f64; 2]> = (0..size)
                 .map(|row| {
                     std::array::from_fn(|side| {
-                        (0..size)
-                            .map(|column| entry(row, column) * expected[column][side])
-                            .sum()
+                        (0..size).map(|column| entry(row, column) * expected[column][side]).sum()
                     })
                 })
                 .collect();
@@ -159,10 +156,7 @@ mod tests {
         for row in &mut one {
             row[0] += 1.0;
         }
-        let other: Vec<[f64; 4]> = one
-            .iter()
-            .map(|row| [3.0 + row[0], 0.5, 0.2, 0.1])
-            .collect();
+        let other: Vec<[f64; 4]> = one.iter().map(|row| [3.0 + row[0], 0.5, 0.2, 0.1]).collect();
         let beside = |(one, other): (&[f64; 4], &[f64; 4])| -> [Lanes<2>; 4] {
             std::array::from_fn(|at| Lanes([one[at], other[at]]))
         };

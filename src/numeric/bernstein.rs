@@ -30,21 +30,12 @@ impl<const N: usize> Bernstein<N> {
     pub fn of(polynomial: &Polynomial<N>) -> Bernstein<N> {
         const { assert!(N.is_multiple_of(SIDE_BY_SIDE), "multiple of four terms") };
         let (terms, mut form) = (polynomial.terms(), [0.0; N]);
-        for (part, sums) in form
-            .as_chunks_mut::<SIDE_BY_SIDE>()
-            .0
-            .iter_mut()
-            .enumerate()
-        {
-            for (coefficient, weights) in terms
-                .iter()
-                .zip(Self::WEIGHTS)
-                .take(SIDE_BY_SIDE * (part + 1))
+        for (part, sums) in form.as_chunks_mut::<SIDE_BY_SIDE>().0.iter_mut().enumerate() {
+            for (coefficient, weights) in
+                terms.iter().zip(Self::WEIGHTS).take(SIDE_BY_SIDE * (part + 1))
             {
                 let weights = &weights.as_chunks::<SIDE_BY_SIDE>().0[part];
-                sums.iter_mut()
-                    .zip(weights)
-                    .for_each(|(sum, weight)| *sum += coefficient * weight);
+                sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += coefficient * weight);
             }
         }
         Bernstein(form)
@@ -53,11 +44,9 @@ impl<const N: usize> Bernstein<N> {
     /// A lower and an upper bound of the values from 0 to 1.
     #[must_use]
     pub fn bounds(&self) -> (f64, f64) {
-        self.0
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
-                (low.min(value), high.max(value))
-            })
+        self.0.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
+            (low.min(value), high.max(value))
+        })
     }
 
     /// The forms on the first and the second half of the interval, by de Casteljau's algorithm.
@@ -186,9 +175,8 @@ impl<const N: usize> Search<'_, N> {
         let Some(first) = signs.next() else {
             return (false, 0, *self.sign);
         };
-        let (inside, last) = signs.fold((0, first), |(inside, last), sign| {
-            (inside + usize::from(sign != last), sign)
-        });
+        let (inside, last) = signs
+            .fold((0, first), |(inside, last), sign| (inside + usize::from(sign != last), sign));
         (*self.sign == -first, inside, last)
     }
 }
@@ -209,9 +197,7 @@ mod tests {
     fn with_roots<const N: usize>(factor: f64, roots: &[f64]) -> Polynomial<N> {
         let mut product = Polynomial::ZERO;
         product.0[0] = factor;
-        roots.iter().fold(product, |product, root| {
-            product.times(&Polynomial([-root, 1.0]))
-        })
+        roots.iter().fold(product, |product, root| product.times(&Polynomial([-root, 1.0])))
     }
 
     #[test]
@@ -219,10 +205,7 @@ mod tests {
         let cases: [(&[f64], &[f64]); 6] = [
             (&[-0.3, 1.2, 5.0], &[]),
             (&[0.25], &[0.25]),
-            (
-                &[0.5, 0.5 + 1e-5, 0.75, -2.0, 1.001],
-                &[0.5, 0.5 + 1e-5, 0.75],
-            ),
+            (&[0.5, 0.5 + 1e-5, 0.75, -2.0, 1.001], &[0.5, 0.5 + 1e-5, 0.75]),
             (&[0.1, 0.3, 0.3, 0.9, 0.95, 0.97], &[0.1, 0.9, 0.95, 0.97]),
             (&[0.5, 0.5, 0.5], &[0.5]),
             (&[0.4, 0.6, 0.4 + 1e-12], &[0.6]),
@@ -247,10 +230,7 @@ mod tests {
         assert!((first_fall(&dip).unwrap() - 0.3).abs() < 1e-10);
         let touches = with_roots::<12>(1.0, &[0.4, 0.4]).plus(1e-9, &Polynomial([1.0]));
         assert_eq!(first_fall(&touches), None);
-        assert_eq!(
-            first_fall(&with_roots::<12>(1.0, &[0.25, 2.0]).scaled(-1.0)),
-            Some(0.0)
-        );
+        assert_eq!(first_fall(&with_roots::<12>(1.0, &[0.25, 2.0]).scaled(-1.0)), Some(0.0));
         assert_eq!(first_fall(&with_roots::<12>(1.0, &[-1.0, -0.1])), None);
         let late = first_fall(&with_roots::<12>(1.0, &[0.999, 1.5])).unwrap();
         assert!((late - 0.999).abs() < 1e-12, "{late}");
@@ -286,10 +266,7 @@ mod tests {
         let (low, high) = Bernstein::of(&polynomial).bounds();
         for step in 0..=100 {
             let value = polynomial.at(0.01 * f64::from(step));
-            assert!(
-                value >= low && value <= high,
-                "{value} beyond {low} and {high}"
-            );
+            assert!(value >= low && value <= high, "{value} beyond {low} and {high}");
         }
     }
 }

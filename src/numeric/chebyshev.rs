@@ -77,9 +77,7 @@ impl<const N: usize> Series<N> {
     /// The values of the first `M` functions at `x`. `x` may be beyond the interval by rounding.
     #[must_use]
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
-        self.piece(x).map_or([f64::NAN; M], |piece| {
-            values(&piece.powers, 0, piece.inner(x))
-        })
+        self.piece(x).map_or([f64::NAN; M], |piece| values(&piece.powers, 0, piece.inner(x)))
     }
 
     /// The values of `M` functions, from `first` on, at several places.
@@ -107,21 +105,20 @@ impl<const N: usize> Series<N> {
     /// serves from `x` up by [`Series::serves_until`].
     #[must_use]
     pub fn bounds(&self, function: usize, (x, least): (f64, f64)) -> (f64, f64) {
-        self.piece_above(x, least)
-            .map_or((f64::NEG_INFINITY, f64::INFINITY), |piece| {
-                let middle = piece.powers[0][function];
-                let varying = piece.powers[1..].iter();
-                let varying: f64 = varying.map(|terms| terms[function].abs()).sum();
-                (middle - varying, middle + varying)
-            })
+        self.piece_above(x, least).map_or((f64::NEG_INFINITY, f64::INFINITY), |piece| {
+            let middle = piece.powers[0][function];
+            let varying = piece.powers[1..].iter();
+            let varying: f64 = varying.map(|terms| terms[function].abs()).sum();
+            (middle - varying, middle + varying)
+        })
     }
 
     /// The value of one function at `x`.
     #[must_use]
     pub fn one(&self, function: usize, x: f64) -> f64 {
-        let [value] = self.piece(x).map_or([f64::NAN], |piece| {
-            values(&piece.powers, function, piece.inner(x))
-        });
+        let [value] = self
+            .piece(x)
+            .map_or([f64::NAN], |piece| values(&piece.powers, function, piece.inner(x)));
         value
     }
 
@@ -131,9 +128,7 @@ impl<const N: usize> Series<N> {
         self.piece(x).map_or(f64::NAN, |piece| {
             let t = piece.inner(x);
             let terms = piece.powers.iter().enumerate().skip(1).rev();
-            terms.fold(0.0, |sum, (power, terms)| {
-                sum * t + power as f64 * terms[function]
-            }) * 2.0
+            terms.fold(0.0, |sum, (power, terms)| sum * t + power as f64 * terms[function]) * 2.0
                 / (piece.to - piece.from)
         })
     }
@@ -147,15 +142,14 @@ impl<const N: usize> Series<N> {
         (x, least): (f64, f64),
         length: f64,
     ) -> [Polynomial<TERMS>; M] {
-        self.piece_above(x, least)
-            .map_or([Polynomial([f64::NAN; TERMS]); M], |piece| {
-                let scale = 2.0 * length / (piece.to - piece.from);
-                let mut functions = about(&piece.powers, first, piece.inner(x));
-                for function in &mut functions {
-                    function.stretch(scale);
-                }
-                functions
-            })
+        self.piece_above(x, least).map_or([Polynomial([f64::NAN; TERMS]); M], |piece| {
+            let scale = 2.0 * length / (piece.to - piece.from);
+            let mut functions = about(&piece.powers, first, piece.inner(x));
+            for function in &mut functions {
+                function.stretch(scale);
+            }
+            functions
+        })
     }
 
     /// End of the piece used from `x` on. A piece with less than `least` left is skipped. Infinite
@@ -172,9 +166,7 @@ impl<const N: usize> Series<N> {
     #[must_use]
     pub fn reversed(&self, about: f64, signs: [f64; N]) -> Series<N> {
         let pieces = self.pieces.iter().rev();
-        Series {
-            pieces: pieces.map(|piece| piece.reversed(about, signs)).collect(),
-        }
+        Series { pieces: pieces.map(|piece| piece.reversed(about, signs)).collect() }
     }
 
     /// The start of the first piece.
@@ -235,11 +227,7 @@ impl<const N: usize> Piece<N> {
                 *term *= turned * sign;
             }
         }
-        Piece {
-            from: about - self.to,
-            to: about - self.from,
-            powers,
-        }
+        Piece { from: about - self.to, to: about - self.from, powers }
     }
 
     /// Maps `x` to the piece from −1 to 1. Rounding can put `x` beyond an end of a narrow piece;
@@ -261,11 +249,7 @@ fn halve<const N: usize, E>(
     let terms = interpolate(from, to, f)?;
     let middle = f64::midpoint(from, to);
     if may_not_halve((from, to), halvings, pieces.len()) || has_settled(&terms, &rest(from, to)) {
-        pieces.push(Piece {
-            from,
-            to,
-            powers: powers(&terms),
-        });
+        pieces.push(Piece { from, to, powers: powers(&terms) });
         return Ok(());
     }
     halve(from, middle, rest, halvings - 1, f, pieces)?;
@@ -286,17 +270,10 @@ fn halve_groups<const N: usize>(
     }
     let middle = f64::midpoint(from, to);
     let pieces = groups.first().map_or(0, |group| group.pieces.len());
-    let has_settled = terms
-        .iter()
-        .zip(rest)
-        .all(|(terms, rest)| has_settled(terms, rest));
+    let has_settled = terms.iter().zip(rest).all(|(terms, rest)| has_settled(terms, rest));
     if has_settled || may_not_halve((from, to), halvings, pieces) {
         for (group, terms) in groups.iter_mut().zip(&terms) {
-            group.pieces.push(Piece {
-                from,
-                to,
-                powers: powers(terms),
-            });
+            group.pieces.push(Piece { from, to, powers: powers(terms) });
         }
         return;
     }

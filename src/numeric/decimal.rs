@@ -5,11 +5,7 @@
 #[must_use]
 pub fn shortest(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
-    if is_plain {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
-    }
+    if is_plain { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// A number with `digits` significant digits: plain from 1e-3 to 1e6, otherwise with an exponent.
@@ -23,14 +19,10 @@ pub fn significant(value: f64, digits: usize) -> String {
         return "0".to_owned();
     }
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
-    match rounded
-        .split_once('e')
-        .and_then(|(_, exponent)| exponent.parse::<i32>().ok())
-    {
-        Some(exponent @ -3..6) => format!(
-            "{value:.*}",
-            (digits + 2).saturating_sub(exponent.abs_diff(-3) as usize)
-        ),
+    match rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()) {
+        Some(exponent @ -3..6) => {
+            format!("{value:.*}", (digits + 2).saturating_sub(exponent.abs_diff(-3) as usize))
+        }
         _ => rounded,
     }
 }

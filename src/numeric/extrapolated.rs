@@ -81,9 +81,8 @@ mod tests {
     fn error_after(steps: u32) -> f64 {
         let length = 6.0 / f64::from(steps);
         let start = Vector2::new(1.0, 0.1);
-        let end = (0..steps).fold(start, |y, number| {
-            step(&Oscillator, f64::from(number) * length, &y, length)
-        });
+        let end = (0..steps)
+            .fold(start, |y, number| step(&Oscillator, f64::from(number) * length, &y, length));
         (end[0] - 6f64.cos() - 0.6).abs()
     }
 

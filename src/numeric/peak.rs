@@ -23,19 +23,11 @@ impl Bracket {
     fn add(&mut self, new: Sample) {
         let is_later = new.0 >= self.best.0;
         if new.1 > self.best.1 {
-            *(if is_later {
-                &mut self.from
-            } else {
-                &mut self.to
-            }) = self.best.0;
+            *(if is_later { &mut self.from } else { &mut self.to }) = self.best.0;
             (self.best, self.second, self.third) = (new, self.best, self.second);
             return;
         }
-        *(if is_later {
-            &mut self.to
-        } else {
-            &mut self.from
-        }) = new.0;
+        *(if is_later { &mut self.to } else { &mut self.from }) = new.0;
         if new.1 > self.second.1 {
             (self.second, self.third) = (new, self.second);
         } else if new.1 > self.third.1 {
@@ -138,9 +130,7 @@ impl Bracket {
 pub fn greatest(known: &[Sample], at: impl Fn(f64) -> f64) -> Sample {
     let mut tops: Vec<Bracket> = brackets(known).collect();
     tops.sort_by(|one, other| other.best.1.total_cmp(&one.best.1));
-    let mut best = tops
-        .first()
-        .map_or((0.0, f64::NEG_INFINITY), |top| top.best);
+    let mut best = tops.first().map_or((0.0, f64::NEG_INFINITY), |top| top.best);
     for bracket in tops {
         if bracket.limit > best.1 + ROUNDING * best.1.abs() {
             let top = bracket.peak(best.1, &at);
@@ -167,16 +157,10 @@ fn bracket(part: &[Sample], index: usize) -> Option<Bracket> {
     let best = part[index];
     let before = index.checked_sub(1).map_or(best, |before| part[before]);
     let after = part.get(index + 1).copied().unwrap_or(best);
-    let (second, third) = if before.1 > after.1 {
-        (before, after)
-    } else {
-        (after, before)
-    };
+    let (second, third) = if before.1 > after.1 { (before, after) } else { (after, before) };
     let middle = index.clamp(1, part.len().saturating_sub(2).max(1));
     let bend = part.get(middle - 1..=middle + 1);
-    let bend = bend.map_or(f64::INFINITY, |part| {
-        part[0].1 - 2.0 * part[1].1 + part[2].1
-    });
+    let bend = bend.map_or(f64::INFINITY, |part| part[0].1 - 2.0 * part[1].1 + part[2].1);
     (second.1 <= best.1).then_some(Bracket {
         from: before.0,
         to: after.0,
@@ -229,11 +213,7 @@ mod tests {
     fn a_bend_between_samples_is_found() {
         for bend in [0.13, 0.4, 0.81] {
             let f = |x: f64| {
-                if x < bend {
-                    1.0 + x
-                } else {
-                    1.0 + bend - 3.0 * (x - bend)
-                }
+                if x < bend { 1.0 + x } else { 1.0 + bend - 3.0 * (x - bend) }
             };
             let ((place, value), calls) = peak_of(8, f);
             assert!((value - 1.0 - bend).abs() < 1e-11, "{bend}: {value}");
@@ -255,17 +235,11 @@ mod tests {
     #[test]
     fn both_sides_of_a_jump_are_searched() {
         let side = |x: f64, is_left: bool| {
-            if is_left {
-                2.0 + x
-            } else {
-                2.6 - 40.0 * (x - 0.53).powi(2)
-            }
+            if is_left { 2.0 + x } else { 2.6 - 40.0 * (x - 0.53).powi(2) }
         };
         let f = |x: f64| side(x, x <= 0.5);
-        let mut known: Vec<_> = (0..=10)
-            .map(|step| f64::from(step) / 10.0)
-            .map(|x| (x, f(x)))
-            .collect();
+        let mut known: Vec<_> =
+            (0..=10).map(|step| f64::from(step) / 10.0).map(|x| (x, f(x))).collect();
         known.insert(6, (0.5, side(0.5, false)));
         let (place, value) = greatest(&known, f);
         assert!((place - 0.53).abs() < 1e-7, "{place}");

@@ -11,11 +11,8 @@ impl<const N: usize> Polynomial<N> {
     /// The coefficients up to the last nonzero coefficient.
     #[must_use]
     pub fn terms(&self) -> &[f64] {
-        let count = self
-            .0
-            .iter()
-            .rposition(|&coefficient| coefficient != 0.0)
-            .map_or(0, |last| last + 1);
+        let count =
+            self.0.iter().rposition(|&coefficient| coefficient != 0.0).map_or(0, |last| last + 1);
         &self.0[..count]
     }
 
@@ -44,11 +41,7 @@ impl<const N: usize> Polynomial<N> {
     /// Its integral from 0 to 1.
     #[must_use]
     pub fn integral(&self) -> f64 {
-        self.0
-            .iter()
-            .enumerate()
-            .map(|(power, coefficient)| coefficient / (power + 1) as f64)
-            .sum()
+        self.0.iter().enumerate().map(|(power, coefficient)| coefficient / (power + 1) as f64).sum()
     }
 
     /// The polynomial a(`by` t).
@@ -73,19 +66,14 @@ impl<const N: usize> Polynomial<N> {
     /// Every coefficient times `factor`.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Polynomial<N> {
-        self.0
-            .iter_mut()
-            .for_each(|coefficient| *coefficient *= factor);
+        self.0.iter_mut().for_each(|coefficient| *coefficient *= factor);
         self
     }
 
     /// The sum of this polynomial and `factor` times `other`, which has at most as many terms.
     #[must_use]
     pub fn plus<const M: usize>(mut self, factor: f64, other: &Polynomial<M>) -> Polynomial<N> {
-        self.0
-            .iter_mut()
-            .zip(other.0)
-            .for_each(|(sum, coefficient)| *sum += factor * coefficient);
+        self.0.iter_mut().zip(other.0).for_each(|(sum, coefficient)| *sum += factor * coefficient);
         self
     }
 
@@ -115,9 +103,7 @@ impl<const N: usize> Polynomial<N> {
 fn horner(powers: &[f64], t: f64) -> f64 {
     let (fours, rest) = powers.as_chunks::<4>();
     let (square, mut sums) = (t * t, [0.0; 4]);
-    rest.iter()
-        .zip(&mut sums)
-        .for_each(|(coefficient, sum)| *sum = *coefficient);
+    rest.iter().zip(&mut sums).for_each(|(coefficient, sum)| *sum = *coefficient);
     for four in fours.iter().rev() {
         for lane in 0..4 {
             sums[lane] = sums[lane] * (square * square) + four[lane];

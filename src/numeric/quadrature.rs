@@ -32,11 +32,7 @@ pub fn unit_interval(f: impl Fn(f64) -> f64) -> f64 {
 pub fn adaptive(from: f64, to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f64 {
     const MOST_HALVINGS: u32 = 40;
     let whole = over(from, to, &f);
-    let mut halving = Halving {
-        f,
-        tolerance: tolerance * whole.abs(),
-        rest: MOST_PARTS,
-    };
+    let mut halving = Halving { f, tolerance: tolerance * whole.abs(), rest: MOST_PARTS };
     halving.halved((from, to), whole, MOST_HALVINGS)
 }
 
@@ -85,21 +81,14 @@ mod tests {
             (1e9 * x).sin() * (1e12 * x).cos()
         };
         assert!(adaptive(0.0, 1.0, 1e-14, rough).is_finite());
-        assert!(
-            looks.get() <= 24 * (2 * MOST_PARTS + 1) + 12,
-            "{}",
-            looks.get()
-        );
+        assert!(looks.get() <= 24 * (2 * MOST_PARTS + 1) + 12, "{}", looks.get());
     }
 
     #[test]
     fn exact_for_polynomials_up_to_degree_23() {
         for degree in 0..24 {
             let found = unit_interval(|x| x.powi(degree));
-            assert!(
-                (found * f64::from(degree + 1) - 1.0).abs() < 1e-14,
-                "x^{degree}: {found}"
-            );
+            assert!((found * f64::from(degree + 1) - 1.0).abs() < 1e-14, "x^{degree}: {found}");
         }
     }
 

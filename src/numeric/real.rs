@@ -136,21 +136,12 @@ mod tests {
     fn double_double_functions_keep_thirty_digits() {
         let (sine, cosine) = TwoFloat::from(0.7).sine_cosine();
         let identity = sine * sine + cosine * cosine - 1.0;
-        assert!(
-            identity.hi().abs() < 1e-30,
-            "sin² + cos² − 1 = {identity:e}"
-        );
+        assert!(identity.hi().abs() < 1e-30, "sin² + cos² − 1 = {identity:e}");
         for angle in [1e-9f64, 1e-3, 0.1, 0.35, 0.7, 1.2, 1.5] {
             let (sine, cosine) = TwoFloat::from(angle).sine_cosine();
-            assert!(
-                ((sine.hi() - angle.sin()) / angle).abs() < 1e-15,
-                "sin {angle}"
-            );
+            assert!(((sine.hi() - angle.sin()) / angle).abs() < 1e-15, "sin {angle}");
             let back = sine.angle_to(cosine) - angle;
-            assert!(
-                (back.hi() / angle).abs() < 1e-29,
-                "error of the angle {angle}: {back:e}"
-            );
+            assert!((back.hi() / angle).abs() < 1e-29, "error of the angle {angle}: {back:e}");
         }
     }
 }

@@ -35,11 +35,7 @@ pub fn between(from: f64, to: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
             });
         (before, step) = bold.map_or((half, half), |bold| (step, bold));
         (other, at_other) = (best, at_best);
-        best += if step.abs() > least {
-            step
-        } else {
-            least.copysign(half)
-        };
+        best += if step.abs() > least { step } else { least.copysign(half) };
         at_best = f(best);
     }
     best
@@ -93,11 +89,7 @@ mod tests {
                 0.0,
                 1.0,
                 |x| {
-                    if x < 0.3 {
-                        -1.0
-                    } else {
-                        1e-3 * (x - 0.3) + 1e-9
-                    }
+                    if x < 0.3 { -1.0 } else { 1e-3 * (x - 0.3) + 1e-9 }
                 },
                 0.3,
             ),
@@ -108,10 +100,7 @@ mod tests {
                 calls += 1;
                 f(x)
             });
-            assert!(
-                (found - root).abs() <= 4e-15 * root.abs(),
-                "{found} for {root}"
-            );
+            assert!((found - root).abs() <= 4e-15 * root.abs(), "{found} for {root}");
             assert!(calls < 90, "{calls} for {root}");
         }
     }

@@ -63,16 +63,10 @@ pub fn convergent_part<const N: usize>(series: &Polynomial<N>, allowed: f64) -> 
     const LAST: usize = 3;
     let part = |order: usize| {
         let size = series.0[order].abs() / allowed;
-        if size <= 1.0 {
-            1.0
-        } else {
-            size.powf(-1.0 / order as f64)
-        }
+        if size <= 1.0 { 1.0 } else { size.powf(-1.0 / order as f64) }
     };
     // Keeps a NaN of the last term, which `f64::min` would drop.
-    (N - LAST..N)
-        .map(part)
-        .fold(1.0, |least, part| if part >= least { least } else { part })
+    (N - LAST..N).map(part).fold(1.0, |least, part| if part >= least { least } else { part })
 }
 
 #[cfg(test)]
@@ -84,17 +78,10 @@ mod tests {
     fn oscillator<const N: usize>(stiffness: &[f64], load: &[f64], damping: f64) -> Oscillator<N> {
         let padded = |given: &[f64]| {
             let mut all = Polynomial::ZERO;
-            all.0
-                .iter_mut()
-                .zip(given)
-                .for_each(|(coefficient, given)| *coefficient = *given);
+            all.0.iter_mut().zip(given).for_each(|(coefficient, given)| *coefficient = *given);
             all
         };
-        Oscillator {
-            stiffness: padded(stiffness),
-            load: padded(load),
-            damping,
-        }
+        Oscillator { stiffness: padded(stiffness), load: padded(load), damping }
     }
 
     #[test]
@@ -117,10 +104,7 @@ mod tests {
         let series = oscillator::<TERMS>(&[0.0, -1.0], &[], 0.0).series(value, slope);
         for order in 0..TERMS - 3 {
             let expected = series.0[order] / ((order + 2) * (order + 3)) as f64;
-            assert!(
-                (series.0[order + 3] - expected).abs() <= 1e-15 * expected.abs(),
-                "{order}"
-            );
+            assert!((series.0[order + 3] - expected).abs() <= 1e-15 * expected.abs(), "{order}");
         }
         assert!((series.at(1.0) - 0.135_292_416_312_881_4).abs() < 1e-15);
     }
@@ -131,12 +115,7 @@ mod tests {
         let load: Vec<f64> = (0..TERMS)
             .map(|order| {
                 let factorial: f64 = (1..=order).map(|factor| factor as f64).product();
-                2.5 / factorial
-                    + if order > 0 {
-                        order as f64 / factorial
-                    } else {
-                        0.0
-                    }
+                2.5 / factorial + if order > 0 { order as f64 / factorial } else { 0.0 }
             })
             .collect();
         let series = oscillator::<TERMS>(&[1.0, 1.0], &load, 0.5).series(1.0, 1.0);
@@ -150,11 +129,9 @@ mod tests {
 
     #[test]
     fn each_term_raises_the_order_by_one() {
-        for (terms, off) in [
-            (8.0, off_with::<8> as fn(f64) -> f64),
-            (10.0, off_with::<10>),
-            (12.0, off_with::<12>),
-        ] {
+        for (terms, off) in
+            [(8.0, off_with::<8> as fn(f64) -> f64), (10.0, off_with::<10>), (12.0, off_with::<12>)]
+        {
             let order = (off(2.0) / off(1.0)).log2();
             assert!((order - terms).abs() < 0.5, "{terms} terms: {order}");
         }

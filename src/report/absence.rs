@@ -157,10 +157,7 @@ fn cleared(solution: &Solution) -> Absence {
 }
 
 fn has_friction(solution: &Solution) -> bool {
-    solution
-        .mesh
-        .as_ref()
-        .is_some_and(|mesh| mesh.friction() > 0.0)
+    solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0)
 }
 
 impl fmt::Display for Absence {
@@ -173,19 +170,12 @@ impl fmt::Display for Absence {
                     .map(Method::name);
                 let methods = listed(&methods.collect::<Vec<_>>());
                 let own = method.name();
-                write!(
-                    f,
-                    "method {own} does not compute this quantity; {methods} do"
-                )
+                write!(f, "method {own} does not compute this quantity; {methods} do")
             }
             // A deviation above 0 belongs to the load at rest and is not the reason.
             Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),
             Absence::NoContact(why, total) => {
-                write!(
-                    f,
-                    "no corner contact: {why}, Δ = {} um",
-                    significant(total * 1e6, 5)
-                )
+                write!(f, "no corner contact: {why}, Δ = {} um", significant(total * 1e6, 5))
             }
             Absence::NoFreeImpact => f.write_str("the closed form finds no first contact at D"),
             Absence::NoFriction => f.write_str("the case has no operation.friction_coefficient"),

@@ -47,16 +47,9 @@ pub fn picture(graph: &Graph, cases: &[SolvedCase]) -> Option<String> {
     let column = graph.column(first.solution.method)?;
     let unit = shown_unit(column.shown);
     let marks = marks(&first.solution);
-    let bound = if found.len() == 1 {
-        bound(graph, first)
-    } else {
-        None
-    };
-    let series = found.into_iter().map(|(name, _, pieces)| Series {
-        name,
-        pieces,
-        kind: Kind::Curve,
-    });
+    let bound = if found.len() == 1 { bound(graph, first) } else { None };
+    let series =
+        found.into_iter().map(|(name, _, pieces)| Series { name, pieces, kind: Kind::Curve });
     Some(chart(&Chart {
         title: graph.label.to_owned(),
         across: Labelled::linear("driver roll angle after E, deg"),
@@ -150,11 +143,7 @@ fn stiffness(graph: &Graph, column: &Column, cases: &[SolvedCase]) -> Option<Str
 /// The name of the curve of a model; it marks the elastic field and the model of the case.
 #[must_use]
 pub fn stiffness_name(model: ToothCompliance, own: ToothCompliance) -> String {
-    let field = if model.model().has_coupling {
-        ", elastic field"
-    } else {
-        ""
-    };
+    let field = if model.model().has_coupling { ", elastic field" } else { "" };
     let case = if model == own { " (case)" } else { "" };
     format!("{}{field}{case}", model.name())
 }
@@ -267,24 +256,12 @@ pub fn with_other_method(report: Report) -> Vec<Report> {
 }
 
 fn other(report: &Report) -> Method {
-    if report.solution.method.shares_load() {
-        Method::Exact
-    } else {
-        Method::Static
-    }
+    if report.solution.method.shares_load() { Method::Exact } else { Method::Static }
 }
 
 fn solve_by_other_method(report: &Report) -> Result<Report, Refusal> {
-    let inputs = Inputs {
-        method: other(report),
-        ..report.inputs.clone()
-    };
-    Report::solve(
-        report.name.clone(),
-        report.case.clone(),
-        inputs,
-        report.selection.clone(),
-    )
+    let inputs = Inputs { method: other(report), ..report.inputs.clone() };
+    Report::solve(report.name.clone(), report.case.clone(), inputs, report.selection.clone())
 }
 
 #[cfg(test)]
@@ -303,10 +280,7 @@ mod tests {
             [vec![(0.0, 1.0), (1.0, 1.0)], vec![(3.0, 1.0)]]
         );
         assert_eq!(pieces_of(&[(0.0, one), (1.0, None), (2.0, one)]).len(), 2);
-        assert_eq!(
-            pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(),
-            2
-        );
+        assert_eq!(pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(), 2);
         assert_eq!(pieces_of(&[]), Vec::<Vec<Point>>::new());
     }
 }

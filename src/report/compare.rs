@@ -75,10 +75,7 @@ impl Comparison {
 
     /// The refused columns as error lines.
     pub fn refusals(&self) -> impl Iterator<Item = String> {
-        let refused = self
-            .columns
-            .iter()
-            .filter_map(|column| column.found.as_ref().err());
+        let refused = self.columns.iter().filter_map(|column| column.found.as_ref().err());
         refused.flatten().map(|refused| refused.line.clone())
     }
 
@@ -108,9 +105,7 @@ impl Comparison {
         };
         let group = |title: String, quantities: Vec<&'static Quantity>| {
             let rows = quantities.into_iter();
-            let rows = rows
-                .filter_map(|quantity| self.row(quantity, method))
-                .collect();
+            let rows = rows.filter_map(|quantity| self.row(quantity, method)).collect();
             Group { title, rows }
         };
         if !self.selection.is_whole() {
@@ -145,9 +140,7 @@ impl Comparison {
         Some(Row {
             symbol: quantity.symbol_in(method).to_owned(),
             label: quantity.label_in(method).to_owned(),
-            unit: given
-                .last()
-                .map_or("", |value| shown_with(quantity, value, unit).unit),
+            unit: given.last().map_or("", |value| shown_with(quantity, value, unit).unit),
             values: self.columns.iter().zip(&values).map(shown).collect(),
             differences: values.iter().enumerate().map(against).collect(),
         })

@@ -12,25 +12,14 @@ use crate::model::{Outcome, Quantity, Solution};
 #[must_use]
 pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<[String; 3]> {
     let differs = |other: &&&Solution| other.outcome != governing.outcome;
-    let names: Vec<&str> = others
-        .iter()
-        .filter(differs)
-        .map(|other| other.method.name())
-        .collect();
+    let names: Vec<&str> = others.iter().filter(differs).map(|other| other.method.name()).collect();
     let find = if names.len() == 1 { "finds" } else { "find" };
     let found = match governing.outcome {
         Outcome::CornerContact => "no corner contact",
         Outcome::NoCornerContact => "corner contact",
     };
-    let (own, names) = (
-        governing.method.name(),
-        (!names.is_empty()).then(|| listed(&names))?,
-    );
-    let chosen = if governing.choice.is_some() {
-        "auto chose it"
-    } else {
-        "the case selects it"
-    };
+    let (own, names) = (governing.method.name(), (!names.is_empty()).then(|| listed(&names))?);
+    let chosen = if governing.choice.is_some() { "auto chose it" } else { "the case selects it" };
     let why = match governing.method {
         Method::Dynamic => ", and it includes inertia",
         Method::Static => ", and it shares the load among all pairs",
@@ -64,11 +53,7 @@ pub fn closed_forms(
         (false, 1) => "Other method",
         (false, _) => "Other methods",
     };
-    let given = if is_free && is_deflection_given {
-        " with the given deflection"
-    } else {
-        ""
-    };
+    let given = if is_free && is_deflection_given { " with the given deflection" } else { "" };
     Some(format!("{what}{given}: {}", found.join("; ")))
 }
 
@@ -80,19 +65,12 @@ fn closed_form(solution: &Solution, system: System) -> Option<String> {
     let method = solution.method.name();
     Some(match solution.outcome {
         Outcome::NoCornerContact => {
-            format!(
-                "{method} no corner contact, Δ = {}",
-                shown("total_deviation")?
-            )
+            format!("{method} no corner contact, Δ = {}", shown("total_deviation")?)
         }
         Outcome::CornerContact => {
             let (quantity, angle) = first_touch(solution)?;
             let angle = shown_in(quantity, angle, system);
-            format!(
-                "{method} {} at {} = {angle}",
-                shown("impact_force")?,
-                quantity.symbol
-            )
+            format!("{method} {} at {} = {angle}", shown("impact_force")?, quantity.symbol)
         }
     })
 }

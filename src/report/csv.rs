@@ -24,9 +24,7 @@ pub(super) fn write_rows(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
-    rows.into_iter()
-        .try_for_each(|row| writer.write_record(row))
-        .map_err(io_error)?;
+    rows.into_iter().try_for_each(|row| writer.write_record(row)).map_err(io_error)?;
     writer.flush()
 }
 
@@ -45,15 +43,9 @@ fn header(report: &Report) -> Vec<String> {
             columns(report.solution.method).map(|column| with_unit(column.key, column.unit));
         return std::iter::once("case".to_owned()).chain(columns).collect();
     }
-    let columns = report
-        .selection
-        .quantities()
-        .map(|quantity| with_unit(quantity.key, quantity.unit));
-    ["case", "method", "outcome"]
-        .map(str::to_owned)
-        .into_iter()
-        .chain(columns)
-        .collect()
+    let columns =
+        report.selection.quantities().map(|quantity| with_unit(quantity.key, quantity.unit));
+    ["case", "method", "outcome"].map(str::to_owned).into_iter().chain(columns).collect()
 }
 
 fn rows(report: &Report) -> Vec<Vec<String>> {
@@ -66,15 +58,8 @@ fn rows(report: &Report) -> Vec<Vec<String>> {
             .map(|row| std::iter::once(name.clone()).chain(cells(row)).collect())
             .collect();
     }
-    let head = [
-        name,
-        solution.method.name().to_owned(),
-        solution.outcome.name().to_owned(),
-    ];
-    let cells = report
-        .selection
-        .quantities()
-        .map(|quantity| cell(value(quantity, solution)));
+    let head = [name, solution.method.name().to_owned(), solution.outcome.name().to_owned()];
+    let cells = report.selection.quantities().map(|quantity| cell(value(quantity, solution)));
     vec![head.into_iter().chain(cells).collect()]
 }
 

@@ -103,17 +103,8 @@ impl Digest {
     #[must_use]
     pub fn of_limits(&self) -> String {
         let count = self.limits.len();
-        let limits = if count == 1 {
-            "1 limit".to_owned()
-        } else {
-            format!("{count} limits")
-        };
-        let missed = |standing| {
-            self.limits
-                .iter()
-                .filter(|(own, _)| *own == standing)
-                .count()
-        };
+        let limits = if count == 1 { "1 limit".to_owned() } else { format!("{count} limits") };
+        let missed = |standing| self.limits.iter().filter(|(own, _)| *own == standing).count();
         match (missed(Standing::Exceeded), missed(Standing::Unknown)) {
             _ if count == 0 => "no limits".to_owned(),
             (0, 0) if count == 1 => "limit met".to_owned(),
@@ -182,10 +173,7 @@ pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64
 fn force(method: Method, printed: impl Fn(&str) -> Option<String>) -> Option<String> {
     match method {
         Method::Static => {
-            let (start, peak) = (
-                printed("static_force_at_start")?,
-                printed("static_peak_force")?,
-            );
+            let (start, peak) = (printed("static_force_at_start")?, printed("static_peak_force")?);
             Some(format!("force {start} at E, {peak} overall"))
         }
         Method::Dynamic => {
@@ -223,23 +211,12 @@ fn method(asked: Method, solution: &Solution) -> String {
 }
 
 fn pair(case: &Case) -> String {
-    let teeth = format!(
-        "z {}/{}",
-        text(case, "driver.teeth"),
-        text(case, "driven.teeth")
-    );
-    let width = match (
-        text(case, "driver.face_width"),
-        text(case, "driven.face_width"),
-    ) {
+    let teeth = format!("z {}/{}", text(case, "driver.teeth"), text(case, "driven.teeth"));
+    let width = match (text(case, "driver.face_width"), text(case, "driven.face_width")) {
         (one, other) if one == other => one,
         (one, other) => format!("{one}/{other}"),
     };
-    format!(
-        "{teeth}, {}, α {}, b {width}",
-        size(case),
-        text(case, "pair.pressure_angle")
-    )
+    format!("{teeth}, {}, α {}, b {width}", size(case), text(case, "pair.pressure_angle"))
 }
 
 /// Module or diametral pitch, whichever the case gives.
@@ -254,18 +231,12 @@ fn size(case: &Case) -> String {
 
 fn load(case: &Case) -> String {
     let load = ["operation.power", "operation.torque"].map(|key| text(case, key));
-    let load = load
-        .into_iter()
-        .find(|text| !text.is_empty())
-        .unwrap_or_default();
+    let load = load.into_iter().find(|text| !text.is_empty()).unwrap_or_default();
     format!("{load} at {}", text(case, "operation.speed"))
 }
 
 fn text(case: &Case, key: &str) -> String {
-    index_of(key)
-        .and_then(|field| case.effective(field))
-        .map(sanitize)
-        .unwrap_or_default()
+    index_of(key).and_then(|field| case.effective(field)).map(sanitize).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -323,11 +294,7 @@ mod tests {
             in_motion.outcome
         );
         let at_rest = digest(&[("model.method", "static"), ("driven.tip_relief", "39 um")]);
-        assert!(
-            at_rest.outcome.starts_with("Corner contact"),
-            "{}",
-            at_rest.outcome
-        );
+        assert!(at_rest.outcome.starts_with("Corner contact"), "{}", at_rest.outcome);
     }
 
     #[test]
@@ -379,10 +346,7 @@ mod tests {
                 "{}: {digest:?}",
                 example.name
             );
-            let slow = Inputs {
-                method: Method::Dynamic,
-                ..inputs
-            };
+            let slow = Inputs { method: Method::Dynamic, ..inputs };
             assert_eq!(
                 Digest::solve(&case, &slow, System::Metric, &|_| false),
                 None,

@@ -12,8 +12,7 @@ use crate::model::Refusal;
 /// Whether the file extension selects a picture.
 #[must_use]
 pub fn is_picture(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
 }
 
 /// The format of a file.
@@ -63,11 +62,7 @@ impl ReportFormat {
     /// # Errors
     /// Errors of a template or a value that cannot be written.
     pub fn render(self, subjects: &[Subject]) -> io::Result<String> {
-        let reports = || {
-            subjects
-                .iter()
-                .filter_map(|subject| subject.reports.first())
-        };
+        let reports = || subjects.iter().filter_map(|subject| subject.reports.first());
         let mut bytes = Vec::new();
         match self {
             ReportFormat::Html => return Page::of(subjects).html().map_err(io::Error::other),
@@ -107,11 +102,7 @@ pub fn subject(
             file,
         });
     }
-    let source = Unsolved {
-        name: &report.name,
-        case: &report.case,
-        inputs: &report.inputs,
-    };
+    let source = Unsolved { name: &report.name, case: &report.case, inputs: &report.inputs };
     let studies = Studies::of(source.case, source.inputs, go_on).map_err(|_| Refusal::Stopped)?;
     let speeds = (format == ReportFormat::Html).then(|| source.speeds(go_on));
     // A pair without steady motion has no such chart.
@@ -119,10 +110,5 @@ pub fn subject(
         Some(Err(Refusal::Stopped)) => return Err(Refusal::Stopped),
         found => found.and_then(Result::ok),
     };
-    Ok(Subject {
-        reports: with_other_method(report),
-        speeds,
-        studies,
-        file,
-    })
+    Ok(Subject { reports: with_other_method(report), speeds, studies, file })
 }

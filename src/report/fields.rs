@@ -24,15 +24,8 @@ const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"
 /// Errors of the writer.
 pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
     let rows = FIELDS.iter().map(|field| {
-        [
-            field.key,
-            field.symbol,
-            unit(field),
-            &range_text(field),
-            default(field),
-            &meaning(field),
-        ]
-        .map(str::to_owned)
+        [field.key, field.symbol, unit(field), &range_text(field), default(field), &meaning(field)]
+            .map(str::to_owned)
     });
     write_table(FIELD_HEAD, rows.collect(), out)
 }
@@ -61,9 +54,7 @@ pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// Errors of the writer.
 pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
-    FIELDS
-        .iter()
-        .try_for_each(|field| write_line(&FieldLine::new(field), out))
+    FIELDS.iter().try_for_each(|field| write_line(&FieldLine::new(field), out))
 }
 
 /// Writes every quantity as JSON, one object per line.
@@ -114,11 +105,7 @@ impl FieldLine {
             to,
             choices: choices(field),
             required: field.absent == Absent::Refused,
-            default: if let Absent::Default(text) = field.absent {
-                Some(text)
-            } else {
-                None
-            },
+            default: if let Absent::Default(text) = field.absent { Some(text) } else { None },
             help: field.help,
         }
     }
@@ -135,11 +122,7 @@ struct QuantityLine {
 }
 
 fn unit(field: &Field) -> &'static str {
-    if let Kind::Number(_, range, _) = field.kind {
-        range.unit
-    } else {
-        ""
-    }
+    if let Kind::Number(_, range, _) = field.kind { range.unit } else { "" }
 }
 
 fn range(field: &Field) -> Option<(f64, f64)> {
@@ -151,17 +134,11 @@ fn range(field: &Field) -> Option<(f64, f64)> {
 }
 
 fn choices(field: &Field) -> &'static [&'static str] {
-    if let Kind::Choice(names, _) = field.kind {
-        names
-    } else {
-        &[]
-    }
+    if let Kind::Choice(names, _) = field.kind { names } else { &[] }
 }
 
 fn range_text(field: &Field) -> String {
-    range(field)
-        .map(|(from, to)| format!("{}..{}", end(from), end(to)))
-        .unwrap_or_default()
+    range(field).map(|(from, to)| format!("{}..{}", end(from), end(to))).unwrap_or_default()
 }
 
 fn meaning(field: &Field) -> String {
@@ -193,9 +170,7 @@ fn write_table<const N: usize>(
     rows: Vec<[String; N]>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let rows: Vec<[String; N]> = std::iter::once(head.map(str::to_owned))
-        .chain(rows)
-        .collect();
+    let rows: Vec<[String; N]> = std::iter::once(head.map(str::to_owned)).chain(rows).collect();
     let widths: [usize; N] =
         std::array::from_fn(|column| widest(rows.iter().map(|row| row[column].as_str())));
     for row in &rows {
@@ -226,11 +201,11 @@ mod tests {
         let mut out = Vec::new();
         write_fields(&mut out).unwrap();
         let table = String::from_utf8(out).unwrap();
-        assert!(FIELDS.iter().all(|field| {
-            table
-                .lines()
-                .any(|line| line.split(' ').next() == Some(field.key))
-        }));
+        assert!(
+            FIELDS.iter().all(|field| {
+                table.lines().any(|line| line.split(' ').next() == Some(field.key))
+            })
+        );
         assert_eq!(table.lines().find(|line| count(line) > WIDTH), None);
     }
 }

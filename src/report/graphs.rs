@@ -97,10 +97,7 @@ impl Graph {
     /// The columns of every method.
     pub fn all_columns(&self) -> impl Iterator<Item = &'static Column> {
         let keys = self.columns;
-        COLUMNS
-            .iter()
-            .filter(move |column| keys.contains(&column.key))
-            .chain(self.by_model)
+        COLUMNS.iter().filter(move |column| keys.contains(&column.key)).chain(self.by_model)
     }
 
     /// The methods with a curve.
@@ -117,27 +114,16 @@ mod tests {
 
     #[test]
     fn every_value_of_a_station_is_in_one_chart() {
-        for column in COLUMNS
-            .iter()
-            .filter(|column| !["rad", "s"].contains(&column.unit))
-        {
+        for column in COLUMNS.iter().filter(|column| !["rad", "s"].contains(&column.unit)) {
             assert_eq!(
-                GRAPHS
-                    .iter()
-                    .filter(|graph| graph.columns.contains(&column.key))
-                    .count(),
+                GRAPHS.iter().filter(|graph| graph.columns.contains(&column.key)).count(),
                 1,
                 "{}",
                 column.key
             );
         }
         for graph in GRAPHS {
-            assert_eq!(
-                graph.all_columns().count(),
-                graph.columns.len().max(1),
-                "{}",
-                graph.key
-            );
+            assert_eq!(graph.all_columns().count(), graph.columns.len().max(1), "{}", graph.key);
         }
     }
 

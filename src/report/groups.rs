@@ -18,79 +18,29 @@ pub struct Group {
 
 /// Every group, in the order of a closed form.
 static GROUPS: [Group; 16] = [
-    Group {
-        title: "Geometry",
-        stages: &[Stage::Geometry],
-    },
-    Group {
-        title: "Load",
-        stages: &[Stage::Load, Stage::Masses],
-    },
-    Group {
-        title: "Deviation",
-        stages: &[Stage::Deviation],
-    },
-    Group {
-        title: "Tip relief",
-        stages: &[Stage::Clearing],
-    },
-    Group {
-        title: "First contact D",
-        stages: &[Stage::Position],
-    },
-    Group {
-        title: "Velocity at D",
-        stages: &[Stage::Velocity],
-    },
-    Group {
-        title: "Impact",
-        stages: &[Stage::Compliance, Stage::Impact, Stage::Band],
-    },
-    Group {
-        title: "Friction",
-        stages: &[Stage::Friction],
-    },
-    Group {
-        title: "From D to E",
-        stages: &[Stage::Stations],
-    },
-    Group {
-        title: "Mesh",
-        stages: &[Stage::Mesh],
-    },
-    Group {
-        title: "Load sharing",
-        stages: &[Stage::Static],
-    },
-    Group {
-        title: "Load sharing with inertia",
-        stages: &[Stage::Dynamic],
-    },
-    Group {
-        title: "Resonance",
-        stages: &[Stage::Resonance],
-    },
-    Group {
-        title: "Transmission error without deviations",
-        stages: &[Stage::StaticSpectrum],
-    },
-    Group {
-        title: "Steady motion without deviations",
-        stages: &[Stage::SteadyMotion],
-    },
-    Group {
-        title: "Greatest dynamic factor over the speed",
-        stages: &[Stage::SpeedRun],
-    },
+    Group { title: "Geometry", stages: &[Stage::Geometry] },
+    Group { title: "Load", stages: &[Stage::Load, Stage::Masses] },
+    Group { title: "Deviation", stages: &[Stage::Deviation] },
+    Group { title: "Tip relief", stages: &[Stage::Clearing] },
+    Group { title: "First contact D", stages: &[Stage::Position] },
+    Group { title: "Velocity at D", stages: &[Stage::Velocity] },
+    Group { title: "Impact", stages: &[Stage::Compliance, Stage::Impact, Stage::Band] },
+    Group { title: "Friction", stages: &[Stage::Friction] },
+    Group { title: "From D to E", stages: &[Stage::Stations] },
+    Group { title: "Mesh", stages: &[Stage::Mesh] },
+    Group { title: "Load sharing", stages: &[Stage::Static] },
+    Group { title: "Load sharing with inertia", stages: &[Stage::Dynamic] },
+    Group { title: "Resonance", stages: &[Stage::Resonance] },
+    Group { title: "Transmission error without deviations", stages: &[Stage::StaticSpectrum] },
+    Group { title: "Steady motion without deviations", stages: &[Stage::SteadyMotion] },
+    Group { title: "Greatest dynamic factor over the speed", stages: &[Stage::SpeedRun] },
 ];
 
 impl Group {
     /// Its quantities, in the order of the table.
     pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
         let stages = self.stages;
-        QUANTITIES
-            .iter()
-            .filter(move |quantity| stages.contains(&quantity.stage))
+        QUANTITIES.iter().filter(move |quantity| stages.contains(&quantity.stage))
     }
 
     /// Whether the group belongs to the free impact while the method resolves the impact.

@@ -44,21 +44,13 @@ enum Value {
 impl ValueWithUnit {
     /// A value of a quantity in SI.
     pub(super) fn new(quantity: &Quantity, value: f64) -> ValueWithUnit {
-        ValueWithUnit {
-            value: Value::of(quantity, value),
-            unit: quantity.unit,
-            of: None,
-        }
+        ValueWithUnit { value: Value::of(quantity, value), unit: quantity.unit, of: None }
     }
 }
 
 impl Value {
     fn of(quantity: &Quantity, value: f64) -> Value {
-        if quantity.is_flag() {
-            Value::Flag(value != 0.0)
-        } else {
-            Value::Number(value)
-        }
+        if quantity.is_flag() { Value::Flag(value != 0.0) } else { Value::Number(value) }
     }
 }
 
@@ -78,9 +70,7 @@ impl Serialize for Quantities<'_> {
             ..ValueWithUnit::new(quantity, value)
         };
         serializer.collect_map(
-            self.0
-                .values()
-                .map(|(quantity, value)| (quantity.key, measured(quantity, value))),
+            self.0.values().map(|(quantity, value)| (quantity.key, measured(quantity, value))),
         )
     }
 }
@@ -101,9 +91,7 @@ struct Cells<'a>(stations::Row<'a>);
 impl Serialize for Cells<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(
-            stations::COLUMNS
-                .iter()
-                .filter_map(|column| Some((column.key, column.of(self.0)?))),
+            stations::COLUMNS.iter().filter_map(|column| Some((column.key, column.of(self.0)?))),
         )
     }
 }
@@ -130,10 +118,7 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         notes: report
             .notes
             .iter()
-            .map(|note| Remark {
-                code: note.code,
-                message: &note.message,
-            })
+            .map(|note| Remark { code: note.code, message: &note.message })
             .collect(),
     };
     write_line(&line, out)
@@ -160,9 +145,7 @@ impl Formatter for Safe {
         let mut written = 0;
         for (at, hidden) in fragment.match_indices(is_hidden) {
             writer.write_all(&fragment.as_bytes()[written..at])?;
-            hidden
-                .encode_utf16()
-                .try_for_each(|unit| write!(writer, "\\u{unit:04x}"))?;
+            hidden.encode_utf16().try_for_each(|unit| write!(writer, "\\u{unit:04x}"))?;
             written = at + hidden.len();
         }
         writer.write_all(&fragment.as_bytes()[written..])
@@ -183,16 +166,9 @@ mod tests {
         let mut solution = solve(&inputs, Stages::ALL).unwrap();
         solution.mesh_force = f64::NAN;
         solution.stations[0].impact_force = f64::INFINITY;
-        let selection = Selection {
-            stations: true,
-            ..Selection::default()
-        };
+        let selection = Selection { stations: true, ..Selection::default() };
         let mut out = Vec::new();
-        write(
-            &Report::of("case".to_owned(), case, inputs, solution, selection),
-            &mut out,
-        )
-        .unwrap();
+        write(&Report::of("case".to_owned(), case, inputs, solution, selection), &mut out).unwrap();
         let line: serde_json::Value = serde_json::from_slice(&out).unwrap();
         assert_eq!(line["quantities"].get("mesh_force"), None);
         assert_eq!(line["quantities"].get("dynamic_factor"), None);
@@ -200,13 +176,7 @@ mod tests {
         let is_of_mesh_force = |note: &serde_json::Value| {
             note["code"] == "not-finite" && note["message"].to_string().contains("mesh_force")
         };
-        assert!(
-            line["notes"]
-                .as_array()
-                .unwrap()
-                .iter()
-                .any(is_of_mesh_force)
-        );
+        assert!(line["notes"].as_array().unwrap().iter().any(is_of_mesh_force));
         assert!(!String::from_utf8(out).unwrap().contains("null"));
     }
 
@@ -216,10 +186,7 @@ mod tests {
         let mut out = Vec::new();
         write_line(&text, &mut out).unwrap();
         let line = String::from_utf8(out).unwrap();
-        assert_eq!(
-            line,
-            "\"a\\u001b[2J\\u007f\\u009b\\u202e\\udb40\\udc41\\\"\\\\\\n é\"\n"
-        );
+        assert_eq!(line, "\"a\\u001b[2J\\u007f\\u009b\\u202e\\udb40\\udc41\\\"\\\\\\n é\"\n");
         assert_eq!(serde_json::from_str::<String>(&line).unwrap(), text);
     }
 }

@@ -38,17 +38,9 @@ pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
     let words = with_units(&sentence, width);
     let lines = flow(words.iter().map(String::as_str), width);
     let lead = |index| {
-        if index == 0 {
-            mark.to_owned()
-        } else {
-            " ".repeat(indent)
-        }
+        if index == 0 { mark.to_owned() } else { " ".repeat(indent) }
     };
-    lines
-        .iter()
-        .enumerate()
-        .map(|(index, line)| lead(index) + line)
-        .collect()
+    lines.iter().enumerate().map(|(index, line)| lead(index) + line).collect()
 }
 
 /// The words of a sentence. A number with its unit, and with the symbol and relation sign before
@@ -91,10 +83,7 @@ pub(super) fn count(text: &str) -> usize {
 fn pieces(word: &str, width: usize) -> impl Iterator<Item = &str> {
     let mut rest = word;
     std::iter::from_fn(move || {
-        let cut = rest
-            .char_indices()
-            .nth(width.max(1))
-            .map_or(rest.len(), |(at, _)| at);
+        let cut = rest.char_indices().nth(width.max(1)).map_or(rest.len(), |(at, _)| at);
         let (piece, after) = rest.split_at(cut);
         rest = after;
         (!piece.is_empty()).then_some(piece)

@@ -102,10 +102,8 @@ impl<'a> Page<'a> {
     /// The page of some cases; empty without cases.
     #[must_use]
     pub fn of(subjects: &'a [Subject]) -> Page<'a> {
-        let own: Vec<&Report> = subjects
-            .iter()
-            .filter_map(|subject| subject.reports.first())
-            .collect();
+        let own: Vec<&Report> =
+            subjects.iter().filter_map(|subject| subject.reports.first()).collect();
         let columns: Vec<Column> = subjects.iter().filter_map(column).collect();
         Page {
             subjects,
@@ -132,10 +130,7 @@ impl<'a> Page<'a> {
         let cases = self.cases();
         let page = Html {
             page: self,
-            charts: of_all
-                .iter()
-                .filter_map(|picture| picture.draw(&cases))
-                .collect(),
+            charts: of_all.iter().filter_map(|picture| picture.draw(&cases)).collect(),
             own: cases
                 .iter()
                 .map(|case| {
@@ -184,11 +179,8 @@ impl<'a> Page<'a> {
 fn column(subject: &Subject) -> Option<Column> {
     let report = subject.reports.first()?;
     let limits = verdicts(&report.case, &report.solution);
-    let title = if report.title().is_empty() {
-        report.name.clone()
-    } else {
-        report.title().to_owned()
-    };
+    let title =
+        if report.title().is_empty() { report.name.clone() } else { report.title().to_owned() };
     let file_name = report.name.rsplit('/').next().unwrap_or_default();
     Some(Column {
         name: sanitize(&report.name),
@@ -204,11 +196,7 @@ fn column(subject: &Subject) -> Option<Column> {
                 words: verdict.to_string(),
             })
             .collect(),
-        notes: report
-            .notes
-            .iter()
-            .map(|note| sanitize(&note.message))
-            .collect(),
+        notes: report.notes.iter().map(|note| sanitize(&note.message)).collect(),
         studies: subject.studies.tables(&report.case),
         lines: without_comments(&subject.file),
         link: address(&subject.file),
@@ -245,11 +233,7 @@ fn inputs(reports: &[&Report]) -> Vec<InputRow> {
             let text = report.case.effective(at).unwrap_or("–");
             (sanitize(text), is_default(&report.case))
         });
-        Some(InputRow {
-            label: label(field.key),
-            symbol: field.symbol,
-            values: values.collect(),
-        })
+        Some(InputRow { label: label(field.key), symbol: field.symbol, values: values.collect() })
     });
     rows.collect()
 }
@@ -267,19 +251,14 @@ fn tables(reports: &[&Report]) -> Vec<Table> {
         } else {
             group.title.to_owned()
         },
-        rows: group
-            .quantities()
-            .filter_map(|quantity| row(quantity, &solutions))
-            .collect(),
+        rows: group.quantities().filter_map(|quantity| row(quantity, &solutions)).collect(),
     });
     tables.filter(|table| !table.rows.is_empty()).collect()
 }
 
 fn row(quantity: &'static Quantity, solutions: &[&Solution]) -> Option<ResultRow> {
-    let values: Vec<Option<f64>> = solutions
-        .iter()
-        .map(|solution| value(quantity, solution))
-        .collect();
+    let values: Vec<Option<f64>> =
+        solutions.iter().map(|solution| value(quantity, solution)).collect();
     let given = values.iter().copied().flatten();
     given.clone().next()?;
     let unit = common_unit(quantity, given, System::Metric);

@@ -16,26 +16,11 @@ use crate::model::{Inputs, Refusal};
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 5] = [
-    Picture {
-        key: tooth_chart::KEYS[0],
-        drawing: Drawing::ToothCompliance(0),
-    },
-    Picture {
-        key: tooth_chart::KEYS[1],
-        drawing: Drawing::ToothCompliance(1),
-    },
-    Picture {
-        key: SPECTRUM,
-        drawing: Drawing::Spectrum,
-    },
-    Picture {
-        key: SPEED,
-        drawing: Drawing::Speed,
-    },
-    Picture {
-        key: "teeth",
-        drawing: Drawing::Teeth,
-    },
+    Picture { key: tooth_chart::KEYS[0], drawing: Drawing::ToothCompliance(0) },
+    Picture { key: tooth_chart::KEYS[1], drawing: Drawing::ToothCompliance(1) },
+    Picture { key: SPECTRUM, drawing: Drawing::Spectrum },
+    Picture { key: SPEED, drawing: Drawing::Speed },
+    Picture { key: "teeth", drawing: Drawing::Teeth },
 ];
 
 /// A picture of solved cases.
@@ -78,10 +63,7 @@ pub enum NoPicture {
 
 /// Every picture: the charts of the stations, the charts with their own axes, the teeth.
 pub fn pictures() -> impl Iterator<Item = Picture> + Clone {
-    let graph = |graph: &'static Graph| Picture {
-        key: graph.key,
-        drawing: Drawing::Graph(graph),
-    };
+    let graph = |graph: &'static Graph| Picture { key: graph.key, drawing: Drawing::Graph(graph) };
     GRAPHS.iter().map(graph).chain(OTHERS)
 }
 
@@ -126,9 +108,7 @@ impl Picture {
             }
             Drawing::Spectrum => spectrum(cases),
             Drawing::Speed => {
-                let named = cases
-                    .iter()
-                    .filter_map(|case| Some((case.name, case.speeds?)));
+                let named = cases.iter().filter_map(|case| Some((case.name, case.speeds?)));
                 let curves: Vec<_> = named.collect();
                 speed(&curves)
             }
@@ -154,11 +134,7 @@ impl Picture {
         } else {
             (with_other_method(source.solve(true)?), None)
         };
-        let case = SolvedCase {
-            name: "",
-            reports: &reports,
-            speeds: speeds.as_ref(),
-        };
+        let case = SolvedCase { name: "", reports: &reports, speeds: speeds.as_ref() };
         let drawn = self.draw(&[case]);
         drawn.ok_or_else(|| NoPicture::Absent(self.absence(&reports)))
     }
@@ -169,9 +145,9 @@ impl Picture {
         let reason = match self.drawing {
             Drawing::Graph(graph) => charts::absence(graph, reports),
             Drawing::ToothCompliance(gear) => match reports.first() {
-                Some(report) => tooth_chart::picture(gear, &report.inputs)
-                    .err()
-                    .unwrap_or_default(),
+                Some(report) => {
+                    tooth_chart::picture(gear, &report.inputs).err().unwrap_or_default()
+                }
                 None => "no case is solved".to_owned(),
             },
             Drawing::Spectrum => charts::absent_of_methods(Method::shares_load, reports),
@@ -211,10 +187,7 @@ impl Unsolved<'_> {
     /// # Errors
     /// The refusal of the model.
     pub fn solve(&self, stations: bool) -> Result<Report, Refusal> {
-        let selection = Selection {
-            only: Vec::new(),
-            stations,
-        };
+        let selection = Selection { only: Vec::new(), stations };
         let (name, case) = (self.name.to_owned(), self.case.clone());
         Report::solve(name, case, self.inputs.clone(), selection)
     }
@@ -246,17 +219,9 @@ mod tests {
     fn every_picture_has_a_key_of_its_own() {
         let keys: Vec<&str> = pictures().map(|picture| picture.key).collect();
         for (at, key) in keys.iter().enumerate() {
-            assert_eq!(
-                keys.iter().position(|other| other == key),
-                Some(at),
-                "{key}"
-            );
+            assert_eq!(keys.iter().position(|other| other == key), Some(at), "{key}");
             assert_eq!(find(key).map(|picture| picture.key), Some(*key));
         }
-        assert!(
-            ["force", "spectrum", "speed", "teeth"]
-                .iter()
-                .all(|key| keys.contains(key))
-        );
+        assert!(["force", "spectrum", "speed", "teeth"].iter().all(|key| keys.contains(key)));
     }
 }

@@ -16,14 +16,7 @@ const DIGITS: i32 = 3;
 pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Option<[String; 4]> {
     let unit = unit(system)?;
     let (given, figures) = figures(governing, unit, system)?;
-    Some(phrases(
-        governing.method,
-        given > 0.0,
-        &figures,
-        others,
-        unit,
-        system,
-    ))
+    Some(phrases(governing.method, given > 0.0, &figures, others, unit, system))
 }
 
 /// The same text while the relief of the governing method is not known yet; `given` is the present
@@ -36,14 +29,7 @@ pub fn pending(
     system: System,
 ) -> Option<[String; 4]> {
     let figures = ["...", "..."].map(str::to_owned);
-    Some(phrases(
-        method,
-        given > 0.0,
-        &figures,
-        others,
-        unit(system)?,
-        system,
-    ))
+    Some(phrases(method, given > 0.0, &figures, others, unit(system)?, system))
 }
 
 fn unit(system: System) -> Option<&'static str> {
@@ -99,10 +85,7 @@ fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2]
     /// The fraction of a digit that is rounding error.
     const NONE: f64 = 1e-9;
     let factor = units::factor(unit).unwrap_or(1.0);
-    let last = LEAST_DIGIT
-        .iter()
-        .find(|(own, _)| *own == system)
-        .map_or(3, |&(_, last)| last);
+    let last = LEAST_DIGIT.iter().find(|(own, _)| *own == system).map_or(3, |&(_, last)| last);
     let before_point = (least / factor).log10().floor() as i32 + 1;
     let digits = (DIGITS - before_point).clamp(0, last);
     let scale = 10f64.powi(digits);
@@ -127,9 +110,6 @@ mod tests {
         assert_eq!(sums(0.672_57, 48.0), "0.673 48.673");
         assert_eq!(sums(1e-9, 25.0), "0.001 25.001");
         assert_eq!(sums(1234.1, 0.0), "1235 1235");
-        assert_eq!(
-            rounded_up(22.328e-6, 25e-6, "thou", System::Inch).join(" "),
-            "0.880 1.864"
-        );
+        assert_eq!(rounded_up(22.328e-6, 25e-6, "thou", System::Inch).join(" "), "0.880 1.864");
     }
 }

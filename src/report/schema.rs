@@ -34,14 +34,10 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
             tables.insert(table.to_owned(), object(title, members));
         }
     }
-    let limits = QUANTITIES
-        .iter()
-        .map(|known| (known.key.to_owned(), of_limit(known)));
+    let limits = QUANTITIES.iter().map(|known| (known.key.to_owned(), of_limit(known)));
     let help = "Greatest allowed value of any quantity of the results.";
     tables.insert("limits".to_owned(), object(help, limits.collect()));
-    let spread = FIELDS
-        .iter()
-        .filter_map(|field| Some((field.key.to_owned(), of_spread(field)?)));
+    let spread = FIELDS.iter().filter_map(|field| Some((field.key.to_owned(), of_spread(field)?)));
     let help = "Distribution of a field around its value.";
     tables.insert("spread".to_owned(), object(help, spread.collect()));
     tables.insert("variants".to_owned(), of_variants(&tables));
@@ -56,16 +52,11 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// Errors of the writer.
 pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
-    let quantities = QUANTITIES
-        .iter()
-        .map(|known| (known.key.to_owned(), of_quantity(known)));
+    let quantities = QUANTITIES.iter().map(|known| (known.key.to_owned(), of_quantity(known)));
     let help = "Values in SI units; a quantity without a value is absent.";
     let columns = COLUMNS.iter().map(|column| {
         let about = format!("in {}", column.unit);
-        (
-            column.key.to_owned(),
-            json!({"type": "number", "description": about}),
-        )
+        (column.key.to_owned(), json!({"type": "number", "description": about}))
     });
     let stages: Vec<&str> = Stage::ALL.into_iter().map(Stage::name).collect();
     let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact].map(Outcome::name);
@@ -119,11 +110,7 @@ fn of_field(field: &Field) -> Value {
         Kind::Choice(names, _) => json!({"enum": names}),
         Kind::Count(from, to, _) => {
             let number = json!({"type": "integer", "minimum": from, "maximum": to});
-            if field.takes_auto() {
-                json!({"anyOf": [number, {"const": AUTO}]})
-            } else {
-                number
-            }
+            if field.takes_auto() { json!({"anyOf": [number, {"const": AUTO}]}) } else { number }
         }
         Kind::Number(Dimension::Number, range, _) => {
             json!({"type": "number", "minimum": range.from, "maximum": range.to})
@@ -162,11 +149,7 @@ fn of_limit(quantity: &Quantity) -> Value {
 }
 
 fn of_quantity(quantity: &Quantity) -> Value {
-    let kind = if quantity.is_flag() {
-        "boolean"
-    } else {
-        "number"
-    };
+    let kind = if quantity.is_flag() { "boolean" } else { "number" };
     json!({
         "description": format!("{} {}", quantity.label, quantity.symbol),
         "type": "object",

@@ -59,11 +59,7 @@ impl SeekReport<'_> {
     /// Errors of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let (from, to) = (self.value(self.range.from), self.value(self.range.to));
-        let title = if self.title.is_empty() {
-            self.name
-        } else {
-            self.title
-        };
+        let title = if self.title.is_empty() { self.name } else { self.title };
         writeln!(out, "{}", sanitize(title))?;
         writeln!(
             out,
@@ -74,10 +70,9 @@ impl SeekReport<'_> {
         )?;
         match self.answer() {
             "crossings" => {}
-            "unknown" => writeln!(
-                out,
-                "  unknown: the condition is unknown at every point of the range"
-            )?,
+            "unknown" => {
+                writeln!(out, "  unknown: the condition is unknown at every point of the range")?
+            }
             answer => writeln!(out, "  {answer}")?,
         }
         for crossing in &self.found.crossings {
@@ -93,16 +88,8 @@ impl SeekReport<'_> {
         let Crossing { lower, upper } = crossing;
         let (below, above) = (word(&lower.state), word(&upper.state));
         let [from, to] = [self.value(lower.at), self.value(upper.at)];
-        writeln!(
-            out,
-            "  crossing at {}: {below} below, {above} above",
-            self.middle(crossing)
-        )?;
-        writeln!(
-            out,
-            "    bracket {from} to {to}{}",
-            self.values(lower, upper)
-        )
+        writeln!(out, "  crossing at {}: {below} below, {above} above", self.middle(crossing))?;
+        writeln!(out, "    bracket {from} to {to}{}", self.values(lower, upper))
     }
 
     /// The middle of a bracket.
@@ -122,12 +109,9 @@ impl SeekReport<'_> {
             _ => "no value".to_owned(),
         };
         match self.condition.quantity() {
-            Some(quantity) => format!(
-                ", {} {} to {}",
-                quantity.key,
-                printed(lower),
-                printed(upper)
-            ),
+            Some(quantity) => {
+                format!(", {} {} to {}", quantity.key, printed(lower), printed(upper))
+            }
             None => String::new(),
         }
     }

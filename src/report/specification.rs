@@ -33,20 +33,12 @@ impl ReliefReport<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let title = if self.title.is_empty() {
-            self.name
-        } else {
-            self.title
-        };
+        let title = if self.title.is_empty() { self.name } else { self.title };
         writeln!(out, "{}", sanitize(title))?;
         for line in self.lines() {
             // Rows of tables fit; only sentences are wrapped.
             let is_short = line.chars().count() <= WIDTH;
-            let parts = if is_short {
-                vec![line]
-            } else {
-                item("", &line)
-            };
+            let parts = if is_short { vec![line] } else { item("", &line) };
             for part in parts {
                 writeln!(out, "{part}")?;
             }
@@ -117,10 +109,9 @@ impl ReliefReport<'_> {
     fn reason(&self) -> String {
         match self.method {
             Method::Auto => "chosen by auto".to_owned(),
-            method => format!(
-                "because method {} does not share the load among pairs",
-                method.name()
-            ),
+            method => {
+                format!("because method {} does not share the load among pairs", method.name())
+            }
         }
     }
 
@@ -237,15 +228,5 @@ fn record(
     let [driver_length, driven_length] = reliefs.lengths;
     let numbers = [driver, driver_length, driven, driven_length, error, margin];
     let [a, b, c, d, e, f] = numbers.map(|number| number.to_string());
-    [
-        name.to_owned(),
-        is_best.to_owned(),
-        shape(reliefs.shape).to_owned(),
-        a,
-        b,
-        c,
-        d,
-        e,
-        f,
-    ]
+    [name.to_owned(), is_best.to_owned(), shape(reliefs.shape).to_owned(), a, b, c, d, e, f]
 }

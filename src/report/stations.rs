@@ -71,9 +71,7 @@ pub const COLUMNS: &[Column] = &[
 
 /// The columns of the stations of a method.
 pub fn columns(method: Method) -> impl Iterator<Item = &'static Column> + Clone {
-    COLUMNS
-        .iter()
-        .filter(move |column| column.methods.contains(&method))
+    COLUMNS.iter().filter(move |column| column.methods.contains(&method))
 }
 
 /// The stations of the solution's method.
@@ -114,19 +112,11 @@ impl<'a> Row<'a> {
     }
 
     fn impact(self) -> Option<&'a Station> {
-        if let Row::Impact(station) = self {
-            Some(station)
-        } else {
-            None
-        }
+        if let Row::Impact(station) = self { Some(station) } else { None }
     }
 
     fn load(self) -> Option<&'a MeshStation> {
-        if let Row::Load(station) = self {
-            Some(station)
-        } else {
-            None
-        }
+        if let Row::Load(station) = self { Some(station) } else { None }
     }
 }
 
@@ -156,11 +146,7 @@ impl Column {
             "m/s" => radius * inputs.speed,
             _ => 0.0,
         };
-        if value.abs() < RESOLUTION * whole {
-            0.0
-        } else {
-            value
-        }
+        if value.abs() < RESOLUTION * whole { 0.0 } else { value }
     }
 
     /// Significant digits of an interpolated value, at most as many as are reliable.
@@ -168,27 +154,19 @@ impl Column {
     pub fn digits_of(&self, interpolated: &Interpolated) -> usize {
         let is_of_motion = ["force", "load_share", "transmission_error"].contains(&self.key);
         let is_between = matches!(interpolated, Interpolated::Between(_)) && is_of_motion;
-        if is_between {
-            self.digits.min(DIGITS_BETWEEN)
-        } else {
-            self.digits
-        }
+        if is_between { self.digits.min(DIGITS_BETWEEN) } else { self.digits }
     }
 
     /// The value at a station in SI, if it is a number; zero has no sign.
     #[must_use]
     pub fn of(&self, row: Row<'_>) -> Option<f64> {
-        (self.value)(row)
-            .filter(|value| value.is_finite())
-            .map(|value| value + 0.0)
+        (self.value)(row).filter(|value| value.is_finite()).map(|value| value + 0.0)
     }
 
     /// The value at a station as text without the unit; a dash if it is absent.
     #[must_use]
     pub fn printed(&self, row: Row<'_>) -> String {
-        (self.value)(row).map_or_else(
-            || "-".to_owned(),
-            |value| super::number(value, self.shown, self.digits),
-        )
+        (self.value)(row)
+            .map_or_else(|| "-".to_owned(), |value| super::number(value, self.shown, self.digits))
     }
 }

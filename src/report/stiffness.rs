@@ -42,26 +42,16 @@ pub fn write(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()
     }
     let path = &report.comparison.path;
     sections.push(path_section("one pair", path, |point| &point.pair));
-    sections.push(path_section("all pairs in contact", path, |point| {
-        &point.mesh
-    }));
+    sections.push(path_section("all pairs in contact", path, |point| &point.mesh));
     let sections: Vec<_> = sections.iter().map(|lines| lines.join("\n")).collect();
     writeln!(out, "{}", sections.join("\n\n"))
 }
 
 fn heading(report: &StiffnessReport<'_>) -> Vec<String> {
-    let title = if report.title.is_empty() {
-        "Case without a title"
-    } else {
-        report.title
-    };
+    let title = if report.title.is_empty() { "Case without a title" } else { report.title };
     let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
     let name = sanitize(report.name);
-    let words = [
-        name.as_str(),
-        "·",
-        "stiffness models against finite elements",
-    ];
+    let words = [name.as_str(), "·", "stiffness models against finite elements"];
     lines.extend(flow(words, WIDTH));
     lines
 }
@@ -71,10 +61,7 @@ fn legend(comparison: &Comparison) -> Vec<String> {
     let half_width = significant(comparison.contact_half_width / MILLIMETRE, 4);
     let notes = [
         "Compliances in um mm/N, per unit face width.".to_owned(),
-        format!(
-            "{}: tooth without contact; in brackets the difference from FE.",
-            names.join(", ")
-        ),
+        format!("{}: tooth without contact; in brackets the difference from FE.", names.join(", ")),
         "FE: finite elements (plane strain, whole gear), without contact. FE, surface, \
          neighbour and the beam leave out the twist of the body."
             .to_owned(),
@@ -107,15 +94,9 @@ fn gear_section(comparison: &Comparison, gear: &GearComparison) -> Vec<String> {
 }
 
 fn head(models: &[ToothCompliance]) -> String {
-    let models: Vec<_> = models
-        .iter()
-        .map(|model| format!(" {:>16}", model.name()))
-        .collect();
+    let models: Vec<_> = models.iter().map(|model| format!(" {:>16}", model.name())).collect();
     let models = models.concat();
-    format!(
-        "{:>8}{models}{:>10}{:>10}{:>11}",
-        "r [mm]", "FE", "surface", "neighbour"
-    )
+    format!("{:>8}{models}{:>10}{:>10}{:>11}", "r [mm]", "FE", "surface", "neighbour")
 }
 
 /// A table of stiffness over the path of contact.
@@ -125,11 +106,7 @@ fn path_section(
     of: fn(&PathPoint) -> &Vec<Option<f64>>,
 ) -> Vec<String> {
     let field = path.models.iter().position(|model| model.name() == FIELD);
-    let names: Vec<_> = path
-        .models
-        .iter()
-        .map(|model| format!(" {:>16}", model.name()))
-        .collect();
+    let names: Vec<_> = path.models.iter().map(|model| format!(" {:>16}", model.name())).collect();
     let title = format!("Stiffness of {pairs} over the path of contact, in N/(um mm):");
     let mut lines = vec![title, format!("{:>8}{}", "s [mm]", names.concat())];
     lines.extend(path.points.iter().map(|point| {
@@ -143,19 +120,13 @@ fn path_section(
                 format!(" {:>16}", stiffness(*value, other))
             })
             .collect();
-        format!(
-            "{:>8}{}",
-            significant(point.way / MILLIMETRE, 4),
-            cells.concat()
-        )
+        format!("{:>8}{}", significant(point.way / MILLIMETRE, 4), cells.concat())
     }));
     lines
 }
 
 fn stiffness(value: Option<f64>, reference: Option<f64>) -> String {
-    let shown = value.map_or("-".to_owned(), |value| {
-        significant(value * MICRON_MILLIMETRE, 4)
-    });
+    let shown = value.map_or("-".to_owned(), |value| significant(value * MICRON_MILLIMETRE, 4));
     shown + &difference(value, reference)
 }
 
@@ -167,11 +138,7 @@ fn difference(value: Option<f64>, reference: Option<f64>) -> String {
         return String::new();
     };
     let (factor, percent) = (value / reference, 100.0 * (value / reference - 1.0));
-    if percent > LARGEST {
-        format!(" ({factor:.0} x)")
-    } else {
-        format!(" ({percent:+.0} %)")
-    }
+    if percent > LARGEST { format!(" ({factor:.0} x)") } else { format!(" ({percent:+.0} %)") }
 }
 
 fn row(point: &Point) -> String {
@@ -193,9 +160,7 @@ fn row(point: &Point) -> String {
 }
 
 fn compliance(value: Option<f64>) -> String {
-    value.map_or("-".to_owned(), |value| {
-        significant(value / MICRON_MILLIMETRE, 4)
-    })
+    value.map_or("-".to_owned(), |value| significant(value / MICRON_MILLIMETRE, 4))
 }
 
 fn with_difference(value: Option<f64>, reference: Option<f64>) -> String {
@@ -212,10 +177,8 @@ fn remarks(gear: &GearComparison) -> Vec<String> {
         )),
         None => Some("no bore: FE leaves out the twist and the shift of the body".to_owned()),
     };
-    let gaps = gear
-        .gaps
-        .iter()
-        .map(|gap| format!("no value by {}: {}", gap.model.name(), gap.reason));
+    let gaps =
+        gear.gaps.iter().map(|gap| format!("no value by {}: {}", gap.model.name(), gap.reason));
     no_field(gear).into_iter().chain(body).chain(gaps).collect()
 }
 
@@ -242,21 +205,17 @@ fn reason(gear: &GearComparison) -> Option<String> {
 /// Errors of the writer.
 pub fn write_csv(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
     let models = comparison.models.iter().map(|model| column(model.name()));
-    let header = ["gear".to_owned(), "radius [m]".to_owned()]
-        .into_iter()
-        .chain(models)
-        .chain([
-            column(FIELD),
-            "contact_half_width [m]".to_owned(),
-            column("finite-element-surface"),
-            column("neighbour-ahead"),
-            column("neighbour-behind"),
-        ]);
-    let rows = comparison.gears.iter().flat_map(|gear| {
-        gear.points
-            .iter()
-            .map(|point| csv_row(comparison, gear, point))
-    });
+    let header = ["gear".to_owned(), "radius [m]".to_owned()].into_iter().chain(models).chain([
+        column(FIELD),
+        "contact_half_width [m]".to_owned(),
+        column("finite-element-surface"),
+        column("neighbour-ahead"),
+        column("neighbour-behind"),
+    ]);
+    let rows = comparison
+        .gears
+        .iter()
+        .flat_map(|gear| gear.points.iter().map(|point| csv_row(comparison, gear, point)));
     write_rows(std::iter::once(header.collect()).chain(rows), out)
 }
 
@@ -325,11 +284,7 @@ pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Resu
         title: report.title,
         version: env!("CARGO_PKG_VERSION"),
         contact_half_width: comparison.contact_half_width,
-        gears: comparison
-            .gears
-            .iter()
-            .map(|gear| gear_line(comparison, gear))
-            .collect(),
+        gears: comparison.gears.iter().map(|gear| gear_line(comparison, gear)).collect(),
         path: path_lines(&comparison.path),
     };
     write_line(&line, out)
@@ -338,9 +293,7 @@ pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Resu
 fn path_lines(path: &PathComparison) -> Vec<PathLine> {
     let by_model = |values: &[Option<f64>]| -> Map<String, Value> {
         let pairs = path.models.iter().zip(values);
-        pairs
-            .filter_map(|(model, value)| Some((key(model.name()), (*value)?.into())))
-            .collect()
+        pairs.filter_map(|(model, value)| Some((key(model.name()), (*value)?.into()))).collect()
     };
     let line = |point: &PathPoint| PathLine {
         way: point.way,
@@ -351,14 +304,8 @@ fn path_lines(path: &PathComparison) -> Vec<PathLine> {
 }
 
 fn gear_line(comparison: &Comparison, gear: &GearComparison) -> GearLine {
-    let gaps = gear
-        .gaps
-        .iter()
-        .map(|gap| (key(gap.model.name()), gap.reason.as_str().into()));
-    let points = gear
-        .points
-        .iter()
-        .map(|point| json_point(comparison, point));
+    let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), gap.reason.as_str().into()));
+    let points = gear.points.iter().map(|point| json_point(comparison, point));
     GearLine {
         gear: gear.gear,
         form_radius: gear.form_radius,

@@ -41,11 +41,7 @@ impl Labelled {
     /// A linear axis with plain numbers.
     #[must_use]
     pub fn linear(label: impl Into<String>) -> Labelled {
-        Labelled {
-            label: label.into(),
-            scale: Scale::Linear,
-            tick: None,
-        }
+        Labelled { label: label.into(), scale: Scale::Linear, tick: None }
     }
 }
 
@@ -105,12 +101,7 @@ const MOST_LETTERS: usize = 62;
 #[must_use]
 pub fn chart(chart: &Chart) -> String {
     let (left, top, right, bottom) = FIELD;
-    let points = || {
-        chart
-            .series
-            .iter()
-            .flat_map(|series| series.pieces.iter().flatten())
-    };
+    let points = || chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
     let bars = || chart.series.iter().filter(|series| series.is_bars());
     let edges = bars().flat_map(Series::bar_edges);
     let marks = chart.marks.iter().map(|(place, _)| *place);
@@ -148,11 +139,8 @@ pub fn chart(chart: &Chart) -> String {
 fn frame(chart: &Chart, height: f64) -> String {
     let (left, top, right, bottom) = FIELD;
     let (middle, half) = (f64::midpoint(left, right), f64::midpoint(top, bottom));
-    let (title, across, up) = (
-        escaped(&chart.title),
-        escaped(&chart.across.label),
-        escaped(&chart.up.label),
-    );
+    let (title, across, up) =
+        (escaped(&chart.title), escaped(&chart.across.label), escaped(&chart.up.label));
     let below = bottom + 46.0;
     format!(
         "{}<text x=\"{left}\" y=\"24\" class=\"title\">{title}</text>\n\
@@ -174,9 +162,7 @@ fn opening(title: &str, width: f64, height: f64) -> String {
 fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
     let (left, top, right, bottom) = FIELD;
     let printed = |labelled: &Labelled, axis: &Axis, value: f64| {
-        labelled
-            .tick
-            .map_or_else(|| axis.number(value), |tick| tick(value))
+        labelled.tick.map_or_else(|| axis.number(value), |tick| tick(value))
     };
     for value in across.ticks(9) {
         let x = across.at(value);
@@ -198,17 +184,11 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
                 y=\"{base:.1}\" text-anchor=\"end\">{number}</text>"
         );
     }
-    let _ = writeln!(
-        text,
-        "<path d=\"M{left} {top}V{bottom}H{right}\" class=\"axis\"/>"
-    );
+    let _ = writeln!(text, "<path d=\"M{left} {top}V{bottom}H{right}\" class=\"axis\"/>");
     // The ends of the names in each row.
     let mut ends = [f64::NEG_INFINITY; 2];
     for (value, name) in &chart.marks {
-        let (x, half) = (
-            across.at(*value),
-            0.5 * LETTER * name.chars().count() as f64,
-        );
+        let (x, half) = (across.at(*value), 0.5 * LETTER * name.chars().count() as f64);
         if !(left..=right).contains(&x) {
             continue;
         }
@@ -239,10 +219,8 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
         if let ([point], Kind::Curve | Kind::Bound) = (piece.as_slice(), series.kind) {
             // A line with a single point is invisible.
             let (x, y) = place(*point);
-            let _ = writeln!(
-                text,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" class=\"f{look}\"/>"
-            );
+            let _ =
+                writeln!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" class=\"f{look}\"/>");
             continue;
         }
         let points: Vec<String> = piece
@@ -250,11 +228,7 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
             .map(|&point| place(point))
             .map(|(x, y)| format!("{x:.1},{y:.1}"))
             .collect();
-        let _ = writeln!(
-            text,
-            "<polyline points=\"{}\" class=\"{class}\"/>",
-            points.join(" ")
-        );
+        let _ = writeln!(text, "<polyline points=\"{}\" class=\"{class}\"/>", points.join(" "));
     }
     let Kind::Marks(ringed) = series.kind else {
         return;
@@ -347,11 +321,7 @@ mod tests {
             title: "a < b".to_owned(),
             across: Labelled::linear("x, deg"),
             up: Labelled::linear("y, N"),
-            series: vec![Series {
-                name: "exact & <co>".to_owned(),
-                pieces: vec![points],
-                kind,
-            }],
+            series: vec![Series { name: "exact & <co>".to_owned(), pieces: vec![points], kind }],
             marks: vec![(0.0, "E"), (0.001, "D")],
         })
     }
@@ -359,10 +329,7 @@ mod tests {
     #[test]
     fn names_are_escaped_and_marks_do_not_cover_each_other() {
         let text = drawn(vec![(-1.0, 5.0), (1.0, 2000.0)], Kind::Curve);
-        assert!(
-            text.contains("a &lt; b") && text.contains("exact &amp; &lt;co&gt;"),
-            "{text}"
-        );
+        assert!(text.contains("a &lt; b") && text.contains("exact &amp; &lt;co&gt;"), "{text}");
         let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap();
         assert!(
             row(">E</text>").contains("y=\"53\"") && row(">D</text>").contains("y=\"38\""),

@@ -35,11 +35,7 @@ impl TableFormat {
     /// The format with a name.
     #[must_use]
     pub fn named(name: &str) -> TableFormat {
-        if name == TableFormat::Json.name() {
-            TableFormat::Json
-        } else {
-            TableFormat::Csv
-        }
+        if name == TableFormat::Json.name() { TableFormat::Json } else { TableFormat::Csv }
     }
 }
 
@@ -67,10 +63,8 @@ impl SweepTable<'_> {
             "" => axis.key().to_owned(),
             unit => format!("{} [{unit}]", axis.key()),
         });
-        let computed = self
-            .quantities
-            .iter()
-            .map(|quantity| format!("{} [{}]", quantity.key, quantity.unit));
+        let computed =
+            self.quantities.iter().map(|quantity| format!("{} [{}]", quantity.key, quantity.unit));
         let header = varied.chain(computed).chain(["outcome".to_owned()]);
         write_rows([header.collect()], out)
     }
@@ -114,16 +108,9 @@ impl SweepTable<'_> {
     /// Refused points in one sentence.
     #[must_use]
     pub fn refused(&self, refused: &Refused, of: usize) -> String {
-        let Refused {
-            count,
-            first,
-            problem,
-        } = refused;
+        let Refused { count, first, problem } = refused;
         let which = if *count == 1 { "" } else { "the first " };
-        format!(
-            "{count} of {of} points refused, {which}at {}: {problem}",
-            self.grid.point(*first)
-        )
+        format!("{count} of {of} points refused, {which}at {}: {problem}", self.grid.point(*first))
     }
 }
 
@@ -146,11 +133,7 @@ pub(super) struct Reason<'a> {
 
 impl Reason<'_> {
     pub(super) fn of(problem: &Problem) -> Reason<'_> {
-        Reason {
-            field: &problem.field,
-            cause: &problem.cause,
-            fix: &problem.fix,
-        }
+        Reason { field: &problem.field, cause: &problem.cause, fix: &problem.fix }
     }
 }
 
@@ -168,11 +151,7 @@ impl Serialize for Varied<'_> {
         let mut map = serializer.serialize_map(Some(grid.axes.len()))?;
         for (axis, at) in grid.places(index) {
             let point = &axis.points[at];
-            let unit = if axis.unit.is_empty() {
-                "1"
-            } else {
-                axis.unit.as_str()
-            };
+            let unit = if axis.unit.is_empty() { "1" } else { axis.unit.as_str() };
             match point.number {
                 Some(value) => map.serialize_entry(axis.key(), &Given { value, unit })?,
                 None => map.serialize_entry(axis.key(), &point.text)?,

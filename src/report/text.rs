@@ -19,15 +19,8 @@ use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages};
 use std::io::{self, Write};
 
 /// The sections of a page, in order; empty sections are omitted.
-const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [
-    heading,
-    outcome,
-    inputs,
-    quantities,
-    notes,
-    limits,
-    station_table,
-];
+const SECTIONS: [fn(&Report) -> Vec<String>; 7] =
+    [heading, outcome, inputs, quantities, notes, limits, station_table];
 
 /// The inputs that identify the pair. Missing inputs, zeros and defaults are omitted.
 const SHOWN_INPUTS: &[&str] = &[
@@ -77,40 +70,22 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 /// The page.
 #[must_use]
 pub fn render(report: &Report) -> String {
-    let sections = SECTIONS
-        .iter()
-        .map(|section| section(report))
-        .filter(|lines| !lines.is_empty());
-    sections
-        .map(|lines| lines.join("\n") + "\n")
-        .collect::<Vec<_>>()
-        .join("\n")
+    let sections = SECTIONS.iter().map(|section| section(report)).filter(|lines| !lines.is_empty());
+    sections.map(|lines| lines.join("\n") + "\n").collect::<Vec<_>>().join("\n")
 }
 
 fn heading(report: &Report) -> Vec<String> {
-    let title = if report.title().is_empty() {
-        "Case without a title"
-    } else {
-        report.title()
-    };
+    let title = if report.title().is_empty() { "Case without a title" } else { report.title() };
     let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
     lines.extend(flow(
-        [
-            sanitize(&report.name).as_str(),
-            "·",
-            "method",
-            report.solution.method.name(),
-        ],
+        [sanitize(&report.name).as_str(), "·", "method", report.solution.method.name()],
         WIDTH,
     ));
     lines
 }
 
 fn outcome(report: &Report) -> Vec<String> {
-    verdict(report)
-        .iter()
-        .flat_map(|sentence| item("", sentence))
-        .collect()
+    verdict(report).iter().flat_map(|sentence| item("", sentence)).collect()
 }
 
 /// The verdict in sentences.
@@ -120,9 +95,8 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     if report.selection.is_whole() {
         let others: Vec<Solution> = others(report);
         let others: Vec<&Solution> = others.iter().collect();
-        let beside: Vec<&Solution> = (others.iter().copied())
-            .filter(|other| other.method != Method::Paper)
-            .collect();
+        let beside: Vec<&Solution> =
+            (others.iter().copied()).filter(|other| other.method != Method::Paper).collect();
         let is_given = report.inputs.deflection.is_some();
         let others = [
             differing(solution, &beside).map(|[words, ..]| words),
@@ -146,10 +120,7 @@ fn others(report: &Report) -> Vec<Solution> {
     methods
         .filter(|&method| method != governing)
         .filter_map(|method| {
-            let inputs = Inputs {
-                method,
-                ..report.inputs.clone()
-            };
+            let inputs = Inputs { method, ..report.inputs.clone() };
             model::solve(&inputs, stages).ok()
         })
         .collect()
@@ -159,37 +130,27 @@ fn inputs(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return Vec::new();
     }
-    let shown: Vec<String> = SHOWN_INPUTS
-        .iter()
-        .filter_map(|key| shown_input(report, key))
-        .collect();
+    let shown: Vec<String> =
+        SHOWN_INPUTS.iter().filter_map(|key| shown_input(report, key)).collect();
     // Each input stays on one line with its unit.
     let lines = flow(shown.join(",\n").split('\n'), WIDTH);
-    lines
-        .into_iter()
-        .chain(item("Notes of the case: ", &one_line(report.text("notes"))))
-        .collect()
+    lines.into_iter().chain(item("Notes of the case: ", &one_line(report.text("notes")))).collect()
 }
 
 fn shown_input(report: &Report, key: &str) -> Option<String> {
     let field = FIELDS.iter().find(|field| field.key == key)?;
     let text = report.text(key);
     let number = text.split_whitespace().next()?.parse::<f64>().ok();
-    let default = if let Absent::Default(text) = field.absent {
-        text.parse::<f64>().ok()
-    } else {
-        None
-    };
+    let default =
+        if let Absent::Default(text) = field.absent { text.parse::<f64>().ok() } else { None };
     let usual = number.is_some_and(|number| number == 0.0 || Some(number) == default);
     (!usual).then(|| format!("{} = {}", field.symbol, sanitize(text)))
 }
 
 fn quantities(report: &Report) -> Vec<String> {
     let method = report.solution.method;
-    let rows: Vec<Row> = report
-        .values()
-        .map(|(quantity, value)| Row::new(quantity, value, method))
-        .collect();
+    let rows: Vec<Row> =
+        report.values().map(|(quantity, value)| Row::new(quantity, value, method)).collect();
     let columns = Columns::of(&rows);
     if !report.selection.is_whole() {
         let is_beside = |row: &Row| method.shares_load() && row.quantity.is_of_free_impact();
@@ -199,9 +160,7 @@ fn quantities(report: &Report) -> Vec<String> {
     }
     let group = |group: &'static Group| {
         let line = |quantity: &Quantity| {
-            rows.iter()
-                .find(|row| row.quantity.key == quantity.key)
-                .map(|row| columns.line(row))
+            rows.iter().find(|row| row.quantity.key == quantity.key).map(|row| columns.line(row))
         };
         let lines: Vec<String> = group.quantities().filter_map(line).collect();
         let title = if group.is_beside(method) {
@@ -223,18 +182,12 @@ fn absent(report: &Report) -> Vec<String> {
         item(&start, &Absence::of(quantity, solution).to_string())
     };
     let selected = report.selection.quantities();
-    selected
-        .filter(|quantity| value(quantity, solution).is_none())
-        .flat_map(line)
-        .collect()
+    selected.filter(|quantity| value(quantity, solution).is_none()).flat_map(line).collect()
 }
 
 fn lower(title: &str) -> String {
     let mut letters = title.chars();
-    letters
-        .next()
-        .map(|first| first.to_lowercase().chain(letters).collect())
-        .unwrap_or_default()
+    letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// A quantity and its value as text.
@@ -275,16 +228,8 @@ impl Columns {
     }
 
     fn line(&self, row: &Row) -> String {
-        let Row {
-            quantity,
-            symbol,
-            label,
-            shown,
-        } = row;
-        let value = format!(
-            "{:>2$} {:3$}",
-            shown.number, shown.unit, self.number, self.unit
-        );
+        let Row { quantity, symbol, label, shown } = row;
+        let value = format!("{:>2$} {:3$}", shown.number, shown.unit, self.number, self.unit);
         format!(
             "  {:3$} {:4$} {value}  {}",
             symbol, label, quantity.equation, self.symbol, self.label
@@ -293,13 +238,7 @@ impl Columns {
 }
 
 fn notes(report: &Report) -> Vec<String> {
-    titled(
-        "Notes",
-        report
-            .notes
-            .iter()
-            .flat_map(|note| item("  - ", &sanitize(&note.message))),
-    )
+    titled("Notes", report.notes.iter().flat_map(|note| item("  - ", &sanitize(&note.message))))
 }
 
 fn limits(report: &Report) -> Vec<String> {
@@ -308,12 +247,7 @@ fn limits(report: &Report) -> Vec<String> {
     }
     let mark = |verdict: &Verdict| format!("  {:10}", verdict.standing.word());
     let verdicts = verdicts(&report.case, &report.solution);
-    titled(
-        "Limits",
-        verdicts
-            .iter()
-            .flat_map(|verdict| item(&mark(verdict), &verdict.to_string())),
-    )
+    titled("Limits", verdicts.iter().flat_map(|verdict| item(&mark(verdict), &verdict.to_string())))
 }
 
 // The table of the stations, split into several tables, each with the angle, if its columns do not
@@ -328,24 +262,15 @@ fn station_table(report: &Report) -> Vec<String> {
     let columns: Vec<_> = columns(report.solution.method).collect();
     let (angle, values) = columns.split_at(1);
     let line = |row: Vec<String>| {
-        row.iter()
-            .map(|cell| format!("{cell:>CELL$}"))
-            .collect::<Vec<_>>()
-            .concat()
+        row.iter().map(|cell| format!("{cell:>CELL$}")).collect::<Vec<_>>().concat()
     };
     let table = |values: &[&Column]| {
         let columns: Vec<_> = angle.iter().chain(values).copied().collect();
-        let head = columns
-            .iter()
-            .map(|column| format!("{} {}", column.symbol, column.shown))
-            .collect();
-        let stations = rows
-            .iter()
-            .map(|row| columns.iter().map(|column| column.printed(*row)).collect());
-        std::iter::once(head)
-            .chain(stations)
-            .map(line)
-            .collect::<Vec<_>>()
+        let head =
+            columns.iter().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
+        let stations =
+            rows.iter().map(|row| columns.iter().map(|column| column.printed(*row)).collect());
+        std::iter::once(head).chain(stations).map(line).collect::<Vec<_>>()
     };
     let title = if report.solution.method.shares_load() {
         "Stations from D to the last contact"

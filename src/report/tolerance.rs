@@ -67,10 +67,8 @@ impl ToleranceReport<'_> {
             let unit = if unit.is_empty() { "1" } else { unit };
             format!("{} [{unit}]", distribution.key())
         });
-        let computed = study
-            .quantities
-            .iter()
-            .map(|quantity| format!("{} [{}]", quantity.key, quantity.unit));
+        let computed =
+            study.quantities.iter().map(|quantity| format!("{} [{}]", quantity.key, quantity.unit));
         let names = ["sample", "set"].map(str::to_owned).into_iter();
         let header = names.chain(spread).chain(computed);
         let header = header.chain(["outcome".to_owned()]).collect();
@@ -87,10 +85,7 @@ impl ToleranceReport<'_> {
                 (number, format!("b:{}", design.distributions[field].key()))
             }
         };
-        let spread = design
-            .values(index)
-            .into_iter()
-            .map(|value| cell(Some(value)));
+        let spread = design.values(index).into_iter().map(|value| cell(Some(value)));
         let quantities = 0..self.study.quantities.len();
         let computed = quantities.map(|at| cell(self.samples.value(at, index)));
         let outcome = self.samples.outcomes[index].name().to_owned();
@@ -127,10 +122,7 @@ impl ToleranceReport<'_> {
         let (count, of) = (refused.count, design.count());
         let which = if count == 1 { "" } else { "the first " };
         let point = design.point(refused.first);
-        format!(
-            "{count} of {of} points refused, {which}at {point}: {}",
-            refused.problem
-        )
+        format!("{count} of {of} points refused, {which}at {point}: {}", refused.problem)
     }
 }
 

@@ -32,10 +32,9 @@ pub fn picture(gear: usize, inputs: &Inputs) -> Result<String, String> {
 #[must_use]
 pub fn absence(gear: usize, flanks: &Flanks) -> String {
     match flanks.gears.get(gear) {
-        Some(found) if found.points.is_empty() => format!(
-            "the {} has no involute between form circle and tip",
-            gear_name(gear)
-        ),
+        Some(found) if found.points.is_empty() => {
+            format!("the {} has no involute between form circle and tip", gear_name(gear))
+        }
         _ => format!("no compliance model covers the {}", gear_name(gear)),
     }
 }
@@ -88,9 +87,5 @@ fn series(gear: &GearComparison, name: String, value: impl Fn(&Point) -> Option<
         let value = value(point).map(|value| value / MICRON_MILLIMETRE);
         (point.radius / MILLIMETRE, value)
     });
-    Series {
-        name,
-        pieces: pieces(points, f64::INFINITY),
-        kind: Kind::Curve,
-    }
+    Series { name, pieces: pieces(points, f64::INFINITY), kind: Kind::Curve }
 }

@@ -46,11 +46,7 @@ pub fn write(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn heading(report: &TradeReport<'_>) -> Vec<String> {
-    let title = if report.title.is_empty() {
-        "Case without a title"
-    } else {
-        report.title
-    };
+    let title = if report.title.is_empty() { "Case without a title" } else { report.title };
     let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
     lines.extend(flow(
         [
@@ -76,11 +72,7 @@ fn reference(trade: &Trade) -> Vec<String> {
                     format!("a second integration method could not check it: {refusal}")
                 }
             };
-            format!(
-                "Reference: {}; {check}. {}",
-                reference.setting,
-                build(trade)
-            )
+            format!("Reference: {}; {check}. {}", reference.setting, build(trade))
         }
     };
     flow(sentence.split(' '), WIDTH)
@@ -142,11 +134,8 @@ pub fn parts(trade: &Trade, measured: &MeasuredSetting) -> Option<String> {
         .as_ref()
         .is_ok_and(|reference| reference.setting.is_finer_or_coarser(&figures.taken));
     let named = |name: &str, off: Option<f64>| Some(format!("{name} {} %", percent(off?)));
-    let model = if is_reference {
-        Some("model: the reference".to_owned())
-    } else {
-        named("model", model)
-    };
+    let model =
+        if is_reference { Some("model: the reference".to_owned()) } else { named("model", model) };
     let known = [named("numbers", numbers), named("curve", curve), model];
     let known: Vec<String> = known.into_iter().flatten().collect();
     (!known.is_empty()).then(|| known.join(", "))
@@ -171,9 +160,7 @@ pub fn duration(seconds: f64) -> String {
 
 /// The model error of a setting.
 fn model_off(trade: &Trade, setting: &Setting) -> Differences {
-    trade
-        .model(setting)
-        .map_or([None; Subject::ALL.len()], |model| model.off)
+    trade.model(setting).map_or([None; Subject::ALL.len()], |model| model.off)
 }
 
 #[cfg(test)]

@@ -88,11 +88,7 @@ impl Beside {
     #[must_use]
     pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
         let method = solution.method;
-        let own = || {
-            quantity
-                .by(method)
-                .map(|own| (own.key, value(own, solution)))
-        };
+        let own = || quantity.by(method).map(|own| (own.key, value(own, solution)));
         (method.shares_load() && quantity.is_of_free_impact()).then(|| Beside {
             method,
             own: own(),
@@ -103,9 +99,7 @@ impl Beside {
     /// The counterpart as a sentence, with the value in metric or inch units.
     #[must_use]
     pub fn sentence(&self, system: System) -> String {
-        let own = self
-            .own
-            .and_then(|(key, value)| Some((Quantity::find(key)?, value)));
+        let own = self.own.and_then(|(key, value)| Some((Quantity::find(key)?, value)));
         let method = self.method.name();
         match own {
             Some((own, Some(value))) => {
@@ -124,21 +118,13 @@ impl Beside {
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
     let is_limited = |beside: &Beside| {
-        case.limits
-            .iter()
-            .any(|limit| beside.own.is_some_and(|(own, _)| own == limit.quantity))
+        case.limits.iter().any(|limit| beside.own.is_some_and(|(own, _)| own == limit.quantity))
     };
     let of_case = |verdict: Verdict<'a>| Verdict {
-        beside: verdict.beside.map(|beside| Beside {
-            is_limited: is_limited(&beside),
-            ..beside
-        }),
+        beside: verdict.beside.map(|beside| Beside { is_limited: is_limited(&beside), ..beside }),
         ..verdict
     };
-    case.limits
-        .iter()
-        .map(|limit| of_case(verdict(limit, solution)))
-        .collect()
+    case.limits.iter().map(|limit| of_case(verdict(limit, solution))).collect()
 }
 
 /// The stages for every limit of a case.
@@ -158,9 +144,7 @@ pub fn stages_beside(case: &Case, method: Method) -> Stages {
 }
 
 fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
-    case.limits
-        .iter()
-        .filter_map(|limit| Quantity::find(limit.quantity))
+    case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity))
 }
 
 fn of_all(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
@@ -174,9 +158,8 @@ fn of_all(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
 pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
     let quantity = Quantity::find(limit.quantity);
     let value = quantity.and_then(|quantity| value(quantity, solution));
-    let absence = quantity
-        .filter(|_| value.is_none())
-        .map(|quantity| Absence::of(quantity, solution));
+    let absence =
+        quantity.filter(|_| value.is_none()).map(|quantity| Absence::of(quantity, solution));
     let standing = match (value, absence) {
         (Some(value), _) if value <= limit.value => Standing::Within,
         (Some(_), _) => Standing::Exceeded,
@@ -184,29 +167,17 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         (None, _) => Standing::Unknown,
     };
     // Without corner contact there is no counterpart to compare.
-    let beside = quantity
-        .filter(|_| value.is_some())
-        .and_then(|quantity| Beside::of(quantity, solution));
-    Verdict {
-        limit,
-        value,
-        standing,
-        absence,
-        beside,
-    }
+    let beside =
+        quantity.filter(|_| value.is_some()).and_then(|quantity| Beside::of(quantity, solution));
+    Verdict { limit, value, standing, absence, beside }
 }
 
 /// Every limit of a case that the model refuses: no quantity has a value.
 #[must_use]
 pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
     let absence = Some(Absence::Withheld(*refusal));
-    let verdict = |limit| Verdict {
-        limit,
-        value: None,
-        standing: Standing::Unknown,
-        absence,
-        beside: None,
-    };
+    let verdict =
+        |limit| Verdict { limit, value: None, standing: Standing::Unknown, absence, beside: None };
     case.limits.iter().map(verdict).collect()
 }
 
@@ -242,8 +213,7 @@ impl Verdict<'_> {
     #[must_use]
     pub fn is_exceeded_beside(&self) -> bool {
         let own = self.beside.and_then(|beside| beside.own);
-        own.and_then(|(_, own)| own)
-            .is_some_and(|own| own > self.limit.value)
+        own.and_then(|(_, own)| own).is_some_and(|own| own > self.limit.value)
     }
 
     fn statement(&self, system: System) -> String {
@@ -259,11 +229,7 @@ impl Verdict<'_> {
                 _ => format!("{key} does not occur: no corner contact (limit {limit})"),
             };
         };
-        let sign = if self.standing == Standing::Exceeded {
-            ">"
-        } else {
-            "<="
-        };
+        let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
         let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
         format!(
             "{key} {} {sign} {limit}{}",

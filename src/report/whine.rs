@@ -20,18 +20,11 @@ pub fn whine(solution: &Solution) -> Option<[String; 4]> {
     let now = format!("now N = {}", significant(ratio, 2));
     let peak = |speed, factor| Some((of(speed)?, of(factor)?));
     let rising = peak("resonance_peak_speed", "resonance_peak_factor");
-    let falling = peak(
-        "resonance_peak_speed_falling",
-        "resonance_peak_factor_falling",
-    );
+    let falling = peak("resonance_peak_speed_falling", "resonance_peak_factor_falling");
     let at = |(speed, factor)| format!("{} at {} rpm", significant(factor, 3), rpm(speed));
     Some(match (rising, falling) {
         (Some(rising), Some(falling)) => {
-            let greatest = at(if falling.1 > rising.1 {
-                falling
-            } else {
-                rising
-            });
+            let greatest = at(if falling.1 > rising.1 { falling } else { rising });
             let both = if at(rising) == at(falling) {
                 greatest.clone()
             } else {
@@ -100,9 +93,6 @@ mod tests {
         let at_rest = sentence(Method::Static);
         assert!(at_rest.starts_with("Mesh frequency ") && at_rest.contains("N = 1 of the mean"));
         let in_motion = sentence(Method::Dynamic);
-        assert!(
-            in_motion.starts_with("Greatest dynamic factor "),
-            "{in_motion}"
-        );
+        assert!(in_motion.starts_with("Greatest dynamic factor "), "{in_motion}");
     }
 }

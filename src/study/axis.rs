@@ -46,19 +46,11 @@ impl AxisPoint {
     fn at(number: f64, unit: &str, field: usize) -> Result<AxisPoint, Problem> {
         let text = shortest(number);
         let value = field_value(field, &with_unit(&text, unit))?;
-        Ok(AxisPoint {
-            text,
-            number: Some(number),
-            value,
-        })
+        Ok(AxisPoint { text, number: Some(number), value })
     }
 
     fn named(name: &str, field: usize) -> Result<AxisPoint, Problem> {
-        Ok(AxisPoint {
-            text: name.to_owned(),
-            number: None,
-            value: field_value(field, name)?,
-        })
+        Ok(AxisPoint { text: name.to_owned(), number: None, value: field_value(field, name)? })
     }
 
     /// Writes the value into the inputs of a model.
@@ -84,8 +76,7 @@ impl Axis {
     /// Whether a text is a range, so that a number of points applies.
     #[must_use]
     pub fn is_range(text: &str) -> bool {
-        text.split_once('=')
-            .is_some_and(|(_, values)| is_range(values))
+        text.split_once('=').is_some_and(|(_, values)| is_range(values))
     }
 
     /// The key of the field.
@@ -158,12 +149,7 @@ impl AxisRange {
         let unit = unit_of(known, [from, to])?;
         let [from, to] = [number_in(field, from, &unit)?, number_in(field, to, &unit)?];
         if from < to {
-            return Ok(AxisRange {
-                field,
-                unit,
-                from,
-                to,
-            });
+            return Ok(AxisRange { field, unit, from, to });
         }
         let [first, last] = [from, to].map(|end| with_unit(&shortest(end), &unit));
         let (cause, fix) = if from > to {
@@ -220,9 +206,7 @@ impl AxisRange {
         Ok(Axis {
             field: self.field,
             unit: self.unit.clone(),
-            points: numbers
-                .map(|number| self.at(number))
-                .collect::<Result<_, _>>()?,
+            points: numbers.map(|number| self.at(number)).collect::<Result<_, _>>()?,
         })
     }
 
@@ -257,10 +241,7 @@ impl AxisRange {
         Err(problem(
             known,
             format!("{count} points do not fall on whole numbers"),
-            format!(
-                "leave --points out for all {} values, or write a list",
-                span + 1
-            ),
+            format!("leave --points out for all {} values, or write a list", span + 1),
         ))
     }
 }
@@ -273,19 +254,11 @@ fn rounded(number: f64) -> f64 {
 /// A number and its unit, in the syntax of a case file.
 #[must_use]
 pub fn with_unit(number: &str, unit: &str) -> String {
-    if unit.is_empty() {
-        number.to_owned()
-    } else {
-        format!("{number} {unit}")
-    }
+    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
 fn problem(field: &Field, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
-    Problem {
-        field: field.key.to_owned(),
-        cause: cause.into(),
-        fix: fix.into(),
-    }
+    Problem { field: field.key.to_owned(), cause: cause.into(), fix: fix.into() }
 }
 
 /// Splits `KEY=VALUES` into the index of the field and the values.
@@ -295,9 +268,7 @@ fn assignment(text: &str) -> Result<(usize, &str), Problem> {
         cause: cause.to_owned(),
         fix: "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'".to_owned(),
     };
-    let (key, values) = text
-        .split_once('=')
-        .ok_or_else(|| unwritten("no values are given"))?;
+    let (key, values) = text.split_once('=').ok_or_else(|| unwritten("no values are given"))?;
     if key.trim().is_empty() {
         return Err(unwritten("the key is missing"));
     }
@@ -339,11 +310,7 @@ fn list(field: usize, values: &str) -> Result<Axis, Problem> {
         AxisPoint::at(number, &unit, field)
     };
     let points = items.iter().map(point).collect::<Result<_, _>>()?;
-    Ok(Axis {
-        field,
-        unit,
-        points,
-    })
+    Ok(Axis { field, unit, points })
 }
 
 /// The first unit among the values, which applies to values without a unit.
@@ -372,18 +339,11 @@ fn number_in(field: usize, value: &str, unit: &str) -> Result<f64, Problem> {
     let known = &FIELDS[field];
     let (number, own) = units::split(value, known.usual_unit()).unwrap_or((value, ""));
     let is_bare = own.is_empty();
-    let text = if is_bare {
-        with_unit(number, unit)
-    } else {
-        value.trim().to_owned()
-    };
+    let text = if is_bare { with_unit(number, unit) } else { value.trim().to_owned() };
     let taken = field_value(field, &text)?;
     let in_unit = |si: f64| {
         let converted = units::text(si, unit);
-        units::split(&converted, "")
-            .ok()
-            .and_then(|(number, _)| number.parse().ok())
-            .unwrap_or(si)
+        units::split(&converted, "").ok().and_then(|(number, _)| number.parse().ok()).unwrap_or(si)
     };
     Ok(match taken {
         Value::Number(si) if !is_bare && own != unit => in_unit(si),

@@ -56,11 +56,8 @@ pub struct Control<'a> {
 
 impl Control<'static> {
     /// All cores, without cancellation and without progress.
-    pub const PLAIN: Control<'static> = Control {
-        jobs: None,
-        go_on: &|| true,
-        progress: &|_, _| {},
-    };
+    pub const PLAIN: Control<'static> =
+        Control { jobs: None, go_on: &|| true, progress: &|_, _| {} };
 }
 
 /// How a point ended.
@@ -107,10 +104,7 @@ impl Rows {
     /// No rows yet; the first row to add has index `first`.
     #[must_use]
     pub fn starting_at(first: usize) -> Rows {
-        Rows {
-            first,
-            ..Rows::default()
-        }
+        Rows { first, ..Rows::default() }
     }
 
     /// Adds a row with the values of every quantity.
@@ -134,15 +128,9 @@ impl Rows {
 
     /// The values of a row in the order of the quantities.
     pub fn values(&self, row: usize) -> impl Iterator<Item = Option<f64>> {
-        let width = self
-            .values
-            .len()
-            .checked_div(self.outcomes.len())
-            .unwrap_or(0);
+        let width = self.values.len().checked_div(self.outcomes.len()).unwrap_or(0);
         let cells = &self.values[row * width..(row + 1) * width];
-        cells
-            .iter()
-            .map(|&value| Some(value).filter(|value| !value.is_nan()))
+        cells.iter().map(|&value| Some(value).filter(|value| !value.is_nan()))
     }
 
     /// Why a row was refused.
@@ -178,9 +166,8 @@ pub fn solve_all(
         stopped: AtomicBool::new(false),
         go_on: control.go_on,
     };
-    let solved: Vec<Solved> = (0..jobs.min(shared.chunks.len()))
-        .map(|_| Solved::default())
-        .collect();
+    let solved: Vec<Solved> =
+        (0..jobs.min(shared.chunks.len())).map(|_| Solved::default()).collect();
     let (send, receive) = mpsc::channel();
     std::thread::scope(|scope| {
         for solved in &solved {
@@ -262,8 +249,7 @@ fn work(shared: &Shared, solved: &AtomicUsize, send: &Sender<(usize, Rows)>) {
         };
         let mut rows = Rows::starting_at(points.start);
         rows.outcomes.reserve(points.len());
-        rows.values
-            .reserve(points.len() * shared.batch.quantities.len());
+        rows.values.reserve(points.len() * shared.batch.quantities.len());
         for index in points.clone() {
             if solver.solve(index, &mut rows, &|| shared.goes_on()) == Err(Stopped) {
                 return;
@@ -295,9 +281,8 @@ impl<'a> PointSolver<'a> {
             inputs: batch.inputs.clone(),
             evaluator: Evaluator::default(),
             differ_in_load_alone: batch.points.differ_in_load_alone(batch.inputs),
-            wanted: stages.fold(Stages::NONE, |stages, quantity| {
-                stages.and(Stages::of(quantity.stage))
-            }),
+            wanted: stages
+                .fold(Stages::NONE, |stages, quantity| stages.and(Stages::of(quantity.stage))),
             batch,
         }
     }

@@ -121,17 +121,13 @@ impl Condition {
     /// # Errors
     /// Returns an error if the method does not compute the quantity.
     pub fn check(&self, method: Method) -> Result<(), Problem> {
-        let missing = self
-            .quantity()
-            .filter(|quantity| !method.stages().has(quantity.stage));
+        let missing = self.quantity().filter(|quantity| !method.stages().has(quantity.stage));
         let Some(quantity) = missing else {
             return Ok(());
         };
         let others = Method::ALL.into_iter().map(Method::name);
         let computes = |name: &&str| {
-            let method = Method::ALL
-                .into_iter()
-                .find(|method| method.name() == *name);
+            let method = Method::ALL.into_iter().find(|method| method.name() == *name);
             method.is_some_and(|method| method.stages().has(quantity.stage))
         };
         let others: Vec<&str> = others.filter(computes).collect();
@@ -209,11 +205,7 @@ fn outcome(name: &str) -> Result<Kind, Problem> {
     let found = outcomes.into_iter().find(|outcome| outcome.name() == name);
     found.map(Kind::Outcome).ok_or_else(|| {
         let names = outcomes.map(Outcome::name).join(" or ");
-        problem(
-            "outcome",
-            format!("unknown outcome {}", quoted(name)),
-            format!("write {names}"),
-        )
+        problem("outcome", format!("unknown outcome {}", quoted(name)), format!("write {names}"))
     })
 }
 
@@ -240,11 +232,7 @@ fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
 }
 
 fn problem(field: &str, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
-    Problem {
-        field: field.to_owned(),
-        cause: cause.into(),
-        fix: fix.into(),
-    }
+    Problem { field: field.to_owned(), cause: cause.into(), fix: fix.into() }
 }
 
 #[cfg(test)]
@@ -254,26 +242,11 @@ mod tests {
     #[test]
     fn a_condition_compares_a_quantity_or_an_outcome() {
         for (text, kind) in [
-            (
-                "impact_force<=2.5 kN",
-                Kind::Compared("impact_force", Relation::AtMost, 2500.0),
-            ),
-            (
-                "F_S < 2500 N",
-                Kind::Compared("impact_force", Relation::Below, 2500.0),
-            ),
-            (
-                "contact_ratio>=1.4",
-                Kind::Compared("contact_ratio", Relation::AtLeast, 1.4),
-            ),
-            (
-                "contact_ratio>1.4",
-                Kind::Compared("contact_ratio", Relation::Above, 1.4),
-            ),
-            (
-                "outcome=no-corner-contact",
-                Kind::Outcome(Outcome::NoCornerContact),
-            ),
+            ("impact_force<=2.5 kN", Kind::Compared("impact_force", Relation::AtMost, 2500.0)),
+            ("F_S < 2500 N", Kind::Compared("impact_force", Relation::Below, 2500.0)),
+            ("contact_ratio>=1.4", Kind::Compared("contact_ratio", Relation::AtLeast, 1.4)),
+            ("contact_ratio>1.4", Kind::Compared("contact_ratio", Relation::Above, 1.4)),
+            ("outcome=no-corner-contact", Kind::Outcome(Outcome::NoCornerContact)),
             (
                 "dynamic_contact_lost=false",
                 Kind::Compared("dynamic_contact_lost", Relation::AtMost, 0.0),
@@ -286,39 +259,21 @@ mod tests {
     #[test]
     fn a_bad_condition_gets_its_cause_and_fix() {
         for (text, part) in [
-            (
-                "impact_force",
-                "this is not a condition: write QUANTITY<=VALUE",
-            ),
+            ("impact_force", "this is not a condition: write QUANTITY<=VALUE"),
             ("impact_forc<=2500 N", "did you mean impact_force?"),
             ("impact_force<=2500", "2500 has no unit"),
             ("impact_force<=2500 mm", "unit of length"),
-            (
-                "impact_force=2500 N",
-                "is a number: write impact_force<=2500 N",
-            ),
-            (
-                "outcome=contact",
-                "write corner-contact or no-corner-contact",
-            ),
-            (
-                "impact_force==2500 N",
-                "is a number: write impact_force<=2500 N",
-            ),
+            ("impact_force=2500 N", "is a number: write impact_force<=2500 N"),
+            ("outcome=contact", "write corner-contact or no-corner-contact"),
+            ("impact_force==2500 N", "is a number: write impact_force<=2500 N"),
             ("dynamic_contact_lost=maybe", "neither true nor false"),
-            (
-                "dynamic_contact_lost<=1",
-                "has no order: write dynamic_contact_lost=true or",
-            ),
+            ("dynamic_contact_lost<=1", "has no order: write dynamic_contact_lost=true or"),
         ] {
             let message = Condition::parse(text).unwrap_err().to_string();
             assert!(message.contains(part), "{text}: {message}");
         }
         let condition = Condition::parse("dynamic_peak_force<=1 kN").unwrap();
         let message = condition.check(Method::Exact).unwrap_err().to_string();
-        assert!(
-            message.contains("use --method with one of dynamic, auto"),
-            "{message}"
-        );
+        assert!(message.contains("use --method with one of dynamic, auto"), "{message}");
     }
 }

@@ -75,9 +75,7 @@ impl Design {
     #[must_use]
     pub fn draws_known_deviations(&self) -> bool {
         let of_gear = ["driver.base_pitch", "driven.base_pitch"];
-        self.distributions
-            .iter()
-            .any(|drawn| of_gear.contains(&drawn.key()))
+        self.distributions.iter().any(|drawn| of_gear.contains(&drawn.key()))
     }
 
     fn numbers(&self) -> Numbers<'_> {
@@ -105,11 +103,7 @@ impl Design {
             .collect();
         let rule = self.draws_known_deviations();
         let rule = rule.then(|| "deviations.combination = sum".to_owned());
-        settings
-            .into_iter()
-            .chain(rule)
-            .collect::<Vec<_>>()
-            .join(", ")
+        settings.into_iter().chain(rule).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -120,11 +114,8 @@ impl Points for Design {
 
     fn sequence(&self) -> Sequence<'_> {
         let mut numbers = self.numbers();
-        let ranges: Vec<(f64, f64)> = self
-            .distributions
-            .iter()
-            .map(|distribution| field_range(distribution.field))
-            .collect();
+        let ranges: Vec<(f64, f64)> =
+            self.distributions.iter().map(|distribution| field_range(distribution.field)).collect();
         let adds = self.draws_known_deviations();
         Box::new(move |index, inputs| {
             if adds {
@@ -208,12 +199,7 @@ impl Stream<'_> {
         key[..8].copy_from_slice(&design.seed.to_le_bytes());
         let mut generator = ChaCha8Rng::from_seed(key);
         generator.set_stream(stream);
-        Stream {
-            distributions: &design.distributions,
-            generator,
-            first: 0,
-            values: Vec::new(),
-        }
+        Stream { distributions: &design.distributions, generator, first: 0, values: Vec::new() }
     }
 
     /// The values of a sample in SI, in the order of the distributions.
@@ -230,8 +216,7 @@ impl Stream<'_> {
         /// Words of 32 bits that a value reads.
         const WORDS: u128 = 2;
         let width = self.distributions.len();
-        self.generator
-            .set_word_pos(WORDS * first as u128 * width as u128);
+        self.generator.set_word_pos(WORDS * first as u128 * width as u128);
         self.first = first;
         self.values.clear();
         let numbers = (0..Self::BLOCK * width).map(|_| random_part(&mut self.generator));

@@ -54,20 +54,11 @@ impl Distribution {
             Shape::Grade => (Shape::Truncated, allowed_deviation(spread, inputs)),
             shape => (shape, spread.width),
         };
-        let distribution = Distribution {
-            field,
-            centre,
-            width,
-            shape,
-        };
+        let distribution = Distribution { field, centre, width, shape };
         match distribution.beyond() {
             None => Ok(distribution),
             Some(end) => Err(refused(
-                format!(
-                    "{} reaches {}, outside the field's range",
-                    spread.in_words(),
-                    end
-                ),
+                format!("{} reaches {}, outside the field's range", spread.in_words(), end),
                 format!(
                     "write a smaller width, or change {} so that the distribution is within {}",
                     spread.field,
@@ -195,11 +186,7 @@ mod tests {
         for shape in [Shape::Uniform, Shape::Triangular, Shape::Truncated] {
             for part in [f64::MIN_POSITIVE, 1e-17, 0.3, 1.0 - f64::EPSILON / 2.0] {
                 let value = distribution(shape).quantile(part);
-                assert!(
-                    (12e-6..=20e-6).contains(&value),
-                    "{}: {value}",
-                    shape.name()
-                );
+                assert!((12e-6..=20e-6).contains(&value), "{}: {value}", shape.name());
             }
         }
     }
@@ -228,15 +215,9 @@ mod tests {
             "{message}"
         );
         let message = refusal("driven.tip_relief", "normal", "3 um").unwrap_err();
-        assert!(
-            message.contains("-5 um at 5 standard deviations"),
-            "{message}"
-        );
+        assert!(message.contains("-5 um at 5 standard deviations"), "{message}");
         assert!(refusal("driven.tip_relief", "truncated", "10 um").is_ok());
         let message = refusal("operation.torque", "normal", "1 N m").unwrap_err();
-        assert!(
-            message.contains("operation.torque has no value to spread around"),
-            "{message}"
-        );
+        assert!(message.contains("operation.torque has no value to spread around"), "{message}");
     }
 }

@@ -16,11 +16,7 @@ pub fn headline(case: &Case, methods: &[Method]) -> Vec<&'static Quantity> {
         .collect();
     if limited.is_empty() {
         let force = Quantity::find("impact_force");
-        return distinct(
-            force
-                .into_iter()
-                .flat_map(|force| in_methods(force, methods)),
-        );
+        return distinct(force.into_iter().flat_map(|force| in_methods(force, methods)));
     }
     let with_counterparts = |quantity: &'static Quantity| {
         let counterparts = in_methods(quantity, methods);

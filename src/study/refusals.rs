@@ -33,11 +33,7 @@ impl Refusals {
         };
         match self.0.iter_mut().find(is_same) {
             Some(same) => same.count += 1,
-            None => self.0.push(Refused {
-                count: 1,
-                first: index,
-                problem: problem.clone(),
-            }),
+            None => self.0.push(Refused { count: 1, first: index, problem: problem.clone() }),
         }
     }
 
@@ -50,6 +46,5 @@ impl Refusals {
 
 /// The characters of a text without its numbers.
 fn words(text: &str) -> impl Iterator<Item = char> {
-    text.chars()
-        .filter(|character| !character.is_ascii_digit() && !".+-".contains(*character))
+    text.chars().filter(|character| !character.is_ascii_digit() && !".+-".contains(*character))
 }

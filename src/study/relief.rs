@@ -71,10 +71,7 @@ pub struct Choice {
 
 impl Demand {
     /// Loads from 25 % to 110 % of the load of the case, tolerance 5 um.
-    pub const USUAL: Demand = Demand {
-        loads: (0.25, 1.1),
-        tolerance: 5e-6,
-    };
+    pub const USUAL: Demand = Demand { loads: (0.25, 1.1), tolerance: 5e-6 };
 }
 
 impl Choice {
@@ -163,17 +160,10 @@ pub fn specify(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Specification, NoRelief> {
     let torque = inputs.torque();
-    let inputs = Inputs {
-        drive: Drive::Torque(torque),
-        ..inputs.clone()
-    };
+    let inputs = Inputs { drive: Drive::Torque(torque), ..inputs.clone() };
     let method = governing(&inputs, go_on)?;
     // No figure reads the stations.
-    let by_method = |method| Inputs {
-        method,
-        stations: Some(1),
-        ..inputs.clone()
-    };
+    let by_method = |method| Inputs { method, stations: Some(1), ..inputs.clone() };
     let at_rest = by_method(Method::Static);
     let in_motion = (method == Method::Dynamic).then(|| by_method(Method::Dynamic));
     let at_most = figures::loaded(&at_rest, demand.loads.1);
@@ -252,9 +242,7 @@ fn governing(inputs: &Inputs, go_on: &dyn Fn(f64) -> bool) -> Result<Method, NoR
 fn loads((from, to): (f64, f64)) -> Vec<f64> {
     let steps = if to > from { LOADS } else { 1 };
     let last = (steps - 1).max(1) as f64;
-    (0..steps)
-        .map(|at| decimal(from + (to - from) * at as f64 / last))
-        .collect()
+    (0..steps).map(|at| decimal(from + (to - from) * at as f64 / last)).collect()
 }
 
 /// Rounds a number to at most twelve decimal places.
@@ -280,20 +268,13 @@ fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, N
     let length_step = round_step(longest / 40.0);
     let least = (needed / STEEPEST).max(length_step);
     if least > longest {
-        return Err(NoRelief::ShortPath {
-            length: longest,
-            least,
-            ratio: geometry.contact_ratio,
-        });
+        return Err(NoRelief::ShortPath { length: longest, least, ratio: geometry.contact_ratio });
     }
     let tip = |gear, circles| {
         let thickness = Profile::of(&Rack::of(inputs, gear), circles).tip_thickness();
         PART_OF_TIP * thickness.max(0.0)
     };
-    let tips = [
-        tip(&inputs.driver, &geometry.driver),
-        tip(&inputs.driven, &geometry.driven),
-    ];
+    let tips = [tip(&inputs.driver, &geometry.driver), tip(&inputs.driven, &geometry.driven)];
     let steps = |length: f64, step: f64| (length / step).floor().max(0.0) as i32;
     Ok(Grid {
         length_step,

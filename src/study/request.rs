@@ -78,9 +78,7 @@ impl Request {
             fix: "run the shard again".to_owned(),
         })?;
         let case = document.case;
-        let inputs = case
-            .inputs()
-            .map_err(|mut problems| problems.swap_remove(0))?;
+        let inputs = case.inputs().map_err(|mut problems| problems.swap_remove(0))?;
         let quantities = self
             .quantities
             .iter()
@@ -90,24 +88,11 @@ impl Request {
             PointsRequest::Sweep { vary, points, log } => {
                 Study::Sweep(Grid::parse(vary, points, *log).map_err(|(_, problem)| problem)?)
             }
-            PointsRequest::Tolerance {
-                samples,
-                seed,
-                ranked,
-            } => {
-                let size = Size {
-                    samples: *samples,
-                    seed: *seed,
-                    ranked: Some(*ranked),
-                };
+            PointsRequest::Tolerance { samples, seed, ranked } => {
+                let size = Size { samples: *samples, seed: *seed, ranked: Some(*ranked) };
                 Study::Tolerance(Tolerance::of(&case, &inputs, &quantities, size)?)
             }
         };
-        Ok(Restored {
-            case,
-            inputs,
-            quantities,
-            study,
-        })
+        Ok(Restored { case, inputs, quantities, study })
     }
 }

@@ -100,16 +100,8 @@ pub fn seek(
     points: usize,
     control: &Control,
 ) -> Result<Found, SeekError> {
-    let scan = range.axis(Sampling {
-        points: Some(points),
-        is_log: false,
-    })?;
-    let search = Search {
-        inputs,
-        range,
-        condition,
-        control,
-    };
+    let scan = range.axis(Sampling { points: Some(points), is_log: false })?;
+    let search = Search { inputs, range, condition, control };
     let mut samples = search.solve(scan)?;
     for _ in 0..MOST_ROUNDS {
         let wanted = search.refinement(&samples);
@@ -119,10 +111,7 @@ pub fn seek(
         let axis = Axis {
             field: range.field,
             unit: range.unit.clone(),
-            points: wanted
-                .into_iter()
-                .map(|number| range.at(number))
-                .collect::<Result<_, _>>()?,
+            points: wanted.into_iter().map(|number| range.at(number)).collect::<Result<_, _>>()?,
         };
         samples.extend(search.solve(axis)?);
         samples.sort_by(|one, other| one.at.total_cmp(&other.at));
@@ -141,11 +130,7 @@ impl Search<'_> {
     fn solve(&self, axis: Axis) -> Result<Vec<Sample>, Stopped> {
         let quantities: Vec<_> = self.condition.quantity().into_iter().collect();
         let grid = Grid { axes: vec![axis] };
-        let batch = Batch {
-            inputs: self.inputs,
-            points: &grid,
-            quantities: &quantities,
-        };
+        let batch = Batch { inputs: self.inputs, points: &grid, quantities: &quantities };
         let mut samples = Vec::with_capacity(grid.count());
         solve_all(&batch, 0..grid.count(), self.control, &mut |rows| {
             samples.extend(rows.range().enumerate().map(|(row, index)| Sample {
@@ -172,9 +157,7 @@ impl Search<'_> {
             }
         }
         let wanted = samples.windows(2).zip(intervals).filter(|(_, is)| *is);
-        wanted
-            .flat_map(|(pair, _)| pieces(pair[0].at, pair[1].at))
-            .collect()
+        wanted.flat_map(|(pair, _)| pieces(pair[0].at, pair[1].at)).collect()
     }
 
     fn is_wide(&self, lower: &Sample, upper: &Sample) -> bool {
@@ -189,13 +172,8 @@ impl Search<'_> {
         let is_one_answer = three[0].state.is_like(&three[1].state)
             && three[1].state.is_like(&three[2].state)
             && !matches!(three[0].state, State::Unknown(_));
-        let margins = three
-            .iter()
-            .map(|sample| self.condition.margin(sample.value?));
-        let Some(margins) = margins
-            .collect::<Option<Vec<f64>>>()
-            .filter(|_| is_one_answer)
-        else {
+        let margins = three.iter().map(|sample| self.condition.margin(sample.value?));
+        let Some(margins) = margins.collect::<Option<Vec<f64>>>().filter(|_| is_one_answer) else {
             return false;
         };
         let [left, middle, right] = [margins[0].abs(), margins[1].abs(), margins[2].abs()];
@@ -215,15 +193,9 @@ fn pieces(from: f64, to: f64) -> impl Iterator<Item = f64> {
 }
 
 fn found(samples: &[Sample]) -> Found {
-    let changes = samples
-        .windows(2)
-        .filter(|pair| !pair[0].state.is_like(&pair[1].state));
-    let crossings = changes
-        .map(|pair| Crossing {
-            lower: pair[0].clone(),
-            upper: pair[1].clone(),
-        })
-        .collect();
+    let changes = samples.windows(2).filter(|pair| !pair[0].state.is_like(&pair[1].state));
+    let crossings =
+        changes.map(|pair| Crossing { lower: pair[0].clone(), upper: pair[1].clone() }).collect();
     let mut segments: Vec<Segment> = Vec::new();
     for sample in samples {
         match segments.last_mut() {
@@ -235,9 +207,5 @@ fn found(samples: &[Sample]) -> Found {
             }),
         }
     }
-    Found {
-        crossings,
-        segments,
-        solves: samples.len(),
-    }
+    Found { crossings, segments, solves: samples.len() }
 }

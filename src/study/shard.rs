@@ -39,11 +39,7 @@ impl<'a> ShardWriter<'a> {
             shard,
             request: request.clone(),
         };
-        let mut writer = ShardWriter {
-            out,
-            hasher: SipHasher24::new(),
-            rows: 0,
-        };
+        let mut writer = ShardWriter { out, hasher: SipHasher24::new(), rows: 0 };
         writer.line(&(serde_json::to_string(&header)? + "\n"))?;
         Ok(writer)
     }
@@ -70,10 +66,7 @@ impl<'a> ShardWriter<'a> {
     /// # Errors
     /// Errors of the writer.
     pub fn finish(self) -> io::Result<()> {
-        let footer = Footer {
-            rows: self.rows,
-            hash: format!("{:016x}", self.hasher.finish()),
-        };
+        let footer = Footer { rows: self.rows, hash: format!("{:016x}", self.hasher.finish()) };
         writeln!(self.out, "{}", serde_json::to_string(&footer)?)
     }
 }

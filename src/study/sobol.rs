@@ -74,14 +74,8 @@ fn quotient(
         wholes += whole(sample);
     }
     let value = parts / wholes;
-    let squares = samples
-        .iter()
-        .map(|sample| (part(sample) - value * whole(sample)).powi(2))
-        .sum::<f64>();
+    let squares =
+        samples.iter().map(|sample| (part(sample) - value * whole(sample)).powi(2)).sum::<f64>();
     let error = (squares / (count - 1.0).max(1.0) / count).sqrt() * count / wholes;
-    Estimate {
-        value,
-        from: value - NORMAL_95 * error,
-        to: value + NORMAL_95 * error,
-    }
+    Estimate { value, from: value - NORMAL_95 * error, to: value + NORMAL_95 * error }
 }

@@ -80,10 +80,7 @@ pub fn figures(values: &[f64], bins: usize) -> Option<Figures> {
     let at_ranks = counted.ordered(values, &ranks);
     Some(Figures {
         count,
-        mean: Figure {
-            value: mean,
-            interval: half.map(|half| (mean - half, mean + half)),
-        },
+        mean: Figure { value: mean, interval: half.map(|half| (mean - half, mean + half)) },
         deviation,
         percentiles: places.map(|places| places.percentile(&at_ranks)),
         range: (least, most),
@@ -179,9 +176,7 @@ impl Places {
     }
 
     fn ranks(&self) -> impl Iterator<Item = usize> {
-        self.ranks
-            .into_iter()
-            .chain(self.interval.into_iter().flatten())
+        self.ranks.into_iter().chain(self.interval.into_iter().flatten())
     }
 
     fn percentile(&self, values: &Ordered) -> Figure {
@@ -231,8 +226,7 @@ impl Counted {
     /// Number of values in each bin.
     fn histogram(&self) -> Vec<usize> {
         let bins = self.counts.chunks(self.counts.len() / self.bins);
-        bins.map(|bin| bin.iter().map(|&count| count as usize).sum())
-            .collect()
+        bins.map(|bin| bin.iter().map(|&count| count as usize).sum()).collect()
     }
 
     /// The values at `ranks`, which must be sorted. Only intervals with a requested rank are

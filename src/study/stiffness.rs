@@ -117,17 +117,8 @@ pub struct FieldPoint {
 /// # Errors
 /// The refusals of the geometry, and [`Refusal::BoreTooLarge`].
 pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
-    let Flanks {
-        contact_half_width,
-        models,
-        gears,
-    } = compare_flanks(inputs, points)?;
-    Ok(Comparison {
-        contact_half_width,
-        models,
-        gears,
-        path: compare_path(inputs, points)?,
-    })
+    let Flanks { contact_half_width, models, gears } = compare_flanks(inputs, points)?;
+    Ok(Comparison { contact_half_width, models, gears, path: compare_path(inputs, points)? })
 }
 
 /// Compares the models over both flanks, without the path of contact.
@@ -140,17 +131,11 @@ pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal>
     let pitch_point = geometry.start + geometry.approach_length;
     let place = ContactPlace::on_line_of_action(&geometry, pitch_point);
     let contact_half_width = HalfWidth::of(&elasticity).at(&place, mesh_force);
-    let models: Vec<_> = ToothCompliance::ALL
-        .into_iter()
-        .filter(|model| model.name() != FIELD)
-        .collect();
+    let models: Vec<_> =
+        ToothCompliance::ALL.into_iter().filter(|model| model.name() != FIELD).collect();
     let flanks = flanks(inputs, &geometry, &place);
     let gears = flanks.map(|flank| flank.compare(inputs, &models, points, contact_half_width));
-    Ok(Flanks {
-        contact_half_width,
-        models,
-        gears,
-    })
+    Ok(Flanks { contact_half_width, models, gears })
 }
 
 /// Compares the models at `points` places of the path of contact.
@@ -248,11 +233,7 @@ impl Flank<'_> {
             form_radius: self.profile.form_radius(),
             tip_radius: self.circles.tip,
             pitch_radius: self.pitch_radius,
-            twist: field
-                .as_ref()
-                .ok()
-                .and_then(|field| field.twist())
-                .map(|twist| twist / young),
+            twist: field.as_ref().ok().and_then(|field| field.twist()).map(|twist| twist / young),
             refusal: field.as_ref().err().copied(),
             gaps,
             points: points.collect(),
@@ -285,10 +266,8 @@ impl Flank<'_> {
             Ok(tooth) => tooth,
             Err(refusal) => return none(refusal.to_string()),
         };
-        let values: Vec<_> = radii
-            .iter()
-            .map(|&radius| tooth.at(self.above_form_circle(radius)))
-            .collect();
+        let values: Vec<_> =
+            radii.iter().map(|&radius| tooth.at(self.above_form_circle(radius))).collect();
         let refusal = values.iter().find_map(|value| value.as_ref().err());
         let reason = refusal.map(ToString::to_string);
         (values.into_iter().map(Result::ok).collect(), reason)

@@ -41,13 +41,8 @@ impl Grid {
         let mut axes: Vec<Axis> = Vec::new();
         let mut ranges = 0;
         for text in texts {
-            let count = points
-                .get(ranges)
-                .or(points.last().filter(|_| points.len() == 1));
-            let sampling = Sampling {
-                points: count.copied(),
-                is_log,
-            };
+            let count = points.get(ranges).or(points.last().filter(|_| points.len() == 1));
+            let sampling = Sampling { points: count.copied(), is_log };
             ranges += usize::from(Axis::is_range(text));
             let axis = Axis::parse(text, sampling).map_err(|problem| (text.as_str(), problem))?;
             apart(&axes, &axis).map_err(|problem| (text.as_str(), problem))?;
@@ -58,22 +53,19 @@ impl Grid {
         if points.len() > 1 && points.len() != ranges {
             return Err((last, unlike_points(points.len(), ranges)));
         }
-        grid.checked_count()
-            .map(|_| grid)
-            .map_err(|problem| (last, problem))
+        grid.checked_count().map(|_| grid).map_err(|problem| (last, problem))
     }
 
     fn checked_count(&self) -> Result<usize, Problem> {
-        let product = self.axes.iter().try_fold(1_usize, |product, axis| {
-            product.checked_mul(axis.points.len())
-        });
-        product
-            .filter(|&count| count <= MOST_SWEPT)
-            .ok_or_else(|| Problem {
-                field: self.axes.last().map_or("", Axis::key).to_owned(),
-                cause: format!("the grid has more than {MOST_SWEPT} points"),
-                fix: "write fewer --points".to_owned(),
-            })
+        let product = self
+            .axes
+            .iter()
+            .try_fold(1_usize, |product, axis| product.checked_mul(axis.points.len()));
+        product.filter(|&count| count <= MOST_SWEPT).ok_or_else(|| Problem {
+            field: self.axes.last().map_or("", Axis::key).to_owned(),
+            cause: format!("the grid has more than {MOST_SWEPT} points"),
+            fix: "write fewer --points".to_owned(),
+        })
     }
 
     /// The axes of a point with the index of its value on each axis.
@@ -148,11 +140,7 @@ fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
             return refused(format!("{} is varied twice", axis.key()));
         }
         if Case::are_exclusive(other.key(), axis.key()) {
-            return refused(format!(
-                "{} and {} exclude each other",
-                other.key(),
-                axis.key()
-            ));
+            return refused(format!("{} and {} exclude each other", other.key(), axis.key()));
         }
     }
     Ok(())

@@ -81,27 +81,16 @@ impl Tolerance {
             Some(wanted) => wanted.min(size.samples),
             None => USUAL_RANKED.min(size.samples),
         };
-        let limits: Vec<Limit> = case
-            .limits
-            .iter()
-            .filter(|limit| !limit.text.is_empty())
-            .cloned()
-            .collect();
-        let limited = limits
-            .iter()
-            .filter_map(|limit| Quantity::find(limit.quantity));
+        let limits: Vec<Limit> =
+            case.limits.iter().filter(|limit| !limit.text.is_empty()).cloned().collect();
+        let limited = limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
         let quantities = if only.is_empty() {
             headline(case, &[inputs.method])
         } else {
             distinct(only.iter().copied().chain(limited))
         };
         Ok(Tolerance {
-            design: Design {
-                seed: size.seed,
-                distributions,
-                samples: size.samples,
-                ranked,
-            },
+            design: Design { seed: size.seed, distributions, samples: size.samples, ranked },
             quantities,
             limits,
         })
@@ -113,11 +102,7 @@ impl Tolerance {
     /// [`Stopped`] if the user stops the study.
     pub fn run(&self, inputs: &Inputs, control: &Control) -> Result<Samples, Stopped> {
         let mut samples = Samples::of(self);
-        let batch = Batch {
-            inputs,
-            points: &self.design,
-            quantities: &self.quantities,
-        };
+        let batch = Batch { inputs, points: &self.design, quantities: &self.quantities };
         solve_all(&batch, 0..self.design.count(), control, &mut |rows| {
             samples.add(&rows);
             true
@@ -130,12 +115,7 @@ impl Tolerance {
     pub fn summary(&self, samples: &Samples) -> Summary {
         let count = self.design.samples;
         let outcomes = &samples.outcomes[..count];
-        let is = |wanted| {
-            outcomes
-                .iter()
-                .filter(|&&outcome| outcome == wanted)
-                .count()
-        };
+        let is = |wanted| outcomes.iter().filter(|&&outcome| outcome == wanted).count();
         let strikes = is(PointOutcome::Solved(Outcome::CornerContact));
         let refused = is(PointOutcome::Refused);
         Summary {
@@ -146,26 +126,17 @@ impl Tolerance {
                 .iter()
                 .filter_map(|limit| self.exceedance(limit, samples))
                 .collect(),
-            quantities: (0..self.quantities.len())
-                .map(|at| self.quantity(at, samples))
-                .collect(),
+            quantities: (0..self.quantities.len()).map(|at| self.quantity(at, samples)).collect(),
         }
     }
 
     fn exceedance(&self, limit: &Limit, samples: &Samples) -> Option<Exceedance> {
         let quantity = Quantity::find(limit.quantity)?;
-        let at = self
-            .quantities
-            .iter()
-            .position(|known| known.key == quantity.key)?;
+        let at = self.quantities.iter().position(|known| known.key == quantity.key)?;
         let (mut above, mut known) = (0, 0);
         for sample in 0..self.design.samples {
-            match limit_state(
-                quantity,
-                limit,
-                samples.outcomes[sample],
-                samples.value(at, sample),
-            ) {
+            match limit_state(quantity, limit, samples.outcomes[sample], samples.value(at, sample))
+            {
                 Some(State::NotMet) => (above, known) = (above + 1, known + 1),
                 Some(_) => known += 1,
                 None => {}
@@ -183,11 +154,7 @@ impl Tolerance {
         let column = &samples.columns[at][..self.design.samples];
         let is_absent = |value: &f64| value.is_nan();
         let values: Cow<[f64]> = if column.iter().any(is_absent) {
-            column
-                .iter()
-                .copied()
-                .filter(|value| !is_absent(value))
-                .collect()
+            column.iter().copied().filter(|value| !is_absent(value)).collect()
         } else {
             column.into()
         };
@@ -205,9 +172,7 @@ impl Tolerance {
         let value = |member| samples.value(at, self.design.index(member));
         let fields = 0..self.design.distributions.len();
         let of = |number| {
-            let swapped = fields
-                .clone()
-                .map(|field| value(Member::Swapped(number, field)));
+            let swapped = fields.clone().map(|field| value(Member::Swapped(number, field)));
             Some(Ranked {
                 first: value(Member::Sample(number))?,
                 second: value(Member::Second(number))?,

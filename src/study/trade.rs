@@ -51,10 +51,7 @@ pub fn trade(
     go_on: &dyn Fn() -> bool,
     show: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
-    let inputs = &Inputs {
-        within: parameters.within,
-        ..inputs.clone()
-    };
+    let inputs = &Inputs { within: parameters.within, ..inputs.clone() };
     let settings = settings(inputs);
     let (mut trade, references) = References::find(inputs, parameters, settings.len(), go_on)?;
     show(&trade);
@@ -76,10 +73,7 @@ pub fn trade(
         trade.part = rounds.part(trade.planned);
         show(&trade);
     }
-    let refusals = trade
-        .settings
-        .iter()
-        .map(|measured| measured.found.as_ref().err());
+    let refusals = trade.settings.iter().map(|measured| measured.found.as_ref().err());
     match refusals.collect::<Option<Vec<_>>>() {
         Some(refusals) if !refusals.is_empty() => Err(*refusals[0]),
         _ => Ok(trade),
@@ -97,10 +91,8 @@ fn settings(inputs: &Inputs) -> Vec<Setting> {
 
 /// The finest setting of each method, and of the method and compliance of the case.
 fn finest(inputs: &Inputs) -> Vec<Setting> {
-    let mut settings: Vec<Setting> = METHODS
-        .iter()
-        .map(|&method| Setting::usual(method, inputs).best())
-        .collect();
+    let mut settings: Vec<Setting> =
+        METHODS.iter().map(|&method| Setting::usual(method, inputs).best()).collect();
     let own = Setting::of(inputs).best();
     if own.models.is_some() && own.method != Method::Auto && !settings.contains(&own) {
         settings.push(own);
@@ -126,19 +118,13 @@ impl References {
                 (Ok(reference), Some(truth)) if setting == reference.setting => {
                     Some(Arc::clone(truth))
                 }
-                _ => stopped(answer_of(inputs, setting, go_on))?
-                    .ok()
-                    .map(Arc::new),
+                _ => stopped(answer_of(inputs, setting, go_on))?.ok().map(Arc::new),
             };
             let off = found
                 .as_ref()
                 .zip(truth.as_ref())
                 .map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
-            models.push(Model {
-                setting,
-                off,
-                outcome: found.as_ref().map(|found| found.outcome),
-            });
+            models.push(Model { setting, off, outcome: found.as_ref().map(|found| found.outcome) });
             best.extend(found.map(|found| (setting, found)));
         }
         // The capacity is exact, because a measurement stays in memory with its case.
@@ -168,32 +154,14 @@ impl References {
             self.figures(&answer, taken, time)
         });
         let is_current = setting == Setting::of(inputs);
-        Ok(MeasuredSetting {
-            setting,
-            is_current,
-            found,
-            is_on_front: false,
-            qualifies: false,
-        })
+        Ok(MeasuredSetting { setting, is_current, found, is_on_front: false, qualifies: false })
     }
 
     fn figures(&self, answer: &Answer, taken: Setting, time: Time) -> Figures {
-        let best = self
-            .best
-            .iter()
-            .find(|(setting, _)| setting.is_finer_or_coarser(&taken));
+        let best = self.best.iter().find(|(setting, _)| setting.is_finer_or_coarser(&taken));
         let numerical = best.map_or(NO_DIFFERENCES, |(_, best)| differences(answer, best));
-        let total = self
-            .truth
-            .as_ref()
-            .map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
-        Figures {
-            taken,
-            time,
-            evaluations: answer.evaluations,
-            numerical,
-            total,
-        }
+        let total = self.truth.as_ref().map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
+        Figures { taken, time, evaluations: answer.evaluations, numerical, total }
     }
 }
 

@@ -53,10 +53,7 @@ mod linux {
 
     impl Changes {
         pub(crate) fn new() -> io::Result<Changes> {
-            Ok(Changes {
-                inotify: inotify::init(CreateFlags::CLOEXEC)?,
-                watches: BTreeSet::new(),
-            })
+            Ok(Changes { inotify: inotify::init(CreateFlags::CLOEXEC)?, watches: BTreeSet::new() })
         }
 
         /// Watches these places and no others. Skips a place that cannot be watched.
@@ -68,10 +65,7 @@ mod linux {
             let watch = |path: &PathBuf, events| {
                 inotify::add_watch(&self.inotify, path, events | WatchFlags::MASK_ADD).ok()
             };
-            let folders = places
-                .folders
-                .iter()
-                .filter_map(|path| watch(path, content));
+            let folders = places.folders.iter().filter_map(|path| watch(path, content));
             let parts = places.parts.iter().filter_map(|path| watch(path, place));
             let watches = folders.chain(parts).collect();
             for &unused in self.watches.difference(&watches) {
@@ -83,10 +77,8 @@ mod linux {
 
         /// Waits for a change in a folder, or for the bell.
         pub(crate) fn wait(&self, bell: &Bell) {
-            let mut lines = [
-                PollFd::new(&self.inotify, PollFlags::IN),
-                PollFd::new(&bell.0, PollFlags::IN),
-            ];
+            let mut lines =
+                [PollFd::new(&self.inotify, PollFlags::IN), PollFd::new(&bell.0, PollFlags::IN)];
             if poll(&mut lines, None).is_err() {
                 return;
             }
@@ -143,9 +135,7 @@ mod periodic {
         pub(crate) fn wait(&self, bell: &Bell) {
             let rings = bell.rings.lock();
             let rings = rings.unwrap_or_else(PoisonError::into_inner);
-            let waited = bell
-                .condition
-                .wait_timeout_while(rings, PERIOD, |rings| !*rings);
+            let waited = bell.condition.wait_timeout_while(rings, PERIOD, |rings| !*rings);
             *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
         }
     }

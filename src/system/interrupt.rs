@@ -13,9 +13,7 @@ const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 #[cfg(unix)]
 const SIGNALS: [i32; 8] = {
     use signal_hook::consts::{SIGALRM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU};
-    [
-        SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU,
-    ]
+    [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU]
 };
 
 /// No signal has this number.
@@ -40,11 +38,7 @@ static STATE: LazyLock<Signals> = LazyLock::new(|| {
         // If the system refuses the handler, the signal still ends the program.
         if signal_hook::flag::register_conditional_default(signal, is_default).is_ok() {
             let received = Arc::clone(&state.received);
-            drop(signal_hook::flag::register_usize(
-                signal,
-                received,
-                signal as usize,
-            ));
+            drop(signal_hook::flag::register_usize(signal, received, signal as usize));
         }
     }
     state
@@ -92,9 +86,7 @@ impl Interrupt {
     /// Ends the program by the default action of the signal, so that the caller sees the cause.
     pub(crate) fn end() {
         let received = STATE.received.load(Ordering::Relaxed);
-        let signal = SIGNALS
-            .into_iter()
-            .find(|&signal| signal as usize == received);
+        let signal = SIGNALS.into_iter().find(|&signal| signal as usize == received);
         let signal = signal.unwrap_or(SIGINT);
         drop(signal_hook::low_level::emulate_default_handler(signal));
     }

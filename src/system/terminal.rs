@@ -47,9 +47,7 @@ pub(crate) fn wait_for_hang_up(stdin: &Stdin) -> bool {
             Err(Errno::INTR) => {}
             Err(_) => return false,
             Ok(_) => {
-                return line[0]
-                    .revents()
-                    .intersects(PollFlags::HUP | PollFlags::ERR);
+                return line[0].revents().intersects(PollFlags::HUP | PollFlags::ERR);
             }
         }
     }

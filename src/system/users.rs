@@ -15,11 +15,7 @@ pub(crate) struct Access {
 
 impl Access {
     pub(crate) fn of(about: &Metadata) -> Access {
-        Access {
-            owner: about.uid(),
-            group: about.gid(),
-            mode: about.mode(),
-        }
+        Access { owner: about.uid(), group: about.gid(), mode: about.mode() }
     }
 }
 
@@ -30,10 +26,7 @@ pub(crate) fn user() -> u32 {
 
 /// The host name.
 pub(crate) fn host() -> String {
-    rustix::system::uname()
-        .nodename()
-        .to_string_lossy()
-        .into_owned()
+    rustix::system::uname().nodename().to_string_lossy().into_owned()
 }
 
 /// Creates a folder that only its owner can read, and its parents.

@@ -159,9 +159,7 @@ pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
         return None;
     }
     let chord = Chord::of(event);
-    commands::called(chord, place)
-        .map(Action::Do)
-        .or_else(|| typed(chord, place))
+    commands::called(chord, place).map(Action::Do).or_else(|| typed(chord, place))
 }
 
 fn typed(chord: Chord, place: Place) -> Option<Action> {

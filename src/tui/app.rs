@@ -102,9 +102,7 @@ impl App {
     /// The workbench on a document with all its results, which may take long.
     #[must_use]
     pub(crate) fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
-        App::answered(document, path, (look, size), |request| {
-            Some(solver::answer(request))
-        })
+        App::answered(document, path, (look, size), |request| Some(solver::answer(request)))
     }
 
     /// The workbench for the first frame, without results that need an elastic field.
@@ -160,9 +158,7 @@ impl App {
 
     /// The open cases in their order, including the current one.
     pub fn tabs(&self) -> impl Iterator<Item = &Tab> {
-        let (before, after) = self
-            .others
-            .split_at(self.place_of_tab.min(self.others.len()));
+        let (before, after) = self.others.split_at(self.place_of_tab.min(self.others.len()));
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
@@ -250,28 +246,18 @@ impl App {
     #[must_use]
     pub(crate) fn missing(&self) -> Option<usize> {
         let count = self.tab.problems.len();
-        let is_draft = self
-            .tab
-            .problems
-            .iter()
-            .all(|(row, _)| rows::lacks(&self.tab.case, *row));
+        let is_draft = self.tab.problems.iter().all(|(row, _)| rows::lacks(&self.tab.case, *row));
         Some(count).filter(|_| is_draft)
     }
 
     /// Shows a message until the next key.
     pub(super) fn say(&mut self, text: impl Into<String>) {
-        self.message = Some(Message {
-            text: text.into(),
-            is_fault: false,
-        });
+        self.message = Some(Message { text: text.into(), is_fault: false });
     }
 
     /// Shows an error message until the next key.
     pub(super) fn complain(&mut self, text: impl Into<String>) {
-        self.message = Some(Message {
-            text: text.into(),
-            is_fault: true,
-        });
+        self.message = Some(Message { text: text.into(), is_fault: true });
     }
 
     /// Focuses a field, with the cursor at the end of its text.

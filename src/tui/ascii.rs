@@ -93,15 +93,7 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
         return Cow::Borrowed(text);
     }
     Cow::Owned(
-        text.chars()
-            .map(|character| {
-                if is_safe(character) {
-                    character
-                } else {
-                    VEILED
-                }
-            })
-            .collect(),
+        text.chars().map(|character| if is_safe(character) { character } else { VEILED }).collect(),
     )
 }
 
@@ -111,11 +103,7 @@ pub(crate) fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
     if !ascii || text.is_ascii() {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(
-        WRITTEN_OUT
-            .iter()
-            .fold(text.to_owned(), |text, (from, to)| text.replace(from, to)),
-    )
+    Cow::Owned(WRITTEN_OUT.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to)))
 }
 
 /// A line of a page in ASCII. Its columns keep their positions if the gaps before them have room.
@@ -162,10 +150,7 @@ fn to_ascii(symbol: &str) -> char {
     if ('\u{2801}'..='\u{28FF}').contains(&first) {
         return '*';
     }
-    ONE_CELL
-        .iter()
-        .find(|(from, _)| from.contains(first))
-        .map_or('?', |&(_, to)| to)
+    ONE_CELL.iter().find(|(from, _)| from.contains(first)).map_or('?', |&(_, to)| to)
 }
 
 #[cfg(test)]
@@ -213,10 +198,7 @@ mod tests {
         assert_eq!(buffer.area, Rect::new(0, 0, 20, 1));
         assert_eq!(symbol("ΔV_τ", true), "dV_tau");
         assert_eq!(symbol("α_w", true), "alpha_w");
-        assert_eq!(
-            written_out("  α     pair.pressure_angle"),
-            "  alpha pair.pressure_angle"
-        );
+        assert_eq!(written_out("  α     pair.pressure_angle"), "  alpha pair.pressure_angle");
         assert_eq!(written_out("  = √(r² - b²)"), "  = sqrt(r^2 - b^2)");
     }
 }

@@ -9,15 +9,9 @@ use ratatui::buffer;
 use ratatui::layout::{Position, Size};
 
 /// The largest drawn area.
-pub(super) const LARGEST: Size = Size {
-    width: 1000,
-    height: 500,
-};
+pub(super) const LARGEST: Size = Size { width: 1000, height: 500 };
 /// The smallest drawn area if memory is short.
-const SMALLEST: Size = Size {
-    width: 80,
-    height: 24,
-};
+const SMALLEST: Size = Size { width: 80, height: 24 };
 /// Memory that must be free for a frame, in buffers of all its cells: two buffers, twice while they
 /// grow, and a reserve for the threads that start later.
 const BUFFERS: usize = 12;
@@ -30,19 +24,14 @@ pub(super) struct CappedBackend<B> {
 
 impl<B> CappedBackend<B> {
     pub(super) fn new(backend: B) -> CappedBackend<B> {
-        CappedBackend {
-            backend,
-            last: Cell::new(None),
-        }
+        CappedBackend { backend, last: Cell::new(None) }
     }
 }
 
 /// The drawn part of a terminal of a size: a failed allocation of its cells would end the process.
 fn capped(size: Size, has_room: impl Fn(Size) -> bool) -> Size {
-    let mut drawn = Size {
-        width: size.width.min(LARGEST.width),
-        height: size.height.min(LARGEST.height),
-    };
+    let mut drawn =
+        Size { width: size.width.min(LARGEST.width), height: size.height.min(LARGEST.height) };
     while !has_room(drawn) && (drawn.width > SMALLEST.width || drawn.height > SMALLEST.height) {
         drawn = Size {
             width: (drawn.width / 2).max(SMALLEST.width.min(drawn.width)),
@@ -54,9 +43,7 @@ fn capped(size: Size, has_room: impl Fn(Size) -> bool) -> Size {
 
 fn has_memory(size: Size) -> bool {
     let cells = usize::from(size.width) * usize::from(size.height);
-    Vec::<buffer::Cell>::new()
-        .try_reserve_exact(cells * BUFFERS)
-        .is_ok()
+    Vec::<buffer::Cell>::new().try_reserve_exact(cells * BUFFERS).is_ok()
 }
 
 impl<B: Backend<Error = io::Error>> Backend for CappedBackend<B> {

@@ -15,10 +15,7 @@ pub use table::BINDINGS;
 
 /// A command of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(
-    missing_docs,
-    reason = "each has its sentence in the table of bindings"
-)]
+#[expect(missing_docs, reason = "each has its sentence in the table of bindings")]
 pub enum Command {
     Help,
     Palette,
@@ -132,17 +129,10 @@ pub(crate) fn called(chord: Chord, place: Place) -> Option<Command> {
 /// prompt.
 pub fn commands() -> impl Iterator<Item = &'static Binding> {
     let is_first = |at: usize, command: Command| {
-        !BINDINGS[..at]
-            .iter()
-            .any(|binding| is_listed(binding) && binding.command == command)
+        !BINDINGS[..at].iter().any(|binding| is_listed(binding) && binding.command == command)
     };
-    let listed = BINDINGS
-        .iter()
-        .enumerate()
-        .filter(|(_, binding)| is_listed(binding));
-    listed
-        .filter(move |(at, binding)| is_first(*at, binding.command))
-        .map(|(_, binding)| binding)
+    let listed = BINDINGS.iter().enumerate().filter(|(_, binding)| is_listed(binding));
+    listed.filter(move |(at, binding)| is_first(*at, binding.command)).map(|(_, binding)| binding)
 }
 
 /// How a command relates to the focused pane and field.
@@ -168,9 +158,7 @@ pub(crate) fn scope(command: Command, place: Place, pane: Pane) -> Scope {
             _ => Scope::Everywhere,
         }
     };
-    let bound = BINDINGS
-        .iter()
-        .filter(|binding| is_listed(binding) && binding.command == command);
+    let bound = BINDINGS.iter().filter(|binding| is_listed(binding) && binding.command == command);
     bound.map(scope).min().unwrap_or(Scope::Everywhere)
 }
 
@@ -179,11 +167,7 @@ pub(crate) fn keys_of(command: Command) -> String {
     let bound = BINDINGS
         .iter()
         .filter(|binding| binding.command == command && binding.places.meets(Place::WORK));
-    bound
-        .map(Binding::keys)
-        .filter(|keys| !keys.is_empty())
-        .collect::<Vec<_>>()
-        .join(", ")
+    bound.map(Binding::keys).filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
 /// The first key of the command in a place, and its name in the palette if it has no key. Esc
@@ -198,15 +182,8 @@ pub(crate) fn key_in(place: Place, command: Command) -> String {
     let mut here = bound().filter(|binding| binding.places.meets(place));
     let after_esc = || bound().find_map(key).map(|key| format!("Esc {key}"));
     here.find_map(key).or_else(after_esc).unwrap_or_else(|| {
-        let leave = if place.meets(Place::COMMANDED) {
-            ""
-        } else {
-            "Esc "
-        };
-        format!(
-            "{leave}:{}",
-            bound().next().map_or("", |binding| binding.name)
-        )
+        let leave = if place.meets(Place::COMMANDED) { "" } else { "Esc " };
+        format!("{leave}:{}", bound().next().map_or("", |binding| binding.name))
     })
 }
 
@@ -220,11 +197,7 @@ impl Binding {
     /// The keys as text, without Ctrl-H.
     #[must_use]
     pub fn keys(&self) -> String {
-        let names = self
-            .chords
-            .iter()
-            .filter(|chord| **chord != keys::ctrl('h'))
-            .map(Chord::name);
+        let names = self.chords.iter().filter(|chord| **chord != keys::ctrl('h')).map(Chord::name);
         names.collect::<Vec<_>>().join(", ")
     }
 }
@@ -238,10 +211,7 @@ mod tests {
     fn no_key_has_two_meanings_in_a_place() {
         for (index, binding) in BINDINGS.iter().enumerate() {
             for other in &BINDINGS[index + 1..] {
-                let shared = binding
-                    .chords
-                    .iter()
-                    .find(|chord| other.chords.contains(chord));
+                let shared = binding.chords.iter().find(|chord| other.chords.contains(chord));
                 assert!(
                     !binding.places.meets(other.places) || shared.is_none(),
                     "{shared:?}: {}",
@@ -286,11 +256,7 @@ mod tests {
             ] {
                 let moved = called(keys::letter(letter), place);
                 assert!(moved.is_some(), "{letter} in {place:?}");
-                assert_eq!(
-                    moved,
-                    called(keys::key(arrow), place),
-                    "{letter} in {place:?}"
-                );
+                assert_eq!(moved, called(keys::key(arrow), place), "{letter} in {place:?}");
             }
         }
     }
@@ -300,18 +266,8 @@ mod tests {
         for binding in BINDINGS.iter().filter(|binding| is_listed(binding)) {
             for other in BINDINGS.iter().filter(|other| is_listed(other)) {
                 let same = binding.command == other.command;
-                assert_eq!(
-                    same,
-                    binding.name == other.name,
-                    "{} {}",
-                    binding.name,
-                    other.name
-                );
-                assert!(
-                    !same || binding.sentence == other.sentence,
-                    "{}",
-                    binding.name
-                );
+                assert_eq!(same, binding.name == other.name, "{} {}", binding.name, other.name);
+                assert!(!same || binding.sentence == other.sentence, "{}", binding.name);
             }
         }
     }

@@ -65,11 +65,7 @@ impl Reach {
     fn held(self, angle: f64) -> f64 {
         let angle = angle.clamp(self.least, self.most);
         // Rounding must not keep the cursor from E.
-        if angle.abs() < 1e-9 * self.column {
-            0.0
-        } else {
-            angle
-        }
+        if angle.abs() < 1e-9 * self.column { 0.0 } else { angle }
     }
 }
 
@@ -78,10 +74,7 @@ impl Reach {
 /// # Errors
 /// Returns an error if the text is not valid, or if the angle is out of range.
 pub(super) fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
-    let solution = scope
-        .charts
-        .solution()
-        .ok_or("no valid results for a cursor")?;
+    let solution = scope.charts.solution().ok_or("no valid results for a cursor")?;
     let reach = cursor_range(scope).ok_or("no valid results for a cursor")?;
     let angle = match place(scope, solution, typed.trim()) {
         Some(place) => place?,
@@ -92,12 +85,7 @@ pub(super) fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, 
         return Ok(reach.held(angle));
     }
     let ends = [reach.most, reach.least].map(|end| describe(scope, end));
-    Err(format!(
-        "{} is out of range: from {} to {}",
-        describe(scope, angle),
-        ends[0],
-        ends[1]
-    ))
+    Err(format!("{} is out of range: from {} to {}", describe(scope, angle), ends[0], ends[1]))
 }
 
 /// The completion of a typed angle or time.
@@ -108,24 +96,17 @@ pub(super) fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
     if units::parse(typed, Dimension::Number, "").is_ok() {
         return units::ending(typed, Dimension::of_unit(ruler.unit)?, ruler.unit);
     }
-    let mut endings = dimensions
-        .into_iter()
-        .filter_map(|dimension| units::ending(typed, dimension, ""));
-    let is_whole = dimensions
-        .into_iter()
-        .any(|dimension| units::parse(typed, dimension, "").is_ok());
-    endings
-        .next()
-        .filter(|_| endings.next().is_none() && !is_whole)
+    let mut endings =
+        dimensions.into_iter().filter_map(|dimension| units::ending(typed, dimension, ""));
+    let is_whole =
+        dimensions.into_iter().any(|dimension| units::parse(typed, dimension, "").is_ok());
+    endings.next().filter(|_| endings.next().is_none() && !is_whole)
 }
 
 /// An angle as text, with its time from E.
 #[must_use]
 pub(super) fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
-    let speed = scope
-        .charts
-        .answer
-        .map_or(0.0, |answer| answer.inputs.speed);
+    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
     let side = if angle < 0.0 { "after" } else { "before" };
     let micros = 1e6 * angle.abs() / speed;
     let time = if micros.is_finite() {
@@ -133,10 +114,7 @@ pub(super) fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
     } else {
         String::new()
     };
-    format!(
-        "{} deg{time} {side} E",
-        short(angle.abs().to_degrees(), DIGITS.0)
-    )
+    format!("{} deg{time} {side} E", short(angle.abs().to_degrees(), DIGITS.0))
 }
 
 fn short(number: f64, digits: usize) -> String {
@@ -152,10 +130,7 @@ fn place(scope: &CursorScope<'_>, solution: &Solution, name: &str) -> Option<Res
         "d" => found(first_contact(solution), "no corner contact, so no D"),
         "e" => Ok(0.0),
         "b" => Ok((geometry.start - geometry.end) / geometry.driver.base),
-        "l" => found(
-            last_contact(solution),
-            "only static and dynamic compute the last contact L",
-        ),
+        "l" => found(last_contact(solution), "only static and dynamic compute the last contact L"),
         "peak" => found(peak(scope), "the chart has no curve, so no peak"),
         _ => return None,
     })
@@ -164,14 +139,9 @@ fn place(scope: &CursorScope<'_>, solution: &Solution, name: &str) -> Option<Res
 // The angle at which the curve of the active method in the selected chart is farthest from 0.
 fn peak(scope: &CursorScope<'_>) -> Option<f64> {
     let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph]);
-    let own = curves
-        .iter()
-        .find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
-    let highest = own
-        .pieces
-        .iter()
-        .flatten()
-        .max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
+    let own = curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
+    let highest =
+        own.pieces.iter().flatten().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
     Some(0.0 - highest.0.to_radians())
 }
 
@@ -179,24 +149,16 @@ fn peak(scope: &CursorScope<'_>) -> Option<f64> {
 fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     let whole = [typed, &ending(scope, typed).unwrap_or_default()].concat();
     let angle = units::parse(&whole, Dimension::Angle, "deg");
-    let speed = scope
-        .charts
-        .answer
-        .map_or(0.0, |answer| answer.inputs.speed);
+    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
     let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed);
-    angle.or_else(|_| time()).map_err(
-        |_| match units::parse(typed.trim(), Dimension::Number, "") {
-            Err(misread) if typed.contains(',') => misread.fix,
-            _ => format!("{} is not an angle, time or point", typed.trim()),
-        },
-    )
+    angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
+        Err(misread) if typed.contains(',') => misread.fix,
+        _ => format!("{} is not an angle, time or point", typed.trim()),
+    })
 }
 
 fn ruler(scope: &CursorScope<'_>) -> Ruler {
-    let speed = scope
-        .charts
-        .answer
-        .map_or(0.0, |answer| answer.inputs.speed);
+    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
     Ruler::of(scope.charts.pane.by_time, speed, scope.charts.window())
 }
 
@@ -209,11 +171,8 @@ pub(super) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     let start = first_contact(solution).unwrap_or(0.0);
     let end = last_contact(solution).unwrap_or(0.0).min(0.0);
     let axis = scope.charts.scale.across;
-    let before = if axis.is_empty() {
-        start.max(pitch / 10.0)
-    } else {
-        start.max(-axis.from.to_radians())
-    };
+    let before =
+        if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
     let columns = f64::from(panels::columns(&scope.charts).max(2) - 1);
     if scope.is_in_teeth {
         let (most, least) = (before.max(2.0 * start), end.min(-pitch));
@@ -233,23 +192,9 @@ pub(super) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
         (end.min(-axis.to.to_radians()), window.length().to_radians())
     };
     // The animation covers the visible part of the contact.
-    let visible = (
-        start.min(-window.from.to_radians()),
-        end.max(-window.to.to_radians()),
-    );
-    let (run_from, run_to) = if visible.0 > visible.1 {
-        visible
-    } else {
-        (start, end)
-    };
-    Some(Reach {
-        start,
-        run_from,
-        run_to,
-        most: before,
-        least,
-        column: shown / columns,
-    })
+    let visible = (start.min(-window.from.to_radians()), end.max(-window.to.to_radians()));
+    let (run_from, run_to) = if visible.0 > visible.1 { visible } else { (start, end) };
+    Some(Reach { start, run_from, run_to, most: before, least, column: shown / columns })
 }
 
 #[cfg(test)]
@@ -282,10 +227,7 @@ mod tests {
     fn the_cursor_stays_on_the_axis_and_meets_e_itself() {
         assert!(REACH.moved(Some(0.029), -10) == 0.03);
         assert!(REACH.moved(Some(0.0002), 1) == 0.0);
-        let after = Reach {
-            least: -0.3,
-            ..REACH
-        };
+        let after = Reach { least: -0.3, ..REACH };
         let cursor = (0..80).fold(0.024, |cursor, _| after.moved(Some(cursor), 1));
         assert!(cursor == 0.0, "{cursor}");
         assert!(after.moved(Some(0.0), 1) < 0.0);
@@ -301,14 +243,6 @@ mod tests {
             assert!(pictures < 100);
         }
         assert!((47..=49).contains(&pictures), "{pictures}");
-        assert_eq!(
-            Reach {
-                start: 0.0,
-                run_from: 0.0,
-                ..REACH
-            }
-            .played(0.0),
-            None
-        );
+        assert_eq!(Reach { start: 0.0, run_from: 0.0, ..REACH }.played(0.0), None);
     }
 }

@@ -30,8 +30,7 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         }
         Effect::Keep(settings) => {
             let kept = settings.keep();
-            kept.err()
-                .map(|reason| Action::Failed(format!("the settings are not saved: {reason}")))
+            kept.err().map(|reason| Action::Failed(format!("the settings are not saved: {reason}")))
         }
         Effect::Forget(journals) => {
             // A journal that cannot be deleted is offered again at the next start.

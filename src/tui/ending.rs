@@ -41,13 +41,11 @@ pub(super) fn listen(
     signals.for_each_passing(move |signal| to_pass.send(Event::Signal(signal)).is_ok())?;
     let gone = sender.clone();
     // A process outside the session of the terminal receives no signal when the terminal closes.
-    thread::Builder::new()
-        .name("line".to_owned())
-        .spawn(move || {
-            if wait_for_hang_up(&io::stdin()) {
-                end(&last_words, &gone, &Event::Lost);
-            }
-        })?;
+    thread::Builder::new().name("line".to_owned()).spawn(move || {
+        if wait_for_hang_up(&io::stdin()) {
+            end(&last_words, &gone, &Event::Lost);
+        }
+    })?;
     Ok(())
 }
 

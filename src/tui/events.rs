@@ -61,9 +61,7 @@ impl Events {
     /// Returns an error if the system cannot start a thread.
     pub(crate) fn listen(&self) -> io::Result<()> {
         let keys = self.sender.clone();
-        thread::Builder::new()
-            .name("keys".to_owned())
-            .spawn(move || read_terminal(&keys))?;
+        thread::Builder::new().name("keys".to_owned()).spawn(move || read_terminal(&keys))?;
         Ok(())
     }
 
@@ -101,10 +99,7 @@ impl Events {
         let Some(until) = alarm.into_iter().chain(deadline).min() else {
             return Some(self.receiver.recv().unwrap_or(Event::Lost));
         };
-        match self
-            .receiver
-            .recv_timeout(until.saturating_duration_since(Instant::now()))
-        {
+        match self.receiver.recv_timeout(until.saturating_duration_since(Instant::now())) {
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => (alarm == Some(until)).then_some(Event::Tick),
             Err(RecvTimeoutError::Disconnected) => Some(Event::Lost),
@@ -150,11 +145,7 @@ fn typed(
         run.push(letter);
         inputs.next();
     }
-    if run.len() == letter.len_utf8() {
-        Action::Insert(letter)
-    } else {
-        Action::Paste(run)
-    }
+    if run.len() == letter.len_utf8() { Action::Insert(letter) } else { Action::Paste(run) }
 }
 
 fn letter_of(event: &Event, place: Place) -> Option<char> {
@@ -190,17 +181,11 @@ mod tests {
 
     #[test]
     fn a_run_of_letters_becomes_one_action() {
-        let mut inputs = keys(&"16 um".chars().map(KeyCode::Char).collect::<Vec<_>>())
-            .into_iter()
-            .peekable();
+        let mut inputs =
+            keys(&"16 um".chars().map(KeyCode::Char).collect::<Vec<_>>()).into_iter().peekable();
         let action = take_action(&mut inputs, Place::TEXT);
         assert!(matches!(action, Some(Action::Paste(text)) if text == "16 um"));
-        let mut inputs = keys(&[KeyCode::Char('s'), KeyCode::Char('d')])
-            .into_iter()
-            .peekable();
-        assert!(matches!(
-            take_action(&mut inputs, Place::ASK),
-            Some(Action::Insert('s'))
-        ));
+        let mut inputs = keys(&[KeyCode::Char('s'), KeyCode::Char('d')]).into_iter().peekable();
+        assert!(matches!(take_action(&mut inputs, Place::ASK), Some(Action::Insert('s'))));
     }
 }

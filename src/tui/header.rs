@@ -36,26 +36,15 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
     } else {
         String::new()
     };
-    let mark = [
-        if app.tab.is_unsaved() {
-            " *unsaved*"
-        } else {
-            ""
-        },
-        &app.tab.marks(),
-        &last,
-    ]
-    .concat();
+    let mark =
+        [if app.tab.is_unsaved() { " *unsaved*" } else { "" }, &app.tab.marks(), &last].concat();
     let room = usize::from(width).saturating_sub(11 + mark.width());
     let instead = app
         .tab
         .in_place_of
         .as_ref()
         .map(|path| format!(", for {} cannot be opened", path.display()));
-    let name = text::cut(
-        &format!("{}{}", app.tab.name(), instead.unwrap_or_default()),
-        room,
-    );
+    let name = text::cut(&format!("{}{}", app.tab.name(), instead.unwrap_or_default()), room);
     let title = app.tab.case.title();
     let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
     let title = if title.is_empty() || left <= 8 {
@@ -63,11 +52,7 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
     } else {
         format!("   {}", text::cut(title, left))
     };
-    vec![
-        Span::raw(name),
-        Span::styled(mark, app.look.theme.note),
-        Span::raw(title),
-    ]
+    vec![Span::raw(name), Span::styled(mark, app.look.theme.note), Span::raw(title)]
 }
 
 /// The index of the open case whose name is at a cell, if any.

@@ -68,9 +68,8 @@ pub fn lines() -> Vec<String> {
                 binding.places.meets(place)
             }
         };
-        let mut here: Vec<_> = (0..BINDINGS.len())
-            .filter(|&at| !is_listed[at] && is_here(&BINDINGS[at]))
-            .collect();
+        let mut here: Vec<_> =
+            (0..BINDINGS.len()).filter(|&at| !is_listed[at] && is_here(&BINDINGS[at])).collect();
         for &at in &here {
             is_listed[at] = true;
         }
@@ -82,10 +81,7 @@ pub fn lines() -> Vec<String> {
 }
 
 fn line(binding: &Binding) -> Option<String> {
-    let keys = if binding.chords.is_empty() {
-        format!(":{}", binding.name)
-    } else {
-        binding.keys()
-    };
+    let keys =
+        if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
     (!binding.sentence.is_empty()).then(|| format!("  {keys:<24} {}", binding.sentence))
 }

@@ -44,11 +44,7 @@ impl History {
 
     /// The case before the first edit of this visit.
     pub(super) fn before_visit(&self) -> Option<&Case> {
-        self.past
-            .last
-            .as_ref()
-            .filter(|_| self.visited.is_some())
-            .map(|(case, _)| case)
+        self.past.last.as_ref().filter(|_| self.visited.is_some()).map(|(case, _)| case)
     }
 
     /// Whether a row was edited in this visit.
@@ -85,10 +81,8 @@ impl States {
 
     fn pop(&mut self) -> Option<(Case, usize)> {
         let state = self.last.take()?;
-        self.last = self
-            .before
-            .pop()
-            .map(|(difference, at)| (difference.put_into(state.0.clone()), at));
+        self.last =
+            self.before.pop().map(|(difference, at)| (difference.put_into(state.0.clone()), at));
         Some(state)
     }
 }
@@ -120,11 +114,7 @@ impl Difference {
 
 // The parts of a case other than its fields.
 fn others_of(case: &Case) -> Others {
-    (
-        case.limits.clone(),
-        case.spread.clone(),
-        case.variants.clone(),
-    )
+    (case.limits.clone(), case.spread.clone(), case.variants.clone())
 }
 
 #[cfg(test)]
@@ -141,8 +131,7 @@ mod tests {
         let second = edited(&first, &|case| case.write(3, "6 mm"));
         let third = edited(&second, &|case| case.write_limit("friction_ratio", "0.5"));
         let fourth = edited(&third, &|case| {
-            case.spread
-                .push(Spread::new("pair.module", "normal", "4 um").unwrap());
+            case.spread.push(Spread::new("pair.module", "normal", "4 um").unwrap());
         });
         let fifth = edited(&fourth, &|case| {
             (0..9).for_each(|field| case.write(field, ""));
@@ -161,17 +150,11 @@ mod tests {
         }
         for _ in 0..2 {
             for at in (0..last).rev() {
-                assert_eq!(
-                    history.undo(&states[at + 1], at + 1),
-                    Some((states[at].clone(), at))
-                );
+                assert_eq!(history.undo(&states[at + 1], at + 1), Some((states[at].clone(), at)));
             }
             assert_eq!(history.undo(&states[0], 0), None);
             for at in 1..=last {
-                assert_eq!(
-                    history.redo(&states[at - 1], at - 1),
-                    Some((states[at].clone(), at))
-                );
+                assert_eq!(history.redo(&states[at - 1], at - 1), Some((states[at].clone(), at)));
             }
             assert_eq!(history.redo(&states[last], last), None);
         }
@@ -186,12 +169,6 @@ mod tests {
             history.end_visit();
             case.write(0, &format!("title {number}"));
         }
-        assert!(
-            history
-                .past
-                .before
-                .iter()
-                .all(|(difference, _)| difference.texts.len() == 1)
-        );
+        assert!(history.past.before.iter().all(|(difference, _)| difference.texts.len() == 1));
     }
 }

@@ -160,8 +160,6 @@ impl Chord {
     /// The shortest readable text of the key.
     #[must_use]
     pub(crate) fn short_name(&self) -> String {
-        self.name()
-            .replace("Ctrl-", "^")
-            .replace("Shift-Tab", "S-Tab")
+        self.name().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab")
     }
 }

@@ -21,11 +21,7 @@ impl Layout {
     /// The default panes on a terminal of a size.
     pub(crate) fn new(size: Size) -> Layout {
         let panes = Panes::default();
-        Layout {
-            size,
-            panes,
-            plan: plan(size, panes),
-        }
+        Layout { size, panes, plan: plan(size, panes) }
     }
 
     /// The size of the terminal.
@@ -42,11 +38,7 @@ impl Layout {
 
     /// The areas on a terminal whose new size has not been reported yet.
     pub(crate) fn plan_on(&self, size: Size) -> Plan {
-        if size == self.size {
-            self.plan
-        } else {
-            plan(size, self.panes)
-        }
+        if size == self.size { self.plan } else { plan(size, self.panes) }
     }
 
     /// The pane with the focus.

@@ -33,10 +33,7 @@ impl Line {
     pub(crate) fn named(path: impl Into<String>) -> Line {
         let path = path.into();
         let name = path.rfind('/').map_or(0, |slash| slash + 1);
-        let end = path
-            .rfind('.')
-            .filter(|&dot| dot > name)
-            .unwrap_or(path.len());
+        let end = path.rfind('.').filter(|&dot| dot > name).unwrap_or(path.len());
         let place = |at: usize| path[..at].chars().count();
         let selected = place(name)..place(end);
         Line {
@@ -56,10 +53,7 @@ impl Line {
     pub(crate) fn kept(&self) -> usize {
         let is_selected = |at: &usize| self.selected.as_ref().is_some_and(|part| part.contains(at));
         let letters = self.input.value().chars().enumerate();
-        letters
-            .filter(|(at, _)| !is_selected(at))
-            .map(|(_, letter)| letter.len_utf8())
-            .sum()
+        letters.filter(|(at, _)| !is_selected(at)).map(|(_, letter)| letter.len_utf8()).sum()
     }
 
     /// Selects the text and moves the cursor to its end.
@@ -78,10 +72,7 @@ impl Line {
         match request {
             DeletePrevChar | DeleteNextChar => {
                 self.put(part, "");
-                Some(StateChanged {
-                    value: true,
-                    cursor: true,
-                })
+                Some(StateChanged { value: true, cursor: true })
             }
             GoToPrevChar => self.input.handle(InputRequest::SetCursor(part.start)),
             GoToNextChar => self.input.handle(InputRequest::SetCursor(part.end)),
@@ -117,18 +108,9 @@ impl Line {
     // paste.
     fn put(&mut self, part: Range<usize>, typed: &str) {
         let value = self.input.value();
-        let place = |at: usize| {
-            value
-                .char_indices()
-                .nth(at)
-                .map_or(value.len(), |(place, _)| place)
-        };
-        let text = [
-            &value[..place(part.start)],
-            typed,
-            &value[place(part.end)..],
-        ]
-        .concat();
+        let place =
+            |at: usize| value.char_indices().nth(at).map_or(value.len(), |(place, _)| place);
+        let text = [&value[..place(part.start)], typed, &value[place(part.end)..]].concat();
         self.input = Input::new(text).with_cursor(part.start + typed.chars().count());
     }
 }
@@ -143,11 +125,7 @@ impl Deref for Line {
 
 impl From<String> for Line {
     fn from(text: String) -> Line {
-        Line {
-            input: Input::new(text),
-            selected: None,
-            ending: None,
-        }
+        Line { input: Input::new(text), selected: None, ending: None }
     }
 }
 
@@ -185,11 +163,7 @@ mod tests {
             (&[GoToStart], "xμ/case.toml"),
             (&[GoToEnd], "μ/case.tomlx"),
         ] {
-            assert_eq!(
-                typed(Line::named("μ/case.toml"), requests),
-                text,
-                "{requests:?}"
-            );
+            assert_eq!(typed(Line::named("μ/case.toml"), requests), text, "{requests:?}");
         }
         assert_eq!(typed(Line::whole("5 mm"), &[]), "x");
         assert_eq!(typed(Line::whole("5 mm"), &[DeletePrevWord]), "5 x");
@@ -221,25 +195,15 @@ mod tests {
 
     #[test]
     fn a_name_is_selected_without_folder_and_ending() {
-        for (path, selected) in [
-            ("case.toml", 0..4),
-            ("a.b/pair.v2.toml", 4..11),
-            ("/a/pair", 3..7),
-            (".toml", 0..5),
-        ] {
+        for (path, selected) in
+            [("case.toml", 0..4), ("a.b/pair.v2.toml", 4..11), ("/a/pair", 3..7), (".toml", 0..5)]
+        {
             assert_eq!(Line::named(path).selected(), Some(selected), "{path}");
         }
         assert_eq!(
-            (
-                Line::named("μ/pair.toml").kept(),
-                Line::from("μ").kept(),
-                Line::whole("μ").kept()
-            ),
+            (Line::named("μ/pair.toml").kept(), Line::from("μ").kept(), Line::whole("μ").kept()),
             (8, 2, 0)
         );
-        assert_eq!(
-            (Line::named("a/").selected(), Line::whole("").selected()),
-            (None, None)
-        );
+        assert_eq!((Line::named("a/").selected(), Line::whole("").selected()), (None, None));
     }
 }

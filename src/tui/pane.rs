@@ -22,14 +22,8 @@ pub enum Pane {
 
 impl Pane {
     /// Every pane, in the order of its number.
-    pub const ALL: [Pane; 6] = [
-        Pane::Form,
-        Pane::Results,
-        Pane::Chart,
-        Pane::Teeth,
-        Pane::Trade,
-        Pane::Study,
-    ];
+    pub const ALL: [Pane; 6] =
+        [Pane::Form, Pane::Results, Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
     /// The panes that share the lower area.
     pub(crate) const LOWER: [Pane; 4] = [Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
 
@@ -55,9 +49,7 @@ impl Pane {
     /// The pane of a digit.
     pub(crate) fn of_digit(digit: char) -> Option<Pane> {
         let number = digit.to_digit(10)?;
-        Pane::ALL
-            .into_iter()
-            .find(|pane| pane.number() == number as usize)
+        Pane::ALL.into_iter().find(|pane| pane.number() == number as usize)
     }
 
     /// Whether it shares the lower area.
@@ -77,9 +69,9 @@ impl Pane {
                 .and(Stages::of(Stage::SpeedRun))
                 .and(Stages::of(Stage::Clearing)),
             Pane::Chart => Stages::STATIONS,
-            Pane::Teeth => Stages::of(Stage::Impact)
-                .and(Stages::of(Stage::Static))
-                .with(Stage::Dynamic),
+            Pane::Teeth => {
+                Stages::of(Stage::Impact).and(Stages::of(Stage::Static)).with(Stage::Dynamic)
+            }
         }
     }
 

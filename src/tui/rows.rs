@@ -24,9 +24,7 @@ pub fn count(case: &Case) -> usize {
 /// The content of a row; for an index beyond the last row, the last field.
 #[must_use]
 pub(crate) fn row(case: &Case, at: usize) -> Row<'_> {
-    let limit = at
-        .checked_sub(FIELDS.len())
-        .and_then(|at| case.limits.get(at));
+    let limit = at.checked_sub(FIELDS.len()).and_then(|at| case.limits.get(at));
     limit.map_or(Row::Field(at.min(FIELDS.len() - 1)), Row::Limit)
 }
 
@@ -38,10 +36,7 @@ pub(crate) fn of_key(case: &Case, key: &str) -> Option<usize> {
 
 /// The row of the limit of a quantity.
 pub(crate) fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
-    case.limits
-        .iter()
-        .position(|limit| limit.quantity == quantity)
-        .map(|at| FIELDS.len() + at)
+    case.limits.iter().position(|limit| limit.quantity == quantity).map(|at| FIELDS.len() + at)
 }
 
 /// The text of a row.
@@ -102,9 +97,9 @@ pub(crate) fn ending(
 pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].is_unfinished(typed),
-        Row::Limit(limit) => limit
-            .measure(System::Metric)
-            .is_some_and(|measure| measure.is_unfinished(typed)),
+        Row::Limit(limit) => {
+            limit.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
+        }
     }
 }
 
@@ -147,10 +142,7 @@ pub(crate) fn label(case: &Case, at: usize) -> &'static str {
 
 /// The label of a row, with the gear if both gears have the field.
 pub(crate) fn full_label(case: &Case, at: usize) -> String {
-    field(case, at).map_or_else(
-        || format!("limit of {}", label(case, at)),
-        Field::full_label,
-    )
+    field(case, at).map_or_else(|| format!("limit of {}", label(case, at)), Field::full_label)
 }
 
 /// The symbol; empty without one.

@@ -41,10 +41,7 @@ pub(crate) struct Ticks {
 
 impl Span {
     /// The empty range.
-    pub(crate) const NONE: Span = Span {
-        from: f64::INFINITY,
-        to: f64::NEG_INFINITY,
-    };
+    pub(crate) const NONE: Span = Span { from: f64::INFINITY, to: f64::NEG_INFINITY };
 
     /// The range between two ends.
     #[must_use]
@@ -66,19 +63,13 @@ impl Span {
     /// The range extended to a point.
     #[must_use]
     pub(crate) fn with(self, value: f64) -> Span {
-        Span {
-            from: self.from.min(value),
-            to: self.to.max(value),
-        }
+        Span { from: self.from.min(value), to: self.to.max(value) }
     }
 
     /// The range that covers both.
     #[must_use]
     pub(crate) fn and(self, other: Span) -> Span {
-        Span {
-            from: self.from.min(other.from),
-            to: self.to.max(other.to),
-        }
+        Span { from: self.from.min(other.from), to: self.to.max(other.to) }
     }
 
     /// Whether the range contains the other.
@@ -90,21 +81,14 @@ impl Span {
     /// The position of a value, 0 at the lower end and 1 at the upper end.
     #[must_use]
     pub(crate) fn part(self, value: f64) -> f64 {
-        if self.is_empty() {
-            0.0
-        } else {
-            (value - self.from) / self.length()
-        }
+        if self.is_empty() { 0.0 } else { (value - self.from) / self.length() }
     }
 
     /// The range, shifted into a longer one.
     #[must_use]
     pub(crate) fn within(self, other: Span) -> Span {
         let from = self.from.min(other.to - self.length()).max(other.from);
-        Span {
-            from,
-            to: (from + self.length()).min(other.to),
-        }
+        Span { from, to: (from + self.length()).min(other.to) }
     }
 
     /// An axis that covers the values. Keeps this axis while it fits.
@@ -128,16 +112,9 @@ impl Span {
         let serves =
             self.covers(needed) && needed.length() >= TOO_SMALL * self.length() && !self.is_empty();
         let is_alike = |side: fn(Span) -> bool| side(self) == side(needed);
-        let sides: [fn(Span) -> bool; 3] = [
-            |span| span.from > 0.0,
-            |span| span.from < 0.0,
-            |span| span.to > 0.0,
-        ];
-        if serves && sides.into_iter().all(is_alike) {
-            self
-        } else {
-            rounded(needed)
-        }
+        let sides: [fn(Span) -> bool; 3] =
+            [|span| span.from > 0.0, |span| span.from < 0.0, |span| span.to > 0.0];
+        if serves && sides.into_iter().all(is_alike) { self } else { rounded(needed) }
     }
 
     /// A new axis that covers the values, or this axis if there are no values.
@@ -150,11 +127,7 @@ impl Span {
     /// An axis that covers the values and never shrinks.
     #[must_use]
     pub(crate) fn grown(self, values: Span) -> Span {
-        if self.covers(values) && !self.is_empty() {
-            self
-        } else {
-            self.fitted(values)
-        }
+        if self.covers(values) && !self.is_empty() { self } else { self.fitted(values) }
     }
 
     /// Ticks at multiples of 1, 2 or 5, with at most `most` intervals but at least two ticks.
@@ -180,17 +153,10 @@ impl Span {
             let value = count as f64 * step;
             (
                 value,
-                if count == 0 {
-                    "0".to_owned()
-                } else {
-                    format!("{:.decimals$}", value / unit)
-                },
+                if count == 0 { "0".to_owned() } else { format!("{:.decimals$}", value / unit) },
             )
         };
-        Ticks {
-            labelled: (first..=last).map(tick).collect(),
-            power,
-        }
+        Ticks { labelled: (first..=last).map(tick).collect(), power }
     }
 }
 
@@ -198,11 +164,7 @@ impl Span {
 #[must_use]
 pub(super) fn bounds(from: f64, to: f64) -> [f64; 2] {
     let sound = |value: f64| {
-        if value.is_finite() {
-            value.clamp(-1e100, 1e100)
-        } else {
-            0.0
-        }
+        if value.is_finite() { value.clamp(-1e100, 1e100) } else { 0.0 }
     };
     let (from, to) = (sound(from).min(sound(to)), sound(from).max(sound(to)));
     let pad = if from < to { 0.0 } else { 1f64.max(from.abs()) };
@@ -214,11 +176,7 @@ fn with_zero(values: Span, far_from_zero: f64) -> Span {
     let least = values.from.abs().min(values.to.abs());
     let greatest = values.from.abs().max(values.to.abs());
     let sound = |value: f64| {
-        if value.abs() <= NOTHING * greatest {
-            0.0
-        } else {
-            value
-        }
+        if value.abs() <= NOTHING * greatest { 0.0 } else { value }
     };
     let values = Span::new(sound(values.from), sound(values.to));
     let one_side = values.from.signum() == values.to.signum();
@@ -234,10 +192,7 @@ fn rounded(values: Span) -> Span {
         (from, 0.0) => Span::new(-end(-from), 0.0),
         (from, to) => {
             let step = round_up((to - from) / 16.0, &STEPS);
-            Span::new(
-                (from / step - 1e-9).floor() * step,
-                (to / step + 1e-9).ceil() * step,
-            )
+            Span::new((from / step - 1e-9).floor() * step, (to / step + 1e-9).ceil() * step)
         }
     }
 }
@@ -249,20 +204,14 @@ fn round_up(value: f64, round: &[f64]) -> f64 {
         return LEAST;
     }
     let power = 10f64.powi(value.log10().floor() as i32);
-    let step = round
-        .iter()
-        .find(|&&step| step * power >= value * (1.0 - 1e-12));
+    let step = round.iter().find(|&&step| step * power >= value * (1.0 - 1e-12));
     step.unwrap_or(&10.0) * power
 }
 
 // The power of ten of the labels: 0 for up to five digits before the point, otherwise a multiple of
 // 3.
 fn power(greatest: f64) -> i32 {
-    if (0.01..1e5).contains(&greatest) {
-        0
-    } else {
-        3 * (greatest.log10() / 3.0).floor() as i32
-    }
+    if (0.01..1e5).contains(&greatest) { 0 } else { 3 * (greatest.log10() / 3.0).floor() as i32 }
 }
 
 #[cfg(test)]
@@ -292,39 +241,19 @@ mod tests {
 
     #[test]
     fn an_axis_has_both_signs_if_the_curve_has_and_leaves_out_a_distant_zero() {
-        assert_eq!(
-            Span::default().fitted(Span::new(-1.366, 24.6)),
-            Span::new(-2.0, 26.0)
-        );
-        assert_eq!(
-            Span::default().fitted(Span::new(-1.366, 0.0)),
-            Span::new(-1.5, 0.0)
-        );
+        assert_eq!(Span::default().fitted(Span::new(-1.366, 24.6)), Span::new(-2.0, 26.0));
+        assert_eq!(Span::default().fitted(Span::new(-1.366, 0.0)), Span::new(-1.5, 0.0));
         let fitted = Span::default().fitted(Span::new(47.34, 47.89));
-        assert!(
-            (fitted.from - 47.3).abs() < 1e-9 && (fitted.to - 47.9).abs() < 1e-9,
-            "{fitted:?}"
-        );
+        assert!((fitted.from - 47.3).abs() < 1e-9 && (fitted.to - 47.9).abs() < 1e-9, "{fitted:?}");
         assert_eq!(Span::default().fitted(Span::new(1.0, 1.0)), to(1.0));
-        assert_eq!(
-            Span::new(-5.0, 25.0).fitted(Span::new(-1.0, 20.0)),
-            Span::new(-5.0, 25.0)
-        );
+        assert_eq!(Span::new(-5.0, 25.0).fitted(Span::new(-1.0, 20.0)), Span::new(-5.0, 25.0));
         assert_eq!(to(3.0).fitted(Span::NONE), to(3.0));
     }
 
     #[test]
     fn bounds_are_always_valid() {
-        let hostile = [
-            f64::NAN,
-            f64::INFINITY,
-            f64::NEG_INFINITY,
-            f64::MAX,
-            f64::MIN,
-            0.0,
-            -1.0,
-            5e-324,
-        ];
+        let hostile =
+            [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 0.0, -1.0, 5e-324];
         for from in hostile {
             for to in hostile {
                 let [low, high] = bounds(from, to);
@@ -338,26 +267,15 @@ mod tests {
         let labels = |from, to, most| {
             let ticks = Span::new(from, to).ticks(most);
             (
-                ticks
-                    .labelled
-                    .into_iter()
-                    .map(|(_, label)| label)
-                    .collect::<Vec<_>>()
-                    .join(" "),
+                ticks.labelled.into_iter().map(|(_, label)| label).collect::<Vec<_>>().join(" "),
                 ticks.power,
             )
         };
         assert_eq!(labels(0.0, 3000.0, 2), ("0 2000".into(), 0));
-        assert_eq!(
-            labels(-1.5, 0.0, 8),
-            ("-1.4 -1.2 -1.0 -0.8 -0.6 -0.4 -0.2 0".into(), 0)
-        );
+        assert_eq!(labels(-1.5, 0.0, 8), ("-1.4 -1.2 -1.0 -0.8 -0.6 -0.4 -0.2 0".into(), 0));
         assert_eq!(labels(0.0, 3e5, 3), ("0 100 200 300".into(), 3));
         assert_eq!(labels(0.0, 2e-6, 4), ("0 0.5 1.0 1.5 2.0".into(), -6));
-        assert_eq!(
-            labels(47.3, 47.9, 6),
-            ("47.3 47.4 47.5 47.6 47.7 47.8 47.9".into(), 0)
-        );
+        assert_eq!(labels(47.3, 47.9, 6), ("47.3 47.4 47.5 47.6 47.7 47.8 47.9".into(), 0));
     }
 
     proptest! {

@@ -15,11 +15,8 @@ use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 
 /// Markers and their names in the file.
-const MARKERS: [(&str, Marker); 3] = [
-    ("braille", Marker::Braille),
-    ("halfblock", Marker::HalfBlock),
-    ("dot", Marker::Dot),
-];
+const MARKERS: [(&str, Marker); 3] =
+    [("braille", Marker::Braille), ("halfblock", Marker::HalfBlock), ("dot", Marker::Dot)];
 
 /// Greatest size of a settings file.
 const MOST_BYTES: u64 = 64 * 1024;
@@ -64,11 +61,8 @@ impl Settings {
         Settings {
             marker: word("marker").and_then(marker_of).unwrap_or(usual.marker),
             mouse: flag("mouse").unwrap_or(usual.mouse),
-            theme: word("theme").and_then(|name| {
-                ThemeName::ALL
-                    .into_iter()
-                    .find(|theme| theme.name() == name)
-            }),
+            theme: word("theme")
+                .and_then(|name| ThemeName::ALL.into_iter().find(|theme| theme.name() == name)),
             units: word("units").and_then(System::find).unwrap_or(usual.units),
             ascii: flag("ascii").unwrap_or(usual.ascii),
         }
@@ -143,30 +137,19 @@ impl Settings {
     /// characters that the environment lacks.
     #[must_use]
     pub(crate) fn look(self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
-        let theme = self
-            .theme
-            .filter(|_| !variable("NO_COLOR"))
-            .map_or(able.theme, ThemeName::theme);
-        Look {
-            theme,
-            ascii: self.ascii || able.ascii,
-        }
+        let theme =
+            self.theme.filter(|_| !variable("NO_COLOR")).map_or(able.theme, ThemeName::theme);
+        Look { theme, ascii: self.ascii || able.ascii }
     }
 }
 
 /// The name of a marker in the file.
 pub(crate) fn marker_name(marker: Marker) -> &'static str {
-    MARKERS
-        .iter()
-        .find(|(_, known)| *known == marker)
-        .map_or("braille", |(name, _)| name)
+    MARKERS.iter().find(|(_, known)| *known == marker).map_or("braille", |(name, _)| name)
 }
 
 fn marker_of(name: &str) -> Option<Marker> {
-    MARKERS
-        .iter()
-        .find(|(known, _)| *known == name)
-        .map(|&(_, marker)| marker)
+    MARKERS.iter().find(|(known, _)| *known == name).map(|&(_, marker)| marker)
 }
 
 fn old_text(file: &Path) -> io::Result<String> {
@@ -181,17 +164,10 @@ fn old_text(file: &Path) -> io::Result<String> {
 }
 
 fn file() -> Option<PathBuf> {
-    let own = env::var_os("XDG_CONFIG_HOME")
-        .map(PathBuf::from)
-        .filter(|path| path.is_absolute());
+    let own = env::var_os("XDG_CONFIG_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
     let folder = own.map(|path| path.join("tipstrike"));
-    let folder = folder.or_else(|| {
-        Some(
-            ProjectDirs::from("", "", "tipstrike")?
-                .config_dir()
-                .to_owned(),
-        )
-    });
+    let folder =
+        folder.or_else(|| Some(ProjectDirs::from("", "", "tipstrike")?.config_dir().to_owned()));
     folder.map(|folder| folder.join("settings.toml"))
 }
 
@@ -207,19 +183,12 @@ mod tests {
     fn unknown_settings_remain_in_the_file() {
         let old =
             "# mine\nlater = 3\nmarker = \"dot\" # small\nmouse = false\n\n[future]\nkey = 1\n";
-        let settings = Settings {
-            mouse: true,
-            ..Settings::parse(old)
-        };
+        let settings = Settings { mouse: true, ..Settings::parse(old) };
         let new = settings.render(old).expect("it is TOML");
         assert_eq!(Settings::parse(&new), settings);
-        for kept in [
-            "# mine",
-            "later = 3",
-            "[future]\nkey = 1",
-            "marker = \"dot\" # small",
-            "mouse = true",
-        ] {
+        for kept in
+            ["# mine", "later = 3", "[future]\nkey = 1", "marker = \"dot\" # small", "mouse = true"]
+        {
             assert!(new.contains(kept), "{new}");
         }
     }
@@ -227,18 +196,10 @@ mod tests {
     #[test]
     fn every_setting_is_saved_and_read() {
         for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
-            for (units, ascii) in [
-                (System::Metric, false),
-                (System::Inch, true),
-                (System::Inch, false),
-            ] {
-                let settings = Settings {
-                    marker: Marker::Dot,
-                    mouse: true,
-                    theme,
-                    units,
-                    ascii,
-                };
+            for (units, ascii) in
+                [(System::Metric, false), (System::Inch, true), (System::Inch, false)]
+            {
+                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii };
                 assert_eq!(
                     Settings::parse(&settings.render("").expect("nothing is TOML")),
                     settings
@@ -255,21 +216,12 @@ mod tests {
         fs::write(&dotfile, "# mine\n").expect("room on the disk");
         fs::set_permissions(&dotfile, Permissions::from_mode(0o640)).expect("our own file");
         symlink("dotfile.toml", path("settings.toml")).expect("a link");
-        let settings = Settings {
-            mouse: true,
-            ..Settings::default()
-        };
+        let settings = Settings { mouse: true, ..Settings::default() };
         assert_eq!(settings.write_to(&path("settings.toml")), Ok(()));
         assert!(path("settings.toml").is_symlink());
         let text = fs::read_to_string(&dotfile).expect("it is there");
-        assert!(
-            text.contains("# mine") && text.contains("mouse = true"),
-            "{text}"
-        );
-        let mode = fs::metadata(&dotfile)
-            .expect("it is there")
-            .permissions()
-            .mode();
+        assert!(text.contains("# mine") && text.contains("mouse = true"), "{text}");
+        let mode = fs::metadata(&dotfile).expect("it is there").permissions().mode();
         assert_eq!(mode & 0o7777, 0o640);
     }
 
@@ -294,33 +246,8 @@ mod tests {
 
     #[test]
     fn no_color_overrides_the_theme_of_the_settings() {
-        let settings = Settings {
-            theme: Some(ThemeName::Quiet),
-            ..Settings::default()
-        };
-        assert_eq!(
-            settings
-                .look(
-                    Look {
-                        theme: &MONO,
-                        ascii: false
-                    },
-                    |_| true
-                )
-                .theme,
-            &MONO
-        );
-        assert_eq!(
-            settings
-                .look(
-                    Look {
-                        theme: &MONO,
-                        ascii: false
-                    },
-                    |_| false
-                )
-                .theme,
-            &QUIET
-        );
+        let settings = Settings { theme: Some(ThemeName::Quiet), ..Settings::default() };
+        assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| true).theme, &MONO);
+        assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| false).theme, &QUIET);
     }
 }

@@ -88,18 +88,13 @@ impl Answer {
     /// solved.
     #[must_use]
     pub(crate) fn beside(&self, active: Method) -> Method {
-        if self.of(active).is_some() {
-            active
-        } else {
-            self.active
-        }
+        if self.of(active).is_some() { active } else { self.active }
     }
 
     /// Whether the incoming tooth strikes, by the active method.
     #[must_use]
     pub(crate) fn strikes(&self) -> bool {
-        self.of(self.active)
-            .is_some_and(|solution| solution.outcome == Outcome::CornerContact)
+        self.of(self.active).is_some_and(|solution| solution.outcome == Outcome::CornerContact)
     }
 
     /// Whether all requested stages are present.
@@ -118,10 +113,7 @@ impl Answer {
     #[must_use]
     pub(crate) fn values(&self) -> Values {
         let solution = self.of(self.active);
-        QUANTITIES
-            .iter()
-            .map(|quantity| quantity.finite_value(solution?))
-            .collect()
+        QUANTITIES.iter().map(|quantity| quantity.finite_value(solution?)).collect()
     }
 
     /// The refusal of the active method, if it refuses the case.

@@ -64,32 +64,16 @@ pub fn built_in() -> Document {
 pub(crate) fn opening(asked: Option<PathBuf>) -> Opening {
     let was_asked = asked.is_some();
     let Some(path) = asked.or_else(recents::last) else {
-        return Opening {
-            document: built_in(),
-            path: None,
-            trouble: None,
-        };
+        return Opening { document: built_in(), path: None, trouble: None };
     };
     match load(&path) {
         Ok(document) => {
             recents::add(&path);
-            Opening {
-                document: *document,
-                path: Some(rexs::case_path(&path)),
-                trouble: None,
-            }
+            Opening { document: *document, path: Some(rexs::case_path(&path)), trouble: None }
         }
         Err(faults) => {
-            let trouble = Trouble {
-                path,
-                faults,
-                was_asked,
-            };
-            Opening {
-                document: built_in(),
-                path: None,
-                trouble: Some(trouble),
-            }
+            let trouble = Trouble { path, faults, was_asked };
+            Opening { document: built_in(), path: None, trouble: Some(trouble) }
         }
     }
 }
@@ -102,38 +86,26 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
                 .to_owned(),
         ]);
     }
-    let document = if rexs::is_model(path) {
-        rexs::read_document(path)
-    } else {
-        Document::read_draft(path)
-    };
+    let document =
+        if rexs::is_model(path) { rexs::read_document(path) } else { Document::read_draft(path) };
     let document = match document {
         Err(ReadError::NewerFormat(_)) => Document::read_newer(path),
         document => document,
     };
     let document = document.map_err(|error| error.to_string());
-    document.map(Box::new).map_err(|faults| {
-        faults
-            .lines()
-            .map(|fault| without_name(path, fault))
-            .collect()
-    })
+    document
+        .map(Box::new)
+        .map_err(|faults| faults.lines().map(|fault| without_name(path, fault)).collect())
 }
 
 // The title above the faults already has the name.
 fn without_name(path: &Path, fault: &str) -> String {
     let name = format!("{}:", sanitize(&path.display().to_string()));
-    fault
-        .strip_prefix(&name)
-        .unwrap_or(fault)
-        .trim_start()
-        .to_owned()
+    fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned()
 }
 
 pub(super) fn at_home(path: &Path) -> PathBuf {
-    let home = env::var_os("HOME")
-        .map(PathBuf::from)
-        .filter(|home| home.is_absolute());
+    let home = env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
     match (path.strip_prefix("~"), home) {
         (Ok(rest), Some(home)) => home.join(rest),
         _ => path.to_owned(),

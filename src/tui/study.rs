@@ -245,13 +245,7 @@ impl StudyResults {
             StudyParameters::Grid(grid) => vec![LayerFound::default(); grid.layers.len()],
             StudyParameters::Tolerance(_) => Vec::new(),
         };
-        StudyResults {
-            request,
-            layers,
-            page: Vec::new(),
-            part: 0.0,
-            end: None,
-        }
+        StudyResults { request, layers, page: Vec::new(), part: 0.0, end: None }
     }
 
     fn add(&mut self, part: StudyPart) {

@@ -186,37 +186,19 @@ impl Tab {
         let field = fields::index_of(self.refusal?.field())?;
         let partner = fields::FIELDS[field].partner();
         let other = partner.filter(|&other| self.case.text(other).is_some());
-        Some(
-            other
-                .filter(|_| self.case.text(field).is_none())
-                .unwrap_or(field),
-        )
+        Some(other.filter(|_| self.case.text(field).is_none()).unwrap_or(field))
     }
 
     /// The state of the case for the autosave.
     pub(crate) fn sheet(&self) -> OpenCase<'_> {
-        let path = self
-            .document
-            .path()
-            .or(self.path.as_deref())
-            .filter(|_| self.path.is_some());
+        let path = self.document.path().or(self.path.as_deref()).filter(|_| self.path.is_some());
         let is_held = matches!(self.access, Access::Held(_));
-        OpenCase {
-            id: self.id,
-            path,
-            document: &self.document,
-            case: &self.case,
-            is_held,
-        }
+        OpenCase { id: self.id, path, document: &self.document, case: &self.case, is_held }
     }
 
     /// The marks beside the name of the case.
     pub(crate) fn marks(&self) -> String {
-        let outdated = if self.is_outdated {
-            " *changed on disk*"
-        } else {
-            ""
-        };
+        let outdated = if self.is_outdated { " *changed on disk*" } else { "" };
         format!("{outdated}{}", self.access.mark())
     }
 
@@ -260,9 +242,7 @@ impl Tab {
             None
         };
         self.case.drop_empty_limits(limit);
-        let focus = limit
-            .and_then(|quantity| rows::of_limit(&self.case, quantity))
-            .unwrap_or(at);
+        let focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);
         self.form = FormState {
             top: self.form.top,
             lines: std::mem::take(&mut self.form.lines),

@@ -73,10 +73,7 @@ pub(super) fn hold_panics() {
 /// The message of the last panic.
 #[must_use]
 pub(super) fn last_panic() -> Option<String> {
-    LAST_PANIC
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .take()
+    LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
 }
 
 /// Marks that a signal will end the process soon.
@@ -96,11 +93,7 @@ fn ends_in_background() -> bool {
 
 // In the background the terminal has the modes of the shell.
 fn restore_modes() -> io::Result<()> {
-    if is_in_foreground() {
-        disable_raw_mode()
-    } else {
-        Ok(())
-    }
+    if is_in_foreground() { disable_raw_mode() } else { Ok(()) }
 }
 
 /// Restores the terminal while the main loop is blocked. If the terminal accepts no bytes, only its
@@ -249,23 +242,14 @@ impl Screen {
             ResetColor,
             Clear(ClearType::All)
         )?;
-        if self.has_mouse {
-            execute!(self.output(), EnableMouseCapture)
-        } else {
-            Ok(())
-        }
+        if self.has_mouse { execute!(self.output(), EnableMouseCapture) } else { Ok(()) }
     }
 
     fn leave(&mut self) -> io::Result<()> {
         if self.has_mouse {
             execute!(self.output(), DisableMouseCapture)?;
         }
-        let written = execute!(
-            self.output(),
-            DisableBracketedPaste,
-            Show,
-            LeaveAlternateScreen
-        );
+        let written = execute!(self.output(), DisableBracketedPaste, Show, LeaveAlternateScreen);
         IS_TAKEN.store(false, Ordering::Relaxed);
         restore_modes().and(written)
     }

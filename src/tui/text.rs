@@ -33,11 +33,7 @@ pub(super) fn cut_front(text: &str, width: usize) -> String {
     if over == 0 {
         return text.into_owned();
     }
-    if width == 0 {
-        String::new()
-    } else {
-        format!("…{}", skip(&text, over + 1))
-    }
+    if width == 0 { String::new() } else { format!("…{}", skip(&text, over + 1)) }
 }
 
 /// The text cut or padded to the width.
@@ -71,24 +67,16 @@ pub(super) fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
     }
     let least = width * rows / 2;
     let ends = |mark: &'static str| {
-        text.match_indices(mark)
-            .map(|(at, _)| at)
-            .collect::<Vec<_>>()
-            .into_iter()
-            .rev()
+        text.match_indices(mark).map(|(at, _)| at).collect::<Vec<_>>().into_iter().rev()
     };
     let is_end = |at: &usize| !text[..*at].ends_with("Eq") && !text[..*at].ends_with("Eqs");
     let whole = ends(". ").filter(is_end).map(|at| text[..=at].to_owned());
     let mut ends_of_parts: Vec<usize> = ends("; ").chain(ends(", ")).collect();
     ends_of_parts.sort_unstable_by_key(|&at| std::cmp::Reverse(at));
-    let parts = ends_of_parts
-        .into_iter()
-        .map(|at| format!("{}…", &text[..at]));
+    let parts = ends_of_parts.into_iter().map(|at| format!("{}…", &text[..at]));
     let words = ends(" ").map(|at| format!("{}…", &text[..at]));
-    let mut sayings = whole
-        .chain(parts)
-        .filter(|shortened| shortened.width() >= least)
-        .chain(words);
+    let mut sayings =
+        whole.chain(parts).filter(|shortened| shortened.width() >= least).chain(words);
     sayings
         .find(|shortened| fits(shortened))
         .map_or_else(Vec::new, |shortened| wrap(&shortened, width))
@@ -105,11 +93,7 @@ pub(super) fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer
     if width > 4 {
         buffer.set_stringn(area.x + 1, area.y, title, width - 1, theme.title);
     }
-    Rect {
-        y: area.y + 1,
-        height: area.height - 1,
-        ..area
-    }
+    Rect { y: area.y + 1, height: area.height - 1, ..area }
 }
 
 /// Draws an edited line of text, scrolled so that the cursor is visible. Returns the position of
@@ -136,29 +120,16 @@ pub(super) fn edited(
     buffer.set_stringn(area.x, area.y, seen, width, style);
     if let Some(part) = input.selected() {
         let cell = |at: usize| {
-            shown
-                .chars()
-                .take(at)
-                .map(width_of)
-                .sum::<usize>()
-                .saturating_sub(hidden)
-                .min(width) as u16
+            shown.chars().take(at).map(width_of).sum::<usize>().saturating_sub(hidden).min(width)
+                as u16
         };
         let (from, to) = (cell(part.start), cell(part.end));
         buffer.set_style(
-            Rect {
-                x: area.x + from,
-                width: to - from,
-                height: 1,
-                ..area
-            },
+            Rect { x: area.x + from, width: to - from, height: 1, ..area },
             Modifier::REVERSED,
         );
     }
-    Some(Position::new(
-        area.x + u16::try_from(before - hidden).unwrap_or(0),
-        area.y,
-    ))
+    Some(Position::new(area.x + u16::try_from(before - hidden).unwrap_or(0), area.y))
 }
 
 /// Draws the completion of an edited line after its text.
@@ -171,9 +142,7 @@ pub(super) fn ending(
 ) {
     let width = usize::from(area.width);
     if let Some(ending) = ending.filter(|_| typed < width && !area.is_empty()) {
-        let style = theme
-            .faint
-            .remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
+        let style = theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
         buffer.set_stringn(area.x + typed as u16, area.y, ending, width - typed, style);
     }
 }
@@ -247,11 +216,7 @@ pub(super) fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buff
 /// Draws a scroll bar in the column right of an area, if not all lines fit.
 pub(super) fn scroll_bar_beside(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
     if lines > usize::from(area.height) {
-        let bar = Rect {
-            x: area.right(),
-            width: 1,
-            ..area
-        };
+        let bar = Rect { x: area.right(), width: 1, ..area };
         scroll_bar(top, lines, bar, buffer);
     }
 }
@@ -281,15 +246,9 @@ mod tests {
                 averyverylongwordwithoutanybreak 歯車";
         for width in 1..60 {
             let lines = wrap(text, width);
-            assert!(
-                lines.iter().all(|line| line.width() <= width.max(2)),
-                "{width}: {lines:?}"
-            );
-            let letters = |text: &str| {
-                text.chars()
-                    .filter(|letter| *letter != ' ')
-                    .collect::<String>()
-            };
+            assert!(lines.iter().all(|line| line.width() <= width.max(2)), "{width}: {lines:?}");
+            let letters =
+                |text: &str| text.chars().filter(|letter| *letter != ' ').collect::<String>();
             assert_eq!(letters(&lines.concat()), letters(text), "{width}");
         }
     }
@@ -307,10 +266,7 @@ mod tests {
         assert_eq!(cut("module", 6), "module");
         assert_eq!(cut("module", 0), "");
         assert_eq!(cut_front("/home/me/case.toml", 10), "…case.toml");
-        assert_eq!(
-            (cut_front("case", 4).as_str(), cut_front("case", 0).as_str()),
-            ("case", "")
-        );
+        assert_eq!((cut_front("case", 4).as_str(), cut_front("case", 0).as_str()), ("case", ""));
     }
 
     #[test]
@@ -318,10 +274,7 @@ mod tests {
         let area = Rect::new(3, 0, 8, 1);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 11, 1));
         let input = Line::from("0123456789");
-        assert_eq!(
-            edited(&input, area, Style::new(), &mut buffer),
-            Some(Position::new(10, 0))
-        );
+        assert_eq!(edited(&input, area, Style::new(), &mut buffer), Some(Position::new(10, 0)));
         assert_eq!(buffer, Buffer::with_lines(["   …456789 "]));
     }
 }

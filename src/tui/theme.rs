@@ -72,10 +72,7 @@ impl ThemeName {
     /// The name of a theme.
     #[must_use]
     pub(crate) fn of(theme: &Theme) -> ThemeName {
-        ThemeName::ALL
-            .into_iter()
-            .find(|name| name.theme() == theme)
-            .unwrap_or(ThemeName::Quiet)
+        ThemeName::ALL.into_iter().find(|name| name.theme() == theme).unwrap_or(ThemeName::Quiet)
     }
 }
 
@@ -108,28 +105,14 @@ pub(crate) static QUIET: Theme = Theme {
 
 /// Bright colours and bold letters, for terminals on which the quiet ones are hard to read.
 pub static CONTRAST: Theme = Theme {
-    title: Style::new()
-        .fg(Color::LightCyan)
-        .add_modifier(Modifier::BOLD),
-    focus: Style::new()
-        .add_modifier(Modifier::BOLD)
-        .add_modifier(Modifier::UNDERLINED),
+    title: Style::new().fg(Color::LightCyan).add_modifier(Modifier::BOLD),
+    focus: Style::new().add_modifier(Modifier::BOLD).add_modifier(Modifier::UNDERLINED),
     faint: Style::new(),
-    problem: Style::new()
-        .fg(Color::LightRed)
-        .add_modifier(Modifier::BOLD),
-    note: Style::new()
-        .fg(Color::LightYellow)
-        .add_modifier(Modifier::BOLD),
-    active: Style::new()
-        .fg(Color::LightGreen)
-        .add_modifier(Modifier::BOLD),
-    other: Style::new()
-        .fg(Color::LightMagenta)
-        .add_modifier(Modifier::BOLD),
-    baseline: Style::new()
-        .fg(Color::LightBlue)
-        .add_modifier(Modifier::BOLD),
+    problem: Style::new().fg(Color::LightRed).add_modifier(Modifier::BOLD),
+    note: Style::new().fg(Color::LightYellow).add_modifier(Modifier::BOLD),
+    active: Style::new().fg(Color::LightGreen).add_modifier(Modifier::BOLD),
+    other: Style::new().fg(Color::LightMagenta).add_modifier(Modifier::BOLD),
+    baseline: Style::new().fg(Color::LightBlue).add_modifier(Modifier::BOLD),
     driver: Style::new().fg(Color::LightCyan),
     driven: Style::new().fg(Color::LightYellow),
     path: Style::new().fg(Color::LightMagenta),
@@ -152,32 +135,19 @@ pub static MONO: Theme = Theme {
 
 impl Look {
     /// Colours and full Unicode.
-    pub const FULL: Look = Look {
-        theme: &QUIET,
-        ascii: false,
-    };
+    pub const FULL: Look = Look { theme: &QUIET, ascii: false };
 
     /// The capabilities according to the environment: `NO_COLOR`, `TERM`, and the locale by
     /// `LC_ALL`, `LC_CTYPE`, `LANG`.
     #[must_use]
     pub(crate) fn of(variable: impl Fn(&str) -> Option<OsString>) -> Look {
         let set = |name| variable(name).filter(|value| !value.is_empty());
-        let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
-            .into_iter()
-            .find_map(set)
-            .unwrap_or_default();
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
         let locale = locale.to_string_lossy().to_ascii_lowercase();
         let utf8 = locale.contains("utf-8") || locale.contains("utf8");
         let term = set("TERM").unwrap_or_default();
         let bare = term == "linux" || term.to_string_lossy().starts_with("vt");
-        Look {
-            theme: if set("NO_COLOR").is_some() {
-                &MONO
-            } else {
-                &QUIET
-            },
-            ascii: bare || !utf8,
-        }
+        Look { theme: if set("NO_COLOR").is_some() { &MONO } else { &QUIET }, ascii: bare || !utf8 }
     }
 }
 
@@ -187,10 +157,7 @@ mod tests {
 
     fn look(variables: &[(&str, &str)]) -> Look {
         Look::of(|name| {
-            variables
-                .iter()
-                .find(|(key, _)| *key == name)
-                .map(|(_, value)| (*value).into())
+            variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).into())
         })
     }
 

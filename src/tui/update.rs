@@ -56,10 +56,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Do(_) | Action::Insert(_) | Action::Stray(_) | Action::Paste(_) | Action::Click(_)
     ) {
         let is_again = matches!(action, Action::Do(Command::Cancel))
-            && app
-                .message
-                .take()
-                .is_some_and(|said| said.text == cancel::LEAVING);
+            && app.message.take().is_some_and(|said| said.text == cancel::LEAVING);
         if is_again {
             return files::quit(app);
         }
@@ -219,9 +216,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
 // Commands that change only the view.
 fn show(app: &mut App, command: Command) {
     match command {
-        Command::Help => app
-            .prompts
-            .push(Prompt::Read(Page::new("Help", help::lines()))),
+        Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", help::lines()))),
         Command::Palette => find(app, List::Commands),
         Command::SearchField => find(app, List::Places),
         Command::Material => catalogue::materials(app),
@@ -253,14 +248,10 @@ fn find(app: &mut App, list: List) {
     let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
     let of_scope = |scope: Scope| {
         let commands = commands::commands().map(|binding| binding.command);
-        commands
-            .filter(|&command| scope_of(app, command) == scope)
-            .collect()
+        commands.filter(|&command| scope_of(app, command) == scope).collect()
     };
     let context = Context {
-        results: results::listed(&app.results())
-            .map(|quantity| quantity.key)
-            .collect(),
+        results: results::listed(&app.results()).map(|quantity| quantity.key).collect(),
         are_results_first: app.layout.focus() == Pane::Results,
         idle: (0..FIELDS.len()).filter(idle).collect(),
         own: of_scope(Scope::Own),
@@ -285,11 +276,7 @@ fn scope_of(app: &App, command: Command) -> Scope {
         Command::Limit => field.is_none(),
         _ => return scope,
     };
-    if is_own {
-        Scope::Own
-    } else {
-        Scope::Everywhere
-    }
+    if is_own { Scope::Own } else { Scope::Everywhere }
 }
 
 fn solver_failed(app: &mut App, serial: u64) {
@@ -331,20 +318,13 @@ fn set_method(app: &mut App, method: Option<Method>) -> Vec<Effect> {
         Some(method) => edit::set(app, field, method.name()),
         None => edit::choose(app, field, &names, 1),
     };
-    let waits = if app.tab.is_stale() {
-        ", solved once every field is valid"
-    } else {
-        ""
-    };
+    let waits = if app.tab.is_stale() { ", solved once every field is valid" } else { "" };
     app.say(format!("method {}{waits}", edit::chosen(app, field)));
     effects
 }
 
 fn solve(request: Option<Request>) -> Vec<Effect> {
-    request
-        .map(|request| Effect::Solve(Box::new(request)))
-        .into_iter()
-        .collect()
+    request.map(|request| Effect::Solve(Box::new(request))).into_iter().collect()
 }
 
 #[cfg(test)]

@@ -44,25 +44,14 @@ fn too_small(area: Rect, buffer: &mut Buffer) {
         vec![needed],
     ];
     let wrapped = |lines: &Vec<String>| {
-        lines
-            .iter()
-            .flat_map(|line| text::wrap(line, width))
-            .collect::<Vec<_>>()
+        lines.iter().flat_map(|line| text::wrap(line, width)).collect::<Vec<_>>()
     };
     let is_whole = |lines: &Vec<String>| {
-        lines
-            .iter()
-            .flat_map(|line| line.split(' '))
-            .all(|word| word.len() <= width)
+        lines.iter().flat_map(|line| line.split(' ')).all(|word| word.len() <= width)
     };
     let fits =
         |lines: &&Vec<String>| is_whole(lines) && wrapped(lines).len() <= usize::from(area.height);
-    let lines = sayings
-        .iter()
-        .find(fits)
-        .or(sayings.last())
-        .map(wrapped)
-        .unwrap_or_default();
+    let lines = sayings.iter().find(fits).or(sayings.last()).map(wrapped).unwrap_or_default();
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
         buffer.set_stringn(area.x, y, line, area.width.into(), Style::new());
     }
@@ -71,13 +60,7 @@ fn too_small(area: Rect, buffer: &mut Buffer) {
 fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let plan = app.layout.plan_on(area.as_size());
     header::draw(app, plan.header, buffer);
-    let in_form = form::draw(
-        &Form {
-            area: plan.form,
-            ..app.form()
-        },
-        buffer,
-    );
+    let in_form = form::draw(&Form { area: plan.form, ..app.form() }, buffer);
     for pane in Pane::ALL {
         let area = plan.area(pane);
         if !area.is_empty() {
@@ -121,11 +104,7 @@ fn draw_charts(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
-    let stale = if app.tab.shows_last_valid() {
-        "LAST VALID, "
-    } else {
-        ""
-    };
+    let stale = if app.tab.shows_last_valid() { "LAST VALID, " } else { "" };
     let centre = app.teeth.centre.name();
     let words = format!("{stale}Teeth, true to scale, around {centre}");
     let inner = app.title(Pane::Teeth).draw(&words, area, buffer);

@@ -54,22 +54,14 @@ pub(super) fn session(
     journal_writer: &Arc<JournalWriter>,
 ) -> io::Result<End> {
     let is_last_case = case.is_none();
-    let Opening {
-        document,
-        path,
-        trouble,
-    } = store::opening(case);
+    let Opening { document, path, trouble } = store::opening(case);
     screen.enter()?;
     events.listen()?;
     let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
-    let look = settings.look(look, |name| {
-        std::env::var_os(name).is_some_and(|value| !value.is_empty())
-    });
-    let mut app = App {
-        settings,
-        ..App::at_start(document, path, look, screen.size()?)
-    };
+    let look =
+        settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
+    let mut app = App { settings, ..App::at_start(document, path, look, screen.size()?) };
     if is_last_case && app.tab.path.is_some() {
         app.tab.origin = Origin::LastCase;
     }
@@ -84,16 +76,7 @@ pub(super) fn session(
         workers.solve(request);
     }
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
-    Workbench {
-        app,
-        screen,
-        events,
-        workers,
-        autosave,
-        alarm: None,
-        chosen: None,
-    }
-    .stay()
+    Workbench { app, screen, events, workers, autosave, alarm: None, chosen: None }.stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {

@@ -72,9 +72,7 @@ impl Workers {
     pub(crate) fn measure(&mut self, measuring: Measuring) -> io::Result<()> {
         let worker = match &self.benchmark {
             Some(worker) => worker,
-            None => self
-                .benchmark
-                .insert(measuring::start(Send::clone(&self.send))?),
+            None => self.benchmark.insert(measuring::start(Send::clone(&self.send))?),
         };
         worker.request(measuring);
         Ok(())
@@ -100,9 +98,7 @@ impl Workers {
     pub fn chart(&mut self, request: ChartRequest) -> io::Result<()> {
         let worker = match &self.charts {
             Some(worker) => worker,
-            None => self
-                .charts
-                .insert(charting::start(Send::clone(&self.send))?),
+            None => self.charts.insert(charting::start(Send::clone(&self.send))?),
         };
         worker.request(request);
         Ok(())

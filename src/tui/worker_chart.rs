@@ -73,10 +73,7 @@ impl WorkerChart {
                 "Driven q in um mm/N",
             ],
             WorkerChart::Spectrum => &["Transmission error harmonics in um", "TE harmonics in um"],
-            WorkerChart::Speed => &[
-                "Dynamic factor over speed in rpm",
-                "Dynamic factor over rpm",
-            ],
+            WorkerChart::Speed => &["Dynamic factor over speed in rpm", "Dynamic factor over rpm"],
         }
     }
 
@@ -159,10 +156,7 @@ pub struct ChartWork {
 impl ChartWork {
     /// Adds a part of the result of the last request.
     pub fn take(&mut self, part: ChartPart) {
-        let Some(request) = self
-            .request
-            .as_ref()
-            .filter(|request| request.serial == part.serial)
+        let Some(request) = self.request.as_ref().filter(|request| request.serial == part.serial)
         else {
             return;
         };

@@ -9,11 +9,7 @@ fn faults(text: &str) -> Vec<Fault> {
 }
 
 fn printed(faults: &[Fault]) -> String {
-    faults
-        .iter()
-        .map(Fault::to_string)
-        .collect::<Vec<_>>()
-        .join("\n")
+    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// An expected fault: line, column, field, part of the cause, part of the fix.
@@ -40,15 +36,7 @@ const LIMIT: &str = "impact_force = \"2500 N\"";
 
 /// A line of the valid case, its replacement, the number of lines to the fault and its column, its
 /// field, a part of its cause and a part of its fix.
-type OneLine = (
-    &'static str,
-    &'static str,
-    usize,
-    usize,
-    &'static str,
-    &'static str,
-    &'static str,
-);
+type OneLine = (&'static str, &'static str, usize, usize, &'static str, &'static str, &'static str);
 
 #[rustfmt::skip]
 const ONE_BAD_LINE: &[OneLine] = &[
@@ -185,14 +173,9 @@ const ONE_BAD_LINE: &[OneLine] = &[
 #[test]
 fn one_bad_line() {
     for &(line, bad, down, column, field, cause, fix) in ONE_BAD_LINE {
-        let at = GOOD
-            .find(line)
-            .unwrap_or_else(|| panic!("the good case has no {line}"));
+        let at = GOOD.find(line).unwrap_or_else(|| panic!("the good case has no {line}"));
         let number = GOOD[..at].matches('\n').count() + 1 + down;
-        expect(
-            &GOOD.replacen(line, bad, 1),
-            &[(number, column, field, cause, fix)],
-        );
+        expect(&GOOD.replacen(line, bad, 1), &[(number, column, field, cause, fix)]);
     }
 }
 
@@ -200,11 +183,7 @@ fn one_bad_line() {
 fn without(table: &str) -> String {
     let mut inside = false;
     let keep = |line: &&str| {
-        inside = if line.starts_with('[') {
-            line.trim() == format!("[{table}]")
-        } else {
-            inside
-        };
+        inside = if line.starts_with('[') { line.trim() == format!("[{table}]") } else { inside };
         !inside
     };
     GOOD.split_inclusive('\n').filter(keep).collect()
@@ -215,20 +194,8 @@ fn a_missing_value_is_reported_at_its_key_its_table_or_the_end() {
     expect(
         &GOOD.replace("teeth = 20\n", ""),
         &[
-            (
-                14,
-                1,
-                "driver.teeth",
-                "missing",
-                "write teeth = 20 under [driver]",
-            ),
-            (
-                25,
-                1,
-                "driven.teeth",
-                "missing",
-                "write teeth = 20 under [driven]",
-            ),
+            (14, 1, "driver.teeth", "missing", "write teeth = 20 under [driver]"),
+            (25, 1, "driven.teeth", "missing", "write teeth = 20 under [driven]"),
         ],
     );
     expect(
@@ -239,19 +206,10 @@ fn a_missing_value_is_reported_at_its_key_its_table_or_the_end() {
         &without("driven"),
         &[
             (44, 1, "driven.teeth", "missing", "under [driven]"),
-            (
-                44,
-                1,
-                "driven.face_width",
-                "missing",
-                "face_width = \"8 mm\" under [driven]",
-            ),
+            (44, 1, "driven.face_width", "missing", "face_width = \"8 mm\" under [driven]"),
         ],
     );
-    expect(
-        &GOOD.replace("format = 1\n", ""),
-        &[(1, 1, "format", "missing", "format = 1")],
-    );
+    expect(&GOOD.replace("format = 1\n", ""), &[(1, 1, "format", "missing", "format = 1")]);
 }
 
 #[test]
@@ -268,11 +226,7 @@ fn an_empty_file_lacks_every_required_value() {
             "driven.face_width",
         ];
         assert_eq!(fields[..6], needed, "{text:?}");
-        assert_eq!(
-            fields[6..],
-            ["operation.power", "operation.speed"],
-            "{text:?}"
-        );
+        assert_eq!(fields[6..], ["operation.power", "operation.speed"], "{text:?}");
     }
 }
 
@@ -289,36 +243,20 @@ fn one_run_reports_all_faults_in_their_order_in_the_file() {
         &[
             (11, 10, "pair.module", "not in quotes", "write \"5 mm\""),
             (15, 9, "driver.teeth", "not a whole number", "20"),
-            (
-                21,
-                1,
-                "driver.poison",
-                "unknown key",
-                "did you mean poisson?",
-            ),
-            (
-                44,
-                14,
-                "operation.speed",
-                "invalid basic string",
-                "close the string",
-            ),
-            (
-                47,
-                10,
-                "model.method",
-                "unknown choice",
-                "did you mean paper?",
-            ),
+            (21, 1, "driver.poison", "unknown key", "did you mean poisson?"),
+            (44, 14, "operation.speed", "invalid basic string", "close the string"),
+            (47, 10, "model.method", "unknown choice", "did you mean paper?"),
         ],
     );
 }
 
 #[test]
 fn faults_of_one_field_do_not_hide_those_between_others() {
-    let text = GOOD
-        .replacen("young = \"205 GPa\"", "young = 205", 1)
-        .replacen("bore_radius = \"20 mm\"", "bore_radius = \"60 mm\"", 1);
+    let text = GOOD.replacen("young = \"205 GPa\"", "young = 205", 1).replacen(
+        "bore_radius = \"20 mm\"",
+        "bore_radius = \"60 mm\"",
+        1,
+    );
     expect(
         &text,
         &[
@@ -331,32 +269,17 @@ fn faults_of_one_field_do_not_hide_those_between_others() {
 #[test]
 fn columns_count_characters_and_lines_end_in_either_way() {
     let text = GOOD.replacen("base_pitch = \"16 um\"", "\"bäse·pitch\" = 1", 1);
-    expect(
-        &text,
-        &[(39, 1, "deviations.bäse·pitch", "unknown key", "")],
-    );
+    expect(&text, &[(39, 1, "deviations.bäse·pitch", "unknown key", "")]);
     let windows = GOOD.replace('\n', "\r\n").replacen(MODULE, "module = 5", 1);
-    expect(
-        &windows,
-        &[(11, 10, "pair.module", "has no unit", "\"5 mm\"")],
-    );
+    expect(&windows, &[(11, 10, "pair.module", "has no unit", "\"5 mm\"")]);
     let marked = format!("\u{feff}{}", GOOD.replacen("format = 1", "format = 0", 1));
-    expect(
-        &marked,
-        &[(6, 10, "format", "format is unknown", "format = 1")],
-    );
+    expect(&marked, &[(6, 10, "format", "format is unknown", "format = 1")]);
     let inline = "format = 1\npair = { modul = \"5 mm\" }\n".to_owned()
         + &without("pair").replace("format = 1\n", "");
     expect(
         &inline,
         &[
-            (
-                2,
-                8,
-                "pair.module",
-                "neither",
-                "module = \"5 mm\" under [pair]",
-            ),
+            (2, 8, "pair.module", "neither", "module = \"5 mm\" under [pair]"),
             (2, 10, "pair.modul", "unknown key", "did you mean module?"),
         ],
     );
@@ -364,13 +287,8 @@ fn columns_count_characters_and_lines_end_in_either_way() {
 
 #[test]
 fn tables_of_the_wrong_kind() {
-    expect(
-        &GOOD.replace("[driver]", "[[driver]]"),
-        &[(14, 1, "driver", "an array", "[driver]")],
-    );
-    let text = GOOD
-        .replacen("format = 1", "format = 1\npair = 5", 1)
-        .replace("[pair]", "[par]");
+    expect(&GOOD.replace("[driver]", "[[driver]]"), &[(14, 1, "driver", "an array", "[driver]")]);
+    let text = GOOD.replacen("format = 1", "format = 1\npair = 5", 1).replace("[pair]", "[par]");
     expect(
         &text,
         &[
@@ -378,10 +296,7 @@ fn tables_of_the_wrong_kind() {
             (11, 2, "par", "unknown key or table", "did you mean pair?"),
         ],
     );
-    expect(
-        &GOOD.replace("[pair]", "[pair"),
-        &[(10, 6, "toml", "unclosed table", "]")],
-    );
+    expect(&GOOD.replace("[pair]", "[pair"), &[(10, 6, "toml", "unclosed table", "]")]);
     expect(
         &GOOD.replacen("format = 1", "format = 1\nteeth = 3", 1),
         &[(7, 1, "teeth", "unknown key", "put it under [driver]")],
@@ -390,16 +305,10 @@ fn tables_of_the_wrong_kind() {
 
 #[test]
 fn a_newer_format_is_reported_alone() {
-    let found = faults(&GOOD.replacen("format = 1", "format = 2", 1).replacen(
-        MODULE,
-        "modulus = 5",
-        1,
-    ));
+    let found =
+        faults(&GOOD.replacen("format = 1", "format = 2", 1).replacen(MODULE, "modulus = 5", 1));
     assert_eq!(found.len(), 1, "{}", printed(&found));
-    assert_eq!(
-        (found[0].kind, found[0].line, found[0].column),
-        (FaultKind::NewerFormat, 6, 10)
-    );
+    assert_eq!((found[0].kind, found[0].line, found[0].column), (FaultKind::NewerFormat, 6, 10));
     assert!(found[0].fix.contains("newer tipstrike"));
     let text = faults(&GOOD.replacen("format = 1", "format = \"1\"", 1));
     assert_eq!((text.len(), text[0].kind), (1, FaultKind::Bad));
@@ -408,17 +317,11 @@ fn a_newer_format_is_reported_alone() {
 #[test]
 fn no_depth_and_no_length_is_too_much() {
     let deep = GOOD.replacen(MODULE, &format!("module = {}", "[".repeat(5000)), 1);
-    assert_eq!(
-        (faults(&deep)[0].line, faults(&deep)[0].field.as_str()),
-        (11, "pair.module")
-    );
+    assert_eq!((faults(&deep)[0].line, faults(&deep)[0].field.as_str()), (11, "pair.module"));
     let keys = GOOD.replacen(MODULE, &format!("{}x = 1", "a.".repeat(5000)), 1);
     assert!(!faults(&keys).is_empty());
     let long = format!("{GOOD}#{}", "x".repeat(MOST_BYTES));
-    expect(
-        &long,
-        &[(1, 1, "toml", "longer than 1024 KiB", "case file")],
-    );
+    expect(&long, &[(1, 1, "toml", "longer than 1024 KiB", "case file")]);
     let most = format!("{GOOD}#{}", "x".repeat(MOST_BYTES - GOOD.len() - 1));
     assert!(faults(&most).is_empty());
 }
@@ -437,22 +340,13 @@ fn a_flood_of_faults_is_cut() {
         ("[a#]", "", "a0"),
         ("a#", "", "toml"),
     ] {
-        let flood: Vec<_> = (0..50_000)
-            .map(|number| line.replace('#', &number.to_string()))
-            .collect();
+        let flood: Vec<_> =
+            (0..50_000).map(|number| line.replace('#', &number.to_string())).collect();
         let found = faults(&format!("format = 1\n{table}{}\n", flood.join("\n")));
         assert_eq!(found.len(), 101, "{line}");
         let is_first = |fault: &&Fault| first == "toml" || fault.field == first;
-        assert!(
-            found.iter().any(|fault| is_first(&fault)),
-            "{line}: {}",
-            found[0]
-        );
-        let more = found[100]
-            .cause
-            .split(' ')
-            .nth(1)
-            .and_then(|more| more.parse().ok());
+        assert!(found.iter().any(|fault| is_first(&fault)), "{line}: {}", found[0]);
+        let more = found[100].cause.split(' ').nth(1).and_then(|more| more.parse().ok());
         let more: usize = more.expect("a number");
         assert!((49_899..=49_901).contains(&more), "{line}: {}", found[100]);
     }
@@ -464,13 +358,9 @@ fn long_and_hostile_names_are_shown_short_and_visible() {
     let found = faults(&GOOD.replacen(MODULE, &format!("{key}\n{MODULE}"), 1));
     let shown = printed(&found);
     assert!(shown.len() < 400, "{shown}");
-    let named = Document::parse("\u{1b}]0;x\u{7}.toml", "")
-        .map(|_| ())
-        .unwrap_err();
+    let named = Document::parse("\u{1b}]0;x\u{7}.toml", "").map(|_| ()).unwrap_err();
     assert!(
-        named
-            .iter()
-            .all(|fault| !fault.to_string().contains(char::is_control)),
+        named.iter().all(|fault| !fault.to_string().contains(char::is_control)),
         "{}",
         printed(&named)
     );
@@ -481,9 +371,7 @@ fn bytes_that_are_no_text_are_placed() {
     let mut bytes = GOOD.as_bytes().to_vec();
     let at = GOOD.find("5 mm\"").unwrap_or(0) + "5 ".len();
     bytes[at] = 0xff;
-    let found = Document::parse_bytes("bad.toml", &bytes)
-        .map(|_| ())
-        .unwrap_err();
+    let found = Document::parse_bytes("bad.toml", &bytes).map(|_| ()).unwrap_err();
     assert_eq!(
         found[0].to_string(),
         "bad.toml:11:13: toml: byte 0xff is not UTF-8 text: save the file as UTF-8"

@@ -16,17 +16,12 @@ const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 
 fn cases() -> Vec<(PathBuf, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     paths.sort();
     assert!(paths.len() >= 8);
-    paths
-        .into_iter()
-        .map(|path| (path.clone(), fs::read_to_string(path).unwrap()))
-        .collect()
+    paths.into_iter().map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
 }
 
 fn parsed(text: &str) -> Document {
@@ -78,24 +73,14 @@ fn every_case_is_valid_names_its_source_and_has_limits() {
 #[test]
 fn the_cases_have_the_features_that_their_files_state() {
     let solved = |name: &str| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("cases")
-            .join(name);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
         let inputs = Document::read(&path).unwrap().case.inputs().unwrap();
         let solution = tipstrike::model::solve(&inputs, Stages::CLOSED_FORM).unwrap();
         (inputs, solution)
     };
     let (_, fzg) = solved("fzg-type-c.toml");
-    assert!(
-        (fzg.geometry.driver.tip * 2e3 - 82.46).abs() < 1e-4,
-        "{}",
-        fzg.geometry.driver.tip
-    );
-    assert!(
-        (fzg.geometry.driven.tip * 2e3 - 118.36).abs() < 1e-4,
-        "{}",
-        fzg.geometry.driven.tip
-    );
+    assert!((fzg.geometry.driver.tip * 2e3 - 82.46).abs() < 1e-4, "{}", fzg.geometry.driver.tip);
+    assert!((fzg.geometry.driven.tip * 2e3 - 118.36).abs() < 1e-4, "{}", fzg.geometry.driven.tip);
     let (nasa, _) = solved("nasa-lewis-28-28.toml");
     assert!((nasa.module - 3.175e-3).abs() < 1e-15 && (nasa.torque() - 71.75).abs() < 0.01);
     let (speed_up, _) = solved("hydro-speed-up.toml");
@@ -141,18 +126,8 @@ fn a_changed_value_changes_nothing_else() {
             "a \"b\" \\ c",
             "title = 'a \"b\" \\ c'",
         ),
-        (
-            "profile_shift = 0.0",
-            "driver.profile_shift",
-            ".5",
-            "profile_shift = 0.5",
-        ),
-        (
-            "impact_force = \"2500 N\"",
-            "limits.impact_force",
-            "3 kN",
-            "impact_force = \"3 kN\"",
-        ),
+        ("profile_shift = 0.0", "driver.profile_shift", ".5", "profile_shift = 0.5"),
+        ("impact_force = \"2500 N\"", "limits.impact_force", "3 kN", "impact_force = \"3 kN\""),
     ] {
         for line_end in ["\n", "\r\n"] {
             let text = TABLE_1.replace('\n', line_end);
@@ -172,10 +147,7 @@ fn a_title_of_two_lines_keeps_the_comments_of_a_file_with_other_line_ends() {
         .replace('\n', "\r\n");
     let mut document = parsed(&text);
     document.case.set("driver.teeth", "23").unwrap();
-    assert_eq!(
-        document.render(),
-        text.replacen("teeth = 20", "teeth = 23", 1)
-    );
+    assert_eq!(document.render(), text.replacen("teeth = 20", "teeth = 23", 1));
     document.case.write(index_of("title").unwrap(), "c\nd");
     let expected = text
         .replacen("teeth = 20", "teeth = 23", 1)
@@ -186,20 +158,14 @@ fn a_title_of_two_lines_keeps_the_comments_of_a_file_with_other_line_ends() {
 #[test]
 fn an_edit_keeps_every_other_byte_of_any_file() {
     let windows = TABLE_1
-        .replace(
-            "\"Zhou & Chen 2014, Table 1\"",
-            "\"\"\"\nas printed:\n# 1\"\"\"",
-        )
+        .replace("\"Zhou & Chen 2014, Table 1\"", "\"\"\"\nas printed:\n# 1\"\"\"")
         .replace('\n', "\r\n");
     let mixed = windows.replacen("\r\n", "\n", 20);
     let dotted = TABLE_1.replace("[driver]\nteeth", "[driver]\n\"teeth\"");
     for text in [&windows, &mixed, &dotted, &windows.trim_end().to_owned()] {
         let mut document = parsed(text);
         document.case.set("deviations.base_pitch", "18 um").unwrap();
-        assert_eq!(
-            document.render(),
-            text.replacen("\"16 um\"", "\"18 um\"", 1)
-        );
+        assert_eq!(document.render(), text.replacen("\"16 um\"", "\"18 um\"", 1));
     }
 }
 
@@ -212,9 +178,7 @@ fn removing_a_field_removes_only_its_own_comment() {
     document.case.set("limits.impact_force", "").unwrap();
     assert_eq!(
         document.render(),
-        TABLE_1
-            .replace(line, "")
-            .replace("impact_force = \"2500 N\"\n", "")
+        TABLE_1.replace(line, "").replace("impact_force = \"2500 N\"\n", "")
     );
 }
 
@@ -223,16 +187,10 @@ fn a_new_field_is_inserted_at_its_place_in_its_table() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "pair.centre_distance", "101 mm");
     write(&mut document, "operation.friction_coefficient", "0.06");
-    document
-        .case
-        .set("limits.normal_velocity", "2 m/s")
-        .unwrap();
+    document.case.set("limits.normal_velocity", "2 m/s").unwrap();
     let expected = TABLE_1
         .replace("\"20 deg\"\n", "\"20 deg\"\ncentre_distance = \"101 mm\"\n")
-        .replace(
-            "\"2000 rpm\"\n",
-            "\"2000 rpm\"\nfriction_coefficient = 0.06\n",
-        )
+        .replace("\"2000 rpm\"\n", "\"2000 rpm\"\nfriction_coefficient = 0.06\n")
         .replace("\"2500 N\"\n", "\"2500 N\"\nnormal_velocity = \"2 m/s\"\n");
     assert_eq!(document.render(), expected);
 }
@@ -248,11 +206,7 @@ fn a_new_table_is_appended_to_any_file() {
         let mut document = parsed(&text);
         document.case.set("limits.impact_force", "1 kN").unwrap();
         let added = format!("{line_end}[limits]{line_end}impact_force = \"1 kN\"{line_end}");
-        let kept = if text.ends_with('\n') {
-            text.clone()
-        } else {
-            format!("{text}{line_end}")
-        };
+        let kept = if text.ends_with('\n') { text.clone() } else { format!("{text}{line_end}") };
         assert_eq!(document.render(), kept + &added);
     }
 }
@@ -341,10 +295,8 @@ fn a_new_document_is_a_commented_text_with_every_field() {
     let text = document.render();
     assert_eq!(parsed(&text).case, Case::table_1());
     for field in &FIELDS {
-        let line = |line: &str| {
-            line.trim_start_matches("# ")
-                .starts_with(&format!("{} = ", field.name()))
-        };
+        let line =
+            |line: &str| line.trim_start_matches("# ").starts_with(&format!("{} = ", field.name()));
         assert!(text.lines().any(line), "{}", field.key);
         assert!(text.contains(field.help), "{}", field.key);
     }
@@ -382,10 +334,7 @@ fn a_draft_gets_its_values_in_place_and_may_be_saved_incomplete() {
     );
     write(&mut again, "pair.module", "wide");
     again.save(&path).unwrap();
-    assert!(
-        Document::read_draft(&path).is_err(),
-        "a wrong value is no missing value"
-    );
+    assert!(Document::read_draft(&path).is_err(), "a wrong value is no missing value");
 }
 
 #[test]
@@ -393,11 +342,8 @@ fn a_field_that_a_new_document_shows_as_a_comment_is_written_into_its_table() {
     let mut document = Document::new(Case::table_1());
     write(&mut document, "pair.centre_distance", "101 mm");
     let text = document.render();
-    let pair = text
-        .split("[pair]")
-        .nth(1)
-        .and_then(|rest| rest.split("\n[").next())
-        .unwrap_or_default();
+    let pair =
+        text.split("[pair]").nth(1).and_then(|rest| rest.split("\n[").next()).unwrap_or_default();
     assert!(
         pair.contains("\ncentre_distance = \"101 mm\"\n")
             && pair.contains("# centre_distance = \"100 mm\"\n"),
@@ -411,9 +357,8 @@ fn invalid_text_is_saved_as_typed() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "driver.teeth", "twenty");
     write(&mut document, "pair.module", "5");
-    let expected = TABLE_1
-        .replacen("teeth = 20", "teeth = \"twenty\"", 1)
-        .replace("\"5 mm\"", "\"5\"");
+    let expected =
+        TABLE_1.replacen("teeth = 20", "teeth = \"twenty\"", 1).replace("\"5 mm\"", "\"5\"");
     assert_eq!(document.render(), expected);
 }
 
@@ -433,48 +378,30 @@ fn a_save_replaces_the_file_and_keeps_its_mode() {
         let mut document = changed(&path);
         document.save(&path).unwrap();
         assert!(!document.is_changed());
-        assert_eq!(
-            fs::read_to_string(&path).unwrap(),
-            TABLE_1.replace("\"5 mm\"", "\"6 mm\"")
-        );
+        assert_eq!(fs::read_to_string(&path).unwrap(), TABLE_1.replace("\"5 mm\"", "\"6 mm\""));
         assert_eq!(fs::metadata(&path).unwrap().mode() & 0o777, mode);
         assert_eq!(names(folder.path()), ["case.toml"]);
         write(&mut document, "pair.module", "7 mm");
         document.save(&path).unwrap();
-        assert_eq!(
-            fs::read_to_string(&path).unwrap(),
-            TABLE_1.replace("\"5 mm\"", "\"7 mm\"")
-        );
+        assert_eq!(fs::read_to_string(&path).unwrap(), TABLE_1.replace("\"5 mm\"", "\"7 mm\""));
     }
 }
 
 #[test]
 fn a_new_file_has_the_mode_of_any_new_file() {
     let folder = tempfile::tempdir().unwrap();
-    let (saved, plain) = (
-        folder.path().join("saved.toml"),
-        folder.path().join("plain"),
-    );
+    let (saved, plain) = (folder.path().join("saved.toml"), folder.path().join("plain"));
     fs::write(&plain, "").unwrap();
     let mut document = Document::table_1();
     document.save(&saved).unwrap();
-    assert_eq!(
-        fs::metadata(&saved).unwrap().mode(),
-        fs::metadata(&plain).unwrap().mode()
-    );
-    assert_eq!(
-        document.path(),
-        Some(fs::canonicalize(&saved).unwrap().as_path())
-    );
+    assert_eq!(fs::metadata(&saved).unwrap().mode(), fs::metadata(&plain).unwrap().mode());
+    assert_eq!(document.path(), Some(fs::canonicalize(&saved).unwrap().as_path()));
 }
 
 #[test]
 fn a_chain_of_links_stays_and_its_end_is_written() {
     let (folder, path) = on_disk();
-    let (first, second) = (
-        folder.path().join("first.toml"),
-        folder.path().join("second.toml"),
-    );
+    let (first, second) = (folder.path().join("first.toml"), folder.path().join("second.toml"));
     symlink("second.toml", &first).unwrap();
     symlink(&path, &second).unwrap();
     changed(&first).save(&first).unwrap();
@@ -486,10 +413,7 @@ fn a_chain_of_links_stays_and_its_end_is_written() {
     let dangling = folder.path().join("dangling.toml");
     symlink("new.toml", &dangling).unwrap();
     Document::table_1().save(&dangling).unwrap();
-    assert_eq!(
-        fs::read_to_string(folder.path().join("new.toml")).unwrap(),
-        TABLE_1
-    );
+    assert_eq!(fs::read_to_string(folder.path().join("new.toml")).unwrap(), TABLE_1);
     symlink("loop.toml", folder.path().join("loop.toml")).unwrap();
     assert!(matches!(
         Document::table_1().save(&folder.path().join("loop.toml")),
@@ -510,19 +434,9 @@ fn a_file_with_two_names_is_refused() {
 fn pipes_folders_and_devices_are_refused_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe");
-    assert!(
-        std::process::Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     for path in [pipe.as_path(), folder.path(), Path::new("/dev/zero")] {
-        assert!(
-            matches!(Document::read(path), Err(ReadError::NotAFile(_))),
-            "{}",
-            path.display()
-        );
+        assert!(matches!(Document::read(path), Err(ReadError::NotAFile(_))), "{}", path.display());
         let saved = Document::table_1().save_over(path);
         let is_told = if path.is_dir() {
             matches!(saved, Err(SaveError::IsAFolder(..)))
@@ -539,28 +453,12 @@ fn unreadable_files_are_distinguished() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     fs::write(path("bad.toml"), TABLE_1.replace("5 mm", "5")).unwrap();
-    fs::write(
-        path("newer.toml"),
-        TABLE_1.replace("format = 1", "format = 2"),
-    )
-    .unwrap();
+    fs::write(path("newer.toml"), TABLE_1.replace("format = 1", "format = 2")).unwrap();
     fs::write(path("large.toml"), vec![b'#'; MOST_BYTES + 1]).unwrap();
-    assert!(matches!(
-        Document::read(&path("none.toml")),
-        Err(ReadError::NotFound(_))
-    ));
-    assert!(matches!(
-        Document::read(&path("none/none.toml")),
-        Err(ReadError::NotFound(_))
-    ));
-    assert!(matches!(
-        Document::read(&path("newer.toml")),
-        Err(ReadError::NewerFormat(_))
-    ));
-    assert!(matches!(
-        Document::read(&path("large.toml")),
-        Err(ReadError::TooLarge(..))
-    ));
+    assert!(matches!(Document::read(&path("none.toml")), Err(ReadError::NotFound(_))));
+    assert!(matches!(Document::read(&path("none/none.toml")), Err(ReadError::NotFound(_))));
+    assert!(matches!(Document::read(&path("newer.toml")), Err(ReadError::NewerFormat(_))));
+    assert!(matches!(Document::read(&path("large.toml")), Err(ReadError::TooLarge(..))));
     let Err(ReadError::Bad(faults)) = Document::read(&path("bad.toml")) else {
         panic!("a bad file was read")
     };
@@ -598,21 +496,11 @@ fn a_folder_that_cannot_be_written_leaves_file_and_changes() {
 fn changes_by_other_programs_are_not_overwritten_without_a_question() {
     let (folder, path) = on_disk();
     let mut document = changed(&path);
-    let (time, same_length) = (
-        fs::metadata(&path).unwrap().modified().unwrap(),
-        TABLE_1.replace("15 kW", "16 kW"),
-    );
+    let (time, same_length) =
+        (fs::metadata(&path).unwrap().modified().unwrap(), TABLE_1.replace("15 kW", "16 kW"));
     fs::write(&path, &same_length).unwrap();
-    fs::File::options()
-        .write(true)
-        .open(&path)
-        .unwrap()
-        .set_modified(time)
-        .unwrap();
-    assert!(matches!(
-        document.save(&path),
-        Err(SaveError::ChangedOnDisk(_))
-    ));
+    fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
+    assert!(matches!(document.save(&path), Err(SaveError::ChangedOnDisk(_))));
     assert_eq!(fs::read_to_string(&path).unwrap(), same_length);
     assert!(document.is_changed());
     document.save_over(&path).unwrap();
@@ -625,12 +513,7 @@ fn a_touch_or_a_new_inode_with_the_same_bytes_does_not_stop_a_save() {
     let (_folder, path) = on_disk();
     let mut document = changed(&path);
     let earlier = SystemTime::now() - Duration::from_secs(86400);
-    fs::File::options()
-        .write(true)
-        .open(&path)
-        .unwrap()
-        .set_modified(earlier)
-        .unwrap();
+    fs::File::options().write(true).open(&path).unwrap().set_modified(earlier).unwrap();
     document.save(&path).unwrap();
     write(&mut document, "pair.module", "7 mm");
     let copy = path.with_extension("copy");
@@ -649,24 +532,16 @@ fn another_file_of_that_name_is_not_overwritten_unasked() {
     let other = folder.path().join("other.toml");
     fs::write(&other, "mine").unwrap();
     let mut document = changed(&path);
-    assert!(matches!(
-        document.save(&other),
-        Err(SaveError::AlreadyThere(_))
-    ));
+    assert!(matches!(document.save(&other), Err(SaveError::AlreadyThere(_))));
     assert_eq!(fs::read_to_string(&other).unwrap(), "mine");
     document.save_over(&other).unwrap();
-    assert_eq!(
-        document.path(),
-        Some(fs::canonicalize(&other).unwrap().as_path())
-    );
+    assert_eq!(document.path(), Some(fs::canonicalize(&other).unwrap().as_path()));
     assert_eq!(names(folder.path()), ["case.toml", "other.toml"]);
 }
 
 #[test]
 fn hostile_names_are_shown_and_not_obeyed() {
-    let error = Document::read(Path::new("/none/\u{1b}]0;x\u{7}.toml"))
-        .unwrap_err()
-        .to_string();
+    let error = Document::read(Path::new("/none/\u{1b}]0;x\u{7}.toml")).unwrap_err().to_string();
     assert!(!error.contains(char::is_control), "{error:?}");
 }
 
@@ -698,10 +573,8 @@ fn any_case() -> impl Strategy<Value = Case> {
             case.write(*field, text);
         }
         if spread {
-            case.limits
-                .push(Limit::new("dynamic_factor", "1.5").unwrap());
-            case.spread
-                .push(Spread::new("pair.module", "normal", "4 um").unwrap());
+            case.limits.push(Limit::new("dynamic_factor", "1.5").unwrap());
+            case.spread.push(Spread::new("pair.module", "normal", "4 um").unwrap());
         }
         case
     })
@@ -710,19 +583,16 @@ fn any_case() -> impl Strategy<Value = Case> {
 /// TOML with typing errors: lines of the valid case, reordered, cut and broken.
 fn nearly_toml() -> impl Strategy<Value = String> {
     let line = prop::sample::select(TABLE_1.lines().collect::<Vec<_>>()).prop_map(str::to_owned);
-    let broken = (
-        line.clone(),
-        any::<prop::sample::Index>(),
-        "[\\[\\]{}=\"'.,#\\\\a-c0-9 \\n\\r]{0,4}",
-    )
-        .prop_map(|(line, at, noise)| {
-            let at = line
-                .char_indices()
-                .map(|(at, _)| at)
-                .nth(at.index(line.chars().count().max(1)))
-                .unwrap_or(0);
-            format!("{}{noise}{}", &line[..at], &line[at..])
-        });
+    let broken =
+        (line.clone(), any::<prop::sample::Index>(), "[\\[\\]{}=\"'.,#\\\\a-c0-9 \\n\\r]{0,4}")
+            .prop_map(|(line, at, noise)| {
+                let at = line
+                    .char_indices()
+                    .map(|(at, _)| at)
+                    .nth(at.index(line.chars().count().max(1)))
+                    .unwrap_or(0);
+                format!("{}{noise}{}", &line[..at], &line[at..])
+            });
     prop::collection::vec(prop_oneof![line, broken], 0..40).prop_map(|lines| lines.join("\n"))
 }
 

@@ -16,12 +16,7 @@ fn run_with_input(arguments: &[&str], input: &str) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    child
-        .stdin
-        .take()
-        .unwrap()
-        .write_all(input.as_bytes())
-        .unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     child.wait_with_output().unwrap()
 }
 
@@ -60,10 +55,7 @@ fn a_solve_prints_a_report_for_a_person() {
         page.contains("Corner contact: θ_1 = 1.366 deg before E; impact force 2191.0 N."),
         "{page}"
     );
-    assert!(
-        page.contains("Other method: paper 84.649 N at θ_1 = 0.05257 deg."),
-        "{page}"
-    );
+    assert!(page.contains("Other method: paper 84.649 N at θ_1 = 0.05257 deg."), "{page}");
     assert!(!page.contains("Stations"), "{page}");
     assert!(stdout_of(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
 }
@@ -107,25 +99,13 @@ fn json_stations_run_from_d_to_e() {
         stations[0]["roll_angle_driven"],
         solved["quantities"]["approach_angle_driven"]["value"]
     );
-    let without = json(&[
-        "solve",
-        TABLE_1,
-        "--format",
-        "json",
-        "--only",
-        "impact_force",
-    ]);
+    let without = json(&["solve", TABLE_1, "--format", "json", "--only", "impact_force"]);
     assert_eq!(without.get("stations"), None);
 }
 
 #[test]
 fn an_absent_value_is_omitted_and_the_outcome_gives_the_reason() {
-    let on_time = [
-        "--set",
-        "deviations.base_pitch=0 um",
-        "--set",
-        "model.deflection=0 um",
-    ];
+    let on_time = ["--set", "deviations.base_pitch=0 um", "--set", "model.deflection=0 um"];
     let solved = json(&[&["solve", TABLE_1, "--format", "json"], &on_time[..]].concat());
     assert_eq!(solved["outcome"], "no-corner-contact");
     assert_eq!(solved["quantities"].get("impact_force"), None);
@@ -157,19 +137,8 @@ fn a_selected_quantity_without_a_value_gives_the_reason() {
 fn the_outcome_does_not_depend_on_the_requested_quantities() {
     // Between the relief that prevents corner contact by the printed equations, 61.8 um, and Δ = 0
     // by Eq. 1 as printed, 66.9 um.
-    let relieved = [
-        "--set",
-        "driven.tip_relief=64 um",
-        "--method",
-        "paper",
-        "--format",
-        "json",
-    ];
-    for only in [
-        &[][..],
-        &["--only", "total_deviation"],
-        &["--only", "base_pitch"],
-    ] {
+    let relieved = ["--set", "driven.tip_relief=64 um", "--method", "paper", "--format", "json"];
+    for only in [&[][..], &["--only", "total_deviation"], &["--only", "base_pitch"]] {
         let solved = json(&[&["solve", TABLE_1], &relieved[..], only].concat());
         assert_eq!(solved["outcome"], "no-corner-contact", "{only:?}");
     }
@@ -177,38 +146,18 @@ fn the_outcome_does_not_depend_on_the_requested_quantities() {
 
 #[test]
 fn only_requested_quantities_are_computed_and_printed() {
-    let solved = json(&[
-        "solve",
-        TABLE_1,
-        "--only",
-        "approach_angle_driven",
-        "--format",
-        "json",
-    ]);
+    let solved = json(&["solve", TABLE_1, "--only", "approach_angle_driven", "--format", "json"]);
     assert_eq!(
         solved["stages"],
         serde_json::json!(["geometry", "load", "masses", "deviation", "position"])
     );
     assert_eq!(
-        solved["quantities"]
-            .as_object()
-            .unwrap()
-            .keys()
-            .collect::<Vec<_>>(),
+        solved["quantities"].as_object().unwrap().keys().collect::<Vec<_>>(),
         ["approach_angle_driven"]
     );
-    let solved = json(&[
-        "solve",
-        TABLE_1,
-        "--only",
-        "stick_limit,contact_ratio",
-        "--format",
-        "json",
-    ]);
-    assert_eq!(
-        solved["stages"].as_array().unwrap().last().unwrap(),
-        "velocity"
-    );
+    let solved =
+        json(&["solve", TABLE_1, "--only", "stick_limit,contact_ratio", "--format", "json"]);
+    assert_eq!(solved["stages"].as_array().unwrap().last().unwrap(), "velocity");
     assert_eq!(solved["quantities"].as_object().unwrap().len(), 2);
 }
 
@@ -216,11 +165,7 @@ fn only_requested_quantities_are_computed_and_printed() {
 fn an_unknown_quantity_is_wrong_usage_and_gets_a_suggestion() {
     let output = run(&["solve", TABLE_1, "--only", "impact_forc"]);
     assert_eq!((code(&output), out(&output).as_str()), (2, ""));
-    assert!(
-        err(&output).contains("did you mean impact_force?"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("did you mean impact_force?"), "{}", err(&output));
 }
 
 #[test]
@@ -237,20 +182,11 @@ fn csv_has_a_row_a_case_with_units_in_the_header() {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     assert_eq!(
         reader.headers().unwrap(),
-        &[
-            "case",
-            "method",
-            "outcome",
-            "impact_force [N]",
-            "contact_ratio [1]"
-        ][..]
+        &["case", "method", "outcome", "impact_force [N]", "contact_ratio [1]"][..]
     );
     let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), 2);
-    assert_eq!(
-        (&rows[0][0], &rows[0][1], &rows[0][2]),
-        (TABLE_1, "exact", "corner-contact")
-    );
+    assert_eq!((&rows[0][0], &rows[0][1], &rows[0][2]), (TABLE_1, "exact", "corner-contact"));
     assert!((rows[0][3].parse::<f64>().unwrap() - 2191.016).abs() < 5e-4);
 }
 
@@ -259,25 +195,14 @@ fn csv_with_stations_has_a_row_a_station() {
     let table = stdout_of(&["solve", TABLE_1, "--stations", "10", "--format", "csv"]);
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 12);
-    assert!(
-        lines[0].starts_with("case,roll_angle_driver [rad],"),
-        "{}",
-        lines[0]
-    );
+    assert!(lines[0].starts_with("case,roll_angle_driver [rad],"), "{}", lines[0]);
     assert!(lines[11].ends_with(",0.0"), "{}", lines[11]);
 }
 
 #[test]
 fn settings_and_method_change_the_case() {
     let value = |arguments: &[&str]| {
-        let common = [
-            "solve",
-            TABLE_1,
-            "--format",
-            "json",
-            "--only",
-            "impact_force",
-        ];
+        let common = ["solve", TABLE_1, "--format", "json", "--only", "impact_force"];
         json(&[&common[..], arguments].concat())["quantities"]["impact_force"]["value"]
             .as_f64()
             .unwrap()
@@ -307,38 +232,20 @@ fn standard_input_is_a_case() {
     let text = fs::read_to_string(TABLE_1).unwrap();
     let output = run_with_input(&["solve", "-", "--format", "json"], &text);
     assert_eq!((code(&output), err(&output).as_str()), (0, ""));
-    assert_eq!(
-        serde_json::from_str::<Value>(&out(&output)).unwrap()["case"],
-        "-"
-    );
+    assert_eq!(serde_json::from_str::<Value>(&out(&output)).unwrap()["case"], "-");
 }
 
 #[test]
 fn several_cases_give_one_object_per_line_and_an_invalid_one_stops_no_other() {
     let (_folder, bad) = changed("teeth = 20", "teeth = \"many\"");
-    let output = run(&[
-        "solve",
-        &bad,
-        "no-such-file.toml",
-        TABLE_1,
-        TABLE_1,
-        "--format",
-        "json",
-    ]);
+    let output = run(&["solve", &bad, "no-such-file.toml", TABLE_1, TABLE_1, "--format", "json"]);
     assert_eq!(code(&output), 5);
     assert_eq!(
-        out(&output)
-            .lines()
-            .filter(|line| serde_json::from_str::<Value>(line).is_ok())
-            .count(),
+        out(&output).lines().filter(|line| serde_json::from_str::<Value>(line).is_ok()).count(),
         2
     );
     assert!(err(&output).contains("case.toml:"), "{}", err(&output));
-    assert!(
-        err(&output).contains("no-such-file.toml"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("no-such-file.toml"), "{}", err(&output));
 }
 
 #[test]
@@ -352,12 +259,7 @@ fn every_fault_of_a_bad_case_has_its_place_on_one_line() {
         assert_eq!((code(&output), out(&output).as_str()), (3, ""));
         let errors = err(&output);
         assert_eq!(errors.lines().count(), 2, "{errors}");
-        assert!(
-            errors
-                .lines()
-                .all(|line| line.starts_with(&format!("{path}:1"))),
-            "{errors}"
-        );
+        assert!(errors.lines().all(|line| line.starts_with(&format!("{path}:1"))), "{errors}");
     }
 }
 
@@ -375,48 +277,25 @@ fn a_refusal_of_the_model_has_the_place_of_its_field() {
         "json",
     ]);
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
-    assert!(
-        err(&output).contains("--set driven.addendum=0.3: "),
-        "{}",
-        err(&output)
-    );
-    let (_folder, path) = changed(
-        "module = \"5 mm\"",
-        "module = \"5 mm\"\ncentre_distance = \"80 mm\"",
-    );
+    assert!(err(&output).contains("--set driven.addendum=0.3: "), "{}", err(&output));
+    let (_folder, path) =
+        changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"80 mm\"");
     let output = run(&["solve", &path]);
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
-    assert!(
-        err(&output).starts_with(&format!("{path}:12:")),
-        "{}",
-        err(&output)
-    );
-    assert!(
-        err(&output).contains(": pair.centre_distance: "),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).starts_with(&format!("{path}:12:")), "{}", err(&output));
+    assert!(err(&output).contains(": pair.centre_distance: "), "{}", err(&output));
 }
 
 #[test]
 fn a_force_outside_a_formulas_range_is_withheld_with_a_note() {
     let beyond = ["--set", "driver.teeth=120", "--set", "driven.teeth=120"];
     let solved = json(&[&["solve", TABLE_1, "--format", "json"], &beyond[..]].concat());
-    assert!(
-        solved["quantities"]["approach_angle_driven"]["value"]
-            .as_f64()
-            .unwrap()
-            > 0.0
-    );
+    assert!(solved["quantities"]["approach_angle_driven"]["value"].as_f64().unwrap() > 0.0);
     assert_eq!(solved["quantities"].get("impact_force"), None);
     assert_eq!(solved["notes"][0]["code"], "teeth-outside-fit");
     let output = run(&[&["solve", TABLE_1, "--only", "impact_force"], &beyond[..]].concat());
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
-    assert!(
-        err(&output).contains("outside the Kuang-Yang fit"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
 }
 
 #[test]
@@ -426,9 +305,7 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
         "[limits]\ncontact_ratio = 1.5\nimpact_force = \"2500 N\"\nnormal_velocity = \"90 m/s\"\n";
     fs::write(
         &path,
-        fs::read_to_string(&path)
-            .unwrap()
-            .replace("[limits]\nimpact_force = \"2500 N\"", limits),
+        fs::read_to_string(&path).unwrap().replace("[limits]\nimpact_force = \"2500 N\"", limits),
     )
     .unwrap();
     let output = run(&["check", &path]);
@@ -449,36 +326,22 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
         lines[1]
     );
     assert!(lines[1].ends_with("(limit 2500 N)"), "{}", lines[1]);
-    assert!(
-        lines[2].starts_with(&format!("ok {path}: normal_velocity ")),
-        "{}",
-        lines[2]
-    );
+    assert!(lines[2].starts_with(&format!("ok {path}: normal_velocity ")), "{}", lines[2]);
     assert_eq!(err(&output).lines().count(), 1, "{}", err(&output));
-    assert!(
-        err(&output).contains("outside the Kuang-Yang fit"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
 }
 
 #[test]
 fn a_refused_case_reports_each_limit_as_not_computable() {
-    let (_folder, path) = changed(
-        "module = \"5 mm\"",
-        "module = \"5 mm\"\ncentre_distance = \"80 mm\"",
-    );
+    let (_folder, path) =
+        changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"80 mm\"");
     let output = run(&["check", &path]);
     assert_eq!(code(&output), 3);
     let expected = format!(
         "unknown {path}: impact_force cannot be computed: the centre distance jams the mesh"
     );
     assert!(out(&output).starts_with(&expected), "{}", out(&output));
-    assert!(
-        err(&output).contains(": pair.centre_distance: "),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains(": pair.centre_distance: "), "{}", err(&output));
 }
 
 #[test]
@@ -500,23 +363,15 @@ fn a_check_is_a_verdict_a_line() {
         stdout_of(&["check", TABLE_1]),
         format!("ok {TABLE_1}: impact_force 2191.0 N <= 2500 N (88 %)\n")
     );
-    let (_folder, strict) = changed(
-        "impact_force = \"2500 N\"",
-        "impact_force = \"2 kN\"\ncontact_ratio = 1.7",
-    );
+    let (_folder, strict) =
+        changed("impact_force = \"2500 N\"", "impact_force = \"2 kN\"\ncontact_ratio = 1.7");
     let output = run(&["check", &strict, TABLE_1]);
     assert_eq!((code(&output), err(&output).as_str()), (1, ""));
     let lines: Vec<String> = out(&output).lines().map(str::to_owned).collect();
-    assert_eq!(
-        lines[0],
-        format!("EXCEEDED {strict}: impact_force 2191.0 N > 2 kN (110 %)")
-    );
+    assert_eq!(lines[0], format!("EXCEEDED {strict}: impact_force 2191.0 N > 2 kN (110 %)"));
     assert!(lines[1].starts_with("ok "), "{}", lines[1]);
     let (_folder, free) = changed("[limits]\nimpact_force = \"2500 N\"", "");
-    assert_eq!(
-        stdout_of(&["check", &free]),
-        format!("ok {free}: no limits\n")
-    );
+    assert_eq!(stdout_of(&["check", &free]), format!("ok {free}: no limits\n"));
 }
 
 #[test]
@@ -528,12 +383,7 @@ fn json_marks_the_quantities_of_the_free_impact() {
     ] {
         let quantities =
             &json(&["solve", TABLE_1, "--format", "json", "--method", method])["quantities"];
-        for key in [
-            "impact_force",
-            "impact_duration",
-            "normal_velocity",
-            "friction_ratio",
-        ] {
+        for key in ["impact_force", "impact_duration", "normal_velocity", "friction_ratio"] {
             assert_eq!(quantities[key]["of"], of, "{method} {key}");
         }
         for key in [
@@ -550,18 +400,12 @@ fn json_marks_the_quantities_of_the_free_impact() {
 
 #[test]
 fn the_results_of_a_method_come_before_the_free_impact() {
-    for (method, first) in [
-        ("static", "static: force at E"),
-        ("dynamic", "dynamic: peak before E"),
-    ] {
+    for (method, first) in [("static", "static: force at E"), ("dynamic", "dynamic: peak before E")]
+    {
         let text = stdout_of(&["solve", TABLE_1, "--method", method]);
-        let (own, free) = text
-            .split_once("Free impact at D, closed form: first contact D")
-            .unwrap();
-        assert!(
-            own.contains(first) && free.contains("F_S      impact force"),
-            "{text}"
-        );
+        let (own, free) =
+            text.split_once("Free impact at D, closed form: first contact D").unwrap();
+        assert!(own.contains(first) && free.contains("F_S      impact force"), "{text}");
         assert!(
             free.contains(
                 "ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact. Method"
@@ -602,25 +446,17 @@ fn the_printed_relief_prevents_contact_and_a_little_less_does_not() {
         let run = |options: Vec<String>| {
             stdout_of(&options.iter().map(String::as_str).collect::<Vec<_>>())
         };
-        let text = run(with(given, "text"))
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ");
+        let text = run(with(given, "text")).split_whitespace().collect::<Vec<_>>().join(" ");
         let sentence = text
             .split(". ")
             .find(|sentence| sentence.contains("driven gear: "))
             .unwrap_or_else(|| panic!("{method}: {text}"));
-        let mut figures = sentence
-            .split([' ', ','])
-            .skip_while(|word| *word != method);
+        let mut figures = sentence.split([' ', ',']).skip_while(|word| *word != method);
         let amount: f64 = figures.nth(1).unwrap_or_default().parse().unwrap();
         for (part, outcome) in [(1.0, "no-corner-contact"), (0.99, "corner-contact")] {
             let solved: Value =
                 serde_json::from_str(&run(with(given + amount * part, "json"))).unwrap();
-            assert_eq!(
-                solved["outcome"], outcome,
-                "{method} from {given}: {sentence}"
-            );
+            assert_eq!(solved["outcome"], outcome, "{method} from {given}: {sentence}");
         }
     }
 }
@@ -641,13 +477,7 @@ fn the_page_of_a_result_by_auto_shows_the_chosen_tolerance() {
         page.contains("model.within = ") && !page.contains("model.tolerance = 1e-6,"),
         "{page}"
     );
-    let given = stdout_of(&[
-        "explain",
-        "dynamic_peak_force",
-        TABLE_1,
-        "--method",
-        "dynamic",
-    ]);
+    let given = stdout_of(&["explain", "dynamic_peak_force", TABLE_1, "--method", "dynamic"]);
     assert!(given.contains("at most model.tolerance = 1e-6"), "{given}");
 }
 
@@ -659,10 +489,7 @@ fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
     let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
     assert_eq!(dynamic, held);
     let by_auto = stdout_of(&["check", TABLE_1, "--method", "auto"]);
-    assert_eq!(
-        by_auto, dynamic,
-        "the name means the same whatever the method"
-    );
+    assert_eq!(by_auto, dynamic, "the name means the same whatever the method");
     let (_folder, own) = changed(
         "impact_force = \"2500 N\"",
         "dynamic_peak_approach_force = \"2500 N\"\ncontact_ratio = 1.7",
@@ -702,10 +529,8 @@ fn a_limit_is_met_where_no_tooth_strikes() {
 fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
     let (folder, _) = changed("format", "format");
     let text = fs::read_to_string(TABLE_1).unwrap();
-    let hostile = text.replace(
-        "title = \"Zhou",
-        "title = \"\\u001b[2J\\u009b\\u007f\\u202E\\u200b Zhou",
-    );
+    let hostile =
+        text.replace("title = \"Zhou", "title = \"\\u001b[2J\\u009b\\u007f\\u202E\\u200b Zhou");
     let path = folder.path().join("\u{1b}[31m\u{202e}.toml");
     fs::write(&path, &hostile).unwrap();
     let path = path.to_str().unwrap();
@@ -732,12 +557,7 @@ fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
     }
     let solved = json(&["solve", path, "--format", "json"]);
     assert_eq!(solved["case"], path);
-    assert!(
-        solved["title"]
-            .as_str()
-            .unwrap()
-            .starts_with("\u{1b}[2J\u{9b}\u{7f}\u{202e}")
-    );
+    assert!(solved["title"].as_str().unwrap().starts_with("\u{1b}[2J\u{9b}\u{7f}\u{202e}"));
 }
 
 /// The required values of a case, by key.
@@ -776,11 +596,7 @@ fn a_new_case_names_its_missing_values_until_they_are_written() {
                 && fault.ends_with(&format!(" under [{table}]")),
             "{fault}\n{text}"
         );
-        let value = if name == "teeth" {
-            (*value).to_owned()
-        } else {
-            format!("\"{value}\"")
-        };
+        let value = if name == "teeth" { (*value).to_owned() } else { format!("\"{value}\"") };
         text = text.replacen(&empty, &format!("{name} = {value}  # required"), 1);
     }
     let solved = run_with_input(&["solve", "-"], &text);
@@ -815,19 +631,10 @@ fn a_quantity_is_known_by_a_symbol_of_its_own() {
         stdout_of(&["solve", TABLE_1, "--only", "F_S"]),
         stdout_of(&["solve", TABLE_1, "--only", "impact_force"])
     );
-    let page = stdout_of(&[
-        "solve",
-        TABLE_1,
-        "--method",
-        "dynamic",
-        "--only",
-        "F_d,max,F_st,E,Δf_0",
-    ]);
-    let rows = [
-        "F_d,max dynamic: peak force",
-        "F_st,E  static: force at E",
-        "Δf_0    error without",
-    ];
+    let page =
+        stdout_of(&["solve", TABLE_1, "--method", "dynamic", "--only", "F_d,max,F_st,E,Δf_0"]);
+    let rows =
+        ["F_d,max dynamic: peak force", "F_st,E  static: force at E", "Δf_0    error without"];
     assert!(rows.iter().all(|row| page.contains(row)), "{page}");
 }
 
@@ -843,10 +650,7 @@ fn the_angle_of_the_verdict_is_a_row_of_the_table() {
         let (_, rest) = page.split_once(&start).unwrap_or_else(|| panic!("{page}"));
         let (angle, _) = rest.split_once(" before E").unwrap();
         let row = page.lines().find(|line| line.contains(label)).unwrap();
-        assert!(
-            row.contains(&format!(" {symbol} ")) && row.contains(angle),
-            "{row}"
-        );
+        assert!(row.contains(&format!(" {symbol} ")) && row.contains(angle), "{row}");
     }
 }
 
@@ -885,12 +689,8 @@ fn a_new_case_starts_from_an_example_in_every_folder() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
     let path = path.to_str().unwrap();
-    let elsewhere = |arguments: &[&str]| {
-        program(arguments)
-            .current_dir(folder.path())
-            .output()
-            .unwrap()
-    };
+    let elsewhere =
+        |arguments: &[&str]| program(arguments).current_dir(folder.path()).output().unwrap();
     let listed = out(&elsewhere(&["new", "--list"]));
     for example in EXAMPLES {
         let text = fs::read_to_string(format!(
@@ -898,11 +698,7 @@ fn a_new_case_starts_from_an_example_in_every_folder() {
             example.name
         ))
         .unwrap();
-        assert_eq!(
-            out(&elsewhere(&["new", "--from", example.name])),
-            text,
-            "the very file"
-        );
+        assert_eq!(out(&elsewhere(&["new", "--from", example.name])), text, "the very file");
         assert!(listed.contains(example.name));
     }
     assert!(
@@ -915,11 +711,7 @@ fn a_new_case_starts_from_an_example_in_every_folder() {
     let again = elsewhere(&["new", "--from", "fzg-type-c", path]);
     assert!(code(&again) == 5 && err(&again).contains("the file exists"));
     let slip = elsewhere(&["new", "--from", "fzg-type"]);
-    assert!(
-        code(&slip) == 2 && err(&slip).contains("fzg-type-c"),
-        "{}",
-        err(&slip)
-    );
+    assert!(code(&slip) == 2 && err(&slip).contains("fzg-type-c"), "{}", err(&slip));
     assert_eq!(code(&elsewhere(&["new", "--list", path])), 2);
 }
 
@@ -928,16 +720,12 @@ fn the_fields_are_listed_for_people_and_for_scripts() {
     let table = stdout_of(&["fields"]);
     assert!(table.lines().all(|line| line.chars().count() <= 100));
     assert!(
-        table
-            .lines()
-            .any(|line| line.starts_with("pair.module ") && line.contains("0.05..50")),
+        table.lines().any(|line| line.starts_with("pair.module ") && line.contains("0.05..50")),
         "{table}"
     );
     let lines = stdout_of(&["fields", "--format", "json"]);
-    let fields: Vec<Value> = lines
-        .lines()
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect();
+    let fields: Vec<Value> =
+        lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(fields.len(), tipstrike::case::FIELDS.len());
     assert!(stdout_of(&["fields", "--results"]).contains("impact_force "));
 }
@@ -945,16 +733,10 @@ fn the_fields_are_listed_for_people_and_for_scripts() {
 #[test]
 fn a_quantity_is_explained_for_people_and_for_scripts() {
     let page = stdout_of(&["explain", "impact_force"]);
-    assert!(
-        page.starts_with("impact force, F_S (Eq. 57)\nF_S = 2191.0 N\n"),
-        "{page}"
-    );
+    assert!(page.starts_with("impact force, F_S (Eq. 57)\nF_S = 2191.0 N\n"), "{page}");
     assert!(page.contains("F_S = ΔV_n √(b M/q_s)"), "{page}");
     assert_eq!(
-        stdout_of(&["explain", "impact_force", TABLE_1])
-            .lines()
-            .skip(3)
-            .collect::<Vec<_>>(),
+        stdout_of(&["explain", "impact_force", TABLE_1]).lines().skip(3).collect::<Vec<_>>(),
         page.lines().skip(3).collect::<Vec<_>>()
     );
     let paper = json(&[
@@ -971,15 +753,9 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         (&"approach_angle_driver".into(), &"paper".into())
     );
     assert_eq!(paper["derivation"][0]["formula"], "ε_e + ε_d");
+    assert_eq!(paper["derivation"][0]["numbers"], "0.027207 deg + 0.025368 deg");
     assert_eq!(
-        paper["derivation"][0]["numbers"],
-        "0.027207 deg + 0.025368 deg"
-    );
-    assert_eq!(
-        (
-            &paper["validity"][0]["inside"],
-            &paper["corrections"][0]["equation"]
-        ),
+        (&paper["validity"][0]["inside"], &paper["corrections"][0]["equation"]),
         (&false.into(), &"Eqs. 7-20".into())
     );
     let faster = json(&[
@@ -996,10 +772,7 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         .iter()
         .find(|effect| effect["key"] == "operation.speed")
         .unwrap();
-    assert_eq!(
-        (&effect["text"], &effect["change"]),
-        (&"4000 rpm".into(), &"+1.00 %".into())
-    );
+    assert_eq!((&effect["text"], &effect["change"]), (&"4000 rpm".into(), &"+1.00 %".into()));
     let on_time = stdout_of(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
     assert!(on_time.contains("No value: no corner contact"), "{on_time}");
     assert!(stdout_of(&["fields", "--results"]).ends_with(
@@ -1011,44 +784,19 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
 #[test]
 fn an_unexplainable_quantity_is_refused_as_by_solve() {
     for (arguments, exit, says) in [
-        (
-            &["explain", "impact_forc"][..],
-            2,
-            "did you mean impact_force?",
-        ),
+        (&["explain", "impact_forc"][..], 2, "did you mean impact_force?"),
         (&["explain"], 2, "QUANTITY"),
+        (&["explain", "impact_force", "--set", "pair.modul=5 mm"], 2, "pair.module"),
         (
-            &["explain", "impact_force", "--set", "pair.modul=5 mm"],
-            2,
-            "pair.module",
-        ),
-        (
-            &[
-                "explain",
-                "impact_force",
-                "--set",
-                "pair.centre_distance=80 mm",
-            ],
+            &["explain", "impact_force", "--set", "pair.centre_distance=80 mm"],
             3,
             "pair.centre_distance",
         ),
-        (
-            &["explain", "impact_force", "no-such-file.toml"],
-            5,
-            "no-such-file.toml",
-        ),
+        (&["explain", "impact_force", "no-such-file.toml"], 5, "no-such-file.toml"),
     ] {
         let output = run(arguments);
-        assert_eq!(
-            (code(&output), out(&output).as_str()),
-            (exit, ""),
-            "{arguments:?}"
-        );
-        assert!(
-            err(&output).contains(says),
-            "{arguments:?}: {}",
-            err(&output)
-        );
+        assert_eq!((code(&output), out(&output).as_str()), (exit, ""), "{arguments:?}");
+        assert!(err(&output).contains(says), "{arguments:?}: {}", err(&output));
     }
 }
 
@@ -1061,16 +809,10 @@ fn a_trade_recommends_a_setting_within_the_tolerance() {
     );
     assert!(page.contains("\nWithin 5.0 %: dynamic with"), "{page}");
     let traded = json(&["trade", TABLE_1, "--within", "40%", "--format", "json"]);
-    assert_eq!(
-        (&traded["case"], &traded["within"]),
-        (&TABLE_1.into(), &0.4.into())
-    );
+    assert_eq!((&traded["case"], &traded["within"]), (&TABLE_1.into(), &0.4.into()));
     let recommended = &traded["recommended"];
     assert_eq!(recommended["qualifies"], true);
-    assert!(
-        recommended["total"].as_f64().unwrap() <= 0.4,
-        "{recommended}"
-    );
+    assert!(recommended["total"].as_f64().unwrap() <= 0.4, "{recommended}");
     let own: Vec<&Value> = traded["settings"]
         .as_array()
         .unwrap()
@@ -1091,26 +833,17 @@ fn an_impossible_trade_reports_the_reason() {
     }
     assert_eq!(code(&run(&["trade", "no-such-file.toml"])), 5);
     assert_eq!(code(&run(&["trade"])), 2);
-    let (_folder, path) = changed(
-        "module = \"5 mm\"",
-        "module = \"5 mm\"\ncentre_distance = \"50 mm\"",
-    );
+    let (_folder, path) =
+        changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"50 mm\"");
     let refused = run(&["trade", &path]);
     assert_eq!((code(&refused), out(&refused).as_str()), (3, ""));
-    assert!(
-        err(&refused).contains("centre_distance"),
-        "{}",
-        err(&refused)
-    );
+    assert!(err(&refused).contains("centre_distance"), "{}", err(&refused));
 }
 
 #[test]
 fn every_shell_has_completions_and_the_manual_a_name() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        assert!(
-            stdout_of(&["completions", shell]).contains("tipstrike"),
-            "{shell}"
-        );
+        assert!(stdout_of(&["completions", shell]).contains("tipstrike"), "{shell}");
     }
     let page = stdout_of(&["man"]);
     assert!(page.contains(".SH NAME\ntipstrike"), "{page}");
@@ -1144,9 +877,7 @@ fn a_closed_reader_ends_the_program_without_a_message() {
         .spawn()
         .unwrap();
     let mut first = String::new();
-    BufReader::new(child.stdout.take().unwrap())
-        .read_line(&mut first)
-        .unwrap();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
     assert!(first.starts_with("case,"));
     let output = child.wait_with_output().unwrap();
     assert_eq!((code(&output), err(&output).as_str()), (0, ""));
@@ -1155,10 +886,7 @@ fn a_closed_reader_ends_the_program_without_a_message() {
 #[test]
 #[cfg(target_os = "linux")]
 fn an_output_that_cannot_be_written_is_no_success() {
-    let full = fs::OpenOptions::new()
-        .write(true)
-        .open("/dev/full")
-        .unwrap();
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let output = program(&["solve", TABLE_1]).stdout(full).output().unwrap();
     assert_eq!(code(&output), 5);
     assert!(err(&output).contains("standard output"), "{}", err(&output));
@@ -1167,14 +895,8 @@ fn an_output_that_cannot_be_written_is_no_success() {
 #[test]
 fn no_colour_and_no_escape_is_written_anywhere() {
     for arguments in [&["--help"][..], &["solve", "--help"], &["solve"], &["man"]] {
-        let output = program(arguments)
-            .env("CLICOLOR_FORCE", "1")
-            .env_remove("NO_COLOR")
-            .output()
-            .unwrap();
-        assert!(
-            !(out(&output) + &err(&output)).contains('\u{1b}'),
-            "{arguments:?}"
-        );
+        let output =
+            program(arguments).env("CLICOLOR_FORCE", "1").env_remove("NO_COLOR").output().unwrap();
+        assert!(!(out(&output) + &err(&output)).contains('\u{1b}'), "{arguments:?}");
     }
 }

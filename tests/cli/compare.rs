@@ -45,21 +45,8 @@ fn each_variant_equals_a_solve_with_its_overrides() {
     let compared = json(&["compare", &case, "--format", "json"]);
     let columns = compared["columns"].as_array().unwrap();
     let names: Vec<&Value> = columns.iter().map(|column| &column["variant"]).collect();
-    assert_eq!(
-        names,
-        [
-            &Value::Null,
-            &"relieved".into(),
-            &"slow".into(),
-            &"far".into()
-        ]
-    );
-    let of_slow = [
-        "--set",
-        "operation.speed=500 rpm",
-        "--set",
-        "operation.torque=30 N m",
-    ];
+    assert_eq!(names, [&Value::Null, &"relieved".into(), &"slow".into(), &"far".into()]);
+    let of_slow = ["--set", "operation.speed=500 rpm", "--set", "operation.torque=30 N m"];
     for (column, settings) in [
         (&columns[0], &[][..]),
         (&columns[1], &["--set", "driven.tip_relief=30 um"]),
@@ -67,22 +54,14 @@ fn each_variant_equals_a_solve_with_its_overrides() {
     ] {
         let solved = json(&[&["solve", &case, "--format", "json"], settings].concat());
         for (key, quantity) in solved["quantities"].as_object().unwrap() {
-            assert_eq!(
-                column["quantities"][key]["value"], quantity["value"],
-                "{key}"
-            );
+            assert_eq!(column["quantities"][key]["value"], quantity["value"], "{key}");
         }
         assert_eq!(column["outcome"], solved["outcome"]);
     }
     let difference = &columns[1]["quantities"]["total_deviation"];
     assert!((difference["difference"].as_f64().unwrap() + 30e-6).abs() < 1e-12);
     assert_eq!(difference.get("percent"), None);
-    assert!(
-        columns[2]["quantities"]["impact_force"]["percent"]
-            .as_f64()
-            .unwrap()
-            < 0.0
-    );
+    assert!(columns[2]["quantities"]["impact_force"]["percent"].as_f64().unwrap() < 0.0);
 }
 
 #[test]
@@ -98,16 +77,10 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
     );
     assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
     assert!(text.contains("Refused: pair.centre_distance"), "{text}");
-    assert!(
-        text.lines().all(|line| line.chars().count() <= 80),
-        "{text}"
-    );
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let (code, text, _) = run(&["compare", &case, "--variant", "far", "--format", "csv"]);
     assert_eq!(code, 0);
-    assert_eq!(
-        text.lines().nth(2),
-        Some("outcome,,corner-contact,refused,")
-    );
+    assert_eq!(text.lines().nth(2), Some("outcome,,corner-contact,refused,"));
     let refused = ["compare", &case, "--set", "pair.centre_distance=200 mm"];
     assert_eq!(run(&refused).0, 3);
 }
@@ -115,25 +88,13 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
 #[test]
 fn cases_and_variants_are_compared_with_differences_and_units() {
     let (_folder, case) = case();
-    let only = [
-        "--only",
-        "F_S,total_deviation,u",
-        "--variant",
-        "relieved,slow",
-    ];
+    let only = ["--only", "F_S,total_deviation,u", "--variant", "relieved,slow"];
     let (_, text, _) = run(&[&["compare", &case], &only[..]].concat());
     insta::assert_snapshot!("compare_text", text.replace(&case, "gear.toml"));
     let (_, text, _) = run(&[&["compare", &case, "--format", "md"], &only[..]].concat());
     insta::assert_snapshot!("compare_markdown", text.replace(&case, "gear.toml"));
-    let others = [
-        "compare",
-        TABLE_1,
-        "cases/tip-relief-enough.toml",
-        "--only",
-        "F_S",
-        "--format",
-        "csv",
-    ];
+    let others =
+        ["compare", TABLE_1, "cases/tip-relief-enough.toml", "--only", "F_S", "--format", "csv"];
     let (code, text, _) = run(&others);
     assert_eq!(code, 0);
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
@@ -176,43 +137,27 @@ fn every_command_that_takes_a_case_takes_a_variant() {
         let mut arguments = command.get_arguments();
         arguments.any(|argument| argument.get_long() == Some("variant"))
     };
-    let names: Vec<&str> = all
-        .get_subcommands()
-        .filter(takes)
-        .map(clap::Command::get_name)
-        .collect();
+    let names: Vec<&str> =
+        all.get_subcommands().filter(takes).map(clap::Command::get_name).collect();
     assert!(names.len() >= 11, "{names:?}");
     for name in names {
-        let before: &[&str] = if name == "explain" {
-            &["impact_force"]
-        } else {
-            &[]
-        };
+        let before: &[&str] = if name == "explain" { &["impact_force"] } else { &[] };
         let after = needed.iter().find(|(own, _)| *own == name);
         let after = after.map_or(&[][..], |(_, arguments)| arguments);
         let wrong = ["--variant", "releived"];
         let (code, _, errors) = run(&[&[name], before, &[case.as_str()], after, &wrong].concat());
         assert_eq!(code, 2, "{name}: {errors}");
-        assert!(
-            errors.contains("did you mean relieved?"),
-            "{name}: {errors}"
-        );
+        assert!(errors.contains("did you mean relieved?"), "{name}: {errors}");
     }
     let (_, own, _) = run(&["explain", "impact_force", &case]);
     let (code, varied, _) = run(&["explain", "impact_force", &case, "--variant", "slow"]);
     assert!(code == 0 && own != varied);
     let (code, text, _) = run(&["check", &case, "--variant", "slow"]);
     assert_eq!(code, 0, "{text}");
-    assert!(
-        text.contains("900") && text.contains("gear.toml:slow"),
-        "{text}"
-    );
+    assert!(text.contains("900") && text.contains("gear.toml:slow"), "{text}");
     let (code, _, errors) = run(&["solve", &case, "--variant", "far"]);
     assert_eq!(code, 3);
-    assert!(
-        errors.contains("variants.far.pair.centre_distance"),
-        "{errors}"
-    );
+    assert!(errors.contains("variants.far.pair.centre_distance"), "{errors}");
     assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
 }
 
@@ -235,18 +180,12 @@ fn a_column_has_the_values_and_the_definitions_of_its_own_solve() {
     let text = fs::read_to_string(TABLE_1).unwrap();
     let methods = "\n[variants.rest]\nmodel.method = \"static\"\n\
                    [variants.motion]\nmodel.method = \"dynamic\"\n";
-    fs::write(
-        &path,
-        text.replace("tip_relief = \"0 um\"", "tip_relief = \"9 um\"") + methods,
-    )
-    .unwrap();
+    fs::write(&path, text.replace("tip_relief = \"0 um\"", "tip_relief = \"9 um\"") + methods)
+        .unwrap();
     let case = path.to_str().unwrap();
     let compared = json(&["compare", case, "--format", "json"]);
-    for (column, method) in compared["columns"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .zip(["exact", "static", "dynamic"])
+    for (column, method) in
+        compared["columns"].as_array().unwrap().iter().zip(["exact", "static", "dynamic"])
     {
         let solved = json(&["solve", case, "--method", method, "--format", "json"]);
         assert_eq!(column["method"], method);

@@ -63,10 +63,7 @@ fn a_case_from_a_drawing_has_the_results_of_its_coefficients() {
                 continue;
             };
             let off = (own.as_f64().unwrap() - number).abs();
-            assert!(
-                off <= 1e-9 * number.abs(),
-                "{method}, {key}: {own}, not {number}"
-            );
+            assert!(off <= 1e-9 * number.abs(), "{method}, {key}: {own}, not {number}");
         }
     }
 }
@@ -86,10 +83,7 @@ fn both_ways_to_give_one_size_are_refused_at_the_second() {
     );
     let neither = TABLE_1.replace("module = \"5 mm\"\n", "");
     let message = refusal(&neither, &["solve", "case.toml"]);
-    assert!(
-        message.contains("neither pair.module nor pair.diametral_pitch is given"),
-        "{message}"
-    );
+    assert!(message.contains("neither pair.module nor pair.diametral_pitch is given"), "{message}");
 }
 
 #[test]
@@ -107,38 +101,18 @@ fn a_diameter_beyond_the_range_of_its_coefficient_is_refused_with_the_range() {
             "99 mm gives the dedendum coefficient 0.1000, below the limit of 0.5: \
              write a diameter from 80 to 95 mm",
         ),
-        (
-            "driver.root_diameter",
-            "3 in",
-            "gives the dedendum coefficient",
-        ),
+        ("driver.root_diameter", "3 in", "gives the dedendum coefficient"),
     ] {
         let set = format!("{key}={diameter}");
         let found = refusal(TABLE_1, &["solve", "case.toml", "--set", &set]);
         assert!(found.contains(key) && found.contains(message), "{found}");
     }
-    let sweep = [
-        "sweep",
-        "case.toml",
-        "--vary",
-        "driven.tip_diameter=110,130 mm",
-    ];
-    let output = run(
-        TABLE_1,
-        &[&sweep[..], &["--only", "contact_ratio"]].concat(),
-    );
+    let sweep = ["sweep", "case.toml", "--vary", "driven.tip_diameter=110,130 mm"];
+    let output = run(TABLE_1, &[&sweep[..], &["--only", "contact_ratio"]].concat());
     let rows = String::from_utf8(output.stdout).unwrap();
     let last = rows.lines().last().unwrap();
-    assert!(
-        last.starts_with("130,") && last.contains("refused"),
-        "{rows}"
-    );
-    let interferes = [
-        "sweep",
-        "case.toml",
-        "--vary",
-        "driven.tip_diameter=110,120 mm",
-    ];
+    assert!(last.starts_with("130,") && last.contains("refused"), "{rows}");
+    let interferes = ["sweep", "case.toml", "--vary", "driven.tip_diameter=110,120 mm"];
     let output = run(TABLE_1, &interferes);
     let errors = String::from_utf8(output.stderr).unwrap();
     let named = "at driven.tip_diameter = 120 mm: driven.tip_diameter: interference";
@@ -149,34 +123,16 @@ fn a_diameter_beyond_the_range_of_its_coefficient_is_refused_with_the_range() {
 fn a_setting_replaces_its_alternative_and_a_sweep_varies_it() {
     let ratio = ["--only", "contact_ratio", "--format", "json"];
     let with = |set: &str| {
-        let json = stdout(
-            TABLE_1,
-            &[&["solve", "case.toml", "--set", set], &ratio[..]].concat(),
-        );
-        quantities(&json)["contact_ratio"]["value"]
-            .as_f64()
-            .unwrap()
+        let json = stdout(TABLE_1, &[&["solve", "case.toml", "--set", set], &ratio[..]].concat());
+        quantities(&json)["contact_ratio"]["value"].as_f64().unwrap()
     };
     assert!((with("driven.tip_diameter=109 mm") - with("driven.addendum=0.9")).abs() < 1e-12);
-    let sweep = [
-        "sweep",
-        "case.toml",
-        "--vary",
-        "driven.tip_diameter=109..110 mm",
-    ];
-    let rows = stdout(
-        TABLE_1,
-        &[&sweep[..], &["--points", "2", "--only", "contact_ratio"]].concat(),
-    );
-    let values: Vec<f64> = rows
-        .lines()
-        .skip(1)
-        .map(|row| row.split(',').nth(1).unwrap().parse().unwrap())
-        .collect();
-    assert!(
-        (values[0] - with("driven.addendum=0.9")).abs() < 1e-12,
-        "{rows}"
-    );
+    let sweep = ["sweep", "case.toml", "--vary", "driven.tip_diameter=109..110 mm"];
+    let rows =
+        stdout(TABLE_1, &[&sweep[..], &["--points", "2", "--only", "contact_ratio"]].concat());
+    let values: Vec<f64> =
+        rows.lines().skip(1).map(|row| row.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    assert!((values[0] - with("driven.addendum=0.9")).abs() < 1e-12, "{rows}");
     let message = refusal(
         TABLE_1,
         &[
@@ -206,10 +162,7 @@ fn saving_keeps_the_size_that_the_user_wrote() {
 #[test]
 fn the_page_of_a_quantity_shows_the_coefficient_that_a_diameter_gives() {
     let page = stdout(&drawing(), &["explain", "contact_ratio", "case.toml"]);
-    assert!(
-        page.contains("driver.tip_diameter") && page.contains("2.75 in"),
-        "{page}"
-    );
+    assert!(page.contains("driver.tip_diameter") && page.contains("2.75 in"), "{page}");
     assert!(!page.contains("driver.addendum "), "{page}");
     assert!(page.contains("3.175 mm"), "{page}");
 }
@@ -219,11 +172,9 @@ fn a_value_follows_from_each_alternative() {
     let case = Document::parse("case.toml", &drawing()).unwrap().case;
     let inputs = case.inputs().unwrap();
     let derived = |key: &str| case.derived(index_of(key).unwrap(), &inputs);
-    for (key, expected) in [
-        ("pair.module", 3.175e-3),
-        ("driver.addendum", 1.0),
-        ("driven.dedendum", 1.25),
-    ] {
+    for (key, expected) in
+        [("pair.module", 3.175e-3), ("driver.addendum", 1.0), ("driven.dedendum", 1.25)]
+    {
         let found = derived(key).unwrap();
         assert!((found / expected - 1.0).abs() < 1e-12, "{key}: {found}");
     }

@@ -53,23 +53,14 @@ struct Explained {
 fn cases() -> Vec<(String, Case)> {
     EXAMPLES
         .iter()
-        .map(|example| {
-            (
-                format!("cases/{}.toml", example.name),
-                example.document().case,
-            )
-        })
+        .map(|example| (format!("cases/{}.toml", example.name), example.document().case))
         .collect()
 }
 
 /// Quantities that read the elastic field, for the pages of gears with a field: each page builds
 /// about forty fields for its sensitivities.
-const WITH_FIELD: [&str; 4] = [
-    "combined_deflection",
-    "hertz_half_width",
-    "impact_force",
-    "pair_compliance",
-];
+const WITH_FIELD: [&str; 4] =
+    ["combined_deflection", "hertz_half_width", "impact_force", "pair_compliance"];
 
 /// The pages of some quantities of a case with settings; empty if the model refuses the case.
 fn explained(
@@ -89,10 +80,7 @@ fn explained(
         .filter(|quantity| wanted(quantity))
         .map(|quantity| explain(quantity, &case, &inputs, &solution))
         .collect();
-    Some(Explained {
-        name: format!("{name} {settings:?}"),
-        pages,
-    })
+    Some(Explained { name: format!("{name} {settings:?}"), pages })
 }
 
 static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
@@ -112,10 +100,7 @@ static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
         .iter()
         .filter(|(name, _)| name.contains("fzg"))
         .filter_map(|(name, case)| explained(name, case, &[], has_field));
-    closed
-        .chain(fields)
-        .chain([shared("static"), shared("dynamic")])
-        .collect()
+    closed.chain(fields).chain([shared("static"), shared("dynamic")]).collect()
 });
 
 /// The pages of the values of Table 1 that only this method has.
@@ -130,23 +115,15 @@ fn shared(method: &str) -> Explained {
         _ => false,
     });
     let pages = own.map(|quantity| explain(quantity, &case, &inputs, &solution));
-    Explained {
-        name: format!("Table 1, {method}"),
-        pages: pages.collect(),
-    }
+    Explained { name: format!("Table 1, {method}"), pages: pages.collect() }
 }
 
 fn every_page(mut look: impl FnMut(&str, &Page)) {
-    EXPLAINED
-        .iter()
-        .for_each(|case| case.pages.iter().for_each(|page| look(&case.name, page)));
+    EXPLAINED.iter().for_each(|case| case.pages.iter().for_each(|page| look(&case.name, page)));
 }
 
 fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
-    let (name, case) = cases()
-        .into_iter()
-        .find(|(name, _)| name.contains(case))
-        .unwrap();
+    let (name, case) = cases().into_iter().find(|(name, _)| name.contains(case)).unwrap();
     let case = explained(&name, &case, settings, |quantity| quantity.key == key).unwrap();
     case.pages.into_iter().next().unwrap()
 }
@@ -175,11 +152,7 @@ fn the_printed_numbers_make_the_printed_value() {
                 continue;
             };
             // The terms of a difference of close numbers have ten digits.
-            let lost = if work.formula.contains(" - ") {
-                1e-4
-            } else {
-                0.0
-            };
+            let lost = if work.formula.contains(" - ") { 1e-4 } else { 0.0 };
             let agree = (found - shown).abs() <= last_place(work).max(lost * shown.abs());
             assert!(
                 agree,
@@ -198,15 +171,9 @@ fn every_formula_gives_the_value_of_the_solver() {
     every_page(|name, page| {
         let steps = page.derivation.iter().map(|work| (work.symbol, work.value));
         let leaves = page.leaves.iter().map(|leaf| (leaf.symbol, leaf.value));
-        let values: BTreeMap<&str, f64> = steps
-            .chain(leaves)
-            .filter_map(|(symbol, value)| Some((symbol, value?)))
-            .collect();
-        for work in page
-            .derivation
-            .iter()
-            .filter(|work| work.how == How::Equals)
-        {
+        let values: BTreeMap<&str, f64> =
+            steps.chain(leaves).filter_map(|(symbol, value)| Some((symbol, value?))).collect();
+        for work in page.derivation.iter().filter(|work| work.how == How::Equals) {
             let Some(value) = work.value else { continue };
             let tree = Tree::read(&work.formula).unwrap_or_else(|| panic!("{}", work.formula));
             let found = tree.value(&|symbol| values.get(symbol).copied());
@@ -227,10 +194,8 @@ fn every_formula_gives_the_value_of_the_solver() {
 #[test]
 fn every_value_with_a_formula_is_shown_with_its_numbers() {
     every_page(|name, page| {
-        for work in page
-            .derivation
-            .iter()
-            .filter(|work| work.how == How::Equals && work.shown.is_some())
+        for work in
+            page.derivation.iter().filter(|work| work.how == How::Equals && work.shown.is_some())
         {
             assert!(
                 work.numbers.is_some(),
@@ -240,10 +205,8 @@ fn every_value_with_a_formula_is_shown_with_its_numbers() {
                 work.formula
             );
         }
-        for work in page
-            .derivation
-            .iter()
-            .filter(|work| work.how == How::Solves && work.shown.is_some())
+        for work in
+            page.derivation.iter().filter(|work| work.how == How::Solves && work.shown.is_some())
         {
             assert_eq!(
                 work.residual.as_deref(),
@@ -260,30 +223,13 @@ fn every_quantity_is_explained_in_all_its_parts() {
     every_page(|name, page| {
         let Quantity { key, symbol, .. } = page.quantity;
         assert!(
-            [page.meaning, page.source, page.assumptions]
-                .iter()
-                .all(|part| part.ends_with('.')),
+            [page.meaning, page.source, page.assumptions].iter().all(|part| part.ends_with('.')),
             "{key}"
         );
-        assert_eq!(
-            page.derivation.first().map(|work| work.symbol),
-            Some(*symbol),
-            "{key}"
-        );
-        assert_eq!(
-            page.value.is_some(),
-            page.missing.is_none(),
-            "{name}, {key}"
-        );
-        assert_eq!(
-            page.value.is_some(),
-            !page.accuracy.is_empty(),
-            "{name}, {key}"
-        );
-        assert!(
-            page.missing.is_some() || !page.effects.is_empty(),
-            "{name}, {key}"
-        );
+        assert_eq!(page.derivation.first().map(|work| work.symbol), Some(*symbol), "{key}");
+        assert_eq!(page.value.is_some(), page.missing.is_none(), "{name}, {key}");
+        assert_eq!(page.value.is_some(), !page.accuracy.is_empty(), "{name}, {key}");
+        assert!(page.missing.is_some() || !page.effects.is_empty(), "{name}, {key}");
         let given = page.derivation[0].how == How::Described;
         let sides = !page.derivation[0].formula.is_empty()
             && (given || page.derivation.len() + page.leaves.len() > 1);
@@ -304,31 +250,16 @@ fn every_equation_that_is_cited_is_one() {
             let head = equation.split(' ').next().unwrap();
             equation == "by the method" || cited.iter().any(|part| part.contains(head))
         };
-        assert!(
-            named,
-            "{}: {equation} in {}",
-            page.quantity.key, page.source
-        );
+        assert!(named, "{}: {equation} in {}", page.quantity.key, page.source);
         for text in cited {
-            assert!(
-                equations(text)
-                    .iter()
-                    .all(|number| (1..=64).contains(number)),
-                "{text}"
-            );
+            assert!(equations(text).iter().all(|number| (1..=64).contains(number)), "{text}");
         }
     });
     let table: BTreeSet<&str> = CORRECTIONS.iter().map(|row| row.equation).collect();
     assert_eq!(cited_errors, table);
     for row in CORRECTIONS {
-        let known = equations(row.equation)
-            .iter()
-            .all(|number| (1..=64).contains(number));
-        assert!(
-            known && !row.error.is_empty() && !row.used.is_empty(),
-            "{}",
-            row.equation
-        );
+        let known = equations(row.equation).iter().all(|number| (1..=64).contains(number));
+        assert!(known && !row.error.is_empty() && !row.used.is_empty(), "{}", row.equation);
     }
 }
 
@@ -338,14 +269,10 @@ fn equations(text: &str) -> Vec<u32> {
         .match_indices("Eq")
         .filter_map(|(at, _)| text[at + 2..].trim_start_matches('s').strip_prefix(". "));
     let end = |rest: &str| {
-        rest.find(|c: char| !c.is_ascii_digit() && !"-, and".contains(c))
-            .unwrap_or(rest.len())
+        rest.find(|c: char| !c.is_ascii_digit() && !"-, and".contains(c)).unwrap_or(rest.len())
     };
-    let words = lists.flat_map(|rest| {
-        rest[..end(rest)]
-            .split([',', ' '])
-            .filter(|word| !word.is_empty())
-    });
+    let words =
+        lists.flat_map(|rest| rest[..end(rest)].split([',', ' ']).filter(|word| !word.is_empty()));
     words.filter_map(span).flatten().collect()
 }
 
@@ -370,59 +297,25 @@ fn no_line_is_wider_than_asked_for() {
 #[test]
 fn a_step_of_a_field_changes_the_result_as_a_solve_does() {
     let page = page("zhou", "impact_force", &[]);
-    let of = |key: &str| {
-        page.effects
-            .iter()
-            .find(|effect| effect.key == key)
-            .unwrap()
-    };
-    let more = explained(
-        "",
-        &Case::table_1(),
-        &[("deviations.base_pitch", "17 um")],
-        |_| true,
-    )
-    .unwrap();
-    let force = more
-        .pages
-        .iter()
-        .find(|page| page.quantity.key == "impact_force")
-        .unwrap()
-        .value
-        .unwrap();
+    let of = |key: &str| page.effects.iter().find(|effect| effect.key == key).unwrap();
+    let more =
+        explained("", &Case::table_1(), &[("deviations.base_pitch", "17 um")], |_| true).unwrap();
+    let force =
+        more.pages.iter().find(|page| page.quantity.key == "impact_force").unwrap().value.unwrap();
     let share = 100.0 * (force / page.value.unwrap() - 1.0);
     assert_eq!(of("deviations.base_pitch").change, format!("+{share:.2} %"));
     assert_eq!(of("deviations.base_pitch").text, "16 um");
-    assert_eq!(
-        (
-            of("model.method").step.as_str(),
-            of("model.method").change.as_str()
-        ),
-        ("", "")
-    );
+    assert_eq!((of("model.method").step.as_str(), of("model.method").change.as_str()), ("", ""));
     assert!(page.effects.iter().all(|effect| !["title", "operation.torque", "driver.tip_relief"].contains(&effect.key)));
 }
 
 #[test]
 fn an_absent_quantity_has_a_reason() {
     let relieved = page("tip-relief-enough", "impact_force", &[]);
-    assert!(
-        relieved
-            .missing
-            .unwrap()
-            .starts_with("No value: no corner contact")
-    );
-    let withheld = page(
-        "zhou",
-        "impact_force",
-        &[("driver.teeth", "120"), ("driven.teeth", "120")],
-    );
-    assert!(
-        withheld
-            .missing
-            .unwrap()
-            .contains("outside the Kuang-Yang fit")
-    );
+    assert!(relieved.missing.unwrap().starts_with("No value: no corner contact"));
+    let withheld =
+        page("zhou", "impact_force", &[("driver.teeth", "120"), ("driven.teeth", "120")]);
+    assert!(withheld.missing.unwrap().contains("outside the Kuang-Yang fit"));
 }
 
 #[test]
@@ -430,11 +323,7 @@ fn pages_read_as_they_did() {
     let samples: [(&str, &str, Settings); 14] = [
         ("zhou", "impact_force", &[]),
         ("zhou", "approach_angle_driven", &[]),
-        (
-            "zhou",
-            "approach_angle_driver",
-            &[("model.method", "paper")],
-        ),
+        ("zhou", "approach_angle_driver", &[("model.method", "paper")]),
         ("zhou", "friction_ratio", &[("model.method", "paper")]),
         ("zhou", "impact_duration_printed", &[]),
         ("zhou", "closed_gap", &[("model.method", "paper")]),
@@ -448,10 +337,7 @@ fn pages_read_as_they_did() {
         ("tip-relief", "normal_velocity", &[]),
     ];
     for (case, key, settings) in samples {
-        let method = settings
-            .first()
-            .map(|(_, method)| format!("_{method}"))
-            .unwrap_or_default();
+        let method = settings.first().map(|(_, method)| format!("_{method}")).unwrap_or_default();
         insta::assert_snapshot!(
             format!("{case}_{key}{method}"),
             render(&page(case, key, settings), case)

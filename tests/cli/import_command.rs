@@ -12,9 +12,7 @@ use tipstrike::case::{Document, fields};
 use zip::write::SimpleFileOptions;
 
 fn model(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/cli/rexs")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cli/rexs").join(name)
 }
 
 fn run(arguments: &[&str]) -> Output {
@@ -27,11 +25,7 @@ fn run(arguments: &[&str]) -> Output {
 
 fn texts(output: &Output) -> (i32, String, String) {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
+    (output.status.code().unwrap(), text(&output.stdout), text(&output.stderr))
 }
 
 fn value(document: &Document, key: &str) -> Option<f64> {
@@ -40,9 +34,7 @@ fn value(document: &Document, key: &str) -> Option<f64> {
 
 /// The refusal of a model, imported without a stage id.
 fn refusal_of(bytes: &[u8]) -> String {
-    import(Path::new("m.rexs"), bytes, None)
-        .unwrap_err()
-        .to_string()
+    import(Path::new("m.rexs"), bytes, None).unwrap_err().to_string()
 }
 
 fn edited(name: &str, from: &str, to: &str) -> Vec<u8> {
@@ -54,10 +46,7 @@ fn edited(name: &str, from: &str, to: &str) -> Vec<u8> {
 #[test]
 fn a_spur_stage_becomes_a_case_with_the_source_of_each_value() {
     let (code, case, message) = texts(&run(&["import", "two-stages-1.0.rexs"]));
-    insta::assert_snapshot!(
-        "import_two_stages",
-        format!("exit {code}\n{message}\n{case}")
-    );
+    insta::assert_snapshot!("import_two_stages", format!("exit {code}\n{message}\n{case}"));
     let read_back = Document::parse("case.toml", &case).unwrap();
     assert!(read_back.case.inputs().is_ok());
 }
@@ -84,10 +73,7 @@ fn units_signs_and_load_cases_of_a_model_become_si_values() {
         ("operation.speed", 209.43951023931953),
     ] {
         let found = value(&document, key).unwrap();
-        assert!(
-            (found - expected).abs() <= 1e-12 * expected.abs(),
-            "{key}: {found}"
-        );
+        assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{key}: {found}");
     }
     let negative = read_document(&model("two-stages-1.0.rexs")).unwrap();
     assert!(
@@ -100,21 +86,11 @@ fn the_samples_are_refused_by_the_name_of_their_stages() {
     let (code, case, message) = texts(&run(&["import", "planetary-1.1.rexsz"]));
     assert_eq!((code, case.as_str()), (3, ""));
     assert!(message.contains("the model has no spur stage"), "{message}");
-    assert!(
-        message.contains("stage 9 \"Planetenstufe [9]\" is a planetary stage"),
-        "{message}"
-    );
+    assert!(message.contains("stage 9 \"Planetenstufe [9]\" is a planetary stage"), "{message}");
     let (code, _, message) = texts(&run(&["import", "two-stages-1.0.rexs", "--stage", "7"]));
     assert_eq!(code, 3);
-    assert!(
-        message.contains("is a helical stage (helix angle -10 deg)"),
-        "{message}"
-    );
-    let bevel = edited(
-        "two-stages-1.0.rexs",
-        "\"cylindrical_stage\"",
-        "\"bevel_stage\"",
-    );
+    assert!(message.contains("is a helical stage (helix angle -10 deg)"), "{message}");
+    let bevel = edited("two-stages-1.0.rexs", "\"cylindrical_stage\"", "\"bevel_stage\"");
     assert!(refusal_of(&bevel).contains("is a bevel stage"));
     let ring = edited(
         "spur-2.0.rexsj",
@@ -160,18 +136,8 @@ fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
             \"rotational_speed\", \"unit\": \"1 / min\", \"floating_point\": 500.0}]}]}, ",
     );
     let imported = import(Path::new("m.rexsj"), &cases, None).unwrap();
-    let speed = imported
-        .absent
-        .iter()
-        .find(|(key, _)| *key == "operation.speed")
-        .unwrap();
-    assert!(
-        speed
-            .1
-            .contains("500 rpm in load case 2, 2000 rpm in load case 1"),
-        "{}",
-        speed.1
-    );
+    let speed = imported.absent.iter().find(|(key, _)| *key == "operation.speed").unwrap();
+    assert!(speed.1.contains("500 rpm in load case 2, 2000 rpm in load case 1"), "{}", speed.1);
 }
 
 #[test]
@@ -179,18 +145,9 @@ fn values_that_cannot_be_read_or_occur_twice_stay_empty_and_are_named() {
     let module = "<attribute id=\"normal_module\" unit=\"mm\">3.0</attribute>";
     let with = |value: &str| edited("two-stages-1.0.rexs", module, value);
     for (value, reason) in [
-        (
-            module.replace("3.0", "NaN"),
-            "`NaN mm` is not a finite number",
-        ),
-        (
-            module.replace("3.0", "three"),
-            "`three mm` does not begin with a number",
-        ),
-        (
-            module.replace("mm", "furlong"),
-            "the unit \"furlong\" is unknown here",
-        ),
+        (module.replace("3.0", "NaN"), "`NaN mm` is not a finite number"),
+        (module.replace("3.0", "three"), "`three mm` does not begin with a number"),
+        (module.replace("mm", "furlong"), "the unit \"furlong\" is unknown here"),
         (
             format!("{module}{}", module.replace("3.0", "4.0")),
             "has two values of normal_module, `3.0` and `4.0`",
@@ -198,24 +155,12 @@ fn values_that_cannot_be_read_or_occur_twice_stay_empty_and_are_named() {
         (String::new(), "the model gives no normal_module"),
     ] {
         let imported = import(Path::new("m.rexs"), &with(&value), None).unwrap();
-        let (_, found) = imported
-            .absent
-            .iter()
-            .find(|(key, _)| *key == "pair.module")
-            .unwrap();
+        let (_, found) = imported.absent.iter().find(|(key, _)| *key == "pair.module").unwrap();
         assert!(found.contains(reason), "{value}: {found}");
     }
-    let twice = edited(
-        "two-stages-1.0.rexs",
-        "component id=\"52\"",
-        "component id=\"23\"",
-    );
+    let twice = edited("two-stages-1.0.rexs", "component id=\"52\"", "component id=\"23\"");
     assert!(refusal_of(&twice).contains("two components have the id \"23\""));
-    let rounded = edited(
-        "two-stages-1.0.rexs",
-        "unit=\"°\">-0.0<",
-        "unit=\"°\">1e-12<",
-    );
+    let rounded = edited("two-stages-1.0.rexs", "unit=\"°\">-0.0<", "unit=\"°\">1e-12<");
     assert!(import(Path::new("m.rexs"), &rounded, None).is_ok());
 }
 
@@ -223,26 +168,12 @@ fn values_that_cannot_be_read_or_occur_twice_stay_empty_and_are_named() {
 fn entities_bombs_and_texts_of_another_kind_are_refused() {
     let entity = "<!DOCTYPE m [<!ENTITY a \"aaaa\">]><model version=\"1.0\">&a;</model>";
     assert!(refusal_of(entity.as_bytes()).contains("declares a document type"));
-    for cut in [
-        "",
-        "<a>",
-        "</a>",
-        "<a",
-        "<!--",
-        "</model>a",
-        "</model><model/>",
-    ] {
+    for cut in ["", "<a>", "</a>", "<a", "<!--", "</model>a", "</model><model/>"] {
         let text = format!("<model version=\"1.0\">{cut}");
-        assert!(
-            refusal_of(text.as_bytes()).contains("this is not XML"),
-            "{cut}"
-        );
+        assert!(refusal_of(text.as_bytes()).contains("this is not XML"), "{cut}");
     }
     let unknown = refusal_of(b"<model version=\"1.0\">\n &a;</model>");
-    assert!(
-        unknown.contains("m.rexs: 2:2: this is not XML"),
-        "{unknown}"
-    );
+    assert!(unknown.contains("m.rexs: 2:2: this is not XML"), "{unknown}");
     let deep = "{\"model\":".to_owned() + &"[".repeat(100_000);
     assert!(refusal_of(deep.as_bytes()).contains("in JSON"));
     assert!(refusal_of(b"solid").contains("neither XML nor JSON"));
@@ -274,44 +205,17 @@ fn a_hostile_model_is_refused_with_its_limit_within_five_seconds() {
         |parts: String| format!("{{\"model\":{{\"version\":\"1.0\",{parts}}}}}").into_bytes();
     let long = "n".repeat(10_000_000);
     for (name, bytes, limit) in [
-        (
-            "spaces.rexs",
-            nested(8000).into_bytes(),
-            "the root element is \"a\"",
-        ),
-        (
-            "deep.rexs",
-            with_parts(&nested(8000)),
-            "100 nested elements",
-        ),
+        ("spaces.rexs", nested(8000).into_bytes(), "the root element is \"a\""),
+        ("deep.rexs", with_parts(&nested(8000)), "100 nested elements"),
         (
             "attributes.rexs",
-            with_parts(&format!(
-                "<a {}/>",
-                each(400_000, &|at| format!(" a{at}=\"\""))
-            )),
+            with_parts(&format!("<a {}/>", each(400_000, &|at| format!(" a{at}=\"\"")))),
             "100 attributes in one element",
         ),
-        (
-            "elements.rexs",
-            with_parts(&"<a/>".repeat(4_000_000)),
-            "2000000 elements",
-        ),
-        (
-            "stages.rexs",
-            components(each(30_000, &component("cylindrical_stage"))),
-            "200 stages",
-        ),
-        (
-            "components.rexs",
-            components(each(60_000, &component("gear"))),
-            "50000 components",
-        ),
-        (
-            "entries.rexs",
-            components("<component/>".repeat(1_300_000)),
-            "300000 entries",
-        ),
+        ("elements.rexs", with_parts(&"<a/>".repeat(4_000_000)), "2000000 elements"),
+        ("stages.rexs", components(each(30_000, &component("cylindrical_stage"))), "200 stages"),
+        ("components.rexs", components(each(60_000, &component("gear"))), "50000 components"),
+        ("entries.rexs", components("<component/>".repeat(1_300_000)), "300000 entries"),
         (
             "values.rexs",
             components(format!(
@@ -330,11 +234,7 @@ fn a_hostile_model_is_refused_with_its_limit_within_five_seconds() {
             relations(format!("<relation>{}</relation>", each(60_000, &reference))),
             "50 references of one relation",
         ),
-        (
-            "name.rexs",
-            components(format!("<component id=\"{long}\"/>")),
-            "1000 bytes in a name",
-        ),
+        ("name.rexs", components(format!("<component id=\"{long}\"/>")), "1000 bytes in a name"),
         ("large.rexs", vec![b' '; 17 << 20], "longer than 16384 KiB"),
         (
             "lists.rexsj",
@@ -369,10 +269,7 @@ fn a_hostile_model_is_refused_with_its_limit_within_five_seconds() {
         assert!(message.contains(limit), "{name}: {message}");
         assert_eq!((message.lines().count(), case.as_str()), (1, ""), "{name}");
         assert!(message.len() < 400, "{name}: {message}");
-        assert!(
-            code == 3 || name == "large.rexs" && code == 5,
-            "{name}: {code}"
-        );
+        assert!(code == 3 || name == "large.rexs" && code == 5, "{name}: {code}");
         assert!(time < Duration::from_secs(5), "{name}: {time:?}");
     }
 }
@@ -420,9 +317,7 @@ fn zipped(files: &[(&str, usize)]) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let mut archive = zip::ZipWriter::new(&mut bytes);
     for (name, length) in files {
-        archive
-            .start_file(*name, SimpleFileOptions::default())
-            .unwrap();
+        archive.start_file(*name, SimpleFileOptions::default()).unwrap();
         archive.write_all(&vec![b' '; *length]).unwrap();
     }
     archive.finish().unwrap();
@@ -450,11 +345,7 @@ fn import_writes_a_new_file_and_solve_reads_a_model_directly() {
 
 #[test]
 fn no_cut_or_damaged_model_stops_the_program() {
-    for name in [
-        "two-stages-1.0.rexs",
-        "spur-2.0.rexsj",
-        "planetary-1.1.rexsz",
-    ] {
+    for name in ["two-stages-1.0.rexs", "spur-2.0.rexsj", "planetary-1.1.rexsz"] {
         let whole = fs::read(model(name)).unwrap();
         for at in (0..whole.len()).step_by(whole.len() / 150) {
             drop(import(Path::new(name), &whole[..at], None));

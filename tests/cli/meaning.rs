@@ -31,20 +31,14 @@ fn relieved(method: &str, command: &[&str]) -> String {
         "--set",
         "driver.root_relief=5 um",
     ];
-    stdout_of(&[command, &reliefs].concat())
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ")
+    stdout_of(&[command, &reliefs].concat()).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[test]
 fn the_modification_is_printed_by_every_method_and_means_the_same() {
     for method in METHODS {
         let page = relieved(method, &["solve", TABLE_1]);
-        assert!(
-            page.contains("e_m modification at run-in -15.000 um Eq. 1"),
-            "{method}: {page}"
-        );
+        assert!(page.contains("e_m modification at run-in -15.000 um Eq. 1"), "{method}: {page}");
     }
 }
 
@@ -73,20 +67,11 @@ fn an_equivalent_error_without_the_reliefs_is_named_so() {
         serde_json::from_str::<Value>(&line).unwrap()["quantities"]["equivalent_error"]["of"]
             .clone()
     };
-    assert_eq!(
-        (of("exact"), of("static")),
-        (Value::Null, "deviations-without-reliefs".into())
-    );
+    assert_eq!((of("exact"), of("static")), (Value::Null, "deviations-without-reliefs".into()));
     let page = relieved("static", &["explain", "equivalent_error"]);
     assert!(page.contains("Δf_0 = 2 f_pb/√2"), "{page}");
-    assert!(
-        page.contains("Methods: ") == page.contains("paper 22.6"),
-        "{page}"
-    );
-    assert!(
-        !page.contains("exact 7.6"),
-        "the page has two definitions: {page}"
-    );
+    assert!(page.contains("Methods: ") == page.contains("paper 22.6"), "{page}");
+    assert!(!page.contains("exact 7.6"), "the page has two definitions: {page}");
     let page = relieved("static", &["explain", "total_deviation"]);
     assert!(page.contains("Δ = Δf_0 + e_m + δ"), "{page}");
 }
@@ -94,13 +79,9 @@ fn an_equivalent_error_without_the_reliefs_is_named_so() {
 #[test]
 fn an_explanation_describes_its_method() {
     let strikes = "Above 0 the tip strikes before E";
-    for (method, holds) in [
-        ("paper", false),
-        ("exact", true),
-        ("static", false),
-        ("dynamic", false),
-        ("auto", false),
-    ] {
+    for (method, holds) in
+        [("paper", false), ("exact", true), ("static", false), ("dynamic", false), ("auto", false)]
+    {
         assert_eq!(
             relieved(method, &["explain", "total_deviation"]).contains(strikes),
             holds,
@@ -142,42 +123,25 @@ fn a_limit_on_an_absent_value_is_not_met_and_has_a_reason() {
     let relieved = ["check", TABLE_1, "--set", "driven.tip_relief=80 um"];
     assert_eq!(run(&relieved).status.code(), Some(0));
     assert_eq!(
-        run(&[&relieved[..], &["--set", "limits.dynamic_peak_force=2 kN"]].concat())
-            .status
-            .code(),
+        run(&[&relieved[..], &["--set", "limits.dynamic_peak_force=2 kN"]].concat()).status.code(),
         Some(1)
     );
 }
 
 #[test]
 fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
-    let limit = [
-        "check",
-        TABLE_1,
-        "--method",
-        "dynamic",
-        "--set",
-        "limits.impact_force=2.1 kN",
-    ];
+    let limit = ["check", TABLE_1, "--method", "dynamic", "--set", "limits.impact_force=2.1 kN"];
     let page = stdout_of(&limit);
     let own = " for the free impact. Method dynamic: dynamic_peak_approach_force 1410.8 N; this quantity \
             has no limit\n";
     assert!(page.ends_with(own), "{page}");
     let line: Value =
         serde_json::from_str(&stdout_of(&[&limit[..], &["--format", "json"]].concat())).unwrap();
-    assert_eq!(
-        (&line["standing"], &line["of"]),
-        (&"within".into(), &"free-impact".into())
-    );
+    assert_eq!((&line["standing"], &line["of"]), (&"within".into(), &"free-impact".into()));
     assert_eq!(line["own"]["quantity"], "dynamic_peak_approach_force");
     assert!((line["own"]["value"].as_f64().unwrap() - 1410.76).abs() < 0.1);
-    let both = stdout_of(
-        &[
-            &limit[..],
-            &["--set", "limits.dynamic_peak_approach_force=1400 N"],
-        ]
-        .concat(),
-    );
+    let both =
+        stdout_of(&[&limit[..], &["--set", "limits.dynamic_peak_approach_force=1400 N"]].concat());
     assert!(
         both.contains(
             "EXCEEDED cases/zhou-chen-2014.toml: dynamic_peak_approach_force 1410.8 N > 1400 N"
@@ -191,11 +155,7 @@ fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
 fn a_hint_offers_the_usual_unit_and_names_the_command_line() {
     let set = |text: &str| refused(&["solve", TABLE_1, "--set", text]);
     let (code, line) = set("operation.power=15");
-    assert_eq!(
-        (code, line.ends_with("write \"15 kW\" or \"15 W\"")),
-        (2, true),
-        "{line}"
-    );
+    assert_eq!((code, line.ends_with("write \"15 kW\" or \"15 W\"")), (2, true), "{line}");
     assert!(line.contains("--set operation.power=15: "), "{line}");
     let (_, line) = set("deviations.base_pitch=48 mu");
     assert!(line.contains("did you mean um?"), "{line}");
@@ -223,46 +183,24 @@ fn a_hint_offers_the_usual_unit_and_names_the_command_line() {
 
 #[test]
 fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
-    for command in [
-        ["solve", TABLE_1, "--only"],
-        ["explain", "--method", "exact"],
-    ] {
+    for command in [["solve", TABLE_1, "--only"], ["explain", "--method", "exact"]] {
         let asked = |name| refused(&[&command[..], &[name]].concat());
         let (code, line) = asked("f_s");
         assert_eq!(
-            (
-                code,
-                line.ends_with("unknown quantity `f_s`: did you mean F_S, impact_force?")
-            ),
+            (code, line.ends_with("unknown quantity `f_s`: did you mean F_S, impact_force?")),
             (2, true),
             "{line}"
         );
-        assert!(
-            asked("impact_forces")
-                .1
-                .ends_with("did you mean impact_force?")
-        );
-        assert!(
-            asked("impact_force normal_velocity")
-                .1
-                .ends_with("put commas between names")
-        );
-        assert!(
-            asked("colour")
-                .1
-                .ends_with("`tipstrike fields --results` lists every quantity")
-        );
+        assert!(asked("impact_forces").1.ends_with("did you mean impact_force?"));
+        assert!(asked("impact_force normal_velocity").1.ends_with("put commas between names"));
+        assert!(asked("colour").1.ends_with("`tipstrike fields --results` lists every quantity"));
     }
 }
 
 #[test]
 fn a_contradictory_command_line_is_refused_in_one_line() {
     for (arguments, exit, says) in [
-        (
-            &["slove", TABLE_1][..],
-            2,
-            "error: slove: there is no such command: did you mean solve?",
-        ),
+        (&["slove", TABLE_1][..], 2, "error: slove: there is no such command: did you mean solve?"),
         (
             &["improve", TABLE_1],
             2,
@@ -300,10 +238,7 @@ fn a_contradictory_command_line_is_refused_in_one_line() {
         ),
     ] {
         let (code, line) = refused(arguments);
-        assert!(
-            code == exit && line.starts_with(says),
-            "{arguments:?}: {code} {line}"
-        );
+        assert!(code == exit && line.starts_with(says), "{arguments:?}: {code} {line}");
     }
     assert!(
         refused(&["solve", TABLE_1, "--set", "driver.young=205000"])
@@ -311,11 +246,7 @@ fn a_contradictory_command_line_is_refused_in_one_line() {
             .ends_with("write \"205000 MPa\"")
     );
     let negative = run(&["solve", TABLE_1, "--stations", "-1"]);
-    assert!(
-        String::from_utf8(negative.stderr)
-            .unwrap()
-            .contains("`-1` is below the limit of 1")
-    );
+    assert!(String::from_utf8(negative.stderr).unwrap().contains("`-1` is below the limit of 1"));
 }
 
 #[test]
@@ -337,14 +268,8 @@ fn the_printed_equations_have_a_note_on_their_error() {
         "{page}"
     );
     // 60 um of relief count as 42 um as printed: only by the printed equations the tooth strikes.
-    let page = stdout_of(&[
-        "solve",
-        TABLE_1,
-        "--method",
-        "paper",
-        "--set",
-        "driven.tip_relief=60 um",
-    ]);
+    let page =
+        stdout_of(&["solve", TABLE_1, "--method", "paper", "--set", "driven.tip_relief=60 um"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         page.contains(
@@ -353,10 +278,7 @@ fn the_printed_equations_have_a_note_on_their_error() {
         ),
         "{page}"
     );
-    assert!(
-        page.contains("Other method: exact no corner contact, Δ = -12.673 um."),
-        "{page}"
-    );
+    assert!(page.contains("Other method: exact no corner contact, Δ = -12.673 um."), "{page}");
 }
 
 /// The most important results of a method.
@@ -369,11 +291,9 @@ fn headlines(solution: &Solution) -> Vec<String> {
             "static_transmission_error",
             "contact_ratio",
         ],
-        "dynamic" => &[
-            "dynamic_peak_approach_force",
-            "dynamic_peak_force",
-            "dynamic_first_contact_angle",
-        ],
+        "dynamic" => {
+            &["dynamic_peak_approach_force", "dynamic_peak_force", "dynamic_first_contact_angle"]
+        }
         _ => &[
             "impact_force",
             "impact_duration",
@@ -384,14 +304,10 @@ fn headlines(solution: &Solution) -> Vec<String> {
     };
     let printed = |key: &&str| {
         let quantity = Quantity::find(key).unwrap();
-        value(quantity, solution).map_or_else(
-            || "none".to_owned(),
-            |value| shown(quantity, value).to_string(),
-        )
+        value(quantity, solution)
+            .map_or_else(|| "none".to_owned(), |value| shown(quantity, value).to_string())
     };
-    std::iter::once(solution.outcome.name().to_owned())
-        .chain(keys.iter().map(printed))
-        .collect()
+    std::iter::once(solution.outcome.name().to_owned()).chain(keys.iter().map(printed)).collect()
 }
 
 /// Every number of every case without an effect on the most important results has a reason in each
@@ -399,12 +315,10 @@ fn headlines(solution: &Solution) -> Vec<String> {
 #[test]
 fn a_field_without_effect_has_a_reason() {
     let mut silent = Vec::new();
-    for (method, example) in METHODS[..4].iter().flat_map(|method| {
-        EXAMPLES
-            .iter()
-            .take(3)
-            .map(move |example| (method, example))
-    }) {
+    for (method, example) in METHODS[..4]
+        .iter()
+        .flat_map(|method| EXAMPLES.iter().take(3).map(move |example| (method, example)))
+    {
         let mut case = example.document().case;
         case.set("model.method", method).unwrap();
         let inputs = case.inputs().unwrap();
@@ -428,9 +342,7 @@ fn a_field_without_effect_has_a_reason() {
             let unit = text.split_once(' ').map_or("", |(_, unit)| unit);
             let more = now * 1.1 / tipstrike::case::units::factor(unit).unwrap();
             let mut changed = case.clone();
-            let is_silent = changed
-                .set(field.key, format!("{more} {unit}").trim())
-                .is_ok()
+            let is_silent = changed.set(field.key, format!("{more} {unit}").trim()).is_ok()
                 && solve(&changed).is_some_and(|after| headlines(&after) == headlines(&before));
             if is_silent {
                 silent.push(format!("{} of {} at {method}", field.key, example.name));
@@ -447,17 +359,9 @@ fn a_field_without_effect_has_a_reason() {
 #[test]
 fn a_note_reports_that_a_given_deflection_replaces_the_load() {
     let note = "the deflection of 24.70 um is given: power and torque change only F_0";
-    for (method, says) in [
-        ("paper", true),
-        ("exact", true),
-        ("static", false),
-        ("dynamic", false),
-    ] {
-        assert_eq!(
-            relieved(method, &["solve", TABLE_1]).contains(note),
-            says,
-            "{method}"
-        );
+    for (method, says) in [("paper", true), ("exact", true), ("static", false), ("dynamic", false)]
+    {
+        assert_eq!(relieved(method, &["solve", TABLE_1]).contains(note), says, "{method}");
     }
     assert!(
         !relieved("exact", &["solve", TABLE_1, "--set", "model.deflection="]).contains("is given")
@@ -475,20 +379,10 @@ fn no_result_has_more_places_than_digits() {
         "operation.power=2 MW",
     ];
     let page = stdout_of(&[&["solve", TABLE_1, "--set", "model.deflection="][..], &wide].concat());
-    assert!(
-        page.contains("F_0      mesh force                203.24 kN"),
-        "{page}"
-    );
-    let places = |word: &str| {
-        word.trim_start_matches('-')
-            .bytes()
-            .take_while(u8::is_ascii_digit)
-            .count()
-    };
-    assert!(
-        page.split_whitespace().all(|word| places(word) < 6),
-        "{page}"
-    );
+    assert!(page.contains("F_0      mesh force                203.24 kN"), "{page}");
+    let places =
+        |word: &str| word.trim_start_matches('-').bytes().take_while(u8::is_ascii_digit).count();
+    assert!(page.split_whitespace().all(|word| places(word) < 6), "{page}");
 }
 
 #[test]
@@ -504,10 +398,7 @@ fn auto_computes_what_a_limit_or_a_selected_quantity_needs_besides_its_choice() 
         let (code, text, errors) = by_auto(&["solve", "--format", "json", "--only", quantity]);
         let report: Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!((code, report["method"].as_str()), (0, Some("static")));
-        assert!(
-            report["quantities"][quantity]["value"].is_number(),
-            "{text} {errors}"
-        );
+        assert!(report["quantities"][quantity]["value"].is_number(), "{text} {errors}");
     }
     let limit = "limits.dynamic_peak_force=1 MN";
     let (code, text, errors) = by_auto(&["check", "--set", limit]);

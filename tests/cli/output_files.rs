@@ -45,10 +45,7 @@ fn a_result_replaces_a_target_that_appears_changes_or_vanishes_during_the_run() 
     symlink("end", &path).unwrap();
     begun.finish().unwrap();
     assert!(fs::symlink_metadata(&path).unwrap().is_symlink());
-    assert_eq!(
-        fs::read_to_string(folder.path().join("end")).unwrap(),
-        "result"
-    );
+    assert_eq!(fs::read_to_string(folder.path().join("end")).unwrap(), "result");
     assert_eq!(files(folder.path()).len(), 2);
 }
 
@@ -59,9 +56,7 @@ fn a_result_that_cannot_replace_its_target_is_kept_and_named() {
     let begun = draft(&path);
     fs::create_dir(&path).unwrap();
     let error = begun.finish().unwrap_err();
-    let SaveError::Kept(cause, kept) = &error else {
-        panic!("{error}")
-    };
+    let SaveError::Kept(cause, kept) = &error else { panic!("{error}") };
     assert!(matches!(**cause, SaveError::IsAFolder(..)), "{error}");
     assert!(error.to_string().contains(kept.as_str()), "{error}");
     // Later writes keep it, too.
@@ -94,10 +89,7 @@ fn a_link_or_file_that_another_user_planted_is_not_replaced() {
         let out = path.to_str().unwrap();
         let varied = ["--vary", "operation.speed=500,900 rpm", "--out", out];
         let (code, _, errors) = run(&[&["sweep", TABLE_1][..], &varied].concat());
-        assert!(
-            code == 5 && errors.contains("belongs to another user"),
-            "{errors}"
-        );
+        assert!(code == 5 && errors.contains("belongs to another user"), "{errors}");
         assert!(write(path, b"", true).is_err(), "{out}");
     }
     assert_eq!(fs::read_to_string(&private).unwrap(), "private");

@@ -31,10 +31,7 @@ fn every_chart_and_the_teeth_are_well_formed_pictures() {
             let picture = stdout_of(&["plot", TABLE_1, "--chart", name, "--method", method]);
             numbers_are_finite(&picture);
             let xml = Document::parse(&picture).unwrap_or_else(|error| panic!("{name}: {error}"));
-            assert!(
-                xml.root_element()
-                    .has_tag_name(("http://www.w3.org/2000/svg", "svg"))
-            );
+            assert!(xml.root_element().has_tag_name(("http://www.w3.org/2000/svg", "svg")));
             assert!(picture.contains("prefers-color-scheme:dark"));
             let labels = xml.descendants().filter(|node| node.has_tag_name("text"));
             let labels = labels.count() + picture.matches("<text").count();
@@ -46,50 +43,30 @@ fn every_chart_and_the_teeth_are_well_formed_pictures() {
 #[test]
 fn a_chart_has_axes_with_units_and_a_legend_below_the_field() {
     let picture = stdout_of(&["plot", TABLE_1, "--chart", "gap"]);
-    for text in [
-        "Gap S, µm",
-        "driver roll angle after E, deg",
-        ">method exact<",
-        ">Δ<",
-        ">D<",
-        ">E<",
-    ] {
+    for text in
+        ["Gap S, µm", "driver roll angle after E, deg", ">method exact<", ">Δ<", ">D<", ">E<"]
+    {
         assert!(picture.contains(text), "{text}: {picture}");
     }
     let field = 316.0;
     let xml = Document::parse(&picture).unwrap();
-    let legend = xml
-        .descendants()
-        .filter(|node| matches!(node.text(), Some("method exact" | "Δ")));
+    let legend = xml.descendants().filter(|node| matches!(node.text(), Some("method exact" | "Δ")));
     for name in legend.filter(|node| node.has_attribute("y")) {
         assert!(name.attribute("y").unwrap().parse::<f64>().unwrap() > field);
     }
     let shared = stdout_of(&["plot", TABLE_1, "--chart", "load_share"]);
-    assert!(
-        shared.contains(">method static<"),
-        "a closed form has no load share"
-    );
+    assert!(shared.contains(">method static<"), "a closed form has no load share");
 }
 
 #[test]
 fn the_chart_over_speed_marks_the_speed_of_the_case_and_the_resonances() {
     // The speed of the case is below the first one of the curve, N = 0.1.
     let picture = stdout_of(&["plot", FZG, "--chart", "speed"]);
-    for text in [
-        ">present<",
-        ">N=1/3<",
-        ">N=1/2<",
-        ">N=1<",
-        "rpm; N = mesh/natural frequency",
-    ] {
+    for text in [">present<", ">N=1/3<", ">N=1/2<", ">N=1<", "rpm; N = mesh/natural frequency"] {
         assert!(picture.contains(text), "{text}: {picture}");
     }
-    let falling = picture
-        .find("class=\"curve s1\"")
-        .expect("the speed falling");
-    let point = picture
-        .rfind("<g transform")
-        .expect("points without contact");
+    let falling = picture.find("class=\"curve s1\"").expect("the speed falling");
+    let point = picture.rfind("<g transform").expect("points without contact");
     assert!(point < falling, "the points are below the curve");
 }
 
@@ -107,10 +84,7 @@ fn notes_of_several_lines_are_one_sentence_and_stay_whole_in_the_case_file() {
     let noted = path.to_str().unwrap();
     let page = report(&[noted], "html");
     assert!(page.contains("one # two three</p>"), "{page}");
-    assert!(
-        page.contains("&#34;&#34;&#34;one\n# two\n\nthree&#34;&#34;&#34;"),
-        "{page}"
-    );
+    assert!(page.contains("&#34;&#34;&#34;one\n# two\n\nthree&#34;&#34;&#34;"), "{page}");
     assert!(stdout_of(&["solve", noted]).contains("Notes of the case: one # two three"));
 }
 
@@ -150,27 +124,16 @@ fn the_tooth_compliance_of_a_gear_has_a_curve_for_every_model_that_covers_it() {
     assert_eq!(curves(&driver), 8);
     let set = ["--set", "driven.teeth=132"];
     let driven = chart("driven", &set);
-    assert!(
-        driven.contains(">kuang-yang (case), no value: covers z 12..100"),
-        "{driven}"
-    );
+    assert!(driven.contains(">kuang-yang (case), no value: covers z 12..100"), "{driven}");
     assert_eq!((curves(&chart("driver", &set)), curves(&driven)), (8, 7));
 }
 
 #[test]
 fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
-    let late = run(&[
-        "plot",
-        "cases/tip-relief-enough.toml",
-        "--chart",
-        "impact_energy",
-    ]);
+    let late = run(&["plot", "cases/tip-relief-enough.toml", "--chart", "impact_energy"]);
     let words = String::from_utf8_lossy(&late.stderr).into_owned();
     assert_eq!(late.status.code(), Some(3), "{words}");
-    assert!(
-        words.contains("the chart impact_energy has no curve"),
-        "{words}"
-    );
+    assert!(words.contains("the chart impact_energy has no curve"), "{words}");
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("force.svg");
     fs::write(&out, "old").unwrap();
@@ -190,10 +153,7 @@ fn a_page_needs_no_other_file_and_has_every_part() {
     let elsewhere = ["<script", "<link", "src=", "url(", "@import"];
     assert!(elsewhere.iter().all(|word| !page.contains(word)));
     let addresses = page.matches("http").count();
-    assert_eq!(
-        addresses,
-        page.matches("http://www.w3.org/2000/svg").count()
-    );
+    assert_eq!(addresses, page.matches("http://www.w3.org/2000/svg").count());
     for chart in [
         "Force F_S, N",
         "Load share F/ΣF",
@@ -216,10 +176,7 @@ fn a_page_needs_no_other_file_and_has_every_part() {
     ] {
         assert!(page.contains(text), "{text}");
     }
-    assert!(
-        !page.contains(">pressure angle</td>"),
-        "20 deg is the default"
-    );
+    assert!(!page.contains(">pressure angle</td>"), "20 deg is the default");
 }
 
 #[test]
@@ -238,10 +195,7 @@ fn several_cases_are_side_by_side_in_every_format() {
     let csv = report(&[TABLE_1, FZG], "csv");
     assert_eq!(csv.lines().count(), 3);
     let json = report(&[TABLE_1, FZG], "json");
-    assert_eq!(
-        json,
-        stdout_of(&["solve", TABLE_1, FZG, "--format", "json"])
-    );
+    assert_eq!(json, stdout_of(&["solve", TABLE_1, FZG, "--format", "json"]));
 }
 
 #[test]
@@ -269,10 +223,7 @@ fn a_case_with_variants_and_spread_has_a_table_of_each_on_its_pages() {
         ] {
             assert!(page.contains(words), "{ending}: {words}: {page}");
         }
-        assert!(
-            page.contains("refused") && page.contains("jammed: "),
-            "{ending}"
-        );
+        assert!(page.contains("refused") && page.contains("jammed: "), "{ending}");
         numbers_are_finite(&page);
     }
     assert!(!report(&[TABLE_1], "html").contains("<h2>Studies"));
@@ -286,19 +237,13 @@ fn texts_of_a_case_are_harmless_in_a_page_and_in_a_picture() {
     let path = folder.path().join("odd.toml");
     let title = "</title><script>a|b`\u{1b}[2J";
     let text = fs::read_to_string(TABLE_1).unwrap();
-    let text = text.replace(
-        "Zhou & Chen 2014, Table 1",
-        &title.replace('\u{1b}', "\\u001b"),
-    );
+    let text = text.replace("Zhou & Chen 2014, Table 1", &title.replace('\u{1b}', "\\u001b"));
     fs::write(&path, text).unwrap();
     let odd = path.to_str().unwrap();
     let page = report(&[odd, TABLE_1], "html");
     assert!(!page.contains("<script") && !page.contains('\u{1b}'));
     let markdown = report(&[odd], "md");
-    assert!(
-        !markdown.contains("<script>") || !markdown.contains("# </title>"),
-        "{markdown}"
-    );
+    assert!(!markdown.contains("<script>") || !markdown.contains("# </title>"), "{markdown}");
     assert!(markdown.contains("\\<script\\>a\\|b\\`"), "{markdown}");
 }
 
@@ -312,10 +257,6 @@ fn an_unknown_extension_is_refused_and_an_invalid_case_is_omitted() {
     fs::write(path("bad.toml"), "format = 1\n").unwrap();
     let some = run(&["report", &path("bad.toml"), TABLE_1, "--out", &path("a.md")]);
     assert_eq!(some.status.code(), Some(3));
-    assert!(
-        fs::read_to_string(path("a.md"))
-            .unwrap()
-            .starts_with("# Zhou & Chen 2014, Table 1")
-    );
+    assert!(fs::read_to_string(path("a.md")).unwrap().starts_with("# Zhou & Chen 2014, Table 1"));
     assert!(Path::new(&path("a.md")).exists());
 }

@@ -8,10 +8,8 @@ use tipstrike::report::{Report, Selection, json, text};
 
 fn toml_files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     paths.sort();
     assert!(!paths.is_empty());
@@ -39,13 +37,8 @@ fn the_report_of_every_case_is_unchanged() {
 #[test]
 fn no_line_is_wider_than_80_columns() {
     for path in toml_files("cases") {
-        let page = text::render(&report(
-            &path,
-            Selection {
-                stations: true,
-                ..Selection::default()
-            },
-        ));
+        let page =
+            text::render(&report(&path, Selection { stations: true, ..Selection::default() }));
         let wide = page.lines().find(|line| line.chars().count() > 80);
         assert_eq!(wide, None, "{}", path.display());
     }
@@ -64,16 +57,11 @@ fn json_contains_the_reference_answers() {
             serde_json::from_str(&fs::read_to_string(path.with_extension("json")).unwrap())
                 .unwrap();
         assert_eq!(object["outcome"], answers["outcome"], "{}", path.display());
-        for (key, answer) in answers
-            .as_object()
-            .unwrap()
-            .iter()
-            .filter(|(_, answer)| answer.is_number())
+        for (key, answer) in
+            answers.as_object().unwrap().iter().filter(|(_, answer)| answer.is_number())
         {
-            let (value, answer) = (
-                object["quantities"][key]["value"].as_f64().unwrap(),
-                answer.as_f64().unwrap(),
-            );
+            let (value, answer) =
+                (object["quantities"][key]["value"].as_f64().unwrap(), answer.as_f64().unwrap());
             assert!(
                 (value - answer).abs() <= CLOSE * answer.abs(),
                 "{}: {key} is {value}, not {answer}",

@@ -19,12 +19,7 @@ fn json(arguments: &[&str]) -> Value {
 }
 
 fn keys(object: &Value) -> BTreeSet<&str> {
-    object
-        .as_object()
-        .unwrap()
-        .keys()
-        .map(String::as_str)
-        .collect()
+    object.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
 #[test]
@@ -40,11 +35,7 @@ fn the_schema_of_a_case_has_every_field_and_limit() {
         assert!(known["description"].is_string(), "{}", field.key);
     }
     let limits = keys(&properties["limits"]["properties"]);
-    assert!(
-        QUANTITIES
-            .iter()
-            .all(|quantity| limits.contains(quantity.key))
-    );
+    assert!(QUANTITIES.iter().all(|quantity| limits.contains(quantity.key)));
     assert!(properties["spread"]["properties"]["pair.module"]["properties"]["normal"].is_object());
     let variant = &properties["variants"]["additionalProperties"]["properties"];
     for field in &FIELDS {

@@ -43,11 +43,7 @@ fn gathered_shards_are_the_bytes_of_the_whole() {
     let case = folder.path().join("spread.toml");
     let spread = "[spread]\n\"driven.tip_relief\" = { uniform = \"12 um\" }\n\
                   \"deviations.base_pitch\" = { normal = \"2 um\" }\n";
-    fs::write(
-        &case,
-        format!("{}\n{spread}", fs::read_to_string(TABLE_1).unwrap()),
-    )
-    .unwrap();
+    fs::write(&case, format!("{}\n{spread}", fs::read_to_string(TABLE_1).unwrap())).unwrap();
     let tolerance = [
         "tolerance",
         case.to_str().unwrap(),
@@ -88,22 +84,13 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
         errors
     };
     let message = refusal(&files[1..]);
-    assert!(
-        message.contains("1 of 3 shards are missing: run --shard 3/3"),
-        "{message}"
-    );
+    assert!(message.contains("1 of 3 shards are missing: run --shard 3/3"), "{message}");
     let copy = folder.path().join("copy.shard");
     fs::copy(&files[0], &copy).unwrap();
     let message = refusal(&[files.clone(), vec![copy.clone()]].concat());
-    assert!(
-        message.contains("shard 3/3 is in") && message.contains("too"),
-        "{message}"
-    );
+    assert!(message.contains("shard 3/3 is in") && message.contains("too"), "{message}");
     let message = refusal(&[files[0].clone(), files[1].clone(), others[2].clone()]);
-    assert!(
-        message.contains("belongs to another study than"),
-        "{message}"
-    );
+    assert!(message.contains("belongs to another study than"), "{message}");
 
     let text = fs::read_to_string(&files[0]).unwrap();
     let whole_lines: Vec<&str> = text.split_inclusive('\n').collect();
@@ -179,24 +166,15 @@ fn stopped_by(signals: &[&str], trap: &str, arguments: &[&str], folder: &Path) -
     let begun = Instant::now();
     let has_rows = || {
         let mut files = fs::read_dir(folder).unwrap();
-        files.any(|file| {
-            file.unwrap()
-                .metadata()
-                .is_ok_and(|file| file.len() > 100_000)
-        })
+        files.any(|file| file.unwrap().metadata().is_ok_and(|file| file.len() > 100_000))
     };
     while !has_rows() {
-        assert!(
-            begun.elapsed() < Duration::from_secs(300),
-            "no row is written"
-        );
+        assert!(begun.elapsed() < Duration::from_secs(300), "no row is written");
         assert_eq!(program.try_wait().unwrap(), None, "{arguments:?}");
         std::thread::sleep(Duration::from_millis(20));
     }
     for signal in signals {
-        let sent = Command::new("kill")
-            .args(["-s", signal, &program.id().to_string()])
-            .status();
+        let sent = Command::new("kill").args(["-s", signal, &program.id().to_string()]).status();
         assert!(sent.unwrap().success());
         std::thread::sleep(Duration::from_millis(200));
     }
@@ -224,13 +202,7 @@ fn a_signal_ends_a_study_while_it_solves_or_writes_and_leaves_no_file() {
         let left: Vec<_> = fs::read_dir(out.path()).unwrap().collect();
         assert!(left.is_empty(), "{signals:?}: {left:?}");
     };
-    for (signal, number) in [
-        ("HUP", 1),
-        ("INT", 2),
-        ("QUIT", 3),
-        ("USR1", 10),
-        ("TERM", 15),
-    ] {
+    for (signal, number) in [("HUP", 1), ("INT", 2), ("QUIT", 3), ("USR1", 10), ("TERM", 15)] {
         ends(&[signal], "", number, &shard);
     }
     ends(&["INT"], "", 2, &rows);

@@ -16,11 +16,7 @@ fn run(arguments: &[&str]) -> (i32, String, String) {
 
 /// The rows of the CSV without its header, and the lines on standard error.
 fn csv(arguments: &[&str]) -> (Vec<Vec<String>>, String) {
-    let all: Vec<&str> = arguments
-        .iter()
-        .copied()
-        .chain(["--format", "csv"])
-        .collect();
+    let all: Vec<&str> = arguments.iter().copied().chain(["--format", "csv"]).collect();
     let (code, text, errors) = run(&all);
     assert_eq!(code, 0, "{errors}");
     let mut lines = text.lines();
@@ -53,10 +49,7 @@ fn csv_has_one_row_per_gear_and_radius_from_the_form_circle_to_the_tip() {
         .collect();
     assert!((values[4][0] - 55e-3).abs() < 1e-15, "{}", values[4][0]);
     for pair in values[..5].windows(2) {
-        assert!(
-            pair[0][0] < pair[1][0] && pair[0][3] < pair[1][3],
-            "{pair:?}"
-        );
+        assert!(pair[0][0] < pair[1][0] && pair[0][3] < pair[1][3], "{pair:?}");
     }
     for row in &values {
         let [depth, surface, ahead, behind] = FIELD_COLUMNS.map(|column| row[column - 1]);
@@ -72,9 +65,7 @@ fn json_agrees_with_the_csv() {
     assert_eq!(found["case"], TABLE_1);
     let (rows, _) = csv(&[TABLE_1, "--points", "3"]);
     let gears = found["gears"].as_array().unwrap();
-    let points = gears
-        .iter()
-        .flat_map(|gear| gear["points"].as_array().unwrap());
+    let points = gears.iter().flat_map(|gear| gear["points"].as_array().unwrap());
     let keys = [
         "radius",
         "kuang_yang",
@@ -87,11 +78,7 @@ fn json_agrees_with_the_csv() {
     ];
     assert_eq!(points.clone().count(), rows.len());
     for (point, row) in points.zip(&rows) {
-        for (key, cell) in keys
-            .iter()
-            .zip(&row[1..])
-            .filter(|(key, _)| !key.is_empty())
-        {
+        for (key, cell) in keys.iter().zip(&row[1..]).filter(|(key, _)| !key.is_empty()) {
             let (left, right) = (point[*key].as_f64().unwrap(), cell.parse::<f64>().unwrap());
             assert!((left / right - 1.0).abs() < 1e-15, "{key}: {left} {right}");
         }
@@ -105,15 +92,9 @@ fn a_gear_outside_the_fit_has_empty_cells_and_the_other_gear_has_values() {
     let (rows, _) = csv(&arguments);
     let is_empty: Vec<bool> = rows.iter().map(|row| row[2].is_empty()).collect();
     assert_eq!(is_empty, [false, false, false, true, true, true]);
-    assert!(
-        rows.iter()
-            .all(|row| !row[3].is_empty() && !row[4].is_empty())
-    );
+    assert!(rows.iter().all(|row| !row[3].is_empty() && !row[4].is_empty()));
     let (_, text, _) = run(&arguments);
-    assert!(
-        text.contains("no value by kuang-yang: covers z 12..100"),
-        "{text}"
-    );
+    assert!(text.contains("no value by kuang-yang: covers z 12..100"), "{text}");
 }
 
 #[test]
@@ -126,18 +107,11 @@ fn a_gear_without_a_field_is_named_and_keeps_the_values_of_the_models() {
     for (index, row) in rows.iter().enumerate() {
         let is_driver = index < 3;
         assert!(!row[2].is_empty() && !row[3].is_empty());
-        assert!(
-            FIELD_COLUMNS
-                .iter()
-                .all(|&column| row[column].is_empty() == is_driver)
-        );
+        assert!(FIELD_COLUMNS.iter().all(|&column| row[column].is_empty() == is_driver));
     }
     let (code, text, errors) = run(&arguments);
     assert_eq!((code, errors.as_str()), (0, ""));
-    assert!(
-        text.contains("  - no finite-element values: Poisson's ratio is 0.495"),
-        "{text}"
-    );
+    assert!(text.contains("  - no finite-element values: Poisson's ratio is 0.495"), "{text}");
 }
 
 #[test]

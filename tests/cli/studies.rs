@@ -11,26 +11,16 @@ use serde_json::Value;
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
 fn lines(text: &str) -> Vec<Value> {
-    text.lines()
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect()
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
 #[test]
 fn the_map_of_a_relief_marks_the_relief_to_specify_and_fits_the_line() {
-    let text = stdout_of(&[
-        "relief",
-        "cases/mill-coarse-slow.toml",
-        "--load",
-        "50..100%",
-    ]);
+    let text = stdout_of(&["relief", "cases/mill-coarse-slow.toml", "--load", "50..100%"]);
     assert!(text.lines().all(|line| line.len() <= 80), "{text}");
     let map = &text[text.find("  amount driver, um").expect("a map")..];
     assert_eq!(map.matches('*').count(), 1, "{map}");
-    assert!(
-        text.contains("Tip relief for 50 to 100 % of 35000 N m"),
-        "{text}"
-    );
+    assert!(text.contains("Tip relief for 50 to 100 % of 35000 N m"), "{text}");
     for (option, value) in [("--tolerance", "-5 um"), ("--load", "-5..100%")] {
         let (code, _, errors) = printed(&["relief", TABLE_1, option, value]);
         let expected = format!("error: invalid value '{value}' for '{option}");
@@ -51,10 +41,7 @@ fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
         "F_S,contact_ratio",
     ]);
     let rows: Vec<&str> = text.lines().collect();
-    assert_eq!(
-        rows[0],
-        "operation.speed [rpm],impact_force [N],contact_ratio [1],outcome"
-    );
+    assert_eq!(rows[0], "operation.speed [rpm],impact_force [N],contact_ratio [1],outcome");
     assert_eq!(rows.len(), 4);
     assert!(rows[1].starts_with("1000,") && rows[2].starts_with("1500,"));
     assert!(rows[3].starts_with("2000,2191.0161533226"), "{text}");
@@ -67,9 +54,7 @@ fn a_sweep_shows_the_gap_of_no_contact_as_empty_cells() {
     let arguments = ["sweep", TABLE_1, "--vary", "driven.tip_relief=0,60 um"];
     let text = stdout_of(&arguments);
     assert_eq!(text.lines().nth(2), Some("60,,no-corner-contact"));
-    let json = lines(&stdout_of(
-        &[&arguments[..], &["--format", "json"]].concat(),
-    ));
+    let json = lines(&stdout_of(&[&arguments[..], &["--format", "json"]].concat()));
     assert_eq!(json[1]["outcome"], "no-corner-contact");
     assert_eq!(json[1]["quantities"], serde_json::json!({}));
     assert_eq!(json[1]["varied"]["driven.tip_relief"]["unit"], "um");
@@ -102,57 +87,18 @@ fn a_bad_sweep_gets_place_cause_and_fix() {
     let vary = |text: &'static str| vec!["sweep", TABLE_1, "--vary", text];
     let with = |text, more: &[&'static str]| [vary(text).as_slice(), more].concat();
     for (arguments, part) in [
-        (
-            vary("operation.sped=1..2 rpm"),
-            "--vary operation.sped=1..2 rpm: unknown key",
-        ),
-        (
-            vary("operation.speed=30..5 rpm"),
-            "the range is reversed: 30 rpm is above 5 rpm",
-        ),
+        (vary("operation.sped=1..2 rpm"), "--vary operation.sped=1..2 rpm: unknown key"),
+        (vary("operation.speed=30..5 rpm"), "the range is reversed: 30 rpm is above 5 rpm"),
         (vary("title=a..b"), "title is a text"),
-        (
-            vary("driven.tip_relief=-5..5 um"),
-            "below the limit of 0 um",
-        ),
-        (
-            with("operation.speed=1..2 rpm", &["--points", "0"]),
-            "1000000 points, and not 0",
-        ),
-        (
-            with("operation.speed=1..2 rpm", &["--points", "x"]),
-            "write a whole number",
-        ),
-        (
-            with(
-                "operation.speed=1..2 rpm",
-                &["--vary", "operation.speed=3..4 rpm"],
-            ),
-            "varied twice",
-        ),
-        (
-            with(
-                "operation.power=1..2 kW",
-                &["--vary", "operation.torque=3..4 N m"],
-            ),
-            "exclude",
-        ),
-        (
-            with(
-                "operation.speed=1..2 rpm",
-                &["--set", "operation.speed=3 rpm"],
-            ),
-            "--vary replaces",
-        ),
-        (
-            with("operation.speed=1..2 rpm", &["--only", "force"]),
-            "unknown quantity",
-        ),
+        (vary("driven.tip_relief=-5..5 um"), "below the limit of 0 um"),
+        (with("operation.speed=1..2 rpm", &["--points", "0"]), "1000000 points, and not 0"),
+        (with("operation.speed=1..2 rpm", &["--points", "x"]), "write a whole number"),
+        (with("operation.speed=1..2 rpm", &["--vary", "operation.speed=3..4 rpm"]), "varied twice"),
+        (with("operation.power=1..2 kW", &["--vary", "operation.torque=3..4 N m"]), "exclude"),
+        (with("operation.speed=1..2 rpm", &["--set", "operation.speed=3 rpm"]), "--vary replaces"),
+        (with("operation.speed=1..2 rpm", &["--only", "force"]), "unknown quantity"),
         (with("operation.speed=1..2 rpm", &["--jobs", "0"]), "--jobs"),
-        (
-            with("operation.speed=1..2 rpm", &["--out", TABLE_1]),
-            "choose another name",
-        ),
+        (with("operation.speed=1..2 rpm", &["--out", TABLE_1]), "choose another name"),
     ] {
         let (code, text, errors) = printed(&arguments);
         assert_eq!((code, text.as_str()), (2, ""), "{arguments:?}: {errors}");
@@ -162,14 +108,7 @@ fn a_bad_sweep_gets_place_cause_and_fix() {
 
 #[test]
 fn a_varied_field_without_effect_is_named() {
-    let arguments = [
-        "sweep",
-        TABLE_1,
-        "--vary",
-        "model.damping_ratio=0..1",
-        "--points",
-        "2",
-    ];
+    let arguments = ["sweep", TABLE_1, "--vary", "model.damping_ratio=0..1", "--points", "2"];
     let (code, _, errors) = printed(&arguments);
     assert_eq!(code, 0);
     assert!(errors.contains("model.damping_ratio changes no quantity: only the method dynamic"));
@@ -182,12 +121,7 @@ fn a_varied_field_may_be_missing_in_the_case() {
     let text = fs::read_to_string(TABLE_1).unwrap();
     assert!(text.contains("speed = \"2000 rpm\"\n"));
     fs::write(&path, text.replace("speed = \"2000 rpm\"\n", "")).unwrap();
-    let arguments = [
-        "sweep",
-        path.to_str().unwrap(),
-        "--vary",
-        "operation.speed=2000 rpm",
-    ];
+    let arguments = ["sweep", path.to_str().unwrap(), "--vary", "operation.speed=2000 rpm"];
     let text = stdout_of(&arguments);
     let row = text.lines().last().unwrap();
     assert!(row.starts_with("2000,2191.0161533226"), "{text}");
@@ -208,23 +142,18 @@ fn a_file_has_the_same_bytes_as_standard_output_for_any_number_of_jobs() {
     let missing = folder.path().join("missing/rows.csv");
     let to_nowhere = ["--out", missing.to_str().unwrap()];
     let (code, _, errors) = printed(&[&arguments[..], &to_nowhere].concat());
-    assert!(
-        code == 5 && errors.contains("create the folder"),
-        "{errors}"
-    );
+    assert!(code == 5 && errors.contains("create the folder"), "{errors}");
 }
 
 #[test]
 fn ctrl_c_ends_a_study_and_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows.csv");
-    let mut child = command(&[
-        "sweep", TABLE_1, "--method", "dynamic", "--points", "1000000",
-    ])
-    .args(["--vary", "operation.speed=500..9000 rpm", "--out"])
-    .arg(&path)
-    .spawn()
-    .unwrap();
+    let mut child = command(&["sweep", TABLE_1, "--method", "dynamic", "--points", "1000000"])
+        .args(["--vary", "operation.speed=500..9000 rpm", "--out"])
+        .arg(&path)
+        .spawn()
+        .unwrap();
     // The temporary file shows that the study is running.
     while fs::read_dir(folder.path()).unwrap().next().is_none() {
         std::thread::sleep(Duration::from_millis(5));
@@ -250,57 +179,28 @@ fn a_search_prints_its_crossing_with_bracket_and_segments() {
     ];
     let text = stdout_of(&arguments);
     insta::assert_snapshot!("seek_zhou", text);
-    let found = &lines(&stdout_of(
-        &[&arguments[..], &["--format", "json"]].concat(),
-    ))[0];
+    let found = &lines(&stdout_of(&[&arguments[..], &["--format", "json"]].concat()))[0];
     assert_eq!(found["answer"], "crossings");
-    assert_eq!(
-        (&found["unit"], &found["vary"]),
-        (&"um".into(), &"deviations.base_pitch".into())
-    );
+    assert_eq!((&found["unit"], &found["vary"]), (&"um".into(), &"deviations.base_pitch".into()));
     let bracket = &found["crossings"][0];
     let [from, to] = ["from", "to"].map(|end| bracket[end]["at"].as_f64().unwrap());
     assert!(from < to && to - from <= 1e-9 * to);
     assert_eq!(bracket["from"]["state"], "met");
     assert_eq!(found["segments"][1]["state"], "not-met");
-    let never = [
-        "--vary",
-        "driven.tip_relief=0..20 um",
-        "--until",
-        "impact_force<9 N",
-    ];
+    let never = ["--vary", "driven.tip_relief=0..20 um", "--until", "impact_force<9 N"];
     assert!(stdout_of(&[&["seek", TABLE_1], &never[..]].concat()).ends_with("\n  never\n"));
 }
 
 #[test]
 fn a_bad_search_gets_place_cause_and_fix() {
     for (vary, until, part) in [
-        (
-            "operation.speed=1..2 rpm",
-            "impact_forc<=1 N",
-            "--until impact_forc<=1 N: unknown",
-        ),
-        (
-            "operation.speed=1..2 rpm",
-            "dynamic_peak_force<=1 N",
-            "method exact does not compute",
-        ),
-        (
-            "operation.speed=1,2 rpm",
-            "impact_force<=1 N",
-            "this is not a range",
-        ),
-        (
-            "driver.teeth=18..30",
-            "impact_force<=1 N",
-            "use sweep --vary 'driver.teeth=18..30'",
-        ),
+        ("operation.speed=1..2 rpm", "impact_forc<=1 N", "--until impact_forc<=1 N: unknown"),
+        ("operation.speed=1..2 rpm", "dynamic_peak_force<=1 N", "method exact does not compute"),
+        ("operation.speed=1,2 rpm", "impact_force<=1 N", "this is not a range"),
+        ("driver.teeth=18..30", "impact_force<=1 N", "use sweep --vary 'driver.teeth=18..30'"),
     ] {
         let (code, _, errors) = printed(&["seek", TABLE_1, "--vary", vary, "--until", until]);
-        assert!(
-            code == 2 && errors.contains(part),
-            "{vary} {until}: {errors}"
-        );
+        assert!(code == 2 && errors.contains(part), "{vary} {until}: {errors}");
     }
 }
 
@@ -321,32 +221,16 @@ fn a_tolerance_study_prints_percentiles_probabilities_and_the_ranking() {
          \"operation.speed\" = { uniform = \"50 rpm\" }\n\
          \"driven.tip_relief\" = { truncated = \"4 um\" }",
     );
-    let arguments = [
-        "tolerance",
-        &case,
-        "--set",
-        "driven.tip_relief=8 um",
-        "--samples",
-        "2000",
-        "--seed",
-        "7",
-    ];
+    let arguments =
+        ["tolerance", &case, "--set", "driven.tip_relief=8 um", "--samples", "2000", "--seed", "7"];
     let text = stdout_of(&arguments);
     insta::assert_snapshot!("tolerance_zhou", text);
     assert!(text.lines().all(|line| line.chars().count() <= 80));
-    let found = &lines(&stdout_of(
-        &[&arguments[..], &["--format", "json"]].concat(),
-    ))[0];
+    let found = &lines(&stdout_of(&[&arguments[..], &["--format", "json"]].concat()))[0];
     let force = &found["quantities"]["impact_force"];
-    assert_eq!(
-        (&found["solved"], &force["ranked"]),
-        (&2000.into(), &2000.into())
-    );
+    assert_eq!((&found["solved"], &force["ranked"]), (&2000.into(), &2000.into()));
     let ranking = force["ranking"].as_array().unwrap();
-    let total: f64 = ranking
-        .iter()
-        .map(|share| share["total"]["value"].as_f64().unwrap())
-        .sum();
+    let total: f64 = ranking.iter().map(|share| share["total"]["value"].as_f64().unwrap()).sum();
     assert!((total - 1.0).abs() < 0.05, "{total}");
     let rows = stdout_of(&[&arguments[..], &["--format", "csv", "--ranking", "100"]].concat());
     assert_eq!(
@@ -382,11 +266,7 @@ fn a_percentile_of_few_samples_has_no_interval() {
 #[test]
 fn a_bad_distribution_gets_place_cause_and_fix() {
     for (lines, code, part) in [
-        (
-            "\"title\" = { normal = \"1 um\" }",
-            3,
-            "title is not a number and has no distribution",
-        ),
+        ("\"title\" = { normal = \"1 um\" }", 3, "title is not a number and has no distribution"),
         (
             "\"driven.teeth\" = { normal = 1 }",
             3,
@@ -402,41 +282,13 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
             3,
             "write { normal = \"1 mm\" }, or uniform, triangular or truncated in place of normal",
         ),
-        (
-            "\"driver.profile_shift\" = { truncated = [] }",
-            3,
-            "write { truncated = 0.01 }",
-        ),
-        (
-            "\"pair.module\" = { normal = \"0 mm\" }",
-            3,
-            "is not above 0",
-        ),
-        (
-            "\"pair.module\" = { grade = 7 }",
-            3,
-            "a grade gives a base pitch deviation",
-        ),
-        (
-            "\"deviations.base_pitch\" = { grade = 12 }",
-            3,
-            "from 1 to 11",
-        ),
-        (
-            "\"pair.module\" = { triangle = \"1 mm\" }",
-            3,
-            "did you mean triangular?",
-        ),
-        (
-            "\"driven.tip_relief\" = { uniform = \"1 um\" }",
-            3,
-            "outside the field's range",
-        ),
-        (
-            "\"operation.torque\" = { uniform = \"1 N m\" }",
-            3,
-            "has no value to spread around",
-        ),
+        ("\"driver.profile_shift\" = { truncated = [] }", 3, "write { truncated = 0.01 }"),
+        ("\"pair.module\" = { normal = \"0 mm\" }", 3, "is not above 0"),
+        ("\"pair.module\" = { grade = 7 }", 3, "a grade gives a base pitch deviation"),
+        ("\"deviations.base_pitch\" = { grade = 12 }", 3, "from 1 to 11"),
+        ("\"pair.module\" = { triangle = \"1 mm\" }", 3, "did you mean triangular?"),
+        ("\"driven.tip_relief\" = { uniform = \"1 um\" }", 3, "outside the field's range"),
+        ("\"operation.torque\" = { uniform = \"1 N m\" }", 3, "has no value to spread around"),
     ] {
         let (_folder, case) = with_spread(lines);
         let (ended, _, errors) = printed(&["tolerance", &case]);
@@ -449,32 +301,17 @@ fn a_bad_distribution_gets_place_cause_and_fix() {
         "{errors}"
     );
     let (code, _, errors) = printed(&["tolerance", TABLE_1, "--samples", "1"]);
-    assert!(
-        code == 2 && errors.contains("write a number from 2"),
-        "{errors}"
-    );
+    assert!(code == 2 && errors.contains("write a number from 2"), "{errors}");
 }
 
 #[test]
 fn a_tolerance_study_explains_a_quantity_that_its_method_does_not_compute() {
     let (_folder, case) = with_spread("\"deviations.base_pitch\" = { normal = \"2 um\" }");
-    let arguments = [
-        "tolerance",
-        &case,
-        "--samples",
-        "20",
-        "--only",
-        "dynamic_peak_force",
-    ];
+    let arguments = ["tolerance", &case, "--samples", "20", "--only", "dynamic_peak_force"];
     let reason = "method exact does not compute this quantity; dynamic and auto do";
     let text = stdout_of(&arguments);
-    assert!(
-        text.contains(&format!("(dynamic_peak_force)\n  {reason}\n")),
-        "{text}"
-    );
-    let found = &lines(&stdout_of(
-        &[&arguments[..], &["--format", "json"]].concat(),
-    ))[0];
+    assert!(text.contains(&format!("(dynamic_peak_force)\n  {reason}\n")), "{text}");
+    let found = &lines(&stdout_of(&[&arguments[..], &["--format", "json"]].concat()))[0];
     let quantities = &found["quantities"];
     assert_eq!(quantities["dynamic_peak_force"]["no_value"], reason);
     assert_eq!(quantities["impact_force"].get("no_value"), None);
@@ -511,20 +348,12 @@ fn refused_points_with_one_reason_share_one_line() {
 #[test]
 fn a_search_and_a_tolerance_say_that_a_varied_field_changes_nothing() {
     let graded = ["--set", "driver.grade=6", "--set", "driven.grade=6"];
-    let seek = [
-        "seek",
-        "--vary",
-        "deviations.base_pitch=0..40 um",
-        "--until",
-        "impact_force<=2500 N",
-    ];
+    let seek =
+        ["seek", "--vary", "deviations.base_pitch=0..40 um", "--until", "impact_force<=2500 N"];
     let (_folder, spread) = with_spread("\"deviations.base_pitch\" = { normal = \"4 um\" }");
     let tolerance = ["tolerance", "--samples", "100", &spread];
     for command in [&[&seek[..], &[TABLE_1]].concat()[..], &tolerance] {
         let (_, _, errors) = printed(&[command, &graded].concat());
-        assert!(
-            errors.contains("deviations.base_pitch changes no quantity: "),
-            "{errors}"
-        );
+        assert!(errors.contains("deviations.base_pitch changes no quantity: "), "{errors}");
     }
 }

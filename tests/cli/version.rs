@@ -65,24 +65,14 @@ fn a_release_names_its_commit_with_and_without_git() {
 
     let tree = at("tree");
     let git = |arguments: &[&str]| {
-        let output = Command::new("git")
-            .current_dir(&tree)
-            .args(arguments)
-            .output();
+        let output = Command::new("git").current_dir(&tree).args(arguments).output();
         String::from_utf8(output.unwrap().stdout).unwrap()
     };
     git(&["init", "--quiet"]);
     let author = ["-c", "user.name=a", "-c", "user.email=a@b"];
-    git(&[
-        &author[..],
-        &["commit", "--quiet", "--allow-empty", "-m", "a"],
-    ]
-    .concat());
+    git(&[&author[..], &["commit", "--quiet", "--allow-empty", "-m", "a"]].concat());
     let head = git(&["rev-parse", "--short=12", "HEAD"]);
-    assert_eq!(
-        commit(&script, &tree, &release).as_deref(),
-        Some(head.trim())
-    );
+    assert_eq!(commit(&script, &tree, &release).as_deref(), Some(head.trim()));
     // A crate inside another repository does not have the commit of that repository.
     let inside = at("tree/vendor/tipstrike");
     assert_eq!(commit(&script, &inside, &release), None);

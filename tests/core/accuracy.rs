@@ -69,10 +69,7 @@ impl Worst {
 /// four times this change: ROUNDING x the sum over all inputs of the relative change of the
 /// quantity over the relative change of the input.
 fn hold(row: &Row, accurate: bool, worst: &mut Worst) {
-    let inputs = Inputs {
-        accurate,
-        ..row.inputs.clone()
-    };
+    let inputs = Inputs { accurate, ..row.inputs.clone() };
     let solution = solve(&inputs, Stages::CLOSED_FORM)
         .unwrap_or_else(|refusal| panic!("{refusal}: {inputs:?}"));
     for key in row.answers.keys() {
@@ -89,10 +86,7 @@ fn hold(row: &Row, accurate: bool, worst: &mut Worst) {
         let promised = if accurate { ACCURATE } else { DEFAULT };
         let bound = promised.max(AMPLIFICATION * ROUNDING * condition);
         if off > bound {
-            worst.beyond.push(format!(
-                "off by {off:e}, above {bound:e}: {}, {inputs:?}",
-                place()
-            ));
+            worst.beyond.push(format!("off by {off:e}, above {bound:e}: {}, {inputs:?}", place()));
         }
     }
 }
@@ -111,17 +105,9 @@ fn every_frozen_row_within_its_bound() {
         for row in &rows {
             hold(row, accurate, &mut worst);
         }
-        println!(
-            "accurate {accurate}: worst {:e}: {}",
-            worst.off, worst.place
-        );
+        println!("accurate {accurate}: worst {:e}: {}", worst.off, worst.place);
         worst.assert_none_beyond();
-        assert!(
-            worst.off < NEVER_WORSE,
-            "off by {:e}: {}",
-            worst.off,
-            worst.place
-        );
+        assert!(worst.off < NEVER_WORSE, "off by {:e}: {}", worst.off, worst.place);
     }
 }
 
@@ -135,17 +121,11 @@ fn frozen_rows_cover_every_quantity_and_decade() {
         "friction_ratio",
         "impulse_ratio",
     ] {
-        let count = rows
-            .iter()
-            .filter(|row| row.answers.contains_key(key))
-            .count();
+        let count = rows.iter().filter(|row| row.answers.contains_key(key)).count();
         assert!(count > 300, "{key} is in {count} rows");
     }
     for decade in -15..=-4 {
-        let count = rows
-            .iter()
-            .filter(|row| table::decade(row) == decade)
-            .count();
+        let count = rows.iter().filter(|row| table::decade(row) == decade).count();
         assert!(count >= 15, "decade {decade} has {count} rows");
     }
 }
@@ -164,9 +144,8 @@ fn fresh_pairs_within_their_bounds() {
         while left > 0 {
             let inputs = envelope::pair(&mut random, corner);
             let Some(row) = Row::of(corner, inputs.clone()) else {
-                let position = solve(&inputs, Stages::CLOSED_FORM)
-                    .ok()
-                    .and_then(|solution| solution.position);
+                let position =
+                    solve(&inputs, Stages::CLOSED_FORM).ok().and_then(|solution| solution.position);
                 assert!(
                     position.is_none(),
                     "a contact that the oracle does not find, seed {seed}: {inputs:?}"
@@ -179,10 +158,7 @@ fn fresh_pairs_within_their_bounds() {
         }
     }
     println!("default: worst {:e}: {}", worst.off, worst.place);
-    println!(
-        "accurate: worst {:e}: {}",
-        worst_accurate.off, worst_accurate.place
-    );
+    println!("accurate: worst {:e}: {}", worst_accurate.off, worst_accurate.place);
     worst.assert_none_beyond();
     worst_accurate.assert_none_beyond();
 }
@@ -199,10 +175,7 @@ fn regenerate() {
     let frozen = rows::frozen();
     for corner in Corner::ALL {
         let made = rows::rows_of(corner, 1);
-        let first = frozen
-            .iter()
-            .find(|row| row.corner == corner)
-            .expect("a row of the corner");
+        let first = frozen.iter().find(|row| row.corner == corner).expect("a row of the corner");
         assert_eq!(made[0].answers, first.answers, "{corner:?}");
         assert_eq!(made[0].inputs, first.inputs, "{corner:?}");
     }
@@ -223,10 +196,7 @@ fn printed_forms_lose_digits_and_tipstrike_does_not() {
     let made = table::Table::made(&rows::frozen());
     for quantity in ["S", "u", "ΔV_n", "F_S"] {
         let (naive, ours) = made.median_at(quantity, -12);
-        assert!(
-            naive > 1e6 * ours,
-            "{quantity}: naive {naive:e}, ours {ours:e}"
-        );
+        assert!(naive > 1e6 * ours, "{quantity}: naive {naive:e}, ours {ours:e}");
     }
 }
 
@@ -234,26 +204,11 @@ fn printed_forms_lose_digits_and_tipstrike_does_not() {
 #[test]
 fn oracle_knows_printed_constants() {
     let printed = [
-        (
-            oracle::number::pi(),
-            "3.141592653589793238462643383279502884197169399375",
-        ),
-        (
-            big(2.0).ln(),
-            "0.693147180559945309417232121458176568075500134360",
-        ),
-        (
-            big(1.0).exp(),
-            "2.718281828459045235360287471352662497757247093700",
-        ),
-        (
-            big(1.0).sin(),
-            "0.841470984807896506652502321630298999622563060798",
-        ),
-        (
-            big(3.0).atan2(&big(4.0)),
-            "0.643501108793284386802809228717322638041510591115",
-        ),
+        (oracle::number::pi(), "3.141592653589793238462643383279502884197169399375"),
+        (big(2.0).ln(), "0.693147180559945309417232121458176568075500134360"),
+        (big(1.0).exp(), "2.718281828459045235360287471352662497757247093700"),
+        (big(1.0).sin(), "0.841470984807896506652502321630298999622563060798"),
+        (big(3.0).atan2(&big(4.0)), "0.643501108793284386802809228717322638041510591115"),
     ];
     for (found, printed) in printed {
         let expected = decimal(printed);
@@ -275,26 +230,14 @@ fn double_double_functions_keep_thirty_digits() {
     let mut random = Random::new(7);
     for _ in 0..300 {
         let (x, y) = (random.decades(1e-12, 1.5), random.decades(1e-6, 1e6));
-        let (x, y) = (
-            TwoFloat::new_add(x, x * random.even(-1e-17, 1e-17)),
-            TwoFloat::new_mul(y, y.sqrt()),
-        );
+        let (x, y) =
+            (TwoFloat::new_add(x, x * random.even(-1e-17, 1e-17)), TwoFloat::new_mul(y, y.sqrt()));
         let (sine, cosine) = x.sine_cosine();
         close("sine", sine, &exact(x).sin(), 0.0);
         close("cosine", cosine, &exact(x).cos(), 0.0);
         close("quotient", x.over(y), &(exact(x) / exact(y)), 0.0);
         close("angle", x.angle_to(y), &exact(x).atan2(&exact(y)), 0.0);
-        close(
-            "angle behind",
-            x.angle_to(-y),
-            &exact(x).atan2(&-exact(y)),
-            0.0,
-        );
-        close(
-            "angle below",
-            (-x).angle_to(y),
-            &(-exact(x)).atan2(&exact(y)),
-            0.0,
-        );
+        close("angle behind", x.angle_to(-y), &exact(x).atan2(&-exact(y)), 0.0);
+        close("angle below", (-x).angle_to(y), &(-exact(x)).atan2(&exact(y)), 0.0);
     }
 }

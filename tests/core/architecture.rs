@@ -13,29 +13,15 @@ const FOLDERS: [(&str, &[&str]); 8] = [
     ("case", &["system", "numeric", "model"]),
     ("study", &["numeric", "model", "case"]),
     ("report", &["numeric", "model", "case", "study"]),
-    (
-        "cli",
-        &["system", "numeric", "model", "case", "study", "report"],
-    ),
-    (
-        "tui",
-        &["system", "numeric", "model", "case", "study", "report"],
-    ),
+    ("cli", &["system", "numeric", "model", "case", "study", "report"]),
+    ("tui", &["system", "numeric", "model", "case", "study", "report"]),
 ];
 
 /// Crates that use a terminal.
 const TERMINAL: [&str; 3] = ["ratatui", "crossterm", "tui_input"];
 
 /// Interfaces of Unix, which only the folder `system` may name outside tests.
-const UNIX: [&str; 7] = [
-    "std::os",
-    "os::unix",
-    "rustix",
-    "nix",
-    "libc",
-    "signal_hook",
-    "xattr",
-];
+const UNIX: [&str; 7] = ["std::os", "os::unix", "rustix", "nix", "libc", "signal_hook", "xattr"];
 
 /// Names that the computation core may not use: file formats, files, threads, printing.
 const OUTSIDE: [&str; 10] = [
@@ -70,12 +56,7 @@ impl Source {
             .collect::<Vec<_>>()
             .join("\n");
         let opening = text.lines().next().unwrap_or_default().to_owned();
-        Source {
-            code,
-            lines: text.lines().count(),
-            opening,
-            path,
-        }
+        Source { code, lines: text.lines().count(), opening, path }
     }
 
     /// The path from `src`, module by module: `["report", "json"]`.
@@ -89,20 +70,14 @@ impl Source {
 
     fn folder(&self) -> Option<&'static str> {
         let first = self.modules().first()?.clone();
-        FOLDERS
-            .iter()
-            .map(|&(folder, _)| folder)
-            .find(|folder| *folder == first)
+        FOLDERS.iter().map(|&(folder, _)| folder).find(|folder| *folder == first)
     }
 
     /// The folders that the code names, in any syntax.
     fn folders_named(&self) -> BTreeSet<String> {
         let to_root = "super::".repeat(self.modules().len());
         let roots = ["crate::", "tipstrike::", to_root.as_str()];
-        let named = roots
-            .iter()
-            .flat_map(|root| after(&self.code, root))
-            .flat_map(heads);
+        let named = roots.iter().flat_map(|root| after(&self.code, root)).flat_map(heads);
         named
             .filter(|name| FOLDERS.iter().any(|(folder, _)| folder == name))
             .map(str::to_owned)
@@ -156,10 +131,7 @@ fn heads(path: &str) -> Vec<&str> {
 }
 
 fn head(path: &str) -> &str {
-    path.trim_start()
-        .split(|c| !is_word(c))
-        .next()
-        .unwrap_or_default()
+    path.trim_start().split(|c| !is_word(c)).next().unwrap_or_default()
 }
 
 fn is_word(c: char) -> bool {
@@ -168,10 +140,7 @@ fn is_word(c: char) -> bool {
 
 fn sources(folder: &str) -> Vec<Source> {
     let mut found = Vec::new();
-    collect(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join(folder),
-        &mut found,
-    );
+    collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut found);
     assert!(!found.is_empty());
     found
 }
@@ -190,9 +159,8 @@ fn collect(folder: &Path, found: &mut Vec<Source>) {
 #[test]
 fn a_folder_imports_only_those_of_the_plan() {
     for source in sources("src") {
-        let Some((folder, upstream)) = FOLDERS
-            .iter()
-            .find(|(folder, _)| source.folder() == Some(folder))
+        let Some((folder, upstream)) =
+            FOLDERS.iter().find(|(folder, _)| source.folder() == Some(folder))
         else {
             continue;
         };
@@ -201,11 +169,7 @@ fn a_folder_imports_only_those_of_the_plan() {
             .into_iter()
             .filter(|name| name != folder && !upstream.contains(&name.as_str()))
             .collect();
-        assert!(
-            wrong.is_empty(),
-            "{} names {wrong:?}",
-            source.path.display()
-        );
+        assert!(wrong.is_empty(), "{} names {wrong:?}", source.path.display());
     }
 }
 
@@ -227,22 +191,14 @@ fn no_files_import_each_other_in_a_circle() {
         let mut needs: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         let are_no_tests =
             |source: &Source| source.modules().last().is_none_or(|last| last != "tests");
-        for source in sources(&format!("src/{folder}"))
-            .into_iter()
-            .filter(are_no_tests)
-        {
+        for source in sources(&format!("src/{folder}")).into_iter().filter(are_no_tests) {
             let own = source.modules()[modules.len()].clone();
-            needs
-                .entry(own)
-                .or_default()
-                .extend(source.neighbours_named(&modules));
+            needs.entry(own).or_default().extend(source.neighbours_named(&modules));
         }
         // Removes each module that imports none of the remaining ones; modules that remain form a
         // circle.
         while let Some(free) = needs.iter().find(|(own, others)| {
-            others
-                .iter()
-                .all(|other| other == *own || !needs.contains_key(other))
+            others.iter().all(|other| other == *own || !needs.contains_key(other))
         }) {
             let free = free.0.clone();
             needs.remove(&free);
@@ -264,15 +220,8 @@ fn update_names_no_view_and_a_component_does_not_name_the_workbench() {
             continue;
         };
         let named = source.neighbours_named(&["tui"]);
-        let wrong: Vec<_> = foreign
-            .iter()
-            .filter(|name| named.contains(**name))
-            .collect();
-        assert!(
-            wrong.is_empty(),
-            "{} names {wrong:?}",
-            source.path.display()
-        );
+        let wrong: Vec<_> = foreign.iter().filter(|name| named.contains(**name)).collect();
+        assert!(wrong.is_empty(), "{} names {wrong:?}", source.path.display());
     }
 }
 
@@ -309,45 +258,27 @@ fn every_file_of_the_library_is_in_a_folder_of_the_plan() {
     for source in sources("src") {
         let known =
             source.folder().is_some() || ["lib", "main"].contains(&source.modules()[0].as_str());
-        assert!(
-            known,
-            "{} is in no folder of the plan",
-            source.path.display()
-        );
+        assert!(known, "{} is in no folder of the plan", source.path.display());
     }
 }
 
 #[test]
 fn only_the_workbench_names_the_terminal() {
-    for source in sources("src")
-        .iter()
-        .filter(|source| source.folder() != Some("tui"))
-    {
+    for source in sources("src").iter().filter(|source| source.folder() != Some("tui")) {
         let named: Vec<_> = TERMINAL.iter().filter(|name| source.names(name)).collect();
-        assert!(
-            named.is_empty(),
-            "{} names {named:?}",
-            source.path.display()
-        );
+        assert!(named.is_empty(), "{} names {named:?}", source.path.display());
     }
 }
 
 #[test]
 fn only_the_folder_system_names_an_interface_of_unix() {
-    for source in sources("src")
-        .iter()
-        .filter(|source| source.folder() != Some("system"))
-    {
+    for source in sources("src").iter().filter(|source| source.folder() != Some("system")) {
         let code = source.code.split("mod tests {").next().unwrap_or_default();
         let named: Vec<_> = UNIX
             .iter()
             .filter(|word| after(code, word).any(|rest| rest.starts_with("::")))
             .collect();
-        assert!(
-            named.is_empty(),
-            "{} names {named:?}",
-            source.path.display()
-        );
+        assert!(named.is_empty(), "{} names {named:?}", source.path.display());
     }
 }
 
@@ -359,11 +290,7 @@ fn the_core_knows_no_files_no_threads_and_no_printing() {
         .filter(|source| matches!(source.folder(), Some("numeric" | "model")) && !is_test(source))
     {
         let named: Vec<_> = OUTSIDE.iter().filter(|name| source.names(name)).collect();
-        assert!(
-            named.is_empty(),
-            "{} names {named:?}",
-            source.path.display()
-        );
+        assert!(named.is_empty(), "{} names {named:?}", source.path.display());
     }
 }
 
@@ -371,19 +298,10 @@ fn the_core_knows_no_files_no_threads_and_no_printing() {
 fn every_file_begins_with_a_sentence_and_is_short() {
     for source in sources("src").iter().chain(&sources("tests")) {
         let path = source.path.display();
-        assert!(
-            source.opening.starts_with("//! "),
-            "{path} opens with {:?}",
-            source.opening
-        );
+        assert!(source.opening.starts_with("//! "), "{path} opens with {:?}", source.opening);
     }
     for source in sources("src") {
-        assert!(
-            source.lines <= MOST_LINES,
-            "{} has {} lines",
-            source.path.display(),
-            source.lines
-        );
+        assert!(source.lines <= MOST_LINES, "{} has {} lines", source.path.display(), source.lines);
     }
 }
 

@@ -15,29 +15,18 @@ use tipstrike::study::trade::{Answer, METHODS, Subject, stages};
 const WITHINS: [f64; 4] = [0.01, 0.05, 0.2, 0.5];
 
 fn by_choice(inputs: &Inputs, within: f64) -> Inputs {
-    Inputs {
-        method: Method::Auto,
-        within,
-        stations: None,
-        ..inputs.clone()
-    }
+    Inputs { method: Method::Auto, within, stations: None, ..inputs.clone() }
 }
 
 /// A solve of the stages that a trade study needs, or its refusal.
 fn solved(inputs: &Inputs) -> Result<Solution, Refusal> {
     let solution = solve(inputs, stages(inputs.method))?;
-    solution
-        .withheld
-        .or(solution.stations_withheld)
-        .map_or(Ok(solution), Err)
+    solution.withheld.or(solution.stations_withheld).map_or(Ok(solution), Err)
 }
 
 /// Evaluations of the motion, and number of stages that ran.
 fn counts(solution: &Solution) -> (f64, f64) {
-    let evaluations = solution
-        .dynamic
-        .as_ref()
-        .map_or(0, |dynamic| dynamic.effort.evaluations);
+    let evaluations = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.effort.evaluations);
     (evaluations as f64, solution.ran.iter().count() as f64)
 }
 
@@ -54,15 +43,9 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
         trade.judge();
         // The compliance is that of the reference: without the reference solve, no other compliance
         // is known to be close to it.
-        let reference = trade
-            .reference
-            .as_ref()
-            .expect("a reference")
-            .setting
-            .models;
-        let best = trade
-            .cheapest_where(|setting| setting.models == reference)
-            .expect("one qualifies");
+        let reference = trade.reference.as_ref().expect("a reference").setting.models;
+        let best =
+            trade.cheapest_where(|setting| setting.models == reference).expect("one qualifies");
         let recommended = best.setting.method;
         let chosen = solved(&inputs).expect("a solution");
         let name = format!("{name} within {within}");
@@ -74,10 +57,7 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
         );
         // Without contact the closed form is right and has no force.
         if chosen.outcome == Outcome::NoCornerContact && recommended == Method::Exact {
-            assert!(
-                chosen.static_load.is_some() || chosen.dynamic.is_some(),
-                "{name}"
-            );
+            assert!(chosen.static_load.is_some() || chosen.dynamic.is_some(), "{name}");
             continue;
         }
         if chosen.method != recommended {
@@ -95,19 +75,12 @@ fn auto_chooses_the_method_that_a_trade_recommends_at_its_cost() {
             "{name}: {stages} for {named_stages}"
         );
         let ratio = least_time(&inputs) / least_time(&named);
-        let evaluated = if named_evaluations > 0.0 {
-            evaluations / named_evaluations
-        } else {
-            1.0
-        };
+        let evaluated = if named_evaluations > 0.0 { evaluations / named_evaluations } else { 1.0 };
         println!(
             "{name}: {}, {ratio:.2} times its time, {evaluated:.2} times its evaluations",
             recommended.name()
         );
-        assert!(
-            evaluated <= 1.5,
-            "{name}: {evaluations} for {named_evaluations}"
-        );
+        assert!(evaluated <= 1.5, "{name}: {evaluations} for {named_evaluations}");
         if ratio > 1.5 {
             println!("WARNING: {name} takes {ratio:.2} times as long by choice");
         }
@@ -127,14 +100,8 @@ fn least_time(inputs: &Inputs) -> f64 {
 
 /// Greatest difference from `dynamic` at 1e-8.
 fn off(inputs: &Inputs, method: Method, truth: &Answer) -> Option<f64> {
-    let answer = Answer::of(
-        &solved(&Inputs {
-            method,
-            stations: Some(512),
-            ..inputs.clone()
-        })
-        .ok()?,
-    );
+    let answer =
+        Answer::of(&solved(&Inputs { method, stations: Some(512), ..inputs.clone() }).ok()?);
     Some(
         Subject::ALL
             .into_iter()
@@ -160,11 +127,7 @@ fn auto_is_never_wrong_on_other_pairs_and_seldom_too_expensive() {
         let Ok(truth) = solved(&fine) else { continue };
         let truth = Answer::of(&truth);
         let errors = auto::METHODS.map(|method| {
-            if method == Method::Dynamic {
-                Some(0.0)
-            } else {
-                off(&inputs, method, &truth)
-            }
+            if method == Method::Dynamic { Some(0.0) } else { off(&inputs, method, &truth) }
         });
         looked_at += 1;
         for (within, agreed) in WITHINS.into_iter().zip(&mut agreed) {
@@ -190,26 +153,17 @@ fn auto_is_never_wrong_on_other_pairs_and_seldom_too_expensive() {
             others a dearer one"
     );
     assert!(wrong.is_empty(), "not good enough: {wrong:#?}");
-    assert!(
-        agreed.iter().all(|&agreed| 5 * agreed >= 4 * looked_at),
-        "{agreed:?} of {looked_at}"
-    );
+    assert!(agreed.iter().all(|&agreed| 5 * agreed >= 4 * looked_at), "{agreed:?} of {looked_at}");
 }
 
 #[test]
 fn first_contact_and_peaks_converge_with_the_tolerance() {
     for number in 0..40 {
-        let inputs = Inputs {
-            method: Method::Dynamic,
-            stations: Some(1),
-            ..pairs::numbered(number)
-        };
+        let inputs =
+            Inputs { method: Method::Dynamic, stations: Some(1), ..pairs::numbered(number) };
         let at = |tolerance| {
-            solved(&Inputs {
-                tolerance,
-                ..inputs.clone()
-            })
-            .map(|solution| solution.dynamic.expect("the method"))
+            solved(&Inputs { tolerance, ..inputs.clone() })
+                .map(|solution| solution.dynamic.expect("the method"))
         };
         let (Ok(coarse), Ok(fine)) = (at(1e-5), at(1e-9)) else {
             continue;

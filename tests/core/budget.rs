@@ -35,12 +35,8 @@ fn cases() -> u64 {
 
 /// Everything that `solve` prints except the run over the speed, and the stations.
 fn every_quantity() -> Stages {
-    let quick = QUANTITIES
-        .iter()
-        .filter(|quantity| quantity.stage != Stage::SpeedRun);
-    quick.fold(Stages::STATIONS, |stages, quantity| {
-        stages.and(Stages::of(quantity.stage))
-    })
+    let quick = QUANTITIES.iter().filter(|quantity| quantity.stage != Stage::SpeedRun);
+    quick.fold(Stages::STATIONS, |stages, quantity| stages.and(Stages::of(quantity.stage)))
 }
 
 /// The pair of Table 1 with computed deflection.
@@ -93,9 +89,7 @@ fn move_field(case: &mut Case, field: usize, random: &mut Random) {
             count.clamp(from, to).to_string()
         }
         Kind::Number(_, Range { from, to, unit }, _) => {
-            format!("{:e} {unit}", anywhere(from, to, random))
-                .trim_end()
-                .to_owned()
+            format!("{:e} {unit}", anywhere(from, to, random)).trim_end().to_owned()
         }
     };
     case.write(field, &text);
@@ -135,15 +129,10 @@ fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
         if solution.withheld.is_some() {
             continue;
         }
-        assert!(
-            matches!(refusal, Refusal::NoField { .. }),
-            "{number}: {refusal}"
-        );
+        assert!(matches!(refusal, Refusal::NoField { .. }), "{number}: {refusal}");
         assert_eq!(served, ToothCompliance::BEAM, "{number}: {refusal}");
         let notes = notes(&inputs, &solution);
-        let note = notes
-            .iter()
-            .find(|note| note.code == "tooth-compliance-beam");
+        let note = notes.iter().find(|note| note.code == "tooth-compliance-beam");
         assert!(
             note.is_some_and(|note| note.message.contains(&refusal.to_string()))
                 || solution.compliance.is_none(),
@@ -204,24 +193,14 @@ fn taken(name: &str, number: u64, inputs: &Inputs) -> Taken {
 /// The work of a solution, with every part within its budget.
 fn work(name: &str, solution: &Solution) -> u64 {
     let mesh = solution.mesh.as_ref().map_or(0, |mesh| mesh.work());
-    let motion = solution
-        .dynamic
-        .as_ref()
-        .map_or(0, |dynamic| dynamic.effort.work);
+    let motion = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.effort.work);
     assert!(motion <= MOTION_WORK, "{name}: {motion} of the motion");
     assert!(mesh <= MARGIN, "{name}: {mesh} of the mesh");
     let search = solution.clearing.map_or(0, |clearing| {
-        assert!(
-            clearing.runs <= SEARCH_TRIES,
-            "{name}: {} tries",
-            clearing.runs
-        );
+        assert!(clearing.runs <= SEARCH_TRIES, "{name}: {} tries", clearing.runs);
         clearing.work
     });
-    assert!(
-        search <= SEARCH_WORK + MARGIN,
-        "{name}: {search} of the search"
-    );
+    assert!(search <= SEARCH_WORK + MARGIN, "{name}: {search} of the search");
     mesh + motion + search
 }
 
@@ -240,11 +219,7 @@ fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> S
         Ok(solution) => {
             for quantity in QUANTITIES {
                 let value = (quantity.value)(solution);
-                assert!(
-                    value.is_none_or(f64::is_finite),
-                    "{name}: {} {value:?}",
-                    quantity.key
-                );
+                assert!(value.is_none_or(f64::is_finite), "{name}: {} {value:?}", quantity.key);
             }
             for note in notes(inputs, solution) {
                 sound(&note.message);
@@ -281,18 +256,9 @@ impl Summary {
         for (outcome, count) in other.outcomes {
             *all.outcomes.entry(outcome).or_default() += count;
         }
-        other
-            .by_work
-            .iter()
-            .for_each(|taken| keep(&mut all.by_work, taken, |taken| taken.work));
-        other
-            .by_time
-            .iter()
-            .for_each(|taken| keep(&mut all.by_time, taken, |taken| taken.time));
-        other
-            .by_bytes
-            .iter()
-            .for_each(|taken| keep(&mut all.by_bytes, taken, |taken| taken.bytes));
+        other.by_work.iter().for_each(|taken| keep(&mut all.by_work, taken, |taken| taken.work));
+        other.by_time.iter().for_each(|taken| keep(&mut all.by_time, taken, |taken| taken.time));
+        other.by_bytes.iter().for_each(|taken| keep(&mut all.by_bytes, taken, |taken| taken.bytes));
         all
     }
 
@@ -300,11 +266,8 @@ impl Summary {
         for (outcome, count) in &self.outcomes {
             println!("{count:8} {outcome}");
         }
-        let costliest = [
-            ("work", &self.by_work),
-            ("time", &self.by_time),
-            ("memory", &self.by_bytes),
-        ];
+        let costliest =
+            [("work", &self.by_work), ("time", &self.by_time), ("memory", &self.by_bytes)];
         for (name, costliest) in costliest {
             println!("\nmost {name}");
             for taken in costliest {
@@ -344,32 +307,22 @@ fn moved(number: u64) -> String {
 fn a_valid_case_however_extreme_ends_within_its_budget() {
     let threads = thread::available_parallelism().map_or(1, usize::from) as u64;
     let share = move |first: u64| {
-        (first..cases())
-            .step_by(threads as usize)
-            .fold(Summary::default(), |summary, number| {
-                let inputs = drawn(number).inputs().expect("a valid case");
-                summary.with(&taken(&format!("case {number}"), number, &inputs))
-            })
+        (first..cases()).step_by(threads as usize).fold(Summary::default(), |summary, number| {
+            let inputs = drawn(number).inputs().expect("a valid case");
+            summary.with(&taken(&format!("case {number}"), number, &inputs))
+        })
     };
-    let shares: Vec<_> = (0..threads)
-        .map(|first| thread::spawn(move || share(first)))
-        .collect();
+    let shares: Vec<_> = (0..threads).map(|first| thread::spawn(move || share(first))).collect();
     let summary = shares
         .into_iter()
         .map(|share| share.join().expect("no panic"))
         .fold(Summary::default(), Summary::and);
     summary.print();
     let [answered, refused] = ["c", "refused"].map(|start| {
-        let of = summary
-            .outcomes
-            .iter()
-            .filter(|(outcome, _)| outcome.starts_with(start));
+        let of = summary.outcomes.iter().filter(|(outcome, _)| outcome.starts_with(start));
         of.map(|(_, count)| count).sum::<u64>()
     });
-    assert!(
-        5 * answered > cases() && 5 * refused > cases(),
-        "{answered} and {refused}"
-    );
+    assert!(5 * answered > cases() && 5 * refused > cases(), "{answered} and {refused}");
 }
 
 /// Cases that took more than 20 s in the past, from a random search: with their outcome, and the
@@ -430,10 +383,7 @@ fn next_to_no_load_and_next_to_no_relief_length_take_an_ordinary_search() {
         let solution = solve(&inputs, Stages::EVERY).expect("a solution");
         let clearing = solution.clearing.expect("the stage ran");
         assert!(clearing.relief.is_some(), "{key} {value}: {clearing:?}");
-        assert!(
-            clearing.work < SEARCH_WORK / 2,
-            "{key} {value}: {clearing:?}"
-        );
+        assert!(clearing.work < SEARCH_WORK / 2, "{key} {value}: {clearing:?}");
     }
 }
 
@@ -449,15 +399,8 @@ fn a_search_that_exceeds_its_budget_prints_its_bracket_and_keeps_the_other_resul
     }
     let inputs = case.inputs().expect("a valid case");
     let solution = solve(&inputs, Stages::EVERY).expect("a solution");
-    assert!(
-        solution
-            .dynamic
-            .is_some_and(|dynamic| dynamic.peak_force > 0.0)
-    );
-    let refusal = solution
-        .clearing
-        .and_then(|clearing| clearing.withheld)
-        .expect("a refusal");
+    assert!(solution.dynamic.is_some_and(|dynamic| dynamic.peak_force > 0.0));
+    let refusal = solution.clearing.and_then(|clearing| clearing.withheld).expect("a refusal");
     assert_eq!(refusal.code(), "clearing-relief-not-found");
     let sentence = refusal.to_string();
     assert!(sentence.starts_with("the search stopped after ") && sentence.contains(" motions: "));
@@ -483,10 +426,7 @@ fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
     let fix = "give a higher speed, or set model.method to static";
     assert!(refusal.fix().starts_with(fix), "{}", refusal.fix());
     let sentence = refusal.to_string();
-    assert!(
-        sentence.contains("memory") && !sentence.contains("100"),
-        "{sentence}"
-    );
+    assert!(sentence.contains("memory") && !sentence.contains("100"), "{sentence}");
 }
 
 #[test]

@@ -11,20 +11,12 @@ use tipstrike::model::inputs::{Gear, Method, ReliefShape};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, auto, solve};
 use tipstrike::report::relief::relief as relief_words;
 
-const METHODS: [Method; 4] = [
-    Method::Paper,
-    Method::Exact,
-    Method::Static,
-    Method::Dynamic,
-];
+const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
 
 fn examples() -> impl Iterator<Item = (&'static str, Inputs)> {
-    EXAMPLES.iter().map(|example| {
-        (
-            example.name,
-            example.document().case.inputs().expect("a valid case"),
-        )
-    })
+    EXAMPLES
+        .iter()
+        .map(|example| (example.name, example.document().case.inputs().expect("a valid case")))
 }
 
 /// Realistic pairs, some of them near resonance, with little damping, or with a long relief.
@@ -51,18 +43,12 @@ fn solved(inputs: &Inputs) -> Option<Solution> {
 
 /// Whether the tooth strikes by the method with another tip relief of the driven gear.
 fn strikes(inputs: &Inputs, tip_relief: f64) -> bool {
-    let relieved = Inputs {
-        driven: Gear {
-            tip_relief,
-            ..inputs.driven.clone()
-        },
-        ..inputs.clone()
-    };
-    let stages = inputs.method.stages().within(
-        Stages::of(Stage::Dynamic)
-            .with(Stage::Position)
-            .and(Stages::of(Stage::Static)),
-    );
+    let relieved =
+        Inputs { driven: Gear { tip_relief, ..inputs.driven.clone() }, ..inputs.clone() };
+    let stages = inputs
+        .method
+        .stages()
+        .within(Stages::of(Stage::Dynamic).with(Stage::Position).and(Stages::of(Stage::Static)));
     solve(&relieved, stages).expect("a solution").outcome == Outcome::CornerContact
 }
 
@@ -75,52 +61,33 @@ fn assert_kept(name: &str, inputs: &Inputs, solution: &Solution) {
         assert_eq!((clearing.relief, clearing.withheld), (None, None), "{name}");
         return;
     }
-    let relief = clearing
-        .relief
-        .unwrap_or_else(|| panic!("{name}: {:?}", clearing.withheld));
+    let relief = clearing.relief.unwrap_or_else(|| panic!("{name}: {:?}", clearing.withheld));
     assert!(
         !strikes(inputs, given + relief * (1.0 + 1e-9) + 1e-18),
         "{name}: {relief:e} does not stop it"
     );
     let less = (relief * (1.0 - 1e-4)).min(relief - 2e-12).max(0.0);
-    assert!(
-        strikes(inputs, given + less),
-        "{name}: less than {relief:e} stops it"
-    );
+    assert!(strikes(inputs, given + less), "{name}: less than {relief:e} stops it");
 }
 
 /// Whether small causes have large effects in the motion.
 fn rattles(solution: &Solution) -> bool {
-    solution
-        .dynamic
-        .as_ref()
-        .is_some_and(|dynamic| dynamic.contact_lost)
+    solution.dynamic.as_ref().is_some_and(|dynamic| dynamic.contact_lost)
 }
 
 #[test]
 fn the_required_relief_prevents_contact_and_less_does_not_for_any_shape_and_length() {
     let mut striking = [0; METHODS.len()];
     for (name, inputs) in examples() {
-        let pitch = solve(&inputs, Stages::of(Stage::Geometry))
-            .expect("a geometry")
-            .geometry
-            .base_pitch;
+        let pitch =
+            solve(&inputs, Stages::of(Stage::Geometry)).expect("a geometry").geometry.base_pitch;
         let lengths = [None, Some(0.3 * pitch), Some(1.3 * pitch)];
         for (method, striking) in METHODS.into_iter().zip(&mut striking) {
-            for (shape, length) in ReliefShape::ALL
-                .into_iter()
-                .flat_map(|shape| lengths.map(|length| (shape, length)))
+            for (shape, length) in
+                ReliefShape::ALL.into_iter().flat_map(|shape| lengths.map(|length| (shape, length)))
             {
-                let driven = Gear {
-                    tip_relief_length: length,
-                    ..inputs.driven.clone()
-                };
-                let inputs = Inputs {
-                    method,
-                    relief_shape: shape,
-                    driven,
-                    ..inputs.clone()
-                };
+                let driven = Gear { tip_relief_length: length, ..inputs.driven.clone() };
+                let inputs = Inputs { method, relief_shape: shape, driven, ..inputs.clone() };
                 let solution = solved(&inputs).expect("a solution");
                 assert_kept(
                     &format!("{name}, {}, {shape:?} over {length:?}", method.name()),
@@ -139,10 +106,7 @@ fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_st
     let (mut runs, mut looked_at, mut returned) = (0, 0, 0);
     for number in 0..pairs_to_look_at() {
         for method in METHODS {
-            let inputs = Inputs {
-                method,
-                ..built(number)
-            };
+            let inputs = Inputs { method, ..built(number) };
             let Some(solution) = solved(&inputs) else {
                 continue;
             };
@@ -160,10 +124,7 @@ fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_st
                 "{name}: more than {relief:e} does not"
             );
             let between = (1..=8).any(|step| with(1.0 + 0.11 * f64::from(step)));
-            assert!(
-                method == Method::Dynamic || !between,
-                "{name}: more than {relief:e} does not"
-            );
+            assert!(method == Method::Dynamic || !between, "{name}: more than {relief:e} does not");
             if method == Method::Dynamic {
                 looked_at += 1;
                 returned += u32::from(between);
@@ -175,14 +136,8 @@ fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_st
         "{looked_at} pairs in motion, {runs} motions tried, contact again with more relief in \
             {returned}"
     );
-    assert!(
-        looked_at >= 12 && runs <= 14 * looked_at,
-        "{runs} motions for {looked_at} pairs"
-    );
-    assert!(
-        20 * returned <= looked_at,
-        "{returned} of {looked_at} touch again"
-    );
+    assert!(looked_at >= 12 && runs <= 14 * looked_at, "{runs} motions for {looked_at} pairs");
+    assert!(20 * returned <= looked_at, "{returned} of {looked_at} touch again");
 }
 
 /// In a rattling pair small causes have large effects: only the tried reliefs are checked.
@@ -190,10 +145,7 @@ fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_st
 fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
     let mut looked_at = 0;
     for number in [9, 28, 88] {
-        let inputs = Inputs {
-            method: Method::Dynamic,
-            ..pairs::numbered(number)
-        };
+        let inputs = Inputs { method: Method::Dynamic, ..pairs::numbered(number) };
         let solution = solved(&inputs).expect("a solution");
         assert!(rattles(&solution), "pair {number}");
         let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else {
@@ -204,10 +156,7 @@ fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
         let touching: Vec<f64> = tried
             .filter(|part| strikes(&inputs, inputs.driven.tip_relief + part * relief))
             .collect();
-        assert!(
-            touching.len() <= 1,
-            "pair {number}: {relief:e} and {touching:?} times as much"
-        );
+        assert!(touching.len() <= 1, "pair {number}: {relief:e} and {touching:?} times as much");
     }
     assert!(looked_at >= 2, "{looked_at}");
 }
@@ -229,10 +178,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
         (0..pairs_to_look_at()).flat_map(|number| METHODS.map(|method| (number, method)))
     {
         for given in [0.0, 1e-6, 3.217e-6] {
-            let mut inputs = Inputs {
-                method,
-                ..pairs::numbered(number)
-            };
+            let mut inputs = Inputs { method, ..pairs::numbered(number) };
             inputs.driven.tip_relief = given;
             let Some(solution) = solved(&inputs).filter(|solution| !rattles(solution)) else {
                 continue;
@@ -264,10 +210,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
 
 #[test]
 fn a_bracket_that_differs_in_its_last_digits_is_printed_as_it_is() {
-    let table_1 = examples()
-        .find(|(name, _)| name.contains("zhou"))
-        .expect("Table 1")
-        .1;
+    let table_1 = examples().find(|(name, _)| name.contains("zhou")).expect("Table 1").1;
     let whole = solved(&table_1).expect("a solution").deviation.total;
     for rest in [1e-15, 1e-12, 1e-9, 1e-6, 0.05 * table_1.module] {
         let mut inputs = table_1.clone();
@@ -303,10 +246,7 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
     for (at, (method, count)) in METHODS.into_iter().zip([300, 300, 250, 36]).enumerate() {
         let count = count.max(pairs_to_look_at());
         for number in 0..count {
-            let mut inputs = Inputs {
-                method,
-                ..built(number)
-            };
+            let mut inputs = Inputs { method, ..built(number) };
             let module = inputs.module;
             match number % 4 {
                 1 => inputs.driven.tip_radius = Some(0.05 * module),
@@ -326,10 +266,7 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
             for unit in ["m", "mm", "um", "in", "thou"] {
                 let relief = applied(&inputs, relief, unit);
                 if strikes(&inputs, relief) {
-                    failed.push(format!(
-                        "pair {number}, {}: {relief:e} in {unit}",
-                        method.name()
-                    ));
+                    failed.push(format!("pair {number}, {}: {relief:e} in {unit}", method.name()));
                 }
             }
             let less = if method.shares_load() {
@@ -350,21 +287,15 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
     }
     println!("{looked_at:?} {failed:#?}");
     assert!(failed.is_empty(), "{} of {looked_at:?}", failed.len());
-    assert!(
-        looked_at[1] > 250 && looked_at[2] > 200 && looked_at[3] > 20,
-        "{looked_at:?}"
-    );
+    assert!(looked_at[1] > 250 && looked_at[2] > 200 && looked_at[3] > 20, "{looked_at:?}");
 }
 
 #[test]
 fn auto_tells_the_relief_of_the_method_that_it_took() {
     let mut taken = Vec::new();
     for (name, inputs) in examples() {
-        let chosen = solved(&Inputs {
-            method: Method::Auto,
-            ..inputs.clone()
-        })
-        .expect("a solution");
+        let chosen =
+            solved(&Inputs { method: Method::Auto, ..inputs.clone() }).expect("a solution");
         let own = solved(&auto::taken(&inputs, chosen.method)).expect("a solution");
         let relief = |solution: &Solution| solution.clearing.expect("the stage ran").relief;
         assert_eq!(relief(&chosen), relief(&own), "{name}");
@@ -378,21 +309,12 @@ fn auto_tells_the_relief_of_the_method_that_it_took() {
 fn it_is_sought_where_it_is_asked_for_and_nowhere_else() {
     for (name, inputs) in examples() {
         for method in METHODS {
-            let inputs = Inputs {
-                method,
-                ..inputs.clone()
-            };
+            let inputs = Inputs { method, ..inputs.clone() };
             let without =
                 solve(&inputs, Stages::EVERY.without(Stage::Clearing)).expect("a solution");
-            assert!(
-                without.clearing.is_none() && !without.ran.has(Stage::Clearing),
-                "{name}"
-            );
+            assert!(without.clearing.is_none() && !without.ran.has(Stage::Clearing), "{name}");
             let alone = solve(&inputs, Stages::of(Stage::Clearing)).expect("a solution");
-            assert!(
-                !alone.ran.has(Stage::Friction) && !alone.ran.has(Stage::Stations),
-                "{name}"
-            );
+            assert!(!alone.ran.has(Stage::Friction) && !alone.ran.has(Stage::Stations), "{name}");
             let runs = alone.clearing.expect("the stage ran").runs;
             let most = if method == Method::Dynamic { 16 } else { 6 };
             assert!(

@@ -58,11 +58,7 @@ impl Check {
     fn of(inputs: Inputs) -> Check {
         let solution = solve(&inputs, Stages::EVERY).expect("a solution");
         let shape = inputs.shape();
-        let swapped = PairShape {
-            driver: shape.driven,
-            driven: shape.driver,
-            ..shape
-        };
+        let swapped = PairShape { driver: shape.driven, driven: shape.driver, ..shape };
         let load = (solution.mesh_force, solution.deviation.equivalent_error);
         let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load.0, load.1, 3e-4);
         let gear = |gear: &Gear, circles| {
@@ -149,10 +145,7 @@ impl Check {
 
     fn balance(&self, s: f64) -> (f64, f64) {
         let (displacement, forces, incoming) = self.pairs(s).shared(self.mesh.force, None);
-        (
-            displacement,
-            incoming.map_or(0.0, |incoming| forces[incoming]),
-        )
+        (displacement, incoming.map_or(0.0, |incoming| forces[incoming]))
     }
 
     /// Overlap of the incoming pair under the forces of the other pairs.
@@ -173,10 +166,7 @@ impl Pairs {
         let count = self.gaps.len();
         let fits = (1..1u32 << count).find_map(|set| {
             let members: Vec<usize> = (0..count).filter(|pair| set >> pair & 1 == 1).collect();
-            if members
-                .iter()
-                .any(|&pair| Some(self.ahead[pair]) == without)
-            {
+            if members.iter().any(|&pair| Some(self.ahead[pair]) == without) {
                 return None;
             }
             let size = members.len();
@@ -205,11 +195,7 @@ impl Pairs {
             is_right.then_some((displacement, forces))
         });
         let (displacement, forces) = fits.expect("one set fits");
-        (
-            displacement,
-            forces,
-            self.ahead.iter().position(|&ahead| ahead == 0),
-        )
+        (displacement, forces, self.ahead.iter().position(|&ahead| ahead == 0))
     }
 }
 
@@ -250,10 +236,7 @@ fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
                 high = middle;
             }
         }
-        assert!(
-            (first / high - 1.0).abs() < 0.01,
-            "{name}: first contact {first} {high}"
-        );
+        assert!((first / high - 1.0).abs() < 0.01, "{name}: first contact {first} {high}");
         let (_, at_start) = check.balance(0.0);
         let off = load.force_at_start / at_start - 1.0;
         assert!(off.abs() < 0.025, "{name}: force at E off by {off}");
@@ -318,10 +301,7 @@ impl Answers {
         inputs.pressure_angle = self.degrees.to_radians();
         inputs.drive = Drive::Torque(self.load[0]);
         inputs.base_pitch_deviation = 1e-6 * self.load[1];
-        for (at, gear) in [&mut inputs.driver, &mut inputs.driven]
-            .into_iter()
-            .enumerate()
-        {
+        for (at, gear) in [&mut inputs.driver, &mut inputs.driven].into_iter().enumerate() {
             gear.profile_shift = self.shifts[at];
             [gear.addendum, gear.dedendum] = self.heights;
             let root = f64::from(gear.teeth) / 2.0 - gear.dedendum + gear.profile_shift;
@@ -344,11 +324,7 @@ fn the_shared_load_is_that_of_another_finite_element_program() {
         ];
         println!("z {:?}: {found:?}", answers.teeth);
         for (ratio, allowed) in found {
-            assert!(
-                (ratio - 1.0).abs() < allowed,
-                "z {:?}: {found:?}",
-                answers.teeth
-            );
+            assert!((ratio - 1.0).abs() < allowed, "z {:?}: {found:?}", answers.teeth);
         }
     }
 }
@@ -371,21 +347,16 @@ fn neighbours_yield_as_those_of_a_whole_gear() {
                     let place = ContactPlace::on_line_of_action(geometry, geometry.start + s);
                     teeth.under(&place, check.mesh.force)
                 };
-                let found = teeth
-                    .coupling(&place(rear), &place(front), pitches)
-                    .expect("a coupling");
+                let found =
+                    teeth.coupling(&place(rear), &place(front), pitches).expect("a coupling");
                 let radii = [check.radii(rear), check.radii(front)];
                 let of = |gear: usize, pitches: i32, young: f64| {
-                    let lines = radii
-                        .each_ref()
-                        .map(|radii| check.gears[gear].line(radii[gear]));
+                    let lines = radii.each_ref().map(|radii| check.gears[gear].line(radii[gear]));
                     check.gears[gear].displacement(&lines[0], &lines[1], pitches) / young
                 };
                 let expected = of(0, pitches, check.inputs.driver.young)
                     + of(1, -pitches, check.inputs.driven.young);
-                let own = teeth
-                    .pair_at_load(&place(rear), check.mesh.force)
-                    .expect("a compliance");
+                let own = teeth.pair_at_load(&place(rear), check.mesh.force).expect("a compliance");
                 println!(
                     "{pitches} at {step}: {found:e} {expected:e} {:+.4} {:+.4}",
                     found / expected - 1.0,
@@ -413,30 +384,16 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
                 ..case.clone()
             };
             let solution = solve(&inputs, Stages::EVERY).expect("a solution");
-            let (load, mesh) = (
-                solution.static_load.expect("a load"),
-                solution.mesh.expect("a mesh"),
-            );
+            let (load, mesh) =
+                (solution.static_load.expect("a load"), solution.mesh.expect("a mesh"));
             assert!(mesh.is_coupled());
             let alone = mesh.uncoupled();
             let springs = static_load(&alone, Spacing::Even(1)).expect("a load");
             let ratios = [
-                (
-                    load.first_contact_angle.zip(springs.first_contact_angle),
-                    0.885..0.996,
-                ),
-                (
-                    Some((load.force_at_start, springs.force_at_start)),
-                    0.94..1.075,
-                ),
-                (
-                    Some((load.transmission_error, springs.transmission_error)),
-                    0.87..1.13,
-                ),
-                (
-                    Some((mesh.mean_stiffness(), alone.mean_stiffness())),
-                    0.835..0.945,
-                ),
+                (load.first_contact_angle.zip(springs.first_contact_angle), 0.885..0.996),
+                (Some((load.force_at_start, springs.force_at_start)), 0.94..1.075),
+                (Some((load.transmission_error, springs.transmission_error)), 0.87..1.13),
+                (Some((mesh.mean_stiffness(), alone.mean_stiffness())), 0.835..0.945),
             ];
             for (values, range) in ratios {
                 let Some((coupled, alone)) = values.filter(|(_, alone)| *alone > 0.0) else {
@@ -460,11 +417,8 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
 fn the_error_without_coupling_is_as_the_note_states() {
     let mut changes = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
     for path in crate::table::cases() {
-        let inputs = Inputs {
-            method: Method::Dynamic,
-            deflection: None,
-            ..crate::table::inputs(&path)
-        };
+        let inputs =
+            Inputs { method: Method::Dynamic, deflection: None, ..crate::table::inputs(&path) };
         let solution = solve(&inputs, Stages::EVERY).expect("a solution");
         let coupled = solution.dynamic.as_ref().expect("the method");
         let alone = uncoupled::motion(&inputs, &solution).expect("a motion");
@@ -494,15 +448,9 @@ fn the_error_without_coupling_is_as_the_note_states() {
     let [angles, peaks, _] = changes;
     let earlier = format!("{:.0} to {:.0} % earlier", angles[0], angles[1]);
     let force = format!("{:+.0} to {:+.0} %", peaks[0], peaks[1]);
-    assert!(
-        message.contains(&earlier) && message.contains(&force),
-        "{message}: {changes:?}"
-    );
+    assert!(message.contains(&earlier) && message.contains(&force), "{message}: {changes:?}");
     let own = crate::table::inputs(&crate::table::cases()[0]);
     let solution = solve(&own, Stages::CLOSED_FORM).expect("a solution");
     let notes = notes(&own, &solution);
-    assert!(
-        notes.iter().all(|note| note.code != "no-coupling"),
-        "{notes:?}"
-    );
+    assert!(notes.iter().all(|note| note.code != "no-coupling"), "{notes:?}");
 }

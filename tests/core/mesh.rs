@@ -18,33 +18,21 @@ struct Row {
 
 fn rows() -> Vec<Row> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/mesh");
-    let files = fs::read_dir(folder)
-        .expect("the rows")
-        .map(|entry| entry.expect("an entry").path());
-    let mut cases: Vec<PathBuf> = files
-        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .collect();
+    let files =
+        fs::read_dir(folder).expect("the rows").map(|entry| entry.expect("an entry").path());
+    let mut cases: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
     cases.sort();
     cases.iter().map(|path| row(path)).collect()
 }
 
 fn row(path: &Path) -> Row {
-    let name = path
-        .file_stem()
-        .expect("a name")
-        .to_string_lossy()
-        .into_owned();
+    let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
     let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
-    let inputs = document
-        .case
-        .inputs()
-        .unwrap_or_else(|problems| panic!("{name}: {}", problems[0]));
+    let inputs =
+        document.case.inputs().unwrap_or_else(|problems| panic!("{name}: {}", problems[0]));
     let answers = fs::read_to_string(path.with_extension("json")).expect("answers");
-    Row {
-        name,
-        inputs,
-        answers: serde_json::from_str(&answers).expect("JSON"),
-    }
+    Row { name, inputs, answers: serde_json::from_str(&answers).expect("JSON") }
 }
 
 impl Row {
@@ -53,26 +41,19 @@ impl Row {
     }
 
     fn solved(&self, tolerance: f64) -> Solution {
-        let inputs = Inputs {
-            method: Method::Dynamic,
-            tolerance,
-            ..self.inputs.clone()
-        };
+        let inputs = Inputs { method: Method::Dynamic, tolerance, ..self.inputs.clone() };
         solve(&inputs, Stages::EVERY).unwrap_or_else(|refusal| panic!("{}: {refusal}", self.name))
     }
 
     /// The greatest relative error over the quantities of a method.
     fn worst(&self, solution: &Solution, keys: &[&str]) -> f64 {
-        keys.iter()
-            .map(|key| self.off(solution, key))
-            .fold(0.0, f64::max)
+        keys.iter().map(|key| self.off(solution, key)).fold(0.0, f64::max)
     }
 
     /// The relative error of a quantity; an absent quantity must be absent in both.
     fn off(&self, solution: &Solution, key: &str) -> f64 {
-        let found = (Quantity::find(key)
-            .unwrap_or_else(|| panic!("no quantity {key}"))
-            .value)(solution);
+        let found =
+            (Quantity::find(key).unwrap_or_else(|| panic!("no quantity {key}")).value)(solution);
         match (found, self.answer(key)) {
             (Some(found), Some(0.0)) => found.abs(),
             (Some(found), Some(expected)) => (found / expected - 1.0).abs(),
@@ -83,10 +64,7 @@ impl Row {
 
     fn samples(&self, key: &str) -> Vec<(f64, f64)> {
         let pairs = self.answers[key].as_array().expect("samples");
-        pairs
-            .iter()
-            .map(|pair| (pair[0].as_f64().unwrap(), pair[1].as_f64().unwrap()))
-            .collect()
+        pairs.iter().map(|pair| (pair[0].as_f64().unwrap(), pair[1].as_f64().unwrap())).collect()
     }
 }
 
@@ -96,11 +74,8 @@ const STATIC: [&str; 4] = [
     "static_peak_force",
     "static_last_contact_angle",
 ];
-const DYNAMIC: [&str; 3] = [
-    "dynamic_first_contact_angle",
-    "dynamic_peak_approach_force",
-    "dynamic_peak_force",
-];
+const DYNAMIC: [&str; 3] =
+    ["dynamic_first_contact_angle", "dynamic_peak_approach_force", "dynamic_peak_force"];
 
 #[test]
 fn static_quantities_and_curves_of_every_row() {
@@ -181,10 +156,7 @@ fn between(stations: &[MeshStation], time: f64) -> (f64, f64) {
     let forces = four.iter().map(|station| station.force);
     let spread =
         forces.clone().fold(f64::NEG_INFINITY, f64::max) - forces.fold(f64::INFINITY, f64::min);
-    (
-        (0..4).map(|own| weight(own) * four[own].force).sum(),
-        spread,
-    )
+    ((0..4).map(|own| weight(own) * four[own].force).sum(), spread)
 }
 
 #[test]
@@ -194,11 +166,7 @@ fn the_tolerance_is_a_promise_on_the_peak_force() {
             let tolerance = 10f64.powi(-exponent);
             let solution = row.solved(tolerance);
             let off = row.off(&solution, "dynamic_peak_force");
-            assert!(
-                off <= tolerance.max(1e-11),
-                "{} at {tolerance:e}: off by {off:e}",
-                row.name
-            );
+            assert!(off <= tolerance.max(1e-11), "{} at {tolerance:e}: off by {off:e}", row.name);
         }
     }
 }
@@ -213,12 +181,7 @@ fn friction_work_of_a_vanishing_coefficient_is_the_integral_of_force_and_sliding
             tolerance: 1e-9,
             ..row.inputs.clone()
         };
-        let work = solve(&inputs, Stages::EVERY)
-            .unwrap()
-            .dynamic
-            .unwrap()
-            .friction_work
-            .unwrap();
+        let work = solve(&inputs, Stages::EVERY).unwrap().dynamic.unwrap().friction_work.unwrap();
         let expected = COEFFICIENT * row.answer("sliding_integral").unwrap();
         assert!(
             (work - expected).abs() <= 1e-6 * expected,
@@ -233,18 +196,8 @@ fn the_tooth_strikes_if_the_reference_has_a_first_contact() {
     for row in rows() {
         let strikes = row.answer("dynamic_first_contact_angle").is_some();
         let solution = row.solved(1e-6);
-        assert_eq!(
-            solution.outcome == Outcome::CornerContact,
-            strikes,
-            "{}",
-            row.name
-        );
+        assert_eq!(solution.outcome == Outcome::CornerContact, strikes, "{}", row.name);
         // Without a strike the impact has no duration.
-        assert_eq!(
-            solution.dynamic.unwrap().impact_duration.is_some(),
-            strikes,
-            "{}",
-            row.name
-        );
+        assert_eq!(solution.dynamic.unwrap().impact_duration.is_some(), strikes, "{}", row.name);
     }
 }

@@ -16,10 +16,7 @@ fn case(name: &str) -> Inputs {
 }
 
 fn dynamic(inputs: &Inputs) -> (Solution, Dynamic) {
-    let inputs = Inputs {
-        method: Method::Dynamic,
-        ..inputs.clone()
-    };
+    let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
     let solution = solve(&inputs, Stages::EVERY).unwrap_or_else(|refusal| panic!("{refusal}"));
     let dynamic = solution.dynamic.clone().expect("the method ran");
     (solution, dynamic)
@@ -27,14 +24,7 @@ fn dynamic(inputs: &Inputs) -> (Solution, Dynamic) {
 
 fn mesh(inputs: &Inputs, solution: &Solution) -> Mesh {
     let error = solution.deviation.equivalent_error;
-    Mesh::new(
-        &inputs.mesh(),
-        &solution.geometry,
-        solution.mesh_force,
-        error,
-        2e-3,
-    )
-    .expect("a mesh")
+    Mesh::new(&inputs.mesh(), &solution.geometry, solution.mesh_force, error, 2e-3).expect("a mesh")
 }
 
 /// At lower speed the force differs less from the shared load at rest at the same place.
@@ -77,21 +67,14 @@ fn plain_peak(inputs: &Inputs, solution: &Solution, steps: u32) -> f64 {
         let s = t * mesh.speed;
         let pairs = mesh.pair_set(s, s);
         let forces = pairs.forces(x);
-        let drag = if forces.iter().any(|&force| force > 0.0) {
-            damping * v
-        } else {
-            0.0
-        };
+        let drag = if forces.iter().any(|&force| force > 0.0) { damping * v } else { 0.0 };
         [v, (mesh.force - forces.iter().sum::<f64>() - drag) / mass]
     };
     let along = |y: [f64; 2], slope: [f64; 2], h: f64| [y[0] + h * slope[0], y[1] + h * slope[1]];
     let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
     let from = start / mesh.speed;
     let h = (1.2 * mesh.length - start) / mesh.speed / f64::from(steps);
-    let mut y = [
-        balance(&mesh, start, start + 1e-9 * mesh.base_pitch).displacement,
-        0.0,
-    ];
+    let mut y = [balance(&mesh, start, start + 1e-9 * mesh.base_pitch).displacement, 0.0];
     let mut peak = 0.0f64;
     for step in 0..steps {
         let t = from + f64::from(step) * h;
@@ -123,23 +106,14 @@ fn fixed_steps_give_the_same_peak() {
         let off =
             |steps: u32| (plain_peak(&inputs, &solution, steps) / found.peak_force - 1.0).abs();
         let (coarse, fine) = (off(20_000), off(80_000));
-        assert!(
-            fine < 2e-7 && fine < 0.5 * coarse.max(4e-9),
-            "{name}: {coarse:e} and {fine:e}"
-        );
+        assert!(fine < 2e-7 && fine < 0.5 * coarse.max(4e-9), "{name}: {coarse:e} and {fine:e}");
     }
 }
 
 #[test]
 fn the_error_falls_with_the_tolerance_and_the_effort_grows_slowly() {
     let inputs = case("zhou-chen-2014");
-    let run = |tolerance: f64| {
-        dynamic(&Inputs {
-            tolerance,
-            ..inputs.clone()
-        })
-        .1
-    };
+    let run = |tolerance: f64| dynamic(&Inputs { tolerance, ..inputs.clone() }).1;
     let reference = run(1e-12).peak_force;
     let mut effort = 0;
     for exponent in [3, 5, 7, 9] {
@@ -170,31 +144,17 @@ fn the_end_of_the_first_impact_does_not_depend_on_the_tolerance() {
         deviations = { base_pitch = "19.48 um" }
         operation = { torque = "62.5624 N m", speed = "5000 rpm" }
     "#;
-    let fine = Document::parse("fine", text)
-        .expect("a case")
-        .case
-        .inputs()
-        .expect("valid");
+    let fine = Document::parse("fine", text).expect("a case").case.inputs().expect("valid");
     let mut seen = 0;
-    for inputs in [
-        fine,
-        case("zhou-chen-2014"),
-        case("nasa-lewis-28-28"),
-        case("turbo-fine-fast"),
-    ] {
+    for inputs in [fine, case("zhou-chen-2014"), case("nasa-lewis-28-28"), case("turbo-fine-fast")]
+    {
         let drive = Drive::Torque(inputs.torque());
         for faster in [0.4, 0.5, 0.65, 0.8, 1.0, 1.0149, 1.25, 1.6066, 2.0] {
             let at = |tolerance: f64| {
                 let speed = inputs.speed * faster;
-                dynamic(&Inputs {
-                    speed,
-                    drive,
-                    tolerance,
-                    deflection: None,
-                    ..inputs.clone()
-                })
-                .1
-                .impact_duration
+                dynamic(&Inputs { speed, drive, tolerance, deflection: None, ..inputs.clone() })
+                    .1
+                    .impact_duration
             };
             let Some(reference) = at(1e-11) else { continue };
             for tolerance in [1e-4, 1e-6, 1e-8] {
@@ -214,12 +174,8 @@ fn the_end_of_the_first_impact_does_not_depend_on_the_tolerance() {
 #[test]
 fn a_periodic_warm_up_ends_early_without_a_change() {
     let run = |damping_ratio: f64, warmup_cycles: u32| {
-        let inputs = Inputs {
-            damping_ratio,
-            warmup_cycles,
-            tolerance: 1e-8,
-            ..case("zhou-chen-2014")
-        };
+        let inputs =
+            Inputs { damping_ratio, warmup_cycles, tolerance: 1e-8, ..case("zhou-chen-2014") };
         dynamic(&inputs).1
     };
     let (short, long) = (run(0.07, 20), run(0.07, 1000));
@@ -247,40 +203,19 @@ fn a_periodic_warm_up_ends_early_without_a_change() {
 
 #[test]
 fn a_run_stops_on_request() {
-    let inputs = Inputs {
-        method: Method::Dynamic,
-        ..case("zhou-chen-2014")
-    };
+    let inputs = Inputs { method: Method::Dynamic, ..case("zhou-chen-2014") };
     let refused = tipstrike::model::solve_while(&inputs, Stages::EVERY, &|part| part < 0.5);
     assert_eq!(refused.unwrap_err().code(), "stopped");
 }
 
 #[test]
 fn a_too_slow_motion_is_refused_and_auto_chooses_static() {
-    let slow = Inputs {
-        speed: 1e-4,
-        drive: Drive::Torque(70.0),
-        ..case("zhou-chen-2014")
-    };
-    let refused = solve(
-        &Inputs {
-            method: Method::Dynamic,
-            ..slow.clone()
-        },
-        Stages::EVERY,
-    )
-    .unwrap_err();
+    let slow = Inputs { speed: 1e-4, drive: Drive::Torque(70.0), ..case("zhou-chen-2014") };
+    let refused =
+        solve(&Inputs { method: Method::Dynamic, ..slow.clone() }, Stages::EVERY).unwrap_err();
     assert_eq!(refused.code(), "too-slow");
     assert_eq!(
-        solve(
-            &Inputs {
-                method: Method::Auto,
-                ..slow
-            },
-            Stages::EVERY
-        )
-        .unwrap()
-        .method,
+        solve(&Inputs { method: Method::Auto, ..slow }, Stages::EVERY).unwrap().method,
         Method::Static
     );
 }
@@ -293,24 +228,14 @@ fn friction_that_would_lock_the_gears_is_refused_and_less_makes_the_force_jump_a
         friction_coefficient: Some(coefficient),
         ..case("zhou-chen-2014")
     };
-    assert_eq!(
-        solve(&with(2.0), Stages::EVERY).unwrap_err().code(),
-        "friction-locks"
-    );
+    assert_eq!(solve(&with(2.0), Stages::EVERY).unwrap_err().code(), "friction-locks");
     let solution = solve(&with(0.1), Stages::EVERY).unwrap();
-    let jump = solution
-        .static_load
-        .unwrap()
-        .pitch_jump
-        .expect("friction jumps");
+    let jump = solution.static_load.unwrap().pitch_jump.expect("friction jumps");
     // One pair carries at the pitch point: F (1 -+ mu rho/rb) = F0 on its two sides.
     let arm = 0.1 * (solution.geometry.start + solution.geometry.approach_length)
         / solution.geometry.driver.base;
     let expected = solution.mesh_force * (1.0 / (1.0 + arm) - 1.0 / (1.0 - arm));
-    assert!(
-        (jump / expected - 1.0).abs() < 1e-6,
-        "{jump} and not {expected}"
-    );
+    assert!((jump / expected - 1.0).abs() < 1e-6, "{jump} and not {expected}");
 }
 
 /// The stiffness of a pair rises in one step where the contact leaves the tip radius, and the
@@ -326,27 +251,14 @@ fn with_a_tip_radius_the_force_of_slow_gears_rises_with_the_stiffness() {
     };
     inputs.driven.tip_radius = Some(0.145e-3);
     for speed in [20.0, 2.0, 0.2] {
-        let inputs = Inputs {
-            speed,
-            ..inputs.clone()
-        };
+        let inputs = Inputs { speed, ..inputs.clone() };
         let (solution, found) = dynamic(&inputs);
         let rise = mesh(&inputs, &solution).stiffness_step();
         assert!((1.1..1.2).contains(&rise), "{rise}");
-        let at_rest = solution
-            .static_load
-            .as_ref()
-            .expect("the load at rest")
-            .peak_force;
+        let at_rest = solution.static_load.as_ref().expect("the load at rest").peak_force;
         let off = found.peak_force / (rise * at_rest) - 1.0;
-        assert!(
-            off.abs() < 2e-3,
-            "{speed} rad/s: {off:e} off {rise} times {at_rest}"
-        );
-        let codes: Vec<_> = notes(&inputs, &solution)
-            .into_iter()
-            .map(|note| note.code)
-            .collect();
+        assert!(off.abs() < 2e-3, "{speed} rad/s: {off:e} off {rise} times {at_rest}");
+        let codes: Vec<_> = notes(&inputs, &solution).into_iter().map(|note| note.code).collect();
         assert!(codes.contains(&"stiffness-step"), "{codes:?}");
     }
 }

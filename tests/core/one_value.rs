@@ -27,17 +27,11 @@ impl Points for Itself {
 type Values = BTreeMap<&'static str, u64>;
 
 fn values(pairs: impl IntoIterator<Item = (&'static Quantity, f64)>) -> Values {
-    pairs
-        .into_iter()
-        .map(|(quantity, value)| (quantity.key, value.to_bits()))
-        .collect()
+    pairs.into_iter().map(|(quantity, value)| (quantity.key, value.to_bits())).collect()
 }
 
 fn solved(case: &Case, only: &[&'static Quantity]) -> Option<(Method, Outcome, Values)> {
-    let selection = Selection {
-        only: only.to_vec(),
-        stations: false,
-    };
+    let selection = Selection { only: only.to_vec(), stations: false };
     let inputs = case.inputs().ok()?;
     let report = Report::solve(String::new(), case.clone(), inputs, selection).ok()?;
     let solution = &report.solution;
@@ -45,14 +39,8 @@ fn solved(case: &Case, only: &[&'static Quantity]) -> Option<(Method, Outcome, V
 }
 
 fn of_study(inputs: &Inputs, only: &[&'static Quantity]) -> Option<(Outcome, Values)> {
-    let inputs = &inputs
-        .clone()
-        .needing(only.iter().map(|quantity| quantity.stage));
-    let batch = Batch {
-        inputs,
-        points: &Itself,
-        quantities: only,
-    };
+    let inputs = &inputs.clone().needing(only.iter().map(|quantity| quantity.stage));
+    let batch = Batch { inputs, points: &Itself, quantities: only };
     let mut found = None;
     solve_all(&batch, 0..1, &Control::PLAIN, &mut |rows| {
         let pairs = only.iter().zip(rows.values(0));
@@ -69,8 +57,7 @@ fn of_study(inputs: &Inputs, only: &[&'static Quantity]) -> Option<(Outcome, Val
 /// The values that both have must be equal.
 fn agree(one: &Values, other: &Values, place: &str) -> usize {
     let both = one.iter().filter(|(key, _)| other.contains_key(*key));
-    both.map(|(key, value)| assert_eq!(value, &other[key], "{key}: {place}"))
-        .count()
+    both.map(|(key, value)| assert_eq!(value, &other[key], "{key}: {place}")).count()
 }
 
 #[test]
@@ -78,10 +65,8 @@ fn a_quantity_has_one_value_in_every_command() {
     const CASES: u64 = 100;
     const SELECTIONS: usize = 3;
     let slow = [Stage::SpeedRun];
-    let table: Vec<&Quantity> = QUANTITIES
-        .iter()
-        .filter(|quantity| !slow.contains(&quantity.stage))
-        .collect();
+    let table: Vec<&Quantity> =
+        QUANTITIES.iter().filter(|quantity| !slow.contains(&quantity.stage)).collect();
     let mut random = Random::new(77);
     let (mut compared, mut evaluator) = (0, Evaluator::default());
     for number in 0..CASES {
@@ -109,9 +94,8 @@ fn a_quantity_has_one_value_in_every_command() {
             compared += agree(&plain, &whole, &place);
         }
         // As the workbench after edits of the form.
-        let wanted = table.iter().fold(Stages::NONE, |all, quantity| {
-            all.and(Stages::of(quantity.stage))
-        });
+        let wanted =
+            table.iter().fold(Stages::NONE, |all, quantity| all.and(Stages::of(quantity.stage)));
         if let Ok(solution) = evaluator.solve(&inputs, inputs.method, wanted, &|_| true) {
             let own = table
                 .iter()

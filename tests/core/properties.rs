@@ -35,10 +35,7 @@ fn numbered(number: u64) -> Inputs {
 
 /// The first `count` pairs for which `wanted` has an answer, with it.
 fn some<T>(count: usize, wanted: impl Fn(Inputs) -> Option<T>) -> Vec<T> {
-    (0..)
-        .filter_map(|number| wanted(numbered(number)))
-        .take(count)
-        .collect()
+    (0..).filter_map(|number| wanted(numbered(number))).take(count).collect()
 }
 
 fn value(solution: &Solution, key: &str) -> Option<f64> {
@@ -49,11 +46,9 @@ fn value(solution: &Solution, key: &str) -> Option<f64> {
 fn verdict(solved: &Result<Solution, Refusal>) -> String {
     match solved {
         Err(refusal) => refusal.code().to_owned(),
-        Ok(solution) => solution
-            .withheld
-            .map_or(solution.outcome.name().to_owned(), |refusal| {
-                format!("withheld: {}", refusal.code())
-            }),
+        Ok(solution) => solution.withheld.map_or(solution.outcome.name().to_owned(), |refusal| {
+            format!("withheld: {}", refusal.code())
+        }),
     }
 }
 
@@ -102,20 +97,9 @@ fn examine(inputs: &Inputs, solution: &Solution) {
         );
     }
     for station in &solution.stations {
-        let forces = [
-            station.normal_velocity,
-            station.sliding_velocity,
-            station.impact_force,
-        ];
-        let places = [
-            station.roll_angle_driver,
-            station.roll_angle_driven,
-            station.radius_driver,
-        ];
-        assert!(
-            forces.into_iter().chain(places).all(f64::is_finite),
-            "{station:?}: {inputs:?}"
-        );
+        let forces = [station.normal_velocity, station.sliding_velocity, station.impact_force];
+        let places = [station.roll_angle_driver, station.roll_angle_driven, station.radius_driver];
+        assert!(forces.into_iter().chain(places).all(f64::is_finite), "{station:?}: {inputs:?}");
     }
     for note in notes(inputs, solution) {
         assert!(is_sound(&note.message), "{}: {inputs:?}", note.message);
@@ -123,11 +107,7 @@ fn examine(inputs: &Inputs, solution: &Solution) {
     let struck = solution.outcome == Outcome::CornerContact;
     assert_eq!(struck, solution.position.is_some(), "{inputs:?}");
     let complete = solution.impact.is_some() && !solution.stations.is_empty();
-    assert_eq!(
-        struck && !complete,
-        solution.withheld.is_some(),
-        "{inputs:?}"
-    );
+    assert_eq!(struck && !complete, solution.withheld.is_some(), "{inputs:?}");
 }
 
 #[test]
@@ -142,9 +122,8 @@ fn every_pair_is_solved_or_refused_by_name() {
     };
     let mut verdicts = BTreeMap::<String, u64>::new();
     thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads)
-            .map(|first| scope.spawn(move || count_of(first)))
-            .collect();
+        let workers: Vec<_> =
+            (0..threads).map(|first| scope.spawn(move || count_of(first))).collect();
         for worker in workers {
             worker
                 .join()
@@ -159,10 +138,7 @@ fn every_pair_is_solved_or_refused_by_name() {
         .filter(|(verdict, _)| verdict.starts_with("tip-radius"))
         .map(|(_, count)| count)
         .sum();
-    assert!(
-        verdicts["corner-contact"] > (pairs() - rounded_too_far) * 2 / 5,
-        "{verdicts:?}"
-    );
+    assert!(verdicts["corner-contact"] > (pairs() - rounded_too_far) * 2 / 5, "{verdicts:?}");
 }
 
 /// Compares the default path with the accurate one, which the accuracy tests compare with the
@@ -171,18 +147,9 @@ fn every_pair_is_solved_or_refused_by_name() {
 fn default_path_is_nowhere_worse_than_1e_9() {
     let mut worst = (0.0, String::new());
     for number in 0..pairs() / 5 {
-        let inputs = Inputs {
-            accurate: false,
-            ..numbered(number)
-        };
+        let inputs = Inputs { accurate: false, ..numbered(number) };
         let solved = solve(&inputs, Stages::CLOSED_FORM);
-        let precise = solve(
-            &Inputs {
-                accurate: true,
-                ..inputs.clone()
-            },
-            Stages::CLOSED_FORM,
-        );
+        let precise = solve(&Inputs { accurate: true, ..inputs.clone() }, Stages::CLOSED_FORM);
         assert_eq!(verdict(&solved), verdict(&precise), "{inputs:?}");
         let (Ok(solved), Ok(precise)) = (solved, precise) else {
             continue;
@@ -193,11 +160,7 @@ fn default_path_is_nowhere_worse_than_1e_9() {
             else {
                 continue;
             };
-            let off = if expected == 0.0 {
-                found.abs()
-            } else {
-                (found / expected - 1.0).abs()
-            };
+            let off = if expected == 0.0 { found.abs() } else { (found / expected - 1.0).abs() };
             if off > worst.0 {
                 worst = (off, format!("{}: {inputs:?}", quantity.key));
             }
@@ -218,11 +181,7 @@ fn quantities_scale_with_the_units() {
                 let (was, is) = ((quantity.value)(&plain), (quantity.value)(&large));
                 let expected = was.map(|was| was * factor(quantity.unit, length, time));
                 let off = is.zip(expected).map(|(is, expected)| {
-                    if expected == 0.0 {
-                        is.abs()
-                    } else {
-                        (is / expected - 1.0).abs()
-                    }
+                    if expected == 0.0 { is.abs() } else { (is / expected - 1.0).abs() }
                 });
                 assert_eq!(
                     was.is_some(),
@@ -256,26 +215,14 @@ fn swapped_gears_mirror_the_path_of_contact() {
         let there = geometry::geometry::<f64>(&swapped.shape()).ok()?;
         let close =
             |found: f64, expected: f64| (found - expected).abs() <= 1e-13 * here.tangent_length;
+        assert!(close(there.start, here.tangent_length - here.end), "{inputs:?}");
+        assert!(close(there.end, here.tangent_length - here.start), "{inputs:?}");
         assert!(
-            close(there.start, here.tangent_length - here.end),
+            close(there.approach_length, here.end - here.start - here.approach_length),
             "{inputs:?}"
         );
         assert!(
-            close(there.end, here.tangent_length - here.start),
-            "{inputs:?}"
-        );
-        assert!(
-            close(
-                there.approach_length,
-                here.end - here.start - here.approach_length
-            ),
-            "{inputs:?}"
-        );
-        assert!(
-            close(
-                there.contact_ratio * there.base_pitch,
-                here.contact_ratio * here.base_pitch
-            ),
+            close(there.contact_ratio * there.base_pitch, here.contact_ratio * here.base_pitch),
             "{inputs:?}"
         );
         Some(())
@@ -286,10 +233,7 @@ fn swapped_gears_mirror_the_path_of_contact() {
 #[test]
 fn swapped_materials_strike_alike_in_the_fit() {
     some(1_000, |inputs| {
-        let fit = Inputs {
-            tooth_compliance: Some(ToothCompliance::KUANG_YANG),
-            ..inputs
-        };
+        let fit = Inputs { tooth_compliance: Some(ToothCompliance::KUANG_YANG), ..inputs };
         if fit.contact_compliance == ContactCompliance::WEBER {
             return None;
         }
@@ -297,9 +241,7 @@ fn swapped_materials_strike_alike_in_the_fit() {
         (swapped.driver.young, swapped.driven.young) = (fit.driven.young, fit.driver.young);
         (swapped.driver.poisson, swapped.driven.poisson) = (fit.driven.poisson, fit.driver.poisson);
         let here = solve(&fit, Stages::CLOSED_FORM).ok()?.impact?;
-        let there = solve(&swapped, Stages::CLOSED_FORM)
-            .expect("as much a solution")
-            .impact;
+        let there = solve(&swapped, Stages::CLOSED_FORM).expect("as much a solution").impact;
         assert_eq!(Some(here), there, "{fit:?}");
         Some(())
     });
@@ -321,12 +263,7 @@ fn deviating(inputs: &Inputs, total: f64) -> Inputs {
 #[test]
 fn angle_velocity_energy_and_mostly_force_rise_with_the_deviation() {
     const STEPS: i32 = 60;
-    let keys = [
-        "approach_angle_driven",
-        "normal_velocity",
-        "impact_energy",
-        "impact_force",
-    ];
+    let keys = ["approach_angle_driven", "normal_velocity", "impact_energy", "impact_force"];
     some(500, |inputs| {
         // By beam theory a tooth is so much softer towards its tip that a soft driver may have a
         // smaller force with an earlier strike.
@@ -343,10 +280,7 @@ fn angle_velocity_energy_and_mostly_force_rise_with_the_deviation() {
                 let Some(value) = value(&solution, key) else {
                     continue;
                 };
-                assert!(
-                    value > *last,
-                    "{key} falls from {last:e} to {value:e}: {inputs:?}"
-                );
+                assert!(value > *last, "{key} falls from {last:e} to {value:e}: {inputs:?}");
                 *last = value;
             }
             solved = solution.impact.or(solved);
@@ -360,20 +294,11 @@ fn angle_velocity_energy_and_mostly_force_rise_with_the_deviation() {
 fn gap_rises_with_the_angle() {
     use tipstrike::model::position::{gap_by_quadrature, tip_at};
     some(2_000, |inputs| {
-        let solution = solve(
-            &Inputs {
-                method: Method::Exact,
-                ..inputs.clone()
-            },
-            Stages::CLOSED_FORM,
-        )
-        .ok()?;
+        let solution =
+            solve(&Inputs { method: Method::Exact, ..inputs.clone() }, Stages::CLOSED_FORM).ok()?;
         let angle = solution.position?.approach_angle_driven;
         let gap = |part: f64| {
-            gap_by_quadrature(
-                &solution.geometry,
-                &tip_at(&solution.geometry, part * angle),
-            )
+            gap_by_quadrature(&solution.geometry, &tip_at(&solution.geometry, part * angle))
         };
         let gaps: Vec<f64> = (1..=16).map(|part| gap(f64::from(part) / 16.0)).collect();
         assert!(gaps[0] > 0.0 && gaps.is_sorted(), "{gaps:?}: {inputs:?}");
@@ -384,16 +309,11 @@ fn gap_rises_with_the_angle() {
 #[test]
 fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
     some(1_000, |inputs| {
-        let exact = Inputs {
-            method: Method::Exact,
-            ..inputs
-        };
+        let exact = Inputs { method: Method::Exact, ..inputs };
         let at = |total: f64| solve(&deviating(&exact, total), Stages::CLOSED_FORM);
         let solution = at(1e-18).ok()?;
-        let (force, angle) = (
-            value(&solution, "impact_force")?,
-            value(&solution, "approach_angle_driven")?,
-        );
+        let (force, angle) =
+            (value(&solution, "impact_force")?, value(&solution, "approach_angle_driven")?);
         // If the tip is on the base circle, S(u) does not have this power yet.
         let driven = &solution.geometry.driven;
         if angle * driven.base > 0.1 * driven.tip_curvature {
@@ -429,25 +349,13 @@ fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
 #[test]
 fn stations_fall_to_zero_at_the_end_and_stay_when_doubled() {
     some(1_000, |inputs| {
-        let with = |stations| {
-            solve(
-                &Inputs {
-                    stations,
-                    ..inputs.clone()
-                },
-                WITHOUT_SPREAD,
-            )
-            .ok()
-        };
+        let with = |stations| solve(&Inputs { stations, ..inputs.clone() }, WITHOUT_SPREAD).ok();
         let (coarse, fine) = (with(Some(8))?, with(Some(16))?);
         for (solution, whole) in [(&coarse, 9), (&fine, 17)] {
             let missing = solution.impact.is_some() && solution.stations.len() < whole;
             assert_eq!(missing, solution.stations_withheld.is_some(), "{inputs:?}");
         }
-        if fine
-            .stations_withheld
-            .or(coarse.stations_withheld)
-            .is_some()
+        if fine.stations_withheld.or(coarse.stations_withheld).is_some()
             || coarse.stations.is_empty()
         {
             return None;
@@ -455,8 +363,7 @@ fn stations_fall_to_zero_at_the_end_and_stay_when_doubled() {
         let (coarse, fine) = (coarse.stations, fine.stations);
         assert_eq!((coarse.len(), fine.len()), (9, 17));
         assert!(
-            fine.windows(2)
-                .all(|pair| pair[0].impact_force > pair[1].impact_force),
+            fine.windows(2).all(|pair| pair[0].impact_force > pair[1].impact_force),
             "{inputs:?}"
         );
         assert!(fine[16].impact_force.abs() <= 0.0);

@@ -9,17 +9,12 @@ use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, solve};
 
 fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/reference")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name)
 }
 
 fn inputs_of(name: &str, text: &str) -> Inputs {
     let document = Document::parse(name, text).unwrap_or_else(|faults| panic!("{}", faults[0]));
-    document
-        .case
-        .inputs()
-        .unwrap_or_else(|problems| panic!("{name}: {}", problems[0].cause))
+    document.case.inputs().unwrap_or_else(|problems| panic!("{name}: {}", problems[0].cause))
 }
 
 fn value(solution: &Solution, key: &str) -> Option<f64> {
@@ -29,19 +24,11 @@ fn value(solution: &Solution, key: &str) -> Option<f64> {
 
 /// Relative difference; the absolute difference from 0.
 fn off(found: f64, expected: f64) -> f64 {
-    if expected == 0.0 {
-        found.abs()
-    } else {
-        (found / expected - 1.0).abs()
-    }
+    if expected == 0.0 { found.abs() } else { (found / expected - 1.0).abs() }
 }
 
 fn decimal(value: &Value) -> f64 {
-    value
-        .as_str()
-        .expect("a decimal")
-        .parse()
-        .expect("a number")
+    value.as_str().expect("a decimal").parse().expect("a number")
 }
 
 fn rows() -> Vec<Value> {
@@ -52,17 +39,10 @@ fn rows() -> Vec<Value> {
 /// Table 1 with the module, pressure angle and tooth numbers of a row, and without bores.
 fn row_inputs(row: &Value, method: Method) -> Inputs {
     let table_1 = inputs_of("Table 1", include_str!("../../cases/zhou-chen-2014.toml"));
-    let mut inputs = Inputs {
-        method,
-        module: row["m"].as_f64().expect("module"),
-        ..table_1
-    };
+    let mut inputs = Inputs { method, module: row["m"].as_f64().expect("module"), ..table_1 };
     inputs.pressure_angle = decimal(&row["alpha_rad_f64"]);
     for (gear, key) in [(&mut inputs.driver, "z1"), (&mut inputs.driven, "z2")] {
-        gear.teeth = row[key]
-            .as_u64()
-            .and_then(|teeth| teeth.try_into().ok())
-            .expect("teeth");
+        gear.teeth = row[key].as_u64().and_then(|teeth| teeth.try_into().ok()).expect("teeth");
         gear.bore_radius = 0.0;
     }
     inputs
@@ -79,10 +59,7 @@ fn every_row_of_positions_within_1e_11() {
         for accurate in [false, true] {
             row_within(
                 row,
-                &Inputs {
-                    accurate,
-                    ..inputs.clone()
-                },
+                &Inputs { accurate, ..inputs.clone() },
                 if accurate { 1e-14 } else { 1e-12 },
             );
         }
@@ -115,17 +92,9 @@ fn row_within(row: &Value, inputs: &Inputs, bound: f64) {
             row["delta"]
         );
     }
-    for (key, found) in [
-        ("N1E", geometry.start),
-        ("gamma2", geometry.start_angle_driven),
-    ] {
+    for (key, found) in [("N1E", geometry.start), ("gamma2", geometry.start_angle_driven)] {
         let off = off(found, decimal(&row[key]));
-        assert!(
-            off < 1e-13,
-            "{key} off by {off:e} at z {}/{}",
-            row["z1"],
-            row["z2"]
-        );
+        assert!(off < 1e-13, "{key} off by {off:e} at z {}/{}", row["z1"], row["z2"]);
     }
 }
 
@@ -138,14 +107,9 @@ fn printed_position_of_every_row() {
         let half = row["delta"].as_f64().expect("delta") / 2.0;
         inputs.base_pitch_deviation = half * std::f64::consts::FRAC_1_SQRT_2;
         inputs.deflection = Some(half);
-        let position = solve(&inputs, Stages::CLOSED_FORM)
-            .expect("a solution")
-            .position
-            .expect("a position");
-        let off = off(
-            position.approach_angle_driver,
-            decimal(&row["theta1_paper_split_half"]),
-        );
+        let position =
+            solve(&inputs, Stages::CLOSED_FORM).expect("a solution").position.expect("a position");
+        let off = off(position.approach_angle_driver, decimal(&row["theta1_paper_split_half"]));
         assert!(
             off < 1e-12,
             "off by {off:e} at z {}/{}, Delta {}",
@@ -197,28 +161,18 @@ fn hold(name: &str, solution: &Solution, key: &str, expected: &Value) {
     match key {
         "outcome" => assert_eq!(expected, solution.outcome.name(), "{name}"),
         "station_forces" => {
-            let expected: Vec<f64> = expected
-                .as_array()
-                .expect("forces")
-                .iter()
-                .filter_map(Value::as_f64)
-                .collect();
+            let expected: Vec<f64> =
+                expected.as_array().expect("forces").iter().filter_map(Value::as_f64).collect();
             assert_eq!(expected.len(), solution.stations.len());
             for (station, expected) in solution.stations.iter().rev().zip(expected) {
                 let off = off(station.impact_force, expected);
-                assert!(
-                    off < 1e-12,
-                    "{name}: station force {expected} off by {off:e}"
-                );
+                assert!(off < 1e-12, "{name}: station force {expected} off by {off:e}");
             }
         }
         _ => {
             let expected = expected.as_f64().expect("a number");
             let found = value(solution, key).unwrap_or_else(|| panic!("{name}: no {key}"));
-            assert!(
-                off(found, expected) < 1e-12,
-                "{name}: {key} is {found}, expected {expected}"
-            );
+            assert!(off(found, expected) < 1e-12, "{name}: {key} is {found}, expected {expected}");
         }
     }
 }
@@ -255,12 +209,7 @@ fn every_case_beyond_the_fit_within_1e_10() {
         let outside = [&inputs.driver, &inputs.driven]
             .iter()
             .any(|gear| !(12..=100).contains(&gear.teeth) || gear.profile_shift.abs() > 0.6);
-        assert_eq!(
-            solution.withheld.is_some(),
-            outside,
-            "{name}: {:?}",
-            solution.withheld
-        );
+        assert_eq!(solution.withheld.is_some(), outside, "{name}: {:?}", solution.withheld);
     }
 }
 
@@ -289,13 +238,7 @@ fn table_1_by_the_printed_equations() {
     printed(&solution, "total_deviation", 1e6, 3, "47.327");
     printed(&solution, "approach_angle_driven", degrees, 7, "0.0525747");
     printed(&solution, "contact_radius_driver", 1e3, 6, "47.339468");
-    printed(
-        &solution,
-        "contact_normal_radius_driven",
-        1e3,
-        6,
-        "46.825439",
-    );
+    printed(&solution, "contact_normal_radius_driven", 1e3, 6, "46.825439");
     printed(&solution, "normal_velocity", 1.0, 7, "0.0333411");
     printed(&solution, "sliding_velocity", 1.0, 6, "4.830862");
     printed(&solution, "impact_force", 1.0, 3, "84.649");
@@ -320,13 +263,7 @@ fn table_1_at_the_exact_position() {
     assert_eq!(solution.outcome, Outcome::CornerContact);
     printed(&solution, "approach_angle_driven", degrees, 7, "1.3662807");
     printed(&solution, "contact_radius_driver", 1e3, 6, "47.891485");
-    printed(
-        &solution,
-        "contact_normal_radius_driven",
-        1e3,
-        6,
-        "43.064340",
-    );
+    printed(&solution, "contact_normal_radius_driven", 1e3, 6, "43.064340");
     printed(&solution, "normal_velocity", 1.0, 7, "0.8210639");
     printed(&solution, "sliding_velocity", 1.0, 6, "5.222650");
     printed(&solution, "impact_force", 1.0, 3, "2191.016");
@@ -351,10 +288,7 @@ fn table_1_friction_ratio_by_the_printed_end() {
         solution.velocity.expect("velocities"),
         solution.impact.expect("an impact"),
     );
-    let printed_end = Inputs {
-        method: Method::Paper,
-        ..inputs
-    };
+    let printed_end = Inputs { method: Method::Paper, ..inputs };
     let mixed = friction(
         &FrictionInputs::of(&printed_end),
         &solution.geometry,
@@ -369,19 +303,10 @@ fn table_1_friction_ratio_by_the_printed_end() {
 /// β₁ and β₂ of Eqs. 24 and 25, in degrees.
 fn angles(solution: &Solution, driver: &str, driven: &str, digits: usize) {
     let contact = solution.position.expect("a position").contact;
-    let beta1 = contact
-        .curvature_driver
-        .atan2(solution.geometry.driver.base)
-        .to_degrees();
-    let beta2 = contact
-        .normal_length_driven
-        .atan2(contact.normal_radius_driven)
-        .to_degrees();
+    let beta1 = contact.curvature_driver.atan2(solution.geometry.driver.base).to_degrees();
+    let beta2 = contact.normal_length_driven.atan2(contact.normal_radius_driven).to_degrees();
     assert_eq!(
-        (
-            format!("{beta1:.digits$}").as_str(),
-            format!("{beta2:.digits$}").as_str()
-        ),
+        (format!("{beta1:.digits$}").as_str(), format!("{beta2:.digits$}").as_str()),
         (driver, driven)
     );
 }
@@ -406,10 +331,8 @@ fn table_1_force_over_roll_angle() {
 fn force_and_half_width_agree_to_the_last_digit() {
     for (name, inputs, _) in cases("solve") {
         let solution = solve(&inputs, Stages::CLOSED_FORM).expect("a solution");
-        let (impact, teeth) = (
-            solution.impact.expect("an impact"),
-            solution.compliance.expect("compliance"),
-        );
+        let (impact, teeth) =
+            (solution.impact.expect("an impact"), solution.compliance.expect("compliance"));
         let give = [&inputs.driver, &inputs.driven]
             .map(|gear| (1.0 - gear.poisson * gear.poisson) / gear.young)
             .iter()
@@ -423,10 +346,6 @@ fn force_and_half_width_agree_to_the_last_digit() {
         let normal = solution.velocity.expect("velocities").normal;
         let force = normal
             * (inputs.common_width() * impact.effective_mass / (teeth.sum() + contact)).sqrt();
-        assert!(
-            off(impact.force, force) < 1e-12,
-            "{name}: {} and {force}",
-            impact.force
-        );
+        assert!(off(impact.force, force) < 1e-12, "{name}: {} and {force}", impact.force);
     }
 }

@@ -8,10 +8,7 @@ use tipstrike::model::{self, QUANTITIES, Solution, Stage, Stages};
 /// Every case in `cases/`, and Table 1 with the fields that these omit, so that every field can
 /// have an effect.
 fn samples() -> Vec<Case> {
-    let mut found: Vec<Case> = EXAMPLES
-        .iter()
-        .map(|example| example.document().case)
-        .collect();
+    let mut found: Vec<Case> = EXAMPLES.iter().map(|example| example.document().case).collect();
     let changed = |changes: &[(&str, &str)]| {
         let mut case = Case::table_1();
         for (key, text) in changes {
@@ -42,9 +39,7 @@ fn samples() -> Vec<Case> {
         ("driver.tip_radius", "0.4 mm"),
         ("operation.torque", "70 N m"),
     ]));
-    found.push(changed(
-        &[&relieved[..], &[("pair.centre_distance", "100.2 mm")]].concat(),
-    ));
+    found.push(changed(&[&relieved[..], &[("pair.centre_distance", "100.2 mm")]].concat()));
     found.push(changed(&[
         ("model.stations", "auto"),
         ("model.contact_compliance", "constant"),
@@ -61,10 +56,9 @@ fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
         Kind::Count(from, to, _) if case.effective(index).is_none_or(|now| now == "none") => {
             [from, to].map(|count| count.to_string()).into()
         }
-        Kind::Count(..) => [1, 10, -1]
-            .into_iter()
-            .filter_map(|by| case.stepped(index, by))
-            .collect(),
+        Kind::Count(..) => {
+            [1, 10, -1].into_iter().filter_map(|by| case.stepped(index, by)).collect()
+        }
         Kind::Number(_, range, _) => {
             let factor = tipstrike::case::units::factor(range.unit).unwrap();
             let derived = || case.derived(index, &case.inputs().ok()?);
@@ -86,24 +80,15 @@ fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
 /// Solves every stage of the method except the motion in time, which is slow.
 fn solve(case: &Case) -> Option<Solution> {
     let shares = case.inputs().ok()?.method.shares_load();
-    let wanted = if shares {
-        Stages::of(Stage::Static).and(Stages::ALL)
-    } else {
-        Stages::ALL
-    };
+    let wanted = if shares { Stages::of(Stage::Static).and(Stages::ALL) } else { Stages::ALL };
     model::solve(&case.inputs().ok()?, wanted).ok()
 }
 
 /// Every quantity to the last bit, and every station.
 fn results(solution: &Solution) -> (Vec<Option<u64>>, String) {
-    let quantities = QUANTITIES
-        .iter()
-        .map(|quantity| (quantity.value)(solution).map(f64::to_bits))
-        .collect();
-    (
-        quantities,
-        format!("{:?} {:?}", solution.outcome, solution.stations),
-    )
+    let quantities =
+        QUANTITIES.iter().map(|quantity| (quantity.value)(solution).map(f64::to_bits)).collect();
+    (quantities, format!("{:?} {:?}", solution.outcome, solution.stations))
 }
 
 /// Compares the relevance of every field of every sample, optionally of the idle ones only, with
@@ -158,10 +143,7 @@ fn the_relevant_fields_are_those_that_change_a_result() {
             "method {method}: reported as relevant, but no change has an effect: {idle:?}"
         );
         let more: Vec<_> = found.difference(&said).collect();
-        assert!(
-            more.is_empty(),
-            "method {method}: reported as idle, but has an effect: {more:?}"
-        );
+        assert!(more.is_empty(), "method {method}: reported as idle, but has an effect: {more:?}");
     }
 }
 
@@ -224,14 +206,8 @@ fn an_invalid_case_is_described_as_far_as_it_can_be_read() {
     let mut case = Case::table_1();
     case.write(index_of("pair.module").unwrap(), "five");
     let inputs = case.read().0;
-    assert!(matches!(
-        relevance(index_of("driver.tip_relief").unwrap(), &inputs),
-        Acting::No(_)
-    ));
-    assert_eq!(
-        relevance(index_of("driven.tip_relief").unwrap(), &inputs),
-        Acting::Yes
-    );
+    assert!(matches!(relevance(index_of("driver.tip_relief").unwrap(), &inputs), Acting::No(_)));
+    assert_eq!(relevance(index_of("driven.tip_relief").unwrap(), &inputs), Acting::Yes);
 }
 
 #[test]
@@ -242,12 +218,7 @@ fn a_field_stays_in_use_while_a_required_value_is_missing() {
         let mut partial = case.clone();
         partial.write(index_of(missing).unwrap(), "");
         let inputs = partial.read().0;
-        for key in [
-            "operation.power",
-            "operation.speed",
-            "pair.module",
-            "driver.face_width",
-        ] {
+        for key in ["operation.power", "operation.speed", "pair.module", "driver.face_width"] {
             let field = index_of(key).unwrap();
             assert_eq!(
                 relevance(field, &inputs),

@@ -10,10 +10,7 @@ fn inputs(path: &str) -> Inputs {
     let path = format!("{}/{path}.toml", env!("CARGO_MANIFEST_DIR"));
     let document = Document::read(path.as_ref()).unwrap_or_else(|error| panic!("{error}"));
     let inputs = document.case.inputs().expect("a valid case");
-    Inputs {
-        method: Method::Static,
-        ..inputs
-    }
+    Inputs { method: Method::Static, ..inputs }
 }
 
 fn specified(inputs: &Inputs, demand: &Demand) -> Specification {
@@ -56,29 +53,16 @@ fn clears(inputs: &Inputs, demand: &Demand, reliefs: &TipReliefs) -> bool {
 fn error(inputs: &Inputs, loads: &[f64], reliefs: &TipReliefs) -> f64 {
     let of = |&load: &f64| {
         let solution = solved(&with(inputs, reliefs, [0.0; 2], load));
-        solution
-            .static_spectrum
-            .unwrap()
-            .unwrap()
-            .spectrum
-            .peak_to_peak
+        solution.static_spectrum.unwrap().unwrap().spectrum.peak_to_peak
     };
     loads.iter().map(of).fold(0.0, f64::max)
 }
 
-const DEMAND: Demand = Demand {
-    loads: (0.25, 1.1),
-    tolerance: 3e-6,
-};
+const DEMAND: Demand = Demand { loads: (0.25, 1.1), tolerance: 3e-6 };
 
 /// Pairs whose teeth are independent springs, so that whole solves are fast.
 fn pairs() -> [(&'static str, Inputs); 3] {
-    [
-        "tests/validation/dias-27-35",
-        "cases/zhou-chen-2014",
-        "cases/fzg-type-c",
-    ]
-    .map(|path| {
+    ["tests/validation/dias-27-35", "cases/zhou-chen-2014", "cases/fzg-type-c"].map(|path| {
         let inputs = Inputs {
             tooth_compliance: Some(ToothCompliance::KUANG_YANG),
             stations: Some(4),
@@ -97,16 +81,10 @@ fn whole_solves_find_the_figures_of_the_relief_and_no_corner_contact() {
         let greatest = found.greatest_load.expect("a load with corner contact");
         assert!(chosen.margin >= 0.0 && greatest >= DEMAND.loads.1, "{name}");
         let clears_at = |load: f64| {
-            let demand = Demand {
-                loads: (1.0, load),
-                ..DEMAND
-            };
+            let demand = Demand { loads: (1.0, load), ..DEMAND };
             clears(&inputs, &demand, &chosen.reliefs)
         };
-        assert!(
-            clears_at(0.98 * greatest) && !clears_at(1.02 * greatest),
-            "{name}: {greatest}"
-        );
+        assert!(clears_at(0.98 * greatest) && !clears_at(1.02 * greatest), "{name}: {greatest}");
         let own = error(&inputs, &found.loads, &chosen.reliefs);
         assert!((own / chosen.greatest_error() - 1.0).abs() < 1e-9, "{name}");
         for (amount, length) in chosen.reliefs.amounts.iter().zip(chosen.reliefs.lengths) {
@@ -170,10 +148,8 @@ fn no_amount_that_clears_is_better_than_that_of_its_kind() {
     for choice in alike {
         let ends = [found.loads[0], found.loads[5]];
         for steps in 60..200 {
-            let reliefs = TipReliefs {
-                amounts: [f64::from(steps) * AMOUNT_STEP; 2],
-                ..choice.reliefs
-            };
+            let reliefs =
+                TipReliefs { amounts: [f64::from(steps) * AMOUNT_STEP; 2], ..choice.reliefs };
             assert!(
                 error(&inputs, &ends, &reliefs) > 0.98 * choice.greatest_error()
                     || !clears(&inputs, &Demand::USUAL, &reliefs),
@@ -197,12 +173,7 @@ fn a_relief_for_the_motion_has_no_corner_contact_in_motion() {
     };
     let found = specified(&inputs, &DEMAND);
     assert_eq!(found.method, Method::Dynamic);
-    let worst = with(
-        &inputs,
-        &found.chosen().reliefs,
-        [-DEMAND.tolerance; 2],
-        1.1,
-    );
+    let worst = with(&inputs, &found.chosen().reliefs, [-DEMAND.tolerance; 2], 1.1);
     let solution = solve(&worst, Stages::of(Stage::Dynamic)).unwrap();
     assert_eq!(solution.outcome, Outcome::NoCornerContact);
     assert!(solution.dynamic.unwrap().last_contact_angle.is_none());
@@ -212,11 +183,7 @@ fn a_relief_for_the_motion_has_no_corner_contact_in_motion() {
 fn if_auto_chooses_dynamic_the_relief_is_that_of_dynamic() {
     let (_, zhou_chen) = &pairs()[1];
     let by = |method| {
-        let inputs = Inputs {
-            method,
-            within: 0.05,
-            ..zhou_chen.clone()
-        };
+        let inputs = Inputs { method, within: 0.05, ..zhou_chen.clone() };
         specify(&inputs, &DEMAND, &|_| true)
     };
     let (chosen, motion) = (by(Method::Auto), by(Method::Dynamic));
@@ -228,10 +195,7 @@ fn if_auto_chooses_dynamic_the_relief_is_that_of_dynamic() {
 fn a_search_without_a_relief_gives_the_reason() {
     let (_, dias) = &pairs()[0];
     let none = |inputs: &Inputs, loads| {
-        let demand = Demand {
-            loads,
-            tolerance: 3e-6,
-        };
+        let demand = Demand { loads, tolerance: 3e-6 };
         specify(inputs, &demand, &|_| true).unwrap_err()
     };
     let mut pointed = dias.clone();
@@ -244,12 +208,7 @@ fn a_search_without_a_relief_gives_the_reason() {
     (short.driver.addendum, short.driven.addendum) = (0.59, 0.59);
     let refusal = none(&short, (0.25, 1.1));
     assert!(matches!(refusal, NoRelief::ShortPath { .. }), "{refusal}");
-    assert!(
-        refusal
-            .to_string()
-            .contains("reaches the contact of a single pair"),
-        "{refusal}"
-    );
+    assert!(refusal.to_string().contains("reaches the contact of a single pair"), "{refusal}");
 }
 
 /// Three pairs share the load only on a short part of the path, which does not limit the relief.
@@ -260,11 +219,7 @@ fn a_contact_ratio_just_above_2_leaves_room_for_a_relief() {
     let found = specified(&inputs, &DEMAND);
     let chosen = found.chosen();
     assert!(clears(&inputs, &DEMAND, &chosen.reliefs));
-    assert!(
-        found.unloaded_contact_ratio >= 1.0,
-        "{}",
-        found.unloaded_contact_ratio
-    );
+    assert!(found.unloaded_contact_ratio >= 1.0, "{}", found.unloaded_contact_ratio);
 }
 
 /// Compliance of a pair of teeth of Dias et al. in m/N at a distance from N1 along the line of
@@ -275,9 +230,7 @@ fn compliance_of_source(inputs: &Inputs, along: f64) -> f64 {
         [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045],
         [60.111e-5, 28.1e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086],
         [-50.952e-5, 185.5e-3, 0.0538e-4, 53.3e-3, 0.2895, 0.9236],
-        [
-            -6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904,
-        ],
+        [-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904],
     ];
     const BORE: f64 = 5.0;
     const PARTS: u32 = 2000;
@@ -330,14 +283,7 @@ fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief(
     let stiffness = |s: f64| compliance_of_source(&dias, geometry.start + s).recip();
     let (length, pitch) = (geometry.end - geometry.start, geometry.base_pitch);
     let places = (0..2000).map(|at| (f64::from(at) + 0.5) / 2000.0 * pitch);
-    let both = |s: f64| {
-        stiffness(s)
-            + if s + pitch < length {
-                stiffness(s + pitch)
-            } else {
-                0.0
-            }
-    };
+    let both = |s: f64| stiffness(s) + if s + pitch < length { stiffness(s + pitch) } else { 0.0 };
     let mean = places.map(both).sum::<f64>() / 2000.0;
     assert!((mean / MEAN_STIFFNESS - 1.0).abs() < 1e-3, "{mean:e}");
     let deflection = solution.mesh_force / stiffness(pitch);
@@ -345,10 +291,7 @@ fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief(
     let pairs = solution.mesh.unwrap().pair_set(0.0, 0.0);
     let loaded = pairs.pairs().iter().find(|pair| pair.ahead == 1).unwrap();
     let load = loaded.stiffness / stiffness(pitch);
-    let demand = Demand {
-        loads: (load, load),
-        tolerance: 0.0,
-    };
+    let demand = Demand { loads: (load, load), tolerance: 0.0 };
     let found = specified(&dias, &demand);
     let chosen = found.chosen();
     let amount = chosen.reliefs.amounts[0].min(chosen.reliefs.amounts[1]);
@@ -360,10 +303,7 @@ fn with_the_stiffness_of_the_source_the_pair_of_dias_needs_the_published_relief(
 fn the_user_can_stop_a_search() {
     let (_, dias) = &pairs()[0];
     let stopped = specify(dias, &DEMAND, &|_| false).unwrap_err();
-    assert_eq!(
-        stopped,
-        NoRelief::Refused(tipstrike::model::Refusal::Stopped)
-    );
+    assert_eq!(stopped, NoRelief::Refused(tipstrike::model::Refusal::Stopped));
 }
 
 #[test]
@@ -383,10 +323,7 @@ fn a_relief_as_thick_as_half_the_tooth_is_refused_by_name() {
             for (key, value) in settings.into_iter().chain([(key, amount)]) {
                 case.set(key, value).unwrap();
             }
-            let inputs = Inputs {
-                method,
-                ..case.inputs().unwrap()
-            };
+            let inputs = Inputs { method, ..case.inputs().unwrap() };
             let found = solve(&inputs, Stages::of(Stage::Deviation)).err();
             let field = found.map(|refusal| refusal.field());
             assert_eq!(field, is_refused.then_some(key), "{key} = {amount}");

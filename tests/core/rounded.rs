@@ -84,10 +84,7 @@ fn a_vanishing_tip_radius_gives_the_geometry_of_a_sharp_tip() {
         let rounded = solve(&pair(Method::Exact, Some(radius)), Stages::ALL).unwrap();
         for key in keys {
             let off = (value(&rounded, key) / value(&sharp, key) - 1.0).abs();
-            assert!(
-                off < 20.0 * radius / 4e-3,
-                "{key} off by {off:e} at {radius:e} m"
-            );
+            assert!(off < 20.0 * radius / 4e-3, "{key} off by {off:e} at {radius:e} m");
         }
     }
 }
@@ -97,9 +94,7 @@ fn station_at_start(solution: &Solution) -> &MeshStation {
     let rest = solution.static_load.as_ref().map(|load| &load.stations);
     let motion = solution.dynamic.as_ref().map(|dynamic| &dynamic.stations);
     let stations = motion.or(rest).expect("a method that shares the load");
-    let mut at_start = stations
-        .iter()
-        .filter(|station| station.roll_angle_driven == 0.0);
+    let mut at_start = stations.iter().filter(|station| station.roll_angle_driven == 0.0);
     at_start.next().expect("a station at E'")
 }
 
@@ -107,10 +102,7 @@ fn station_at_start(solution: &Solution) -> &MeshStation {
 fn contact_on_the_line_of_action_begins_on_the_flank_and_not_on_the_arc() {
     for method in [Method::Static, Method::Dynamic] {
         let at = |radius| {
-            let inputs = Inputs {
-                friction_coefficient: None,
-                ..pair(method, radius)
-            };
+            let inputs = Inputs { friction_coefficient: None, ..pair(method, radius) };
             solve(&inputs, Stages::of(method_stage(method))).unwrap()
         };
         let (sharp, rounded) = (at(None), at(Some(1e-9)));
@@ -122,11 +114,7 @@ fn contact_on_the_line_of_action_begins_on_the_flank_and_not_on_the_arc() {
         );
         let (mesh, station) = (rounded.mesh.as_ref().unwrap(), station_at_start(&rounded));
         let pairs = mesh.pair_set(0.0, 1e-7 * mesh.base_pitch);
-        let incoming = pairs
-            .pairs()
-            .iter()
-            .position(|pair| pair.ahead == 0)
-            .unwrap();
+        let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0).unwrap();
         let force = pairs.forces(station.transmission_error)[incoming];
         assert!(
             force > 0.0 && (station.force / force - 1.0).abs() < 1e-9,
@@ -136,21 +124,14 @@ fn contact_on_the_line_of_action_begins_on_the_flank_and_not_on_the_arc() {
         if method == Method::Static {
             let [sharp, rounded] =
                 [&sharp, &rounded].map(|solution| value(solution, "static_force_at_start"));
-            assert!(
-                (rounded / sharp - 1.0).abs() < 1e-5,
-                "{rounded} and {sharp}"
-            );
+            assert!((rounded / sharp - 1.0).abs() < 1e-5, "{rounded} and {sharp}");
             assert_eq!(rounded.to_bits(), station.force.to_bits());
         }
     }
 }
 
 fn method_stage(method: Method) -> Stage {
-    if method == Method::Static {
-        Stage::Static
-    } else {
-        Stage::Dynamic
-    }
+    if method == Method::Static { Stage::Static } else { Stage::Dynamic }
 }
 
 #[test]
@@ -164,23 +145,14 @@ fn a_tip_radius_moves_the_first_contact_of_every_method_but_paper() {
         let [sharp, rounded] =
             [None, Some(0.4e-3)].map(|radius| solve(&pair(method, radius), Stages::EVERY).unwrap());
         let ratios = [&sharp, &rounded].map(|solution| value(solution, "contact_ratio"));
-        assert!(
-            ratios[1] < 0.98 * ratios[0],
-            "{method:?}: contact ratios {ratios:?}"
-        );
+        assert!(ratios[1] < 0.98 * ratios[0], "{method:?}: contact ratios {ratios:?}");
         let angles = [&sharp, &rounded].map(|solution| value(solution, key));
-        assert!(
-            (angles[1] / angles[0] - 1.0).abs() > 0.01,
-            "{method:?}: first contact {angles:?}"
-        );
+        assert!((angles[1] / angles[0] - 1.0).abs() > 0.01, "{method:?}: first contact {angles:?}");
     }
     let [sharp, rounded] = [None, Some(0.4e-3)]
         .map(|radius| solve(&pair(Method::Paper, radius), Stages::ALL).unwrap());
     assert_eq!(sharp.geometry, rounded.geometry);
-    assert_eq!(
-        sharp.position.unwrap().contact,
-        rounded.position.unwrap().contact
-    );
+    assert_eq!(sharp.position.unwrap().contact, rounded.position.unwrap().contact);
 }
 
 #[test]
@@ -189,16 +161,10 @@ fn a_tip_radius_at_run_out_moves_the_last_contact() {
     let sharp = solve(&inputs, Stages::EVERY).unwrap();
     inputs.driver.tip_radius = Some(0.4e-3);
     let rounded = solve(&inputs, Stages::EVERY).unwrap();
-    assert_eq!(
-        sharp.geometry.start.to_bits(),
-        rounded.geometry.start.to_bits()
-    );
+    assert_eq!(sharp.geometry.start.to_bits(), rounded.geometry.start.to_bits());
     let key = "static_last_contact_angle";
     let (sharp, rounded) = (value(&sharp, key), value(&rounded, key));
-    assert!(
-        (rounded / sharp - 1.0).abs() > 0.01,
-        "last contact {sharp} and {rounded}"
-    );
+    assert!((rounded / sharp - 1.0).abs() > 0.01, "last contact {sharp} and {rounded}");
 }
 
 #[test]
@@ -209,25 +175,16 @@ fn a_tip_radius_beyond_its_limits_is_refused_by_name() {
         solve(&inputs, Stages::ALL).unwrap_err()
     };
     let too_wide = refusal(&|inputs| inputs.driven.tip_radius = Some(0.75 * inputs.module));
-    assert!(
-        matches!(too_wide, Refusal::RoundingTooWide { .. }),
-        "{too_wide}"
-    );
+    assert!(matches!(too_wide, Refusal::RoundingTooWide { .. }), "{too_wide}");
     assert_eq!(too_wide.field(), "driven.tip_radius");
     let inside = refusal(&|inputs| inputs.driver.tip_radius = Some(2.0 * inputs.module));
-    assert!(
-        matches!(inside, Refusal::RoundingInsideBase { .. }),
-        "{inside}"
-    );
+    assert!(matches!(inside, Refusal::RoundingInsideBase { .. }), "{inside}");
     let apart = refusal(&|inputs| {
         (inputs.driver.addendum, inputs.driven.addendum) = (0.6, 0.6);
         let radius = Some(0.25 * inputs.module);
         (inputs.driver.tip_radius, inputs.driven.tip_radius) = (radius, radius);
     });
-    assert!(
-        matches!(apart, Refusal::RoundingBreaksContact { .. }),
-        "{apart}"
-    );
+    assert!(matches!(apart, Refusal::RoundingBreaksContact { .. }), "{apart}");
 }
 
 /// Chamfer and tip radius of a gear, times the module.
@@ -264,41 +221,19 @@ fn a_refused_path_names_the_chamfer_or_radius_that_causes_it() {
         assert_eq!(refusal, ["tip-radius-breaks-contact", field], "{tips:?}");
     }
     for (method, tips, distance, field) in [
-        (
-            Method::Exact,
-            [(0.9, None), sharp],
-            1.0,
-            "driver.tip_chamfer",
-        ),
-        (
-            Method::Static,
-            [sharp, (0.8, None)],
-            1.0,
-            "driven.tip_chamfer",
-        ),
+        (Method::Exact, [(0.9, None), sharp], 1.0, "driver.tip_chamfer"),
+        (Method::Static, [sharp, (0.8, None)], 1.0, "driven.tip_chamfer"),
         (Method::Exact, [sharp, sharp], 1.03, "driven.addendum"),
     ] {
         let refusal = refusal_of(method, tips, distance);
         assert_eq!(refusal, ["contact-ratio-below-1", field], "{tips:?}");
     }
     for (tips, distance, refusal) in [
-        (
-            [(1.58, None), sharp],
-            1.0,
-            ["no-path", "driver.tip_chamfer"],
-        ),
+        ([(1.58, None), sharp], 1.0, ["no-path", "driver.tip_chamfer"]),
         ([sharp, sharp], 1.2, ["no-path", "pair.centre_distance"]),
-        (
-            [sharp, (9.0, None)],
-            1.0,
-            ["tip-inside-base", "driven.tip_chamfer"],
-        ),
+        ([sharp, (9.0, None)], 1.0, ["tip-inside-base", "driven.tip_chamfer"]),
     ] {
-        assert_eq!(
-            refusal_of(Method::Exact, tips, distance),
-            refusal,
-            "{tips:?}"
-        );
+        assert_eq!(refusal_of(Method::Exact, tips, distance), refusal, "{tips:?}");
     }
 }
 

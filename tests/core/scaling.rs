@@ -28,9 +28,7 @@ pub(crate) fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
         tip_chamfer: gear.tip_chamfer * length,
         tip_radius: gear.tip_radius.map(|radius| radius * length),
         base_pitch: gear.base_pitch.map(|deviation| deviation * length),
-        inertia: gear
-            .inertia
-            .map(|inertia| inertia * length.powi(3) * time.powi(2)),
+        inertia: gear.inertia.map(|inertia| inertia * length.powi(3) * time.powi(2)),
         ..gear.clone()
     };
     Inputs {
@@ -153,9 +151,7 @@ fn values(solution: &Solution) -> Vec<Value> {
     let rows: Vec<_> = free.chain(shared).collect();
     let largest = |name: &str| {
         let column = rows.iter().flatten().filter(|column| column.0 == name);
-        column.fold(0.0, |most: f64, column| {
-            most.max(column.2.unwrap_or(0.0).abs())
-        })
+        column.fold(0.0, |most: f64, column| most.max(column.2.unwrap_or(0.0).abs()))
     };
     for (index, row) in rows.iter().enumerate() {
         for &(name, unit, value) in row {
@@ -185,10 +181,7 @@ fn differences(
         let by = factor(unit, length, time);
         // The search for the relief ends with a bracket of at most 1 pm or 5e-5 of the relief.
         let permitted = if name == "clearing_relief" && one.method.shares_load() {
-            1e-4 + 2e-12
-                / was
-                    .unwrap_or(f64::INFINITY)
-                    .min(is.unwrap_or(f64::INFINITY))
+            1e-4 + 2e-12 / was.unwrap_or(f64::INFINITY).min(is.unwrap_or(f64::INFINITY))
         } else {
             permitted
         };
@@ -201,10 +194,7 @@ fn differences(
             _ => f64::INFINITY,
         };
         if off.is_nan() || off > permitted {
-            found.push(format!(
-                "{name} {was:?} {:?}: {off:.1e}",
-                is.map(|is| is / by)
-            ));
+            found.push(format!("{name} {was:?} {:?}: {off:.1e}", is.map(|is| is / by)));
         }
     }
     found
@@ -233,11 +223,7 @@ fn check(other: impl Fn(&Inputs, &mut Random) -> (Inputs, (f64, f64)) + Sync) {
                 continue;
             }
             // The series of the motion end at the tolerance.
-            let inputs = Inputs {
-                method,
-                tolerance: 1e-9,
-                ..pair(number)
-            };
+            let inputs = Inputs { method, tolerance: 1e-9, ..pair(number) };
             let (scaled, factors) = other(&inputs, random);
             // The spread of the stiffness models builds the field of each gear, which takes long.
             let stages = if number.is_multiple_of(200) {
@@ -276,17 +262,11 @@ fn check(other: impl Fn(&Inputs, &mut Random) -> (Inputs, (f64, f64)) + Sync) {
         let workers: Vec<_> = (0..threads as u64)
             .map(|first| {
                 scope.spawn(move || {
-                    (first..count())
-                        .step_by(threads)
-                        .flat_map(of)
-                        .collect::<Vec<_>>()
+                    (first..count()).step_by(threads).flat_map(of).collect::<Vec<_>>()
                 })
             })
             .collect();
-        workers
-            .into_iter()
-            .flat_map(|worker| worker.join().expect("no panic"))
-            .collect()
+        workers.into_iter().flat_map(|worker| worker.join().expect("no panic")).collect()
     });
     for line in &found {
         println!("{line}");
@@ -329,10 +309,8 @@ fn written(inputs: &Inputs) -> Inputs {
     write("pair.module", inputs.module);
     write("pair.pressure_angle", inputs.pressure_angle);
     for (name, gear) in [("driver", &inputs.driver), ("driven", &inputs.driven)] {
-        let optional = [
-            ("tip_relief_length", gear.tip_relief_length),
-            ("tip_radius", gear.tip_radius),
-        ];
+        let optional =
+            [("tip_relief_length", gear.tip_relief_length), ("tip_radius", gear.tip_radius)];
         let given = [
             ("face_width", gear.face_width),
             ("bore_radius", gear.bore_radius),
@@ -390,9 +368,6 @@ model = { method = "dynamic", tooth_compliance = "kuang-yang" }
     for step in 0..60 {
         let size = 0.31 + 0.0137 * f64::from(step);
         let found = duration(&scaled(&inputs, size, size)) / size;
-        assert!(
-            (found / given - 1.0).abs() < 1e-7,
-            "{found:e} for {given:e} at {size}"
-        );
+        assert!((found / given - 1.0).abs() < 1e-7, "{found:e} for {given:e} at {size}");
     }
 }

@@ -15,10 +15,7 @@ const LINE_LOAD: f64 = 300e3;
 /// Single stiffness c' of ISO 6336-1 method B for a solid disc and the standard rack, in N/(µm mm).
 pub(crate) fn iso_single_stiffness(inputs: &Inputs) -> f64 {
     const DEDENDUM: f64 = 1.25;
-    let (z1, z2) = (
-        f64::from(inputs.driver.teeth),
-        f64::from(inputs.driven.teeth),
-    );
+    let (z1, z2) = (f64::from(inputs.driver.teeth), f64::from(inputs.driven.teeth));
     let (x1, x2) = (inputs.driver.profile_shift, inputs.driven.profile_shift);
     let linear = 0.04723 + 0.15551 / z1 + 0.25791 / z2
         - 0.00635 * x1
@@ -64,10 +61,8 @@ pub(crate) fn pairs() -> [Inputs; 7] {
 fn the_case_files_of_the_iso_table_have_its_load_and_its_bores() {
     for given in pairs() {
         let [driver, driven] = [&given.driver, &given.driven];
-        let wanted = pair(
-            (driver.teeth, driver.profile_shift),
-            (driven.teeth, driven.profile_shift),
-        );
+        let wanted =
+            pair((driver.teeth, driver.profile_shift), (driven.teeth, driven.profile_shift));
         for (gear, wanted) in [(driver, &wanted.driver), (driven, &wanted.driven)] {
             assert!((gear.bore_radius - wanted.bore_radius).abs() < 1e-9);
         }
@@ -84,11 +79,8 @@ pub(crate) fn stiffness(
     contact: ContactCompliance,
     along: impl Fn(&Geometry) -> f64,
 ) -> f64 {
-    let inputs = Inputs {
-        tooth_compliance: Some(model),
-        contact_compliance: contact,
-        ..inputs.clone()
-    };
+    let inputs =
+        Inputs { tooth_compliance: Some(model), contact_compliance: contact, ..inputs.clone() };
     let geometry = geometry(&inputs.shape()).expect("a meshing pair");
     let place = ContactPlace::on_line_of_action(&geometry, along(&geometry));
     let elasticity = inputs.elasticity();
@@ -129,8 +121,7 @@ fn single_stiffness_is_within_a_quarter_of_the_range_from_iso_c_to_its_theoretic
             percent[1]
         );
         assert!(
-            ours.iter()
-                .all(|ours| (0.75 * iso..1.25 * iso / MEASURED_PART).contains(ours)),
+            ours.iter().all(|ours| (0.75 * iso..1.25 * iso / MEASURED_PART).contains(ours)),
             "z {}/{}: {percent:?} %",
             driver.teeth,
             driven.teeth
@@ -153,10 +144,7 @@ fn kuang_yang_has_the_published_stiffness_of_an_equal_pair() {
     };
     for (place, published) in [(at_end as fn(&Geometry) -> f64, 8.30), (at_pitch, 11.97)] {
         let fit = constant(ToothCompliance::KUANG_YANG, place);
-        assert!(
-            (fit - published).abs() < 0.02,
-            "kuang-yang {fit}, published {published}"
-        );
+        assert!((fit - published).abs() < 0.02, "kuang-yang {fit}, published {published}");
     }
 }
 
@@ -185,12 +173,8 @@ fn young_poisson_and_bore_enter() {
         let mut inputs = plain.clone();
         change(&mut inputs);
         let geometry = geometry::<f64>(&inputs.shape()).expect("a meshing pair");
-        beam::tooth(
-            &inputs.elasticity().driver,
-            &geometry.driver,
-            geometry.driver.tip,
-        )
-        .expect("a compliance")
+        beam::tooth(&inputs.elasticity().driver, &geometry.driver, geometry.driver.tip)
+            .expect("a compliance")
     };
     let before = beam(&|_| ());
     assert!(
@@ -219,10 +203,7 @@ fn a_contact_below_the_form_circle_is_refused_at_the_addendum_that_reaches_there
             gear.addendum = if gear.teeth == 40 { 1.3 } else { 1.0 };
         }
         let refusal = solve(&inputs, Stages::EVERY).unwrap_err();
-        assert_eq!(
-            (refusal.code(), refusal.field()),
-            ("below-form-circle", key)
-        );
+        assert_eq!((refusal.code(), refusal.field()), ("below-form-circle", key));
     }
 }
 
@@ -238,8 +219,5 @@ fn a_pair_ahead_inside_the_base_circle_is_no_lack_of_contact_ratio() {
     inputs.driven.tip_radius = Some(3.42e-3);
     (inputs.driver.bore_radius, inputs.driven.bore_radius) = (7e-3, 15e-3);
     let refusal = solve(&inputs, Stages::EVERY).unwrap_err();
-    assert!(
-        matches!(refusal, Refusal::InterferenceAtEnd { start } if start < 0.0),
-        "{refusal:?}"
-    );
+    assert!(matches!(refusal, Refusal::InterferenceAtEnd { start } if start < 0.0), "{refusal:?}");
 }

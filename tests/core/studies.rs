@@ -28,15 +28,8 @@ fn grid(texts: &[&str], points: usize) -> Grid {
 }
 
 fn solved(inputs: &Inputs, grid: &Grid, jobs: usize, quantities: &[&'static Quantity]) -> Rows {
-    let batch = Batch {
-        inputs,
-        points: grid,
-        quantities,
-    };
-    let control = Control {
-        jobs: Some(jobs),
-        ..Control::PLAIN
-    };
+    let batch = Batch { inputs, points: grid, quantities };
+    let control = Control { jobs: Some(jobs), ..Control::PLAIN };
     let mut all = Rows::starting_at(0);
     solve_all(&batch, 0..grid.count(), &control, &mut |rows| {
         for row in 0..rows.outcomes.len() {
@@ -95,14 +88,8 @@ fn every_row_of_a_sweep_is_a_plain_solve_to_the_last_bit() {
         &["operation.speed=50..9000 rpm"],
         &["driven.tip_relief=0..70 um", "operation.power=1,15 kW"],
         &["pair.module=4..6 mm", "deviations.base_pitch=-10..40 um"],
-        &[
-            "driver.bore_radius=10..50 mm",
-            "driver.profile_shift=-0.2,0.3",
-        ],
-        &[
-            "operation.torque=5..300 N m",
-            "model.damping_ratio=0.02,0.1",
-        ],
+        &["driver.bore_radius=10..50 mm", "driver.profile_shift=-0.2,0.3"],
+        &["operation.torque=5..300 N m", "model.damping_ratio=0.02,0.1"],
     ];
     for method in Method::ALL {
         case.set("model.method", method.name()).unwrap();
@@ -145,10 +132,7 @@ fn one_mesh_serves_every_speed_under_a_torque_to_the_last_bit() {
 #[test]
 fn rows_do_not_depend_on_the_number_of_threads() {
     let inputs = Case::table_1().inputs().unwrap();
-    let grid = grid(
-        &["driven.tip_relief=0..80 um", "driver.bore_radius=30..50 mm"],
-        60,
-    );
+    let grid = grid(&["driven.tip_relief=0..80 um", "driver.bore_radius=30..50 mm"], 60);
     let quantities = [Quantity::find("impact_force").unwrap()];
     let one = solved(&inputs, &grid, 1, &quantities);
     let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact].map(PointOutcome::Solved);
@@ -162,10 +146,7 @@ fn rows_do_not_depend_on_the_number_of_threads() {
             all.map(|value| value.map(f64::to_bits)).collect::<Vec<_>>()
         };
         assert_eq!(cells(&one), cells(&other));
-        assert_eq!(
-            (&one.outcomes, &one.refusals),
-            (&other.outcomes, &other.refusals)
-        );
+        assert_eq!((&one.outcomes, &one.refusals), (&other.outcomes, &other.refusals));
     }
 }
 
@@ -173,11 +154,7 @@ fn rows_do_not_depend_on_the_number_of_threads() {
 fn the_user_or_the_reader_can_stop_a_study() {
     let inputs = Case::table_1().inputs().unwrap();
     let grid = grid(&["operation.speed=1..9000 rpm"], 100_000);
-    let batch = Batch {
-        inputs: &inputs,
-        points: &grid,
-        quantities: &[],
-    };
+    let batch = Batch { inputs: &inputs, points: &grid, quantities: &[] };
     let mut rows = 0;
     let by_reader = solve_all(&batch, 0..grid.count(), &Control::PLAIN, &mut |arrived| {
         rows += arrived.outcomes.len();
@@ -185,10 +162,7 @@ fn the_user_or_the_reader_can_stop_a_study() {
     });
     assert_eq!(by_reader, Err(Stopped));
     assert!(0 < rows && rows < grid.count());
-    let control = Control {
-        go_on: &|| false,
-        ..Control::PLAIN
-    };
+    let control = Control { go_on: &|| false, ..Control::PLAIN };
     let by_user = solve_all(&batch, 0..grid.count(), &control, &mut |_| true);
     assert_eq!(by_user, Err(Stopped));
 }
@@ -202,21 +176,15 @@ fn sought(inputs: &Inputs, range: &str, condition: &str) -> Found {
 #[test]
 fn a_crossing_is_located_to_1e_9_and_agrees_with_plain_solves() {
     let case = Case::table_1();
-    let found = sought(
-        &case.inputs().unwrap(),
-        "deviations.base_pitch=0..40 um",
-        "impact_force<=2000 N",
-    );
-    let [crossing] = &found.crossings[..] else {
-        panic!("one crossing: {:?}", found.crossings)
-    };
+    let found =
+        sought(&case.inputs().unwrap(), "deviations.base_pitch=0..40 um", "impact_force<=2000 N");
+    let [crossing] = &found.crossings[..] else { panic!("one crossing: {:?}", found.crossings) };
     let (lower, upper) = (&crossing.lower, &crossing.upper);
     assert_eq!((&lower.state, &upper.state), (&State::Met, &State::NotMet));
     assert!(upper.at - lower.at <= 1e-9 * upper.at && lower.at < upper.at);
     for sample in [lower, upper] {
         let mut case = case.clone();
-        case.set("deviations.base_pitch", &format!("{} um", sample.at))
-            .unwrap();
+        case.set("deviations.base_pitch", &format!("{} um", sample.at)).unwrap();
         let solution = solve(&case.inputs().unwrap(), Stages::of(Stage::Impact)).unwrap();
         let force = solution.impact.unwrap().force;
         assert_eq!(Some(force.to_bits()), sample.value.map(f64::to_bits));
@@ -228,10 +196,7 @@ fn never_always_and_unknown_are_answers_of_a_search() {
     let inputs = Case::table_1().inputs().unwrap();
     let states = |range, condition| {
         let segments = sought(&inputs, range, condition).segments;
-        segments
-            .into_iter()
-            .map(|segment| segment.state)
-            .collect::<Vec<_>>()
+        segments.into_iter().map(|segment| segment.state).collect::<Vec<_>>()
     };
     let relief = "driven.tip_relief=0..20 um";
     assert_eq!(states(relief, "impact_force<=9 kN"), [State::Met]);
@@ -248,11 +213,7 @@ fn never_always_and_unknown_are_answers_of_a_search() {
 #[test]
 fn the_end_of_contact_is_where_the_deviation_vanishes() {
     let inputs = Case::table_1().inputs().unwrap();
-    let found = sought(
-        &inputs,
-        "driven.tip_relief=0..90 um",
-        "outcome=no-corner-contact",
-    );
+    let found = sought(&inputs, "driven.tip_relief=0..90 um", "outcome=no-corner-contact");
     let solution = solve(&inputs, Stages::of(Stage::Deviation)).unwrap();
     let end = solution.deviation.total * 1e6;
     assert_eq!(found.crossings.len(), 1);
@@ -269,9 +230,8 @@ fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_th
     let grid = grid(&["operation.speed=3000..3600 rpm"], 401);
     let quantities = [Quantity::find("dynamic_peak_force").unwrap()];
     let rows = solved(&inputs, &grid, 2, &quantities);
-    let peaks: Vec<f64> = (0..grid.count())
-        .filter_map(|row| rows.values(row).next().flatten())
-        .collect();
+    let peaks: Vec<f64> =
+        (0..grid.count()).filter_map(|row| rows.values(row).next().flatten()).collect();
     let most = peaks.iter().copied().fold(0.0, f64::max);
     let limit = 0.999_99 * most;
     let found = sought(
@@ -279,27 +239,14 @@ fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_th
         "operation.speed=3000..3600 rpm",
         &format!("dynamic_peak_force<={limit} N"),
     );
-    assert!(
-        found.crossings.len() == 2,
-        "{} of {most} N",
-        found.crossings.len()
-    );
+    assert!(found.crossings.len() == 2, "{} of {most} N", found.crossings.len());
 }
 
 /// A design with uniform fields between -pi and pi, for the test functions of the literature.
 fn uniform_design(fields: usize, samples: usize) -> Design {
-    let distribution = Distribution {
-        field: 0,
-        centre: 0.0,
-        width: std::f64::consts::PI,
-        shape: Shape::Uniform,
-    };
-    Design {
-        seed: 7,
-        distributions: vec![distribution; fields],
-        samples,
-        ranked: samples,
-    }
+    let distribution =
+        Distribution { field: 0, centre: 0.0, width: std::f64::consts::PI, shape: Shape::Uniform };
+    Design { seed: 7, distributions: vec![distribution; fields], samples, ranked: samples }
 }
 
 fn ranked(design: &Design, function: impl Fn(&[f64]) -> f64) -> Vec<Indices> {
@@ -312,9 +259,7 @@ fn ranked(design: &Design, function: impl Fn(&[f64]) -> f64) -> Vec<Indices> {
         .map(|number| Ranked {
             first: value(Member::Sample(number)),
             second: value(Member::Second(number)),
-            swapped: (0..fields)
-                .map(|field| value(Member::Swapped(number, field)))
-                .collect(),
+            swapped: (0..fields).map(|field| value(Member::Swapped(number, field))).collect(),
         })
         .collect();
     indices(&samples).unwrap()
@@ -324,10 +269,7 @@ fn assert_within(estimate: Estimate, exact: f64, name: &str) {
     // Twice the 95 % interval: almost four standard errors.
     let half = estimate.to - estimate.from;
     assert!(half < 0.1, "{name}: {estimate:?}");
-    assert!(
-        (estimate.value - exact).abs() <= half,
-        "{name}: {estimate:?}, exact {exact}"
-    );
+    assert!((estimate.value - exact).abs() <= half, "{name}: {estimate:?}, exact {exact}");
 }
 
 #[test]
@@ -335,9 +277,8 @@ fn the_indices_of_the_ishigami_function_are_those_of_the_literature() {
     let function =
         |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
     let found = ranked(&uniform_design(3, 16_384), function);
-    for (field, (first, total)) in [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)]
-        .into_iter()
-        .enumerate()
+    for (field, (first, total)) in
+        [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)].into_iter().enumerate()
     {
         assert_within(found[field].first_order, first, "first-order");
         assert_within(found[field].total, total, "total");
@@ -349,21 +290,11 @@ fn the_indices_of_a_linear_model_are_the_squares_of_its_factors() {
     let factors = [1.0, 2.0, 0.5, 0.0];
     let function = |x: &[f64]| x.iter().zip(factors).map(|(x, a)| a * x).sum::<f64>();
     let whole: f64 = factors.iter().map(|a| a * a).sum();
-    for (found, factor) in ranked(&uniform_design(4, 8192), function)
-        .iter()
-        .zip(factors)
-    {
+    for (found, factor) in ranked(&uniform_design(4, 8192), function).iter().zip(factors) {
         assert_within(found.first_order, factor * factor / whole, "first-order");
         assert_within(found.total, factor * factor / whole, "total");
     }
-    assert_eq!(
-        indices(&[Ranked {
-            first: 1.0,
-            second: 1.0,
-            swapped: vec![1.0]
-        }]),
-        None
-    );
+    assert_eq!(indices(&[Ranked { first: 1.0, second: 1.0, swapped: vec![1.0] }]), None);
 }
 
 fn spread_case(lines: &[(&str, &str, &str)]) -> Case {
@@ -377,16 +308,9 @@ fn spread_case(lines: &[(&str, &str, &str)]) -> Case {
 
 fn toleranced(case: &Case, samples: usize, seed: u64, jobs: usize) -> (Tolerance, Samples) {
     let inputs = case.inputs().unwrap();
-    let size = Size {
-        samples,
-        seed,
-        ranked: Some(samples / 4),
-    };
+    let size = Size { samples, seed, ranked: Some(samples / 4) };
     let study = Tolerance::of(case, &inputs, &[], size).unwrap();
-    let control = Control {
-        jobs: Some(jobs),
-        ..Control::PLAIN
-    };
+    let control = Control { jobs: Some(jobs), ..Control::PLAIN };
     let found = study.run(&inputs, &control).unwrap();
     (study, found)
 }
@@ -403,17 +327,10 @@ fn the_percentiles_of_a_monotone_case_are_those_of_the_transformed_distribution(
         let mut inputs = case.inputs().unwrap();
         let distribution = &study.design.distributions[0];
         distribution.put(distribution.quantile(part), &mut inputs);
-        let exact = solve(&inputs, Stages::of(Stage::Impact))
-            .unwrap()
-            .impact
-            .unwrap()
-            .force;
+        let exact = solve(&inputs, Stages::of(Stage::Impact)).unwrap().impact.unwrap().force;
         let (from, to) = found.interval.unwrap();
         assert!(to / from < 1.03);
-        assert!(
-            (found.value - exact).abs() < to - from,
-            "{part}: {found:?}, {exact}"
-        );
+        assert!((found.value - exact).abs() < to - from, "{part}: {found:?}, {exact}");
     }
 }
 

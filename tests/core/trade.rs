@@ -20,16 +20,11 @@ use tipstrike::study::trade::{
 };
 
 fn table_1() -> Inputs {
-    Case::table_1()
-        .inputs()
-        .expect("the built-in case is valid")
+    Case::table_1().inputs().expect("the built-in case is valid")
 }
 
 fn traded(inputs: &Inputs, within: f64) -> Trade {
-    let parameters = TradeParameters {
-        within,
-        patience: Patience::ONCE,
-    };
+    let parameters = TradeParameters { within, patience: Patience::ONCE };
     trade(inputs, &parameters, &|| true, &mut |_| ()).unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
@@ -48,38 +43,21 @@ fn of<'a>(trade: &'a Trade, setting: &Setting) -> &'a MeasuredSetting {
 }
 
 fn numerical(measured: &MeasuredSetting, subject: Subject) -> f64 {
-    let figures = measured
-        .found
-        .as_ref()
-        .unwrap_or_else(|refusal| panic!("{}: {refusal}", measured.setting));
+    let figures =
+        measured.found.as_ref().unwrap_or_else(|refusal| panic!("{}: {refusal}", measured.setting));
     figures.numerical[subject as usize].unwrap_or_else(|| panic!("no {}", subject.label()))
 }
 
 fn json(trade: &Trade) -> Value {
     let mut out = Vec::new();
-    write_json(
-        &TradeReport {
-            name: "case.toml",
-            title: "a title",
-            trade,
-        },
-        &mut out,
-    )
-    .expect("memory");
+    write_json(&TradeReport { name: "case.toml", title: "a title", trade }, &mut out)
+        .expect("memory");
     serde_json::from_slice(&out).expect("JSON")
 }
 
 fn text(trade: &Trade) -> String {
     let mut out = Vec::new();
-    write(
-        &TradeReport {
-            name: "case.toml",
-            title: "a title",
-            trade,
-        },
-        &mut out,
-    )
-    .expect("memory");
+    write(&TradeReport { name: "case.toml", title: "a title", trade }, &mut out).expect("memory");
     String::from_utf8(out).expect("text")
 }
 
@@ -90,17 +68,11 @@ fn table_1_within_five_percent_needs_the_method_dynamic() {
     assert_eq!(best.setting.method, Method::Dynamic, "{}", best.setting);
     assert!(best.qualifies && best.total().unwrap() <= 0.05);
     for measured in &trade.settings {
-        let dynamic = measured
-            .found
-            .as_ref()
-            .is_ok_and(|figures| figures.taken.method == Method::Dynamic);
+        let dynamic =
+            measured.found.as_ref().is_ok_and(|figures| figures.taken.method == Method::Dynamic);
         assert!(dynamic || !measured.qualifies, "{}", measured.setting);
     }
-    assert!(
-        text(trade).contains("\nWithin 5.0 %: dynamic with"),
-        "{}",
-        text(trade)
-    );
+    assert!(text(trade).contains("\nWithin 5.0 %: dynamic with"), "{}", text(trade));
 }
 
 /// With the elastic field, whose pairs are coupled.
@@ -122,22 +94,14 @@ fn every_method_is_compared_with_every_compliance_of_the_pair() {
     let trade = traded_table_1();
     let reference = trade.reference.as_ref().unwrap();
     let compliances = trade.compliances();
-    assert_eq!(
-        compliances.len(),
-        StiffnessModels::covering(&table_1()).count()
-    );
+    assert_eq!(compliances.len(), StiffnessModels::covering(&table_1()).count());
     assert_eq!(Some(compliances[0]), reference.setting.models);
     for models in compliances {
         for method in METHODS {
             let measured = trade.usual(method, models).expect("a setting");
             let is_reference =
                 (method, Some(models)) == (Method::Dynamic, reference.setting.models);
-            assert_eq!(
-                measured.total().unwrap() < 0.01,
-                is_reference,
-                "{}",
-                measured.setting
-            );
+            assert_eq!(measured.total().unwrap() < 0.01, is_reference, "{}", measured.setting);
         }
     }
     let build = trade.build.expect("both gears have a field");
@@ -149,15 +113,7 @@ fn every_method_is_compared_with_every_compliance_of_the_pair() {
     assert_eq!(json["field_seconds"].as_array().unwrap().len(), 2);
     let has =
         |line: &Value| line["tooth_compliance"] == "beam" && line["contact_compliance"] == "weber";
-    assert_eq!(
-        json["settings"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .filter(|line| has(line))
-            .count(),
-        4
-    );
+    assert_eq!(json["settings"].as_array().unwrap().iter().filter(|line| has(line)).count(), 4);
 }
 
 /// The rim is too thin for elements, and the beam replaces the field.
@@ -170,16 +126,9 @@ fn a_pair_without_a_field_is_compared_with_the_beam_and_the_page_says_why() {
     let trade = traded(&inputs, 0.05);
     let models = trade.reference.as_ref().unwrap().setting.models.unwrap();
     assert_eq!(models.tooth.name, ToothCompliance::BEAM.name());
-    assert!(
-        matches!(trade.build, Err(Refusal::NoField { .. })),
-        "{:?}",
-        trade.build
-    );
+    assert!(matches!(trade.build, Err(Refusal::NoField { .. })), "{:?}", trade.build);
     let words = text(&trade).replace('\n', " ");
-    assert!(
-        words.contains("There is no elastic field to compare with: "),
-        "{words}"
-    );
+    assert!(words.contains("There is no elastic field to compare with: "), "{words}");
     assert!(json(&trade).get("field_seconds").is_none());
 }
 
@@ -216,10 +165,7 @@ fn errors_fall_with_stations_and_tolerance() {
             numerical(
                 of(
                     trade,
-                    &Setting {
-                        stations: Some(stations),
-                        ..Setting::usual(method, &table_1())
-                    },
+                    &Setting { stations: Some(stations), ..Setting::usual(method, &table_1()) },
                 ),
                 Subject::Curve,
             )
@@ -238,21 +184,15 @@ fn errors_fall_with_stations_and_tolerance() {
         assert!(off(1024) < 5.0 * 8.0 / 1024.0 * off(8), "{method:?}");
     }
     let off = |tolerance| {
-        let setting = Setting {
-            tolerance: Some(tolerance),
-            ..Setting::usual(Method::Dynamic, &table_1())
-        };
+        let setting =
+            Setting { tolerance: Some(tolerance), ..Setting::usual(Method::Dynamic, &table_1()) };
         numerical(of(trade, &setting), Subject::PeakApproachForce)
     };
     // A coarse setting may by chance be as good as a finer one, because its steps end at the same
     // borders.
     for exponent in 3..=10 {
         let tolerance = table::tidy(10f64.powi(-exponent));
-        assert!(
-            off(tolerance) < 0.1 * tolerance,
-            "{tolerance:e}: {:e}",
-            off(tolerance)
-        );
+        assert!(off(tolerance) < 0.1 * tolerance, "{tolerance:e}: {:e}", off(tolerance));
     }
     assert!(off(1e-10) < 1e-11, "{:e} {:e}", off(1e-10), off(1e-3));
 }
@@ -281,18 +221,11 @@ fn only_needed_subjects_count_if_a_method_lacks_some() {
 
 #[test]
 fn the_cases_own_setting_is_there_and_marked() {
-    let inputs = Inputs {
-        method: Method::Dynamic,
-        stations: Some(77),
-        tolerance: 3e-5,
-        ..table_1()
-    };
+    let inputs =
+        Inputs { method: Method::Dynamic, stations: Some(77), tolerance: 3e-5, ..table_1() };
     let trade = traded(&inputs, 0.05);
-    let own: Vec<&MeasuredSetting> = trade
-        .settings
-        .iter()
-        .filter(|measured| measured.is_current)
-        .collect();
+    let own: Vec<&MeasuredSetting> =
+        trade.settings.iter().filter(|measured| measured.is_current).collect();
     assert_eq!(own.len(), 1);
     assert_eq!(own[0].setting, Setting::of(&inputs));
     assert_eq!(trade.planned, trade.settings.len());
@@ -301,17 +234,11 @@ fn the_cases_own_setting_is_there_and_marked() {
 #[test]
 fn no_corner_contact_by_both_is_agreement() {
     let inputs = table::inputs(
-        &table::cases()
-            .into_iter()
-            .find(|path| path.ends_with("tip-relief-enough.toml"))
-            .unwrap(),
+        &table::cases().into_iter().find(|path| path.ends_with("tip-relief-enough.toml")).unwrap(),
     );
     let trade = traded(&inputs, 0.05);
     let exact = of(&trade, &Setting::usual(Method::Exact, &table_1()));
-    assert_eq!(
-        exact.found.as_ref().unwrap().total[Subject::FirstContact as usize],
-        Some(0.0)
-    );
+    assert_eq!(exact.found.as_ref().unwrap().total[Subject::FirstContact as usize], Some(0.0));
     assert!(exact.qualifies, "{:?}", exact.total());
     let says = "No method finds corner contact: no setting is recommended.\n";
     assert!(text(&trade).ends_with(says), "{}", text(&trade));
@@ -330,19 +257,12 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
         case.set(key, value).unwrap();
     }
     let trade = traded(&case.inputs().unwrap(), 0.05);
-    assert!(
-        matches!(trade.reference, Err(Refusal::TooSlow { .. })),
-        "{:?}",
-        trade.reference
-    );
+    assert!(matches!(trade.reference, Err(Refusal::TooSlow { .. })), "{:?}", trade.reference);
     let dynamic = of(&trade, &Setting::usual(Method::Dynamic, &table_1()));
     assert!(dynamic.found.is_err() && !dynamic.qualifies && !dynamic.is_on_front);
     assert!(trade.recommended().is_none());
     let (text, json) = (text(&trade), json(&trade));
-    assert!(
-        text.contains("No reference: method dynamic refuses the case"),
-        "{text}"
-    );
+    assert!(text.contains("No reference: method dynamic refuses the case"), "{text}");
     assert!(json["no_reference"].is_string() && json.get("reference").is_none());
     let refused: Vec<&Value> = json["settings"]
         .as_array()
@@ -356,10 +276,7 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
 #[test]
 fn a_trade_reports_its_progress_and_stops_on_request() {
     let (seen, asked) = (Cell::new(0), Cell::new(0u32));
-    let parameters = TradeParameters {
-        within: 0.05,
-        patience: Patience::ONCE,
-    };
+    let parameters = TradeParameters { within: 0.05, patience: Patience::ONCE };
     let go_on = || {
         asked.set(asked.get() + 1);
         seen.get() < 5
@@ -370,9 +287,7 @@ fn a_trade_reports_its_progress_and_stops_on_request() {
     });
     assert_eq!((stopped.err(), seen.get()), (Some(Refusal::Stopped), 5));
     assert!(asked.get() > 5);
-    let never = trade(&table_1(), &parameters, &|| false, &mut |_| {
-        panic!("no benchmark")
-    });
+    let never = trade(&table_1(), &parameters, &|| false, &mut |_| panic!("no benchmark"));
     assert_eq!(never.err(), Some(Refusal::Stopped));
 }
 
@@ -385,18 +300,8 @@ fn json_has_every_setting_with_its_errors() {
         (&"case.toml".into(), &"a title".into(), &0.05.into())
     );
     assert_eq!(object["reference"]["tolerance"], 1e-12);
-    assert!(
-        object["reference"]["quantities"]["dynamic_peak_force"]
-            .as_f64()
-            .unwrap()
-            > 1000.0
-    );
-    assert!(
-        object["reference"]["disagreement"]["peak_force"]
-            .as_f64()
-            .unwrap()
-            < 1e-9
-    );
+    assert!(object["reference"]["quantities"]["dynamic_peak_force"].as_f64().unwrap() > 1000.0);
+    assert!(object["reference"]["disagreement"]["peak_force"].as_f64().unwrap() < 1e-9);
     let settings = object["settings"].as_array().unwrap();
     assert_eq!(settings.len(), trade.settings.len());
     for setting in settings {
@@ -443,22 +348,13 @@ fn cost_grows_linearly_with_cycles_and_stations() {
             deflection: None,
             ..table_1()
         };
-        let solution = solve(
-            &Inputs {
-                damping_ratio,
-                ..inputs
-            },
-            Stages::of(Stage::Dynamic),
-        )
-        .expect("a solution");
+        let solution = solve(&Inputs { damping_ratio, ..inputs }, Stages::of(Stage::Dynamic))
+            .expect("a solution");
         solution.dynamic.expect("the method").effort.evaluations as f64
     };
     let slope = |from: f64, to: f64, steps: f64| (to - from) / steps;
-    let (few, some, many) = (
-        evaluations(0.0, 20, 64),
-        evaluations(0.0, 40, 64),
-        evaluations(0.0, 160, 64),
-    );
+    let (few, some, many) =
+        (evaluations(0.0, 20, 64), evaluations(0.0, 40, 64), evaluations(0.0, 160, 64));
     let ratio = slope(some, many, 120.0) / slope(few, some, 20.0);
     assert!(
         (0.8..1.25).contains(&ratio),
@@ -466,11 +362,8 @@ fn cost_grows_linearly_with_cycles_and_stations() {
     );
     let (few, many) = (evaluations(0.07, 20, 64), evaluations(0.07, 1000, 64));
     assert!(many < 1.1 * few, "a repeated cycle is free: {few} {many}");
-    let (few, some, many) = (
-        evaluations(0.07, 20, 64),
-        evaluations(0.07, 20, 128),
-        evaluations(0.07, 20, 1024),
-    );
+    let (few, some, many) =
+        (evaluations(0.07, 20, 64), evaluations(0.07, 20, 128), evaluations(0.07, 20, 1024));
     let ratio = slope(some, many, 896.0) / slope(few, some, 64.0);
     assert!(
         (0.9..1.1).contains(&ratio),
@@ -490,10 +383,7 @@ fn the_page_on_speed_has_the_stored_table() {
 
 #[test]
 fn stored_errors_agree_within_a_factor_of_two() {
-    let (stored, made) = (
-        table::Table::stored(),
-        table::Table::of(table::traded_once()),
-    );
+    let (stored, made) = (table::Table::stored(), table::Table::of(table::traded_once()));
     if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
         made.keep_errors();
         table::write_docs();

@@ -68,17 +68,12 @@ pub(crate) fn inputs(file: &str) -> Inputs {
 
 /// The same inputs with a tooth compliance.
 pub(crate) fn with_model(inputs: &Inputs, model: ToothCompliance) -> Inputs {
-    Inputs {
-        tooth_compliance: Some(model),
-        ..inputs.clone()
-    }
+    Inputs { tooth_compliance: Some(model), ..inputs.clone() }
 }
 
 fn row(figure: &Figure, published: &str, model: &str, ours: Option<f64>) -> String {
     let ours = ours.filter(|value| value.is_finite());
-    let shown = ours.map_or("outside its range".to_owned(), |value| {
-        significant(value, 4)
-    });
+    let shown = ours.map_or("outside its range".to_owned(), |value| significant(value, 4));
     let deviation = ours.map_or("-".to_owned(), |value| {
         format!("{:+.1} %", 100.0 * (value / figure.published - 1.0))
     });
@@ -86,11 +81,7 @@ fn row(figure: &Figure, published: &str, model: &str, ours: Option<f64>) -> Stri
 }
 
 fn figure(figure: &Figure, inputs: &Inputs) -> String {
-    let unit = if figure.unit.is_empty() {
-        String::new()
-    } else {
-        format!(" {}", figure.unit)
-    };
+    let unit = if figure.unit.is_empty() { String::new() } else { format!(" {}", figure.unit) };
     let published = format!("{} | {}{unit}", figure.name, figure.published);
     if !figure.by_model {
         return row(figure, &published, "any", (figure.ours)(inputs));

@@ -21,10 +21,7 @@ fn case(name: &str) -> Inputs {
 }
 
 fn solved(inputs: &Inputs) -> Solution {
-    let inputs = Inputs {
-        method: Method::Dynamic,
-        ..inputs.clone()
-    };
+    let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
     solve(&inputs, Stages::EVERY).unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
@@ -121,11 +118,9 @@ fn the_steady_motion_is_that_of_plain_steps() {
     let table_1 = case("zhou-chen-2014");
     let natural = solved(&table_1).resonance.unwrap().natural_frequency;
     let resonance = TAU * natural / f64::from(table_1.driver.teeth);
-    for (part, damping_ratio, laps, is_lost) in [
-        (0.12, 0.07, 8, false),
-        (0.5, 0.07, 30, true),
-        (0.9, 0.02, 200, true),
-    ] {
+    for (part, damping_ratio, laps, is_lost) in
+        [(0.12, 0.07, 8, false), (0.5, 0.07, 30, true), (0.9, 0.02, 200, true)]
+    {
         let inputs = Inputs {
             speed: part * resonance,
             drive: tipstrike::model::inputs::Drive::Torque(table_1.torque()),
@@ -146,32 +141,20 @@ fn the_steady_motion_is_that_of_plain_steps() {
                 "{part}, harmonic {order}: {own:e} and {other:e}"
             );
         }
-        for (own, other) in [
-            (scale, range(&samples)),
-            (found.mesh_force, of_mesh),
-            (found.tooth_force, of_tooth),
-        ] {
-            assert!(
-                (own / other - 1.0).abs() < 2e-4,
-                "{part}: {own} and {other}"
-            );
+        for (own, other) in
+            [(scale, range(&samples)), (found.mesh_force, of_mesh), (found.tooth_force, of_tooth)]
+        {
+            assert!((own / other - 1.0).abs() < 2e-4, "{part}: {own} and {other}");
         }
     }
 }
 
 #[test]
 fn an_undamped_motion_has_no_steady_state_and_the_rest_of_the_solve_stays() {
-    let inputs = Inputs {
-        damping_ratio: 0.0,
-        warmup_cycles: 2,
-        ..case("zhou-chen-2014")
-    };
+    let inputs = Inputs { damping_ratio: 0.0, warmup_cycles: 2, ..case("zhou-chen-2014") };
     let solution = solved(&inputs);
     assert!(solution.dynamic.is_some() && solution.static_spectrum.is_some());
-    assert!(matches!(
-        solution.steady,
-        Some(Err(Refusal::NoSteadyMotion { .. }))
-    ));
+    assert!(matches!(solution.steady, Some(Err(Refusal::NoSteadyMotion { .. }))));
 }
 
 /// With little damping at half the resonance speed the back flanks strike, and the note and the
@@ -201,20 +184,14 @@ fn a_pair_with_little_damping_rattles_across_its_backlash() {
     let is_strike = |note: &Note| note.code == "back-flank-strikes";
     let note = notes(&pair(2e-6), &rattling).into_iter().find(is_strike);
     let message = note.unwrap().message;
-    assert!(
-        message.contains("across the backlash of 2.000 um"),
-        "{message}"
-    );
+    assert!(message.contains("across the backlash of 2.000 um"), "{message}");
     let wide = solved(&pair(3e-3));
     assert_eq!(keys.map(|key| value(&wide, key)), [Some(0.0); 4]);
     let without = solved(&pair(0.0));
     assert_eq!(keys.map(|key| value(&without, key)), [None; 4]);
     assert!(!notes(&pair(0.0), &without).iter().any(is_strike));
     let [far, none] = [&wide, &without].map(|solution| steady(solution).spectrum.peak_to_peak);
-    assert!(
-        (far / none - 1.0).abs() < 1e-8,
-        "{far} {none}: no back flank is reached"
-    );
+    assert!((far / none - 1.0).abs() < 1e-8, "{far} {none}: no back flank is reached");
 }
 
 #[test]

@@ -67,21 +67,17 @@ fn a_text_is_solved_or_refused_or_its_errors_are_reported_with_their_places() {
 #[test]
 fn bytes_that_are_no_text_are_reported_with_their_places() {
     let spoilt = prop::collection::vec((any::<Index>(), any::<u8>()), 0..4);
-    hold(
-        500,
-        &(texts::mutated(), spoilt, any::<Index>()),
-        |(text, spoilt, end)| {
-            let mut bytes = text.into_bytes();
-            bytes.truncate(end.index(bytes.len() + 1).max(bytes.len() / 2));
-            for (at, byte) in spoilt {
-                if !bytes.is_empty() {
-                    let at = at.index(bytes.len());
-                    bytes[at] = byte;
-                }
+    hold(500, &(texts::mutated(), spoilt, any::<Index>()), |(text, spoilt, end)| {
+        let mut bytes = text.into_bytes();
+        bytes.truncate(end.index(bytes.len() + 1).max(bytes.len() / 2));
+        for (at, byte) in spoilt {
+            if !bytes.is_empty() {
+                let at = at.index(bytes.len());
+                bytes[at] = byte;
             }
-            assert_bytes(&bytes);
-        },
-    );
+        }
+        assert_bytes(&bytes);
+    });
     hold(300, &prop::collection::vec(any::<u8>(), 0..300), |bytes| {
         assert_bytes(&bytes);
     });
@@ -95,68 +91,45 @@ fn a_save_keeps_edits_and_comments() {
     let comments = prop::collection::vec((any::<Index>(), any::<bool>()), 0..4);
     let edited = Cell::new(0u32);
     let texts = prop_oneof![texts::written(), texts::mutated()];
-    hold(
-        1500,
-        &(texts, comments, edits()),
-        |(text, comments, edits)| {
-            let Ok(plain) = Document::parse("case", &text) else {
-                return;
-            };
-            let commented = with_comments(&text, &comments);
-            let Ok(mut document) = Document::parse("case", &commented) else {
-                return;
-            };
-            let is_same = document.case == plain.case;
-            for edit in &edits {
-                edit.apply(&mut document.case);
-            }
-            let rendered = document.render();
-            if document.case.inputs().is_err() {
-                return;
-            }
-            edited.set(edited.get() + 1);
-            let again = Document::parse("case", &rendered)
-                .unwrap_or_else(|faults| panic!("{}\n{rendered}", faults[0]));
-            assert_same(&document, &again);
-            assert_eq!(again.render(), rendered);
-            // A comment inside a multi-line text is not a comment, and removing a variant also
-            // removes the comments inside it.
-            let is_same = is_same && !edits.iter().any(|edit| matches!(edit, Edit::Invariant));
-            let lost = (0..comments.len())
-                .filter(|index| !rendered.contains(&format!("# kept {index}")))
-                .count();
-            assert!(
-                !is_same || lost == 0,
-                "a comment is lost:\n{commented}\nbecame\n{rendered}"
-            );
-        },
-    );
-    assert!(
-        edited.get() > 300,
-        "only {} edits left a valid case",
-        edited.get()
-    );
+    hold(1500, &(texts, comments, edits()), |(text, comments, edits)| {
+        let Ok(plain) = Document::parse("case", &text) else {
+            return;
+        };
+        let commented = with_comments(&text, &comments);
+        let Ok(mut document) = Document::parse("case", &commented) else {
+            return;
+        };
+        let is_same = document.case == plain.case;
+        for edit in &edits {
+            edit.apply(&mut document.case);
+        }
+        let rendered = document.render();
+        if document.case.inputs().is_err() {
+            return;
+        }
+        edited.set(edited.get() + 1);
+        let again = Document::parse("case", &rendered)
+            .unwrap_or_else(|faults| panic!("{}\n{rendered}", faults[0]));
+        assert_same(&document, &again);
+        assert_eq!(again.render(), rendered);
+        // A comment inside a multi-line text is not a comment, and removing a variant also
+        // removes the comments inside it.
+        let is_same = is_same && !edits.iter().any(|edit| matches!(edit, Edit::Invariant));
+        let lost = (0..comments.len())
+            .filter(|index| !rendered.contains(&format!("# kept {index}")))
+            .count();
+        assert!(!is_same || lost == 0, "a comment is lost:\n{commented}\nbecame\n{rendered}");
+    });
+    assert!(edited.get() > 300, "only {} edits left a valid case", edited.get());
 }
 
 #[test]
 fn an_inline_table_of_many_lines_keeps_its_comments() {
     let text = include_str!("kept/inline-table-of-many-lines.toml");
     for (key, value, comments) in [
-        (
-            "pair.module",
-            "4 mm",
-            ["# both", "# normal, of both", "# usual"].as_slice(),
-        ),
-        (
-            "pair.pressure_angle",
-            "22 deg",
-            &["# both", "# normal, of both", "# usual"],
-        ),
-        (
-            "pair.centre_distance",
-            "101 mm",
-            &["# both", "# normal, of both", "# usual"],
-        ),
+        ("pair.module", "4 mm", ["# both", "# normal, of both", "# usual"].as_slice()),
+        ("pair.pressure_angle", "22 deg", &["# both", "# normal, of both", "# usual"]),
+        ("pair.centre_distance", "101 mm", &["# both", "# normal, of both", "# usual"]),
         ("pair.pressure_angle", "", &["# both", "# normal, of both"]),
     ] {
         let mut document = Document::parse("case", text).expect("a case");
@@ -166,10 +139,7 @@ fn an_inline_table_of_many_lines_keeps_its_comments() {
             comments.iter().all(|comment| rendered.contains(comment)),
             "{key} = {value}:\n{rendered}"
         );
-        assert_same(
-            &document,
-            &Document::parse("case", &rendered).expect("a case"),
-        );
+        assert_same(&document, &Document::parse("case", &rendered).expect("a case"));
     }
 }
 
@@ -269,10 +239,7 @@ fn with_comments(text: &str, comments: &[(Index, bool)]) -> String {
     for (index, (at, at_header)) in comments.iter().enumerate() {
         let comment = format!("# kept {index}");
         let at = at.index(lines.len());
-        match lines[at..]
-            .iter()
-            .position(|line| line.starts_with('[') && !line.contains('#'))
-        {
+        match lines[at..].iter().position(|line| line.starts_with('[') && !line.contains('#')) {
             Some(below) if *at_header => lines[at + below].extend([" ", &comment]),
             _ => lines.insert(at, comment),
         }
@@ -303,29 +270,16 @@ fn assert_safe_headless(text: &str) {
         let (exit, output, errors) = run(words, path.as_os_str().to_owned());
         assert_safe(&output);
         assert_safe(&errors);
-        assert!(
-            exit != Exit::Usage && exit != Exit::Unreadable,
-            "{exit:?}: {errors}"
-        );
+        assert!(exit != Exit::Usage && exit != Exit::Unreadable, "{exit:?}: {errors}");
         let is_silent = errors.is_empty();
-        assert!(
-            (exit == Exit::Done) == is_silent || exit == Exit::Exceeded,
-            "{exit:?}: {errors}"
-        );
+        assert!((exit == Exit::Done) == is_silent || exit == Exit::Exceeded, "{exit:?}: {errors}");
     }
 }
 
 fn run(words: &[&str], case: OsString) -> (Exit, String, String) {
     let (mut output, mut errors) = (Vec::new(), Vec::new());
-    let mut streams = Streams {
-        output: Box::new(&mut output),
-        errors: Box::new(&mut errors),
-    };
-    let line = ["tipstrike"]
-        .iter()
-        .chain(words)
-        .map(OsString::from)
-        .chain([case]);
+    let mut streams = Streams { output: Box::new(&mut output), errors: Box::new(&mut errors) };
+    let line = ["tipstrike"].iter().chain(words).map(OsString::from).chain([case]);
     let exit = cli::parse(line, &mut streams)
         .and_then(|arguments| arguments.command.ok_or(Exit::Usage))
         .map_or_else(|exit| exit, |command| cli::run(&command, &mut streams));

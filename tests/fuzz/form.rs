@@ -76,42 +76,21 @@ struct Bench {
 #[test]
 fn any_typing_leaves_the_form_valid_and_the_screen_safe() {
     let draft = Document::new(Case::fresh()).render();
-    let text = prop_oneof![
-        texts::written(),
-        texts::mutated(),
-        Just(draft),
-        Just(String::new())
-    ];
+    let text = prop_oneof![texts::written(), texts::mutated(), Just(draft), Just(String::new())];
     let seen = RefCell::new(BTreeSet::new());
-    hold(
-        400,
-        &(text, any::<bool>(), happenings()),
-        |(text, ascii, happenings)| {
-            let mut bench = Bench::on(&text, ascii);
-            bench.assert_sound();
-            for happening in happenings {
-                bench.take(happening);
-            }
-            bench.assert_undone();
-            seen.borrow_mut().append(&mut bench.seen);
-        },
-    );
+    hold(400, &(text, any::<bool>(), happenings()), |(text, ascii, happenings)| {
+        let mut bench = Bench::on(&text, ascii);
+        bench.assert_sound();
+        for happening in happenings {
+            bench.take(happening);
+        }
+        bench.assert_undone();
+        seen.borrow_mut().append(&mut bench.seen);
+    });
     let prompts = ["browse", "save as", "ask", "page", "pick", "aim"];
-    let ends = [
-        "loaded",
-        "not loaded",
-        "saved",
-        "not saved",
-        "quit",
-        "invalid",
-        "refused",
-    ];
+    let ends = ["loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
     let all: BTreeSet<_> = prompts.into_iter().chain(ends).collect();
-    assert_eq!(
-        *seen.borrow(),
-        all,
-        "the keys get too seldom to all that the workbench does"
-    );
+    assert_eq!(*seen.borrow(), all, "the keys get too seldom to all that the workbench does");
 }
 
 #[test]
@@ -120,10 +99,7 @@ fn control_characters_in_a_name_are_shown_as_marks() {
     for title in HOSTILE {
         bench.take(Happening::Paste(title.to_owned()));
         bench.app.tab.case.write(0, title);
-        bench.draw(Size {
-            width: 80,
-            height: 24,
-        });
+        bench.draw(Size { width: 80, height: 24 });
     }
 }
 
@@ -137,10 +113,7 @@ fn every_prompt_and_page_is_drawn_at_every_size() {
         &[ctrl('c')],
         &[ctrl('u'), ctrl('q')],
     ];
-    for (ascii, keys) in openers
-        .into_iter()
-        .enumerate()
-        .map(|(index, keys)| (index % 2 == 1, keys))
+    for (ascii, keys) in openers.into_iter().enumerate().map(|(index, keys)| (index % 2 == 1, keys))
     {
         let mut bench = Bench::on(&texts::bases()[0], ascii);
         bench.feed(keys.iter().map(|key| Event::Input(Input::Key(*key))));
@@ -155,11 +128,8 @@ fn every_prompt_and_page_is_drawn_at_every_size() {
 }
 
 fn happenings() -> impl Strategy<Value = Vec<Happening>> {
-    let size = prop_oneof![
-        (0..=200u16, 0..=60u16),
-        (60..=100u16, 16..=30u16),
-        (0..=4u16, 0..=4u16)
-    ];
+    let size =
+        prop_oneof![(0..=200u16, 0..=60u16), (60..=100u16, 16..=30u16), (0..=4u16, 0..=4u16)];
     let letters = prop_oneof![
         select(&HOSTILE[..]).prop_map(str::to_owned),
         ".{0,8}",
@@ -228,24 +198,15 @@ impl Bench {
         fs::write(&path, text).expect("room on the disk");
         let read = Document::read_draft(&path).ok();
         let path = read.is_some().then_some(path);
-        let look = Look {
-            ascii,
-            ..Look::FULL
-        };
+        let look = Look { ascii, ..Look::FULL };
         let app = update::opened(
             read.unwrap_or_else(store::built_in),
             path,
             look,
-            Size {
-                width: 80,
-                height: 24,
-            },
+            Size { width: 80, height: 24 },
         );
         let home = tempfile::tempdir().expect("a folder");
-        let state = State {
-            folder: Some(home.path().to_owned()),
-            ..State::default()
-        };
+        let state = State { folder: Some(home.path().to_owned()), ..State::default() };
         let first = app.tab.case.clone();
         let opened = vec![first, Case::table_1(), Case::fresh()];
         Bench {
@@ -310,8 +271,7 @@ impl Bench {
         });
         let invalid = (!self.app.tab.problems.is_empty()).then_some("invalid");
         let refused = self.app.tab.refusal.is_some().then_some("refused");
-        self.seen
-            .extend([prompt, invalid, refused].into_iter().flatten());
+        self.seen.extend([prompt, invalid, refused].into_iter().flatten());
     }
 
     /// Applies a batch of events, as the main loop does.
@@ -371,14 +331,8 @@ impl Bench {
                 None
             }
             Effect::Quit => {
-                let is_unsaved = self
-                    .app
-                    .tabs()
-                    .any(tipstrike::tui::testing::tab::Tab::is_unsaved);
-                assert!(
-                    was_asked || !is_unsaved,
-                    "edits are not lost without a question"
-                );
+                let is_unsaved = self.app.tabs().any(tipstrike::tui::testing::tab::Tab::is_unsaved);
+                assert!(was_asked || !is_unsaved, "edits are not lost without a question");
                 self.seen.insert("quit");
                 None
             }
@@ -451,9 +405,8 @@ impl Bench {
     /// A path limited to the folder.
     fn within(&self, path: &Path) -> PathBuf {
         let inside = path.strip_prefix(self.folder.path()).unwrap_or(path);
-        let names = inside
-            .components()
-            .filter(|part| matches!(part, std::path::Component::Normal(_)));
+        let names =
+            inside.components().filter(|part| matches!(part, std::path::Component::Normal(_)));
         self.folder.path().join(names.collect::<PathBuf>())
     }
 
@@ -466,20 +419,12 @@ impl Bench {
     fn assert_sound(&self) {
         let app = &self.app;
         if rows::names(&app.tab.case, app.tab.form.focus).is_empty() {
-            let line = [
-                app.tab.form.input.value(),
-                &app.ending().unwrap_or_default(),
-            ]
-            .concat();
+            let line = [app.tab.form.input.value(), &app.ending().unwrap_or_default()].concat();
             let is_words = rows::field(&app.tab.case, app.tab.form.focus)
                 .is_some_and(|field| matches!(field.kind, Kind::Text));
             // While a number is typed, its unit may be that of the field, and it may have
             // surrounding blanks.
-            let said = if is_words || !app.has_line() {
-                line.as_str()
-            } else {
-                line.trim()
-            };
+            let said = if is_words || !app.has_line() { line.as_str() } else { line.trim() };
             assert_eq!(
                 said,
                 rows::text(&app.tab.case, app.tab.form.focus).unwrap_or_default(),
@@ -493,15 +438,9 @@ impl Bench {
         );
         let inputs = app.tab.case.inputs().ok();
         if let (Some(inputs), Some(answer), false) = (inputs, &app.tab.answer, app.tab.is_stale()) {
-            assert_eq!(
-                answer.serial, app.tab.serial,
-                "the results are those of the form"
-            );
+            assert_eq!(answer.serial, app.tab.serial, "the results are those of the form");
             let chosen = inputs.method == Method::Auto || answer.pending.is_some();
-            assert!(
-                chosen || answer.active == inputs.method,
-                "the method of the form is first"
-            );
+            assert!(chosen || answer.active == inputs.method, "the method of the form is first");
         }
         self.draw(app.layout.size());
         self.draw(Size {
@@ -514,17 +453,10 @@ impl Bench {
         let area = Rect::new(0, 0, size.width, size.height);
         let mut buffer = Buffer::empty(area);
         let cursor = view::draw(&self.app, area, &mut buffer);
-        assert!(
-            cursor.is_none_or(|cursor| area.contains(cursor)),
-            "{cursor:?} in {size:?}"
-        );
+        assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} in {size:?}");
         for cell in &buffer.content {
             let is_wrong = |letter| is_hostile(letter) || self.app.look.ascii && !letter.is_ascii();
-            assert!(
-                !cell.symbol().contains(is_wrong),
-                "{:?} on the screen",
-                cell.symbol()
-            );
+            assert!(!cell.symbol().contains(is_wrong), "{:?} on the screen", cell.symbol());
         }
         let is_marked = buffer
             .content
@@ -543,17 +475,11 @@ impl Bench {
 
     /// Undoes all edits and expects the first case; redoes them and expects the last one.
     fn assert_undone(&mut self) {
-        self.feed(vec![
-            Event::Input(Input::Key(key(KeyCode::Esc)));
-            self.app.prompts.len()
-        ]);
+        self.feed(vec![Event::Input(Input::Key(key(KeyCode::Esc))); self.app.prompts.len()]);
         self.repeat(ctrl('y'), "nothing to redo");
         let last = self.app.tab.case.clone();
         self.repeat(ctrl('z'), "nothing to undo");
-        assert!(
-            self.opened.contains(&self.app.tab.case),
-            "undoing everything leads back"
-        );
+        assert!(self.opened.contains(&self.app.tab.case), "undoing everything leads back");
         self.assert_sound();
         self.repeat(ctrl('y'), "nothing to redo");
         assert_eq!(self.app.tab.case, last, "redoing everything leads forward");
@@ -563,12 +489,7 @@ impl Bench {
         for _ in 0..1000 {
             self.feed([Event::Input(Input::Key(key))]);
             self.answer();
-            if self
-                .app
-                .message
-                .as_ref()
-                .is_some_and(|message| message.text == end)
-            {
+            if self.app.message.as_ref().is_some_and(|message| message.text == end) {
                 return;
             }
         }

@@ -14,35 +14,12 @@ use crate::{hold, values};
 
 /// Tables with their keys and values.
 const TABLES: [(&str, &[(&str, &str)]); 9] = [
-    (
-        "pair",
-        &[("module", "\"5 mm\""), ("pressure_angle", "\"20 deg\"")],
-    ),
-    (
-        "driver",
-        &[
-            ("teeth", "20"),
-            ("face_width", "\"8 mm\""),
-            ("young", "\"205 GPa\""),
-        ],
-    ),
-    (
-        "driven",
-        &[
-            ("teeth", "20"),
-            ("face_width", "\"8 mm\""),
-            ("tip_relief", "\"0 um\""),
-        ],
-    ),
+    ("pair", &[("module", "\"5 mm\""), ("pressure_angle", "\"20 deg\"")]),
+    ("driver", &[("teeth", "20"), ("face_width", "\"8 mm\""), ("young", "\"205 GPa\"")]),
+    ("driven", &[("teeth", "20"), ("face_width", "\"8 mm\""), ("tip_relief", "\"0 um\"")]),
     ("deviations", &[("base_pitch", "\"16 um\"")]),
-    (
-        "operation",
-        &[("power", "\"15 kW\""), ("speed", "\"2000 rpm\"")],
-    ),
-    (
-        "limits",
-        &[("impact_force", "\"2500 N\""), ("dynamic_factor", "1.5")],
-    ),
+    ("operation", &[("power", "\"15 kW\""), ("speed", "\"2000 rpm\"")]),
+    ("limits", &[("impact_force", "\"2500 N\""), ("dynamic_factor", "1.5")]),
     (
         "spread",
         &[
@@ -50,20 +27,8 @@ const TABLES: [(&str, &[(&str, &str)]); 9] = [
             ("driver.face_width", "{ uniform = \"1 mm\" }"),
         ],
     ),
-    (
-        "variants.relieved",
-        &[
-            ("driven.tip_relief", "\"48 um\""),
-            ("operation.power", "\"9 kW\""),
-        ],
-    ),
-    (
-        "variants.slow",
-        &[
-            ("operation.speed", "\"100 rpm\""),
-            ("limits.impact_force", "\"900 N\""),
-        ],
-    ),
+    ("variants.relieved", &[("driven.tip_relief", "\"48 um\""), ("operation.power", "\"9 kW\"")]),
+    ("variants.slow", &[("operation.speed", "\"100 rpm\""), ("limits.impact_force", "\"900 N\"")]),
 ];
 
 /// A file, and the lines of each key of a case.
@@ -130,11 +95,7 @@ impl Layout {
             let comment = format!("# comment {}.", self.comments);
             self.end("", &comment);
         }
-        let comment = if self.choice(3) == 0 {
-            " # of this line"
-        } else {
-            ""
-        };
+        let comment = if self.choice(3) == 0 { " # of this line" } else { "" };
         let lines: Vec<&str> = line.split('\n').collect();
         for (at, part) in lines.iter().enumerate() {
             let comment = if at + 1 == lines.len() { comment } else { "" };
@@ -161,11 +122,9 @@ impl Layout {
         for (name, value) in members {
             let above = match self.choice(3) {
                 0 => table.replace('.', " . "),
-                1 => table
-                    .split('.')
-                    .map(|part| format!("\"{part}\""))
-                    .collect::<Vec<_>>()
-                    .join("."),
+                1 => {
+                    table.split('.').map(|part| format!("\"{part}\"")).collect::<Vec<_>>().join(".")
+                }
                 _ => table.to_owned(),
             };
             let line = format!("{above} . {} = {value}", self.spelled(table, name));
@@ -217,17 +176,12 @@ impl Layout {
                 return self.header(table, members);
             };
             self.line(&format!("[{table}"), &format!("[{table}.{above}]"));
-            self.line(
-                &format!("{table}.{above}.{name}"),
-                &format!("{name} = {value}"),
-            );
+            self.line(&format!("{table}.{above}.{name}"), &format!("{name} = {value}"));
         }
     }
 
     fn spelled(&mut self, table: &str, name: &str) -> String {
-        let is_whole = ["spread", "variants"]
-            .iter()
-            .any(|own| table.starts_with(own));
+        let is_whole = ["spread", "variants"].iter().any(|own| table.starts_with(own));
         match self.choice(3) {
             0 if is_whole => name.to_owned(),
             0 => format!("'{name}'"),
@@ -253,12 +207,7 @@ fn values(case: &Case) -> BTreeSet<(String, String)> {
     let variants = case.variants.iter().flat_map(|variant| {
         let above = format!("variants.{}", variant.name);
         let change = variant.overrides.iter();
-        change.map(move |change| {
-            (
-                key(&above, &change.key.replace('"', "")),
-                change.text.clone(),
-            )
-        })
+        change.map(move |change| (key(&above, &change.key.replace('"', "")), change.text.clone()))
     });
     fields.chain(limits).chain(spread).chain(variants).collect()
 }
@@ -305,11 +254,7 @@ impl Other {
 fn others() -> impl Strategy<Value = Vec<Other>> {
     let spread = (
         prop::sample::select(
-            &[
-                "deviations.base_pitch",
-                "driver.face_width",
-                "operation.speed",
-            ][..],
+            &["deviations.base_pitch", "driver.face_width", "operation.speed"][..],
         ),
         prop::sample::select(&["normal", "uniform", "none"][..]),
         prop::sample::select(&["2 um", "1 mm", "5 rpm"][..]),
@@ -340,28 +285,24 @@ fn an_edit_changes_only_the_lines_of_its_values() {
         }
         let rendered = document.render();
         let after = values(&document.case);
-        let changed: Vec<&str> = before
-            .symmetric_difference(&after)
-            .map(|(key, _)| key.as_str())
-            .collect();
+        let changed: Vec<&str> =
+            before.symmetric_difference(&after).map(|(key, _)| key.as_str()).collect();
         let is_removed = |table: &str| {
             let is_of_it = |(key, _): &(String, String)| key.starts_with(&format!("{table}."));
             table.starts_with("variants") && !after.iter().any(is_of_it)
         };
         let is_touched = |line: usize| {
             let mut of_line = layout.lines.iter().filter(|(_, at)| *at == line);
-            of_line.any(
-                |(own, _)| match (own.strip_prefix('['), own.strip_prefix('{')) {
-                    // A removed distribution or variant leaves no header.
-                    (Some(table), _) => {
-                        is_removed(table) || changed.iter().any(|key| key.starts_with(table))
-                    }
-                    (_, Some(table)) => is_removed(table),
-                    _ => changed
-                        .iter()
-                        .any(|key| own == key || own.ends_with('.') && key.starts_with(own)),
-                },
-            )
+            of_line.any(|(own, _)| match (own.strip_prefix('['), own.strip_prefix('{')) {
+                // A removed distribution or variant leaves no header.
+                (Some(table), _) => {
+                    is_removed(table) || changed.iter().any(|key| key.starts_with(table))
+                }
+                (_, Some(table)) => is_removed(table),
+                _ => changed
+                    .iter()
+                    .any(|key| own == key || own.ends_with('.') && key.starts_with(own)),
+            })
         };
         let mut rest = rendered.as_str();
         for (number, line) in text.split_inclusive('\n').enumerate() {

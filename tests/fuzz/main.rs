@@ -5,11 +5,7 @@
 //! other ones each time. Failures of the past are stored under `kept` and are tried first.
 
 #![cfg(all(feature = "cli", feature = "tui"))]
-#![allow(
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a failing test may panic"
-)]
+#![allow(clippy::expect_used, clippy::panic, reason = "a failing test may panic")]
 
 mod documents;
 mod form;
@@ -31,9 +27,7 @@ const SHRINKING: u32 = 30_000;
 
 /// The requested multiple of cases, if any.
 fn times() -> Option<u32> {
-    env::var("TIPSTRIKE_FUZZ")
-        .ok()
-        .map(|times| times.parse().expect("TIPSTRIKE_FUZZ is a number"))
+    env::var("TIPSTRIKE_FUZZ").ok().map(|times| times.parse().expect("TIPSTRIKE_FUZZ is a number"))
 }
 
 /// Checks a property, which asserts, with a number of cases.
@@ -44,11 +38,7 @@ fn hold<S: Strategy>(cases: u32, strategy: &S, property: impl Fn(S::Value)) {
         cases: cases * asked.unwrap_or(1),
         failure_persistence: None,
         max_shrink_time: SHRINKING,
-        rng_seed: if asked.is_some() {
-            RngSeed::Random
-        } else {
-            RngSeed::Fixed(1)
-        },
+        rng_seed: if asked.is_some() { RngSeed::Random } else { RngSeed::Fixed(1) },
         ..Config::default()
     };
     let result = TestRunner::new(config).run(strategy, |value| {
@@ -82,17 +72,12 @@ fn is_hostile(character: char) -> bool {
         ('\u{1d173}', '\u{1d17a}'),
         ('\u{e0000}', '\u{e0fff}'),
     ];
-    character.is_control()
-        || IGNORABLE
-            .iter()
-            .any(|&(from, to)| (from..=to).contains(&character))
+    character.is_control() || IGNORABLE.iter().any(|&(from, to)| (from..=to).contains(&character))
 }
 
 /// Checks that the lines are safe to print on a terminal.
 #[track_caller]
 fn assert_safe(text: &str) {
-    let hostile = text
-        .chars()
-        .find(|&character| character != '\n' && is_hostile(character));
+    let hostile = text.chars().find(|&character| character != '\n' && is_hostile(character));
     assert_eq!(hostile, None, "in {text:?}");
 }

@@ -25,11 +25,7 @@ pub(crate) enum Fate {
 pub(crate) fn read_and_solve(text: &str) -> Fate {
     match Document::parse("a case.toml", text) {
         Ok(document) => {
-            assert_eq!(
-                document.render(),
-                text,
-                "untouched, it is written as it was read"
-            );
+            assert_eq!(document.render(), text, "untouched, it is written as it was read");
             solve(&document)
         }
         Err(faults) => {
@@ -43,27 +39,14 @@ pub(crate) fn read_and_solve(text: &str) -> Fate {
 /// terminal.
 pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
     assert!(!faults.is_empty(), "a refusal has a reason");
-    let lines: Vec<&str> = text
-        .strip_prefix('\u{feff}')
-        .unwrap_or(text)
-        .split('\n')
-        .collect();
+    let lines: Vec<&str> = text.strip_prefix('\u{feff}').unwrap_or(text).split('\n').collect();
     for fault in faults {
         let line = fault.line.checked_sub(1).and_then(|line| lines.get(line));
         let columns = line.map_or(0, |line| line.chars().count() + 1);
-        assert!(
-            (1..=columns).contains(&fault.column),
-            "{fault} is not in {text:?}"
-        );
+        assert!((1..=columns).contains(&fault.column), "{fault} is not in {text:?}");
         let message = fault.to_string();
-        assert!(
-            !message.contains('\n') && message.chars().count() < 1000,
-            "{message}"
-        );
-        assert!(
-            !fault.cause.is_empty() && !fault.fix.is_empty(),
-            "{message}"
-        );
+        assert!(!message.contains('\n') && message.chars().count() < 1000, "{message}");
+        assert!(!fault.cause.is_empty() && !fault.fix.is_empty(), "{message}");
         assert_safe(&message);
     }
     let ordered = faults.is_sorted_by_key(|fault| (fault.line, fault.column));
@@ -75,20 +58,9 @@ pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
 }
 
 fn solve(document: &Document) -> Fate {
-    let inputs = document
-        .case
-        .inputs()
-        .expect("a case without faults has inputs");
-    let selection = Selection {
-        stations: true,
-        ..Selection::default()
-    };
-    match Report::solve(
-        "a case.toml".to_owned(),
-        document.case.clone(),
-        inputs,
-        selection,
-    ) {
+    let inputs = document.case.inputs().expect("a case without faults has inputs");
+    let selection = Selection { stations: true, ..Selection::default() };
+    match Report::solve("a case.toml".to_owned(), document.case.clone(), inputs, selection) {
         Ok(report) => {
             assert_sound(&report);
             Fate::Solved
@@ -114,10 +86,7 @@ pub(crate) fn assert_named(refusal: &Refusal) {
 /// Checks that no report prints a NaN or an infinity, in any format.
 pub(crate) fn assert_sound(report: &Report) {
     assert_finite(&report.solution);
-    report
-        .notes
-        .iter()
-        .for_each(|note| assert_numbers(&note.message));
+    report.notes.iter().for_each(|note| assert_numbers(&note.message));
     assert_json(report);
     assert_csv(report);
     assert_page(report);
@@ -126,11 +95,7 @@ pub(crate) fn assert_sound(report: &Report) {
 fn assert_finite(solution: &Solution) {
     for quantity in tipstrike::model::QUANTITIES {
         let value = (quantity.value)(solution);
-        assert!(
-            value.is_none_or(f64::is_finite),
-            "{} is {value:?}",
-            quantity.key
-        );
+        assert!(value.is_none_or(f64::is_finite), "{} is {value:?}", quantity.key);
     }
     for row in report::stations::rows(solution) {
         for column in report::stations::columns(solution.method) {
@@ -180,12 +145,7 @@ fn assert_json(report: &Report) {
                 bits(number)
             }
         });
-        assert_eq!(
-            back,
-            Some(value.to_bits()),
-            "{} is read unchanged",
-            quantity.key
-        );
+        assert_eq!(back, Some(value.to_bits()), "{} is read unchanged", quantity.key);
     }
     assert_eq!(
         value["stations"].as_array().map(Vec::len),
@@ -194,43 +154,21 @@ fn assert_json(report: &Report) {
 }
 
 fn assert_csv(report: &Report) {
-    let whole = Report {
-        selection: Selection::default(),
-        ..report.clone()
-    };
+    let whole = Report { selection: Selection::default(), ..report.clone() };
     let rows = rows(&written(|out| report::csv::write(&whole, true, out)));
     assert_eq!(rows.len(), 2);
     assert_eq!(rows[0].len(), rows[1].len());
-    let found: Vec<u64> = rows[1]
-        .iter()
-        .skip(3)
-        .filter(|cell| !cell.is_empty())
-        .map(bits)
-        .collect();
-    assert_eq!(
-        found,
-        whole
-            .values()
-            .map(|(_, value)| value.to_bits())
-            .collect::<Vec<_>>()
-    );
+    let found: Vec<u64> =
+        rows[1].iter().skip(3).filter(|cell| !cell.is_empty()).map(bits).collect();
+    assert_eq!(found, whole.values().map(|(_, value)| value.to_bits()).collect::<Vec<_>>());
     let stations = self::rows(&written(|out| report::csv::write(report, true, out)));
-    assert_eq!(
-        stations.len(),
-        report::stations::rows(&report.solution).len() + 1
-    );
+    assert_eq!(stations.len(), report::stations::rows(&report.solution).len() + 1);
     let empty = stations[1..]
         .iter()
         .enumerate()
         .flat_map(|(at, row)| row.iter().map(move |cell| (at, cell)));
-    let empty: Vec<usize> = empty
-        .filter(|(_, cell)| cell.is_empty())
-        .map(|(at, _)| at)
-        .collect();
-    assert!(
-        empty.len() <= 1 && empty.iter().all(|&at| at + 2 == stations.len()),
-        "{empty:?}"
-    );
+    let empty: Vec<usize> = empty.filter(|(_, cell)| cell.is_empty()).map(|(at, _)| at).collect();
+    assert!(empty.len() <= 1 && empty.iter().all(|&at| at + 2 == stations.len()), "{empty:?}");
     let numbers = |row: &csv::StringRecord| {
         row.iter()
             .skip(1)
@@ -257,13 +195,8 @@ fn written(write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>) -
 }
 
 fn rows(text: &str) -> Vec<csv::StringRecord> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .from_reader(text.as_bytes());
-    reader
-        .records()
-        .map(|row| row.expect("CSV reads again"))
-        .collect()
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
+    reader.records().map(|row| row.expect("CSV reads again")).collect()
 }
 
 fn bits(number: &str) -> u64 {
@@ -274,17 +207,8 @@ fn bits(number: &str) -> u64 {
 pub(crate) fn assert_same(one: &Document, other: &Document) {
     let inputs = |document: &Document| -> Inputs { document.case.inputs().expect("a valid case") };
     assert_eq!(inputs(one), inputs(other));
-    for (index, field) in FIELDS
-        .iter()
-        .enumerate()
-        .filter(|(_, field)| !field.is_bare())
-    {
-        assert_eq!(
-            one.case.text(index),
-            other.case.text(index),
-            "{}",
-            field.key
-        );
+    for (index, field) in FIELDS.iter().enumerate().filter(|(_, field)| !field.is_bare()) {
+        assert_eq!(one.case.text(index), other.case.text(index), "{}", field.key);
     }
     let limits = |document: &Document| {
         document

@@ -48,13 +48,9 @@ fn after_any_input_the_workbench_quits_and_restores_the_terminal() {
     ];
     let sizes = prop::collection::vec((0..=60u16, 0..=200u16), 0..4);
     let cuts = prop::collection::vec(any::<Index>(), 0..30);
-    hold(
-        14,
-        &(prop::collection::vec(piece, 1..400), cuts, sizes),
-        |(pieces, cuts, sizes)| {
-            survive(&cut(&harmless(pieces.concat()), &cuts), &sizes);
-        },
-    );
+    hold(14, &(prop::collection::vec(piece, 1..400), cuts, sizes), |(pieces, cuts, sizes)| {
+        survive(&cut(&harmless(pieces.concat()), &cuts), &sizes);
+    });
 }
 
 #[test]
@@ -79,13 +75,7 @@ fn floods_are_survived() {
     let flood = keys.repeat(100_000 / 6);
     let paste = |end: &[u8]| [b"\x1b[200~", "5 mm\r\n歯".repeat(1 << 17).as_bytes(), end].concat();
     let broken = b"\xff\xc3\x28\xf0\x9f\x1b[\xe2\x82".repeat(5000);
-    let floods = [
-        flood,
-        paste(b"\x1b[201~"),
-        paste(b""),
-        broken,
-        b"\x1b".repeat(20_000),
-    ];
+    let floods = [flood, paste(b"\x1b[201~"), paste(b""), broken, b"\x1b".repeat(20_000)];
     // Each program waits for its terminal most of the time.
     thread::scope(|scope| {
         for bytes in floods {
@@ -101,16 +91,10 @@ fn harmless(mut bytes: Vec<u8>) -> Vec<u8> {
 }
 
 fn cut(bytes: &[u8], cuts: &[Index]) -> Vec<Vec<u8>> {
-    let mut places: Vec<usize> = cuts
-        .iter()
-        .map(|cut| cut.index(bytes.len() + 1))
-        .chain([0, bytes.len()])
-        .collect();
+    let mut places: Vec<usize> =
+        cuts.iter().map(|cut| cut.index(bytes.len() + 1)).chain([0, bytes.len()]).collect();
     places.sort_unstable();
-    places
-        .windows(2)
-        .map(|pair| bytes[pair[0]..pair[1]].to_vec())
-        .collect()
+    places.windows(2).map(|pair| bytes[pair[0]..pair[1]].to_vec()).collect()
 }
 
 fn survive(pieces: &[Vec<u8>], sizes: &[(u16, u16)]) {
@@ -154,25 +138,12 @@ fn assert_nothing_left(tty: &Tty, status: &ExitStatus) {
         .args(["-o", "pid=", "-s", &tty.id().to_string()])
         .output()
         .expect("ps is there");
-    assert_eq!(
-        String::from_utf8_lossy(&left.stdout).trim(),
-        "",
-        "a process is left"
-    );
+    assert_eq!(String::from_utf8_lossy(&left.stdout).trim(), "", "a process is left");
     let kept = journals(tty.folder.path());
-    assert!(
-        kept.is_empty() || !status.success(),
-        "edits that were thrown away are kept"
-    );
-    for text in kept
-        .iter()
-        .map(|path| fs::read_to_string(path).expect("it is there"))
-    {
+    assert!(kept.is_empty() || !status.success(), "edits that were thrown away are kept");
+    for text in kept.iter().map(|path| fs::read_to_string(path).expect("it is there")) {
         assert!(Journal::from_text(&text).is_ok(), "{text}");
     }
     let case = fs::read_to_string(tty.case()).expect("the case is there");
-    assert!(
-        Document::parse("case.toml", &case).is_ok(),
-        "a saved case opens again: {case}"
-    );
+    assert!(Document::parse("case.toml", &case).is_ok(), "a saved case opens again: {case}");
 }

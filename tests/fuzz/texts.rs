@@ -112,33 +112,21 @@ enum Style {
 /// Texts of cases, from unchanged to heavily damaged.
 pub(crate) fn mutated() -> impl Strategy<Value = String> {
     (select(bases()), prop::collection::vec(mutation(), 0..7)).prop_map(|(text, mutations)| {
-        mutations
-            .iter()
-            .fold(text, |text, mutation| mutation.apply(&text))
+        mutations.iter().fold(text, |text, mutation| mutation.apply(&text))
     })
 }
 
 /// Texts of cases in which only values of fields differ.
 pub(crate) fn written() -> impl Strategy<Value = String> {
-    (
-        select(bases()),
-        prop::collection::vec(field_and_text(), 0..5),
-    )
-        .prop_map(|(text, fields)| {
-            fields.iter().fold(text, |text, (field, value)| {
-                with_field(&text, *field, value)
-            })
-        })
+    (select(bases()), prop::collection::vec(field_and_text(), 0..5)).prop_map(|(text, fields)| {
+        fields.iter().fold(text, |text, (field, value)| with_field(&text, *field, value))
+    })
 }
 
 /// Valid cases in every layout.
 pub(crate) fn bases() -> Vec<String> {
     let template = Document::new(Document::table_1().case).render();
-    [TABLE_1, SPEED_UP, FINE, COMPACT]
-        .map(str::to_owned)
-        .into_iter()
-        .chain([template])
-        .collect()
+    [TABLE_1, SPEED_UP, FINE, COMPACT].map(str::to_owned).into_iter().chain([template]).collect()
 }
 
 fn mutation() -> impl Strategy<Value = Mutation> {
@@ -191,9 +179,9 @@ impl Mutation {
                 let (before, after) = text.split_at(character_at(text, *at));
                 [before, piece, after].concat()
             }
-            Mutation::Nest(at, depth) => with_side(text, *at, |name, _| {
-                format!("{name}= {}", "[".repeat(*depth))
-            }),
+            Mutation::Nest(at, depth) => {
+                with_side(text, *at, |name, _| format!("{name}= {}", "[".repeat(*depth)))
+            }
             Mutation::Cut(at) => text[..character_at(text, *at)].to_owned(),
             Mutation::Crlf => text.replace('\n', "\r\n"),
             Mutation::Mark => format!("\u{feff}{text}"),
@@ -204,11 +192,8 @@ impl Mutation {
 /// Writes a field into its line, or into a new line below the header of its table.
 fn with_field(text: &str, field: usize, value: &str) -> String {
     let known = &FIELDS[field];
-    let quoted = if known.is_bare() {
-        value.to_owned()
-    } else {
-        toml_edit::Value::from(value).to_string()
-    };
+    let quoted =
+        if known.is_bare() { value.to_owned() } else { toml_edit::Value::from(value).to_string() };
     let line = format!("{} = {quoted}", known.name());
     with_lines(text, |lines| {
         let header = format!("[{}]", known.table());
@@ -219,10 +204,8 @@ fn with_field(text: &str, field: usize, value: &str) -> String {
         }) else {
             return;
         };
-        let own = lines[start + 1..]
-            .iter()
-            .take_while(|line| !line.starts_with('['))
-            .position(|other| {
+        let own =
+            lines[start + 1..].iter().take_while(|line| !line.starts_with('[')).position(|other| {
                 other
                     .trim_start_matches(['#', ' '])
                     .strip_prefix(known.name())
@@ -238,14 +221,12 @@ fn with_field(text: &str, field: usize, value: &str) -> String {
 
 fn restyled(text: &str, at: Index, style: Style) -> String {
     match style {
-        Style::Quoted => with_side(text, at, |name, value| {
-            format!("\"{}\" ={value}", name.trim())
-        }),
+        Style::Quoted => with_side(text, at, |name, value| format!("\"{}\" ={value}", name.trim())),
         Style::Indented => with_side(text, at, |name, value| format!(" \t{name}= \t{value}")),
         Style::Remarked => with_side(text, at, |name, value| format!("{name}={value} # remark")),
-        Style::MultiLine => with_side(text, at, |name, value| {
-            format!("{name}= \"\"{}\"\"", value.trim())
-        }),
+        Style::MultiLine => {
+            with_side(text, at, |name, value| format!("{name}= \"\"{}\"\"", value.trim()))
+        }
         Style::Array => with_lines(text, |lines| {
             let at = at.index(lines.len());
             if lines[at].starts_with('[') {
@@ -283,7 +264,5 @@ fn with_side(text: &str, at: Index, side: impl FnOnce(&str, &str) -> String) -> 
 /// A position between two characters.
 fn character_at(text: &str, at: Index) -> usize {
     let count = text.chars().count();
-    text.char_indices()
-        .nth(at.index(count + 1))
-        .map_or(text.len(), |(at, _)| at)
+    text.char_indices().nth(at.index(count + 1)).map_or(text.len(), |(at, _)| at)
 }

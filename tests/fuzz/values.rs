@@ -50,20 +50,17 @@ fn measure(dimension: Dimension, range: Range, example: &'static str) -> BoxedSt
     let usual = units::parse(example, dimension, range.unit).unwrap_or(0.0)
         / units::factor(range.unit).unwrap_or(1.0);
     let span = (range.to - range.from) / 1e3;
-    let near = (0.7..1.4).prop_map(move |times: f64| {
-        if usual == 0.0 {
-            times * span.min(20.0)
-        } else {
-            usual * times
-        }
-    });
+    let near =
+        (0.7..1.4).prop_map(
+            move |times: f64| {
+                if usual == 0.0 { times * span.min(20.0) } else { usual * times }
+            },
+        );
     let anywhere =
         (0.0..1.0).prop_map(move |part: f64| range.from + (range.to - range.from) * part.powi(8));
     prop_oneof![8 => near, 1 => anywhere, 1 => select(vec![range.from, range.to])]
         .prop_map(move |value| {
-            format!("{} {}", value.clamp(range.from, range.to), range.unit)
-                .trim_end()
-                .to_owned()
+            format!("{} {}", value.clamp(range.from, range.to), range.unit).trim_end().to_owned()
         })
         .boxed()
 }

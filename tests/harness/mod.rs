@@ -37,20 +37,11 @@ use tipstrike::tui::testing::worker::study;
 use tipstrike::tui::testing::worker_chart::ChartRequest;
 use tipstrike::tui::testing::{effects, solver, store, update, view};
 
-pub(crate) const SMALL: Size = Size {
-    width: 80,
-    height: 24,
-};
-pub(crate) const LARGE: Size = Size {
-    width: 140,
-    height: 45,
-};
+pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
+pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
 pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each flag records a requested effect"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each flag records a requested effect")]
 pub(crate) struct Desk {
     pub(crate) app: App,
     /// Saves, locks and journals as in the program.
@@ -288,10 +279,7 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
     for (number, one) in trade.settings.iter_mut().enumerate() {
         let seconds = 4e-6 * 1.1f64.powi(i32::try_from(number).expect("few settings"));
         let figures = one.found.as_mut().expect("every method answers");
-        figures.time = Time {
-            seconds,
-            ..figures.time
-        };
+        figures.time = Time { seconds, ..figures.time };
     }
     trade.judge();
     traded.marked = trade.recommended().map(|measured| measured.setting);
@@ -300,14 +288,8 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
 /// All messages of a benchmark, the last first; each setting runs once.
 fn measured(measuring: Measuring) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
-    let once = Measuring {
-        patience: Patience::ONCE,
-        ..measuring
-    };
-    let running = Running {
-        is_wanted: &|| true,
-        send: &|action| sent.borrow_mut().push(action),
-    };
+    let once = Measuring { patience: Patience::ONCE, ..measuring };
+    let running = Running { is_wanted: &|| true, send: &|action| sent.borrow_mut().push(action) };
     measure(&once, running);
     let mut sent = sent.into_inner();
     sent.reverse();
@@ -317,10 +299,7 @@ fn measured(measuring: Measuring) -> Vec<Action> {
 /// All messages of a study, the last first.
 fn studied(request: &StudyRequest) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
-    let running = Running {
-        is_wanted: &|| true,
-        send: &|action| sent.borrow_mut().push(action),
-    };
+    let running = Running { is_wanted: &|| true, send: &|action| sent.borrow_mut().push(action) };
     study(request, running);
     let mut sent = sent.into_inner();
     sent.reverse();
@@ -330,10 +309,7 @@ fn studied(request: &StudyRequest) -> Vec<Action> {
 /// All messages of the worker of the charts, the last first.
 fn charted(request: &ChartRequest) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
-    let running = Running {
-        is_wanted: &|| true,
-        send: &|action| sent.borrow_mut().push(action),
-    };
+    let running = Running { is_wanted: &|| true, send: &|action| sent.borrow_mut().push(action) };
     draw_chart(request, running);
     let mut sent = sent.into_inner();
     sent.reverse();
@@ -342,10 +318,7 @@ fn charted(request: &ChartRequest) -> Vec<Action> {
 
 /// An autosave with its state in a folder, and without a writer thread.
 pub(crate) fn autosave(folder: &Path) -> Autosave {
-    let state = State {
-        folder: Some(folder.to_owned()),
-        ..State::default()
-    };
+    let state = State { folder: Some(folder.to_owned()), ..State::default() };
     Autosave::new(state, Arc::new(JournalWriter::default()))
 }
 
@@ -356,12 +329,8 @@ pub(crate) fn name(path: &Path) -> &str {
 
 /// The press of a key by its name, or of a letter.
 pub(crate) fn event(key: &str) -> KeyEvent {
-    let letter = || {
-        KeyEvent::new(
-            KeyCode::Char(key.chars().next().expect("a key")),
-            KeyModifiers::NONE,
-        )
-    };
+    let letter =
+        || KeyEvent::new(KeyCode::Char(key.chars().next().expect("a key")), KeyModifiers::NONE);
     named(key).unwrap_or_else(letter)
 }
 

@@ -103,11 +103,8 @@ pub(crate) fn pair(random: &mut Random, corner: Corner) -> Inputs {
 }
 
 /// The contact compliances of the oracle. The order of this list determines the frozen rows.
-const CONTACT_MODELS: [ContactCompliance; 3] = [
-    ContactCompliance::LOGARITHMIC,
-    ContactCompliance::CONSTANT,
-    ContactCompliance::WEBER,
-];
+const CONTACT_MODELS: [ContactCompliance; 3] =
+    [ContactCompliance::LOGARITHMIC, ContactCompliance::CONSTANT, ContactCompliance::WEBER];
 
 /// Limits the addendum to a possible tooth.
 fn shorten(gear: &mut Gear) {
@@ -149,17 +146,9 @@ fn teeth(random: &mut Random, fit: bool) -> (u32, u32) {
     const MOST_RATIO: f64 = 50.0;
     let (least, most) = if fit { (12.0, 100.0) } else { (5.0, 1000.0) };
     let first = random.decades(least, most).round();
-    let second = random
-        .decades(
-            (first / MOST_RATIO).max(least),
-            (first * MOST_RATIO).min(most),
-        )
-        .round();
-    if random.chance(0.5) {
-        (first as u32, second as u32)
-    } else {
-        (second as u32, first as u32)
-    }
+    let second =
+        random.decades((first / MOST_RATIO).max(least), (first * MOST_RATIO).min(most)).round();
+    if random.chance(0.5) { (first as u32, second as u32) } else { (second as u32, first as u32) }
 }
 
 fn gear(random: &mut Random, module: f64, pressure_angle: f64, teeth: u32, fit: bool) -> Gear {
@@ -170,33 +159,18 @@ fn gear(random: &mut Random, module: f64, pressure_angle: f64, teeth: u32, fit: 
     };
     let reference = module * f64::from(teeth) / 2.0;
     let body = (reference + module * (profile_shift - 1.25)).min(reference * pressure_angle.cos());
-    let bore = if random.chance(0.2) {
-        0.0
-    } else {
-        body * random.one_of(&[0.3, 0.7, 0.999, 1.0 - 1e-9])
-    };
+    let bore =
+        if random.chance(0.2) { 0.0 } else { body * random.one_of(&[0.3, 0.7, 0.999, 1.0 - 1e-9]) };
     Gear {
         teeth,
         profile_shift,
-        addendum: if random.chance(0.5) {
-            1.0
-        } else {
-            random.even(0.3, 1.3)
-        },
+        addendum: if random.chance(0.5) { 1.0 } else { random.even(0.3, 1.3) },
         face_width: random.decades(1e-4, 1.0),
         bore_radius: bore,
-        young: if fit {
-            random.decades(1e10, 1e12)
-        } else {
-            random.decades(1e6, 1e12)
-        },
+        young: if fit { random.decades(1e10, 1e12) } else { random.decades(1e6, 1e12) },
         poisson: random.even(0.0, 0.49),
         density: random.decades(500.0, 20e3),
-        tip_chamfer: if random.chance(0.8) {
-            0.0
-        } else {
-            module * random.decades(1e-3, 0.1)
-        },
+        tip_chamfer: if random.chance(0.8) { 0.0 } else { module * random.decades(1e-3, 0.1) },
         tip_radius: if random.chance(0.8) {
             None
         } else {
@@ -233,11 +207,7 @@ impl Line {
         let (driver_base, driven_base) = (base(&inputs.driver), base(&inputs.driven));
         if let Some(distance) = inputs.centre_distance {
             let tangent = (distance / (driver_base + driven_base)).powi(2) - 1.0;
-            return Some(Line {
-                driver_base,
-                driven_base,
-                tangent: tangent.sqrt(),
-            });
+            return Some(Line { driver_base, driven_base, tangent: tangent.sqrt() });
         }
         let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
         let teeth = f64::from(inputs.driver.teeth + inputs.driven.teeth);
@@ -249,11 +219,7 @@ impl Line {
         for _ in 0..60 {
             angle -= (angle.tan() - angle - involute) / angle.tan().powi(2);
         }
-        Some(Line {
-            driver_base,
-            driven_base,
-            tangent: angle.tan(),
-        })
+        Some(Line { driver_base, driven_base, tangent: angle.tan() })
     }
 
     fn length(&self) -> f64 {
@@ -271,12 +237,7 @@ fn reach(gear: &mut Gear, module: f64, base: f64, curvature: f64) {
 fn start_near_tangent(random: &mut Random, inputs: &mut Inputs) {
     let Some(line) = Line::of(inputs) else { return };
     let near = random.decades(1e-12, 1e-1);
-    reach(
-        &mut inputs.driven,
-        inputs.module,
-        line.driven_base,
-        line.length() * (1.0 - near),
-    );
+    reach(&mut inputs.driven, inputs.module, line.driven_base, line.length() * (1.0 - near));
 }
 
 fn start_near_pitch(random: &mut Random, inputs: &mut Inputs) {
@@ -309,12 +270,7 @@ fn flat_angle(random: &mut Random, inputs: &mut Inputs) {
 fn short_path(random: &mut Random, inputs: &mut Inputs) {
     let Some(line) = Line::of(inputs) else { return };
     let start = line.length() * random.even(0.1, 0.6);
-    reach(
-        &mut inputs.driven,
-        inputs.module,
-        line.driven_base,
-        line.length() - start,
-    );
+    reach(&mut inputs.driven, inputs.module, line.driven_base, line.length() - start);
     reach(
         &mut inputs.driver,
         inputs.module,
@@ -337,9 +293,8 @@ fn sliding_near_zero(random: &mut Random, inputs: &mut Inputs) {
             line.driven_base,
             line.driven_base * line.tangent * middle,
         );
-        let velocity = solve(inputs, Stages::of(Stage::Velocity))
-            .ok()
-            .and_then(|solution| solution.velocity);
+        let velocity =
+            solve(inputs, Stages::of(Stage::Velocity)).ok().and_then(|solution| solution.velocity);
         match velocity {
             Some(velocity) if velocity.sliding > 0.0 => high = middle,
             _ => low = middle,

@@ -42,10 +42,7 @@ impl Load {
                 * (power(&circles.base) - power(&gear.bore_radius))
         };
         let give = |gear: &Gear| (1 - &gear.poisson * &gear.poisson) / &gear.young;
-        let inertia = [
-            inertia(&given.driver, &pair.driver),
-            inertia(&given.driven, &pair.driven),
-        ];
+        let inertia = [inertia(&given.driver, &pair.driver), inertia(&given.driven, &pair.driven)];
         let first = &inertia[0] / (&pair.driver.base * &pair.driver.base);
         let second = &inertia[1] / (&pair.driven.base * &pair.driven.base);
         Load {
@@ -67,10 +64,7 @@ impl Load {
         while along <= pair.end && along < tangent {
             let rest = &tangent - &along;
             let radius = |base: &Big, length: &Big| root(base * base + length * length);
-            let radii = [
-                radius(&pair.driver.base, &along),
-                radius(&pair.driven.base, &rest),
-            ];
+            let radii = [radius(&pair.driver.base, &along), radius(&pair.driven.base, &rest)];
             let curvature = &along * &rest / (&along + &rest);
             let half_width = self.half_width(&self.mesh_force, &curvature);
             let depths = depths(given, pair, &radii)?;
@@ -111,27 +105,13 @@ impl Load {
         {
             let printed = self.printed_duration(&normal, &curvature);
             let spring = pi() * root(&mass * &struck.compliance / &self.width);
-            let duration = if given.method == Method::Paper {
-                &printed
-            } else {
-                &spring
-            }
-            .clone();
-            let ratio = self.friction(
-                given,
-                pair,
-                tip,
-                angle,
-                &(&struck.force * &printed),
-                &printed,
-            );
+            let duration = if given.method == Method::Paper { &printed } else { &spring }.clone();
+            let ratio =
+                self.friction(given, pair, tip, angle, &(&struck.force * &printed), &printed);
             found.extend(ratio.map(|ratio| ("friction_ratio", ratio)));
             found.extend([
                 ("dynamic_factor", &struck.force / &self.mesh_force),
-                (
-                    "impulse_ratio",
-                    2 / pi() * &struck.force * &duration / (&mass * &normal),
-                ),
+                ("impulse_ratio", 2 / pi() * &struck.force * &duration / (&mass * &normal)),
                 ("impact_energy", &mass * &normal * &normal / 2),
                 ("sliding_energy", &mass * &sliding * &sliding / 2),
                 ("impact_duration_hertz", decimal(HERTZ_PREFACTOR) * &printed),
@@ -175,11 +155,7 @@ impl Load {
             let change = rounded(&(&next / &force - 1)).abs();
             force = next;
             if change <= FORCE_SETTLED {
-                return (compliance > teeth).then_some(Struck {
-                    force,
-                    compliance,
-                    half_width,
-                });
+                return (compliance > teeth).then_some(Struck { force, compliance, half_width });
             }
         }
         None
@@ -265,9 +241,7 @@ fn reduced_curvature(given: &Given, pair: &Pair, tip: &Tip) -> Big {
 
 /// q₁ + q₂ by Eq. 56; `None` for a tooth compliance without a closed form.
 fn teeth(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<Big> {
-    let fit = [&given.driver, &given.driven]
-        .iter()
-        .all(|gear| (12..=100).contains(&gear.teeth));
+    let fit = [&given.driver, &given.driven].iter().all(|gear| (12..=100).contains(&gear.teeth));
     if given.tooth_compliance != Some(ToothCompliance::KUANG_YANG) || !fit {
         return None;
     }
@@ -282,9 +256,7 @@ fn tooth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Big {
         coefficients
             .iter()
             .rev()
-            .fold(whole(0), |sum, coefficient| {
-                sum * gear.teeth + decimal(coefficient)
-            })
+            .fold(whole(0), |sum, coefficient| sum * gear.teeth + decimal(coefficient))
     };
     let a0 = cubic(["3.867", "1.612", "-0.02916", "0.0001553"]);
     let a1 = cubic(["17.060", "0.7289", "-0.01728", "0.0000999"]);

@@ -109,11 +109,7 @@ impl Given {
             &mut self.speed,
         ];
         let chosen = self.centre_distance.iter_mut().chain(&mut self.deflection);
-        let gears = self
-            .driver
-            .continuous()
-            .into_iter()
-            .chain(self.driven.continuous());
+        let gears = self.driver.continuous().into_iter().chain(self.driven.continuous());
         always.into_iter().chain(chosen).chain(gears).collect()
     }
 
@@ -124,18 +120,11 @@ impl Given {
 
     /// T₁.
     pub(crate) fn torque(&self) -> Big {
-        if self.drive_is_power {
-            &self.drive / &self.speed
-        } else {
-            self.drive.clone()
-        }
+        if self.drive_is_power { &self.drive / &self.speed } else { self.drive.clone() }
     }
 
     /// b, the smaller face width.
     pub(crate) fn common_width(&self) -> Big {
-        self.driver
-            .face_width
-            .clone()
-            .min(self.driven.face_width.clone())
+        self.driver.face_width.clone().min(self.driven.face_width.clone())
     }
 }

@@ -126,10 +126,7 @@ fn of_given(given: &Given) -> Option<Answers> {
     }
     let mut found = Answers::from([
         ("closed_gap", gap(&pair, &angle, &tip)),
-        (
-            "contact_ratio",
-            (&pair.end - &pair.start) / &pair.base_pitch,
-        ),
+        ("contact_ratio", (&pair.end - &pair.start) / &pair.base_pitch),
         ("base_pitch", pair.base_pitch.clone()),
         ("centre_distance", pair.distance.clone()),
         ("working_pressure_angle", pair.working.clone()),
@@ -166,12 +163,7 @@ fn circles(given: &Given, gear: &Gear) -> Circles {
         (Some(edge), method) if method != Method::Paper => edge.clone(),
         _ => whole(0),
     };
-    Circles {
-        reference,
-        base,
-        tip,
-        edge,
-    }
+    Circles { reference, base, tip, edge }
 }
 
 fn pair(given: &Given) -> Option<Pair> {
@@ -199,16 +191,7 @@ fn pair(given: &Given) -> Option<Pair> {
     if is_rounded && &end - &start < base_pitch {
         return None;
     }
-    Some(Pair {
-        driver,
-        driven,
-        distance,
-        working,
-        base_pitch,
-        start,
-        end,
-        start_angle,
-    })
+    Some(Pair { driver, driven, distance, working, base_pitch, start, end, start_angle })
 }
 
 /// Radius of curvature at the end of the involute: an arc of radius r_e begins where its centre is
@@ -306,10 +289,8 @@ fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
     let at_driver_tip =
         force::polar_angle(pair, &pair.driver.tip).map(|polar| polar - &pair.start_angle);
     let parabola = root(2 * deviation / curvature);
-    let mut angle = at_driver_tip
-        .into_iter()
-        .fold(parabola, Big::min)
-        .min(number::big(LARGEST_ANGLE));
+    let mut angle =
+        at_driver_tip.into_iter().fold(parabola, Big::min).min(number::big(LARGEST_ANGLE));
     for _ in 0..STEPS {
         let tip = tip_at(pair, &angle)?;
         let closed = gap(pair, &angle, &tip);

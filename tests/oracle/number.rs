@@ -1,8 +1,5 @@
 //! Numbers of 90 digits.
-#![allow(
-    clippy::needless_pass_by_value,
-    reason = "the sums are written in place"
-)]
+#![allow(clippy::needless_pass_by_value, reason = "the sums are written in place")]
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -35,9 +32,7 @@ pub(crate) fn whole(value: i64) -> Big {
 
 /// A printed decimal, such as `3.867`.
 pub(crate) fn decimal(printed: &str) -> Big {
-    let (sign, digits) = printed
-        .strip_prefix('-')
-        .map_or((1, printed), |rest| (-1, rest));
+    let (sign, digits) = printed.strip_prefix('-').map_or((1, printed), |rest| (-1, rest));
     let (mantissa, exponent) = digits.split_once('e').unwrap_or((digits, "0"));
     let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let mut value = whole(0);
@@ -91,19 +86,11 @@ pub(crate) fn printed(value: &Big) -> String {
     let positive = if near < 0.0 { -value } else { value.clone() };
     let mut exponent = near.abs().log10().floor() as i32;
     let digits_at = |exponent: i32| {
-        (&positive * power_of_ten(DIGITS - exponent))
-            .round()
-            .to_int()
-            .value()
-            .to_string()
+        (&positive * power_of_ten(DIGITS - exponent)).round().to_int().value().to_string()
     };
     let mut digits = digits_at(exponent);
     if digits.len() != DIGITS as usize + 1 {
-        exponent += if digits.len() > DIGITS as usize + 1 {
-            1
-        } else {
-            -1
-        };
+        exponent += if digits.len() > DIGITS as usize + 1 { 1 } else { -1 };
         digits = digits_at(exponent);
     }
     let rest = digits[1..].trim_end_matches('0');

@@ -15,9 +15,7 @@ fn rows(text: &str) -> Vec<Value> {
 }
 
 fn number(row: &Value, key: &str) -> f64 {
-    row[key]
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number {key}"))
+    row[key].as_f64().unwrap_or_else(|| panic!("no number {key}"))
 }
 
 /// The profile of a row's gear; `rounding` is that of its rack, in modules.

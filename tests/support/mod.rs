@@ -6,9 +6,7 @@ use tipstrike::model::inputs::{Drive, Gear};
 
 /// A standard steel pair without deviation, 10 mm wide, 100 N m at 2000 rpm.
 pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -> Inputs {
-    let table_1 = Case::table_1()
-        .inputs()
-        .expect("the built-in case is valid");
+    let table_1 = Case::table_1().inputs().expect("the built-in case is valid");
     let gear = |teeth| Gear {
         teeth,
         face_width: 10e-3,

@@ -26,18 +26,15 @@ fn slow_case() -> String {
         // Coupled pairs are slower.
         ("\"kuang-yang\"", "\"finite-element\""),
     ];
-    slow.into_iter()
-        .fold(TABLE_1.to_owned(), |text, (from, to)| {
-            assert!(text.contains(from), "{from}");
-            text.replacen(from, to, 1)
-        })
+    slow.into_iter().fold(TABLE_1.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    })
 }
 
 /// The time from a key to its echo, without the slowest few.
 fn echo(tty: &mut Tty) -> Duration {
-    let mut times: Vec<_> = (0..KEYS)
-        .map(|at| echo_of(tty, ["a", "b", "c"][at % 3]))
-        .collect();
+    let mut times: Vec<_> = (0..KEYS).map(|at| echo_of(tty, ["a", "b", "c"][at % 3])).collect();
     times.sort();
     times[KEYS * 95 / 100]
 }
@@ -47,11 +44,7 @@ fn echo_of(tty: &mut Tty, key: &str) -> Duration {
     let start = Instant::now();
     tty.type_in(key);
     while tty.screen().cursor_position() == before {
-        assert!(
-            start.elapsed() < PATIENCE,
-            "no echo:\n{}",
-            tty.screen().contents()
-        );
+        assert!(start.elapsed() < PATIENCE, "no echo:\n{}", tty.screen().contents());
         tty.take_output(PART);
     }
     start.elapsed()
@@ -92,10 +85,7 @@ fn keys_are_echoed_while_a_solve_runs() {
     println!(
         "a key is echoed within {quiet:.1?}, while a solve runs within {solving:.1?} (95 of 100)"
     );
-    assert!(
-        busy.shows("exact"),
-        "the closed form is shown until the solve ends"
-    );
+    assert!(busy.shows("exact"), "the closed form is shown until the solve ends");
     assert!(solving <= MOST_FOR_A_KEY, "{solving:.1?}");
     leave(busy);
 }
@@ -118,10 +108,7 @@ fn a_long_solve_shows_its_progress_and_esc_stops_it() {
     // Ticks of 10 ms in user and system mode. A running solve takes about thirty.
     let ticks = || -> u64 {
         let words = stat(tty.id()).expect("the process runs");
-        words[11..=12]
-            .iter()
-            .map(|word| word.parse::<u64>().expect("a count"))
-            .sum()
+        words[11..=12].iter().map(|word| word.parse::<u64>().expect("a count")).sum()
     };
     let before = ticks();
     std::thread::sleep(Duration::from_millis(300));

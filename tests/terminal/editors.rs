@@ -29,30 +29,10 @@ struct Editor {
 }
 
 const EDITORS: [Editor; 4] = [
-    Editor {
-        name: "tipstrike",
-        ready: "Corner contact",
-        typing: ("\x15", ""),
-        save: "\x13",
-    },
-    Editor {
-        name: "vim",
-        ready: "format = 1",
-        typing: ("i# ", "\x1b"),
-        save: ":w\r",
-    },
-    Editor {
-        name: "nano",
-        ready: "format = 1",
-        typing: ("# ", ""),
-        save: "\x13",
-    },
-    Editor {
-        name: "micro",
-        ready: "format = 1",
-        typing: ("# ", ""),
-        save: "\x13",
-    },
+    Editor { name: "tipstrike", ready: "Corner contact", typing: ("\x15", ""), save: "\x13" },
+    Editor { name: "vim", ready: "format = 1", typing: ("i# ", "\x1b"), save: ":w\r" },
+    Editor { name: "nano", ready: "format = 1", typing: ("# ", ""), save: "\x13" },
+    Editor { name: "micro", ready: "format = 1", typing: ("# ", ""), save: "\x13" },
 ];
 
 const FAULTS: [&str; 4] = [
@@ -71,11 +51,7 @@ struct Left {
 
 impl Left {
     fn words(&self) -> String {
-        format!(
-            "{}, typed text {}",
-            self.file,
-            if self.typed { "kept" } else { "**lost**" }
-        )
+        format!("{}, typed text {}", self.file, if self.typed { "kept" } else { "**lost**" })
     }
 }
 
@@ -89,20 +65,12 @@ fn the_workbench_loses_nothing_where_editors_do() {
         .filter(|editor| editor.name == "tipstrike" || is_there(editor.name))
         .collect();
     let heads: Vec<_> = editors.iter().map(|editor| editor.name).collect();
-    println!(
-        "| | {} |\n|---|{}",
-        heads.join(" | "),
-        "---|".repeat(heads.len())
-    );
+    println!("| | {} |\n|---|{}", heads.join(" | "), "---|".repeat(heads.len()));
     for fault in FAULTS {
         let left: Vec<_> = thread::scope(|scope| {
-            let runs: Vec<_> = editors
-                .iter()
-                .map(|editor| scope.spawn(move || under(editor, fault)))
-                .collect();
-            runs.into_iter()
-                .map(|run| run.join().expect("it runs to its end"))
-                .collect()
+            let runs: Vec<_> =
+                editors.iter().map(|editor| scope.spawn(move || under(editor, fault))).collect();
+            runs.into_iter().map(|run| run.join().expect("it runs to its end")).collect()
         });
         let cells: Vec<_> = left
             .iter()
@@ -135,21 +103,9 @@ fn under(editor: &Editor, fault: &str) -> Option<Left> {
 
 /// An editor on the case, run through another program.
 fn launch(editor: &Editor, folder: Launch, wrapper: &[&str]) -> Launch {
-    let home = folder
-        .folder
-        .path()
-        .to_str()
-        .expect("a name in UTF-8")
-        .to_owned();
-    let program = if editor.name == "tipstrike" {
-        PROGRAM
-    } else {
-        editor.name
-    };
-    folder
-        .instead(program)
-        .through(wrapper)
-        .variable("HOME", &home)
+    let home = folder.folder.path().to_str().expect("a name in UTF-8").to_owned();
+    let program = if editor.name == "tipstrike" { PROGRAM } else { editor.name };
+    folder.instead(program).through(wrapper).variable("HOME", &home)
 }
 
 /// Opens the editor and types. Returns false if it ended before.
@@ -164,9 +120,7 @@ fn type_in(tty: &mut Tty, editor: &Editor) -> bool {
 /// Waits for a text or for the end. Returns whether the text appeared.
 fn wait(tty: &mut Tty, text: &str) -> bool {
     let text = text.to_owned();
-    tty.wait_until(&format!("{text:?} or the end"), |tty| {
-        tty.shows(&text) || tty.has_ended()
-    });
+    tty.wait_until(&format!("{text:?} or the end"), |tty| tty.shows(&text) || tty.has_ended());
     !tty.has_ended()
 }
 
@@ -211,45 +165,18 @@ fn killed_at_the_write_beside(editor: &Editor) -> Left {
         let folder = Launch::on_table_1();
         fs::write(folder.case(), old_text()).expect("room on the disk");
         let log = folder.folder.path().join("log").display().to_string();
-        let beside = folder
-            .folder
-            .path()
-            .join(".tipstrike-")
-            .display()
-            .to_string();
-        let inject = format!(
-            "inject=write:signal=KILL:when={}",
-            step.min(usize::from(u16::MAX))
-        );
-        let strace = [
-            "strace",
-            "-f",
-            "-y",
-            "-qq",
-            "-o",
-            &log,
-            "-e",
-            "trace=write",
-            "-e",
-            &inject,
-            "--",
-        ];
+        let beside = folder.folder.path().join(".tipstrike-").display().to_string();
+        let inject = format!("inject=write:signal=KILL:when={}", step.min(usize::from(u16::MAX)));
+        let strace =
+            ["strace", "-f", "-y", "-qq", "-o", &log, "-e", "trace=write", "-e", &inject, "--"];
         let mut tty = launch(editor, folder, &strace).start();
         if type_in(&mut tty, editor) && tty.try_to_type(editor.save.as_bytes()).is_ok() {
-            tty.wait_until("the save or the end", |tty| {
-                tty.shows("saved ") || tty.has_ended()
-            });
+            tty.wait_until("the save or the end", |tty| tty.shows("saved ") || tty.has_ended());
         }
-        let (has_died, left, log) = (
-            tty.has_ended(),
-            left(&tty),
-            fs::read_to_string(&log).unwrap_or_default(),
-        );
+        let (has_died, left, log) =
+            (tty.has_ended(), left(&tty), fs::read_to_string(&log).unwrap_or_default());
         assert_eq!(left.file, WHOLE);
-        let writes: Vec<_> = log
-            .lines()
-            .filter(|line| line.contains(" write("))
-            .collect();
+        let writes: Vec<_> = log.lines().filter(|line| line.contains(" write(")).collect();
         let at = writes.iter().position(|line| line.contains(&beside));
         match at {
             Some(at) if has_died && at + 1 == writes.len() => return left,
@@ -272,19 +199,15 @@ fn thread_of(line: &str) -> Option<&str> {
 
 /// On a full disk, which requires a mount namespace.
 fn on_a_full_disk(editor: &Editor) -> Option<Left> {
-    let may = Command::new("unshare")
-        .args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"])
-        .output();
+    let may =
+        Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"]).output();
     if !may.is_ok_and(|output| output.status.success()) {
         skip("no mounts without privileges here (unshare -rm)");
         return None;
     }
     let folder = Launch::on_table_1();
-    let (case, disk, last) = (
-        folder.case(),
-        folder.folder.path().join("disk"),
-        folder.folder.path().join("last"),
-    );
+    let (case, disk, last) =
+        (folder.case(), folder.folder.path().join("disk"), folder.folder.path().join("last"));
     fs::write(&case, old_text()).expect("room on the disk");
     // The fallback folder of vim if there is no room beside the file.
     fs::create_dir(&disk)
@@ -296,22 +219,9 @@ fn on_a_full_disk(editor: &Editor) -> Option<Left> {
         head -c 100k /dev/zero >"$0/filler" 2>/dev/null
         shift; last=$1; shift
         "$@" "$0/case.toml"; cp "$0/case.toml" "$last""#;
-    let program = if editor.name == "tipstrike" {
-        PROGRAM
-    } else {
-        editor.name
-    };
+    let program = if editor.name == "tipstrike" { PROGRAM } else { editor.name };
     let (case, disk) = (case.display().to_string(), disk.display().to_string());
-    let words = [
-        "-rm",
-        "sh",
-        "-c",
-        script,
-        &disk,
-        &case,
-        &last.display().to_string(),
-        program,
-    ];
+    let words = ["-rm", "sh", "-c", script, &disk, &case, &last.display().to_string(), program];
     let bare = Launch::of(folder.folder.clone())
         .instead("unshare")
         .variable("HOME", &folder.folder.path().display().to_string());
@@ -330,17 +240,11 @@ fn on_a_full_disk(editor: &Editor) -> Option<Left> {
     );
     tty.wait_until("the copy", |_| last.exists());
     tty.settle(QUIET);
-    Some(Left {
-        file: file(&last),
-        typed: typed || kept(tty.folder.path()),
-    })
+    Some(Left { file: file(&last), typed: typed || kept(tty.folder.path()) })
 }
 
 fn left(tty: &Tty) -> Left {
-    Left {
-        file: file(&tty.case()),
-        typed: kept(tty.folder.path()),
-    }
+    Left { file: file(&tty.case()), typed: kept(tty.folder.path()) }
 }
 
 fn old_text() -> String {
@@ -352,10 +256,7 @@ fn old_text() -> String {
 /// The old text, or the new one: the typed text replaces a value or precedes the first line.
 fn file(path: &Path) -> String {
     let (text, old) = (fs::read_to_string(path).unwrap_or_default(), old_text());
-    let new = [
-        old.replace("\"5 mm\"", &format!("\"{TYPED}\"")),
-        format!("# {TYPED}{old}"),
-    ];
+    let new = [old.replace("\"5 mm\"", &format!("\"{TYPED}\"")), format!("# {TYPED}{old}")];
     if text == old || new.contains(&text) {
         WHOLE.to_owned()
     } else {
@@ -365,31 +266,13 @@ fn file(path: &Path) -> String {
 
 /// Whether any file contains the typed text.
 fn kept(folder: &Path) -> bool {
-    files(folder)
-        .iter()
-        .filter(|path| !path.ends_with("log"))
-        .any(|path| {
-            fs::read(path).is_ok_and(|bytes| {
-                bytes
-                    .windows(TYPED.len())
-                    .any(|part| part == TYPED.as_bytes())
-            })
-        })
+    files(folder).iter().filter(|path| !path.ends_with("log")).any(|path| {
+        fs::read(path)
+            .is_ok_and(|bytes| bytes.windows(TYPED.len()).any(|part| part == TYPED.as_bytes()))
+    })
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path());
-    entries
-        .flat_map(|path| {
-            if path.is_dir() {
-                files(&path)
-            } else {
-                vec![path]
-            }
-        })
-        .collect()
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }

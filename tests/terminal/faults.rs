@@ -34,12 +34,8 @@ fn saver() {
     let Some(path) = env::var_os(TARGET).map(std::path::PathBuf::from) else {
         return;
     };
-    let Ok(mut document) = Document::read(&path) else {
-        std::process::exit(REFUSED)
-    };
-    document
-        .case
-        .write(fields::index_of("pair.module").expect("a field"), "6 mm");
+    let Ok(mut document) = Document::read(&path) else { std::process::exit(REFUSED) };
+    document.case.write(fields::index_of("pair.module").expect("a field"), "6 mm");
     let result = document.save(&path);
     assert_eq!(
         document.is_changed(),
@@ -51,9 +47,7 @@ fn saver() {
         Err(error) => {
             assert!(!error.to_string().contains('\n'));
             // Written directly, because the test harness captures the output.
-            std::io::stderr()
-                .write_all(error.to_string().as_bytes())
-                .expect("someone reads");
+            std::io::stderr().write_all(error.to_string().as_bytes()).expect("someone reads");
             std::process::exit(REFUSED)
         }
     }
@@ -66,13 +60,7 @@ fn saver_command(wrapper: &[&str], target: &Path) -> Command {
     let words: Vec<&str> = wrapper
         .iter()
         .copied()
-        .chain([
-            own,
-            "--exact",
-            "faults::saver",
-            "--test-threads=1",
-            "--quiet",
-        ])
+        .chain([own, "--exact", "faults::saver", "--test-threads=1", "--quiet"])
         .collect();
     let mut command = Command::new(words[0]);
     command
@@ -115,14 +103,8 @@ fn new_text() -> String {
 fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
     let text = fs::read_to_string(path).expect("the file is there");
     let is_old = text == TABLE_1;
-    assert!(
-        is_old || text == new_text(),
-        "{fault}: half a file: {text:?}"
-    );
-    let mode = fs::metadata(path)
-        .expect("it is there")
-        .permissions()
-        .mode();
+    assert!(is_old || text == new_text(), "{fault}: half a file: {text:?}");
+    let mode = fs::metadata(path).expect("it is there").permissions().mode();
     assert_eq!(mode & 0o7777, 0o640, "{fault}");
     assert_eq!(mark(path), mark_of_a_case(), "{fault}");
     match code {
@@ -160,20 +142,13 @@ fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
     let (output, log) = traced(&["-e", &format!("trace={CALLS}")], run);
     assert!(output.status.success(), "{output:?}");
     assert!(
-        ["openat(", "write(", "fsync(", "rename"]
-            .iter()
-            .all(|call| log.contains(call)),
+        ["openat(", "write(", "fsync(", "rename"].iter().all(|call| log.contains(call)),
         "not the calls of a save: {log}"
     );
     // The data is on the disk before the rename, and the folder before the save returns.
-    let calls: Vec<_> = log
-        .lines()
-        .filter(|line| line.contains("fsync(") || line.contains("rename"))
-        .collect();
-    let at = calls
-        .iter()
-        .position(|line| line.contains("rename"))
-        .expect("a name");
+    let calls: Vec<_> =
+        log.lines().filter(|line| line.contains("fsync(") || line.contains("rename")).collect();
+    let at = calls.iter().position(|line| line.contains("rename")).expect("a name");
     assert!(
         calls[..at].iter().any(|line| line.contains("fsync(")),
         "not on the disk before it is in place: {log}"
@@ -182,40 +157,24 @@ fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
         calls[at..].iter().any(|line| line.contains("fsync(")),
         "its name is not on the disk: {log}"
     );
-    CALLS
-        .split(',')
-        .filter(|call| log.contains(&format!(" {call}(")))
-        .collect()
+    CALLS.split(',').filter(|call| log.contains(&format!(" {call}("))).collect()
 }
 
 fn traced(options: &[&str], run: &impl Fn(&[&str]) -> Output) -> (Output, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let log = folder.path().join("log");
     let place = log.to_str().expect("a name in UTF-8");
-    let output = run(&[
-        &["strace", "-f", "-qq", "--signal=none", "-o", place],
-        options,
-        &["--"],
-    ]
-    .concat());
-    (
-        output,
-        fs::read_to_string(&log).expect("strace writes its log"),
-    )
+    let output =
+        run(&[&["strace", "-f", "-qq", "--signal=none", "-o", place], options, &["--"]].concat());
+    (output, fs::read_to_string(&log).expect("strace writes its log"))
 }
 
 fn error_of(fault: &str) -> bool {
     fault.starts_with("error")
 }
 
-const FAULTS: [&str; 6] = [
-    "error=ENOSPC",
-    "error=EIO",
-    "error=EDQUOT",
-    "error=EROFS",
-    "error=EINTR",
-    "signal=KILL",
-];
+const FAULTS: [&str; 6] =
+    ["error=ENOSPC", "error=EIO", "error=EDQUOT", "error=EROFS", "error=EINTR", "signal=KILL"];
 
 #[test]
 fn a_save_leaves_the_old_file_or_the_new_one_at_every_fault() {
@@ -225,14 +184,8 @@ fn a_save_leaves_the_old_file_or_the_new_one_at_every_fault() {
     for fault in FAULTS {
         let steps = under_every_fault(fault, |strace| {
             let (_folder, path) = folder_with_case();
-            let output = saver_command(strace, &path)
-                .output()
-                .expect("strace starts");
-            assert_old_or_new(
-                &path,
-                output.status.code().filter(|_| error_of(fault)),
-                fault,
-            );
+            let output = saver_command(strace, &path).output().expect("strace starts");
+            assert_old_or_new(&path, output.status.code().filter(|_| error_of(fault)), fault);
             output
         });
         println!("a save, {fault}: {steps} steps");
@@ -245,11 +198,7 @@ fn a_new_case_is_there_whole_or_not_at_all_at_every_fault() {
     if !is_there("strace") {
         return;
     }
-    let whole = Command::new(PROGRAM)
-        .arg("new")
-        .output()
-        .expect("the program starts")
-        .stdout;
+    let whole = Command::new(PROGRAM).arg("new").output().expect("the program starts").stdout;
     for fault in FAULTS {
         let steps = under_every_fault(fault, |strace| {
             let folder = tempfile::tempdir().expect("a folder");
@@ -286,10 +235,7 @@ fn a_limit_on_the_size_of_files_is_reported_and_leaves_the_old_file() {
         return;
     }
     // With the signal of that limit ignored, as under many job systems, and with the signal.
-    for (ignored, shell) in [
-        (true, r#"trap '' XFSZ; exec "$@""#),
-        (false, r#"exec "$@""#),
-    ] {
+    for (ignored, shell) in [(true, r#"trap '' XFSZ; exec "$@""#), (false, r#"exec "$@""#)] {
         for most in [0, 1, 500] {
             let (folder, path) = folder_with_case();
             let limit = format!("--fsize={most}");
@@ -328,9 +274,8 @@ fn a_full_disk_is_reported_and_leaves_the_old_file() {
         "$2" --exact faults::saver --test-threads=1 --quiet; saved=$?
         "$3" new "$0/new.toml"; made=$?
         cmp "$0/case.toml" "$1" && test ! -e "$0/new.toml" && echo same $saved $made"#;
-    let may = Command::new("unshare")
-        .args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"])
-        .output();
+    let may =
+        Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"]).output();
     if !may.as_ref().is_ok_and(|output| output.status.success()) {
         return skip("no mounts without privileges here (unshare -rm)");
     }
@@ -339,10 +284,7 @@ fn a_full_disk_is_reported_and_leaves_the_old_file() {
     fs::create_dir(&disk).expect("a folder");
     let own = env::current_exe().expect("a path");
     let mut command = Command::new("unshare");
-    command
-        .args(["-rm", "sh", "-c", script])
-        .args([&disk, &path, &own])
-        .arg(PROGRAM);
+    command.args(["-rm", "sh", "-c", script]).args([&disk, &path, &own]).arg(PROGRAM);
     let output = command
         .env(TARGET, disk.join("case.toml"))
         .env("RUST_BACKTRACE", "0")
@@ -363,14 +305,7 @@ fn a_folder_that_may_not_be_written_leaves_the_old_file() {
     // The superuser runs this as nobody; folder and file then also belong to nobody.
     let is_root = fs::File::create(folder.path().join("probe")).is_ok();
     let wrapper: &[&str] = if is_root {
-        &[
-            "setpriv",
-            "--reuid=65534",
-            "--regid=65534",
-            "--clear-groups",
-            "--inh-caps=-all",
-            "--",
-        ]
+        &["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--inh-caps=-all", "--"]
     } else {
         &[]
     };
@@ -400,18 +335,9 @@ fn a_folder_that_may_not_be_written_leaves_the_old_file() {
 /// each.
 fn access_list(entries: &[(u16, u16, u32)]) -> Vec<u8> {
     let bytes = |&(tag, may, who): &(u16, u16, u32)| {
-        [
-            &tag.to_le_bytes()[..],
-            &may.to_le_bytes(),
-            &who.to_le_bytes(),
-        ]
-        .concat()
+        [&tag.to_le_bytes()[..], &may.to_le_bytes(), &who.to_le_bytes()].concat()
     };
-    [
-        2_u32.to_le_bytes().to_vec(),
-        entries.iter().flat_map(bytes).collect(),
-    ]
-    .concat()
+    [2_u32.to_le_bytes().to_vec(), entries.iter().flat_map(bytes).collect()].concat()
 }
 
 #[test]
@@ -445,14 +371,7 @@ fn a_save_keeps_access_lists_and_attributes_and_inherits_none() {
         "the group gains no rights from the mask"
     );
     assert_eq!(mark(&path), mark_of_a_case());
-    assert_eq!(
-        fs::metadata(&path)
-            .expect("it is there")
-            .permissions()
-            .mode()
-            & 0o7777,
-        0o640
-    );
+    assert_eq!(fs::metadata(&path).expect("it is there").permissions().mode() & 0o7777, 0o640);
     // A folder whose default list opens new files to others does not open an old file.
     let plain = folder.path().join("plain.toml");
     fs::write(&plain, TABLE_1).expect("room on the disk");
@@ -494,10 +413,7 @@ fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
             return skip(&format!("the test cannot be started as nobody: {output:?}"));
         }
         assert_eq!(output.status.code(), Some(REFUSED), "{words}");
-        assert!(
-            words.contains(expected) && words.contains("save under another name"),
-            "{words}"
-        );
+        assert!(words.contains(expected) && words.contains("save under another name"), "{words}");
         assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
         let left = fs::read_dir(folder.path()).expect("a folder").count();
         assert_eq!(left, 1, "no other file remains");
@@ -505,19 +421,9 @@ fn a_file_of_another_user_keeps_its_owner_or_is_not_changed() {
     // The superuser may change the owner of files.
     let (_folder, path) = folder_with_case();
     std::os::unix::fs::chown(&path, Some(65534), Some(65534)).expect("we may");
-    assert_eq!(
-        saver_command(&[], &path)
-            .output()
-            .expect("it starts")
-            .status
-            .code(),
-        Some(SAVED)
-    );
+    assert_eq!(saver_command(&[], &path).output().expect("it starts").status.code(), Some(SAVED));
     let about = fs::metadata(&path).expect("it is there");
-    assert_eq!(
-        (about.uid(), about.gid(), about.mode() & 0o7777),
-        (65534, 65534, 0o640)
-    );
+    assert_eq!((about.uid(), about.gid(), about.mode() & 0o7777), (65534, 65534, 0o640));
 }
 
 #[test]
@@ -546,10 +452,7 @@ fn a_failed_save_of_the_workbench_is_reported_and_the_edits_stay() {
             tty.type_in("\x156 mm\x13");
             tty.wait_for("not saved: ");
             assert!(tty.shows("*unsaved*"), "{call} {fault}");
-            assert_eq!(
-                fs::read_to_string(tty.case()).expect("it is there"),
-                TABLE_1
-            );
+            assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1);
             tty.type_in("\x11");
             tty.wait_for("has unsaved edits");
             tty.type_in("d");
@@ -560,8 +463,7 @@ fn a_failed_save_of_the_workbench_is_reported_and_the_edits_stay() {
                 .map(|entry| entry.file_name())
                 .collect();
             assert!(
-                left.iter()
-                    .all(|name| !name.to_string_lossy().starts_with(".tipstrike")),
+                left.iter().all(|name| !name.to_string_lossy().starts_with(".tipstrike")),
                 "{left:?}"
             );
         }
@@ -577,10 +479,8 @@ fn a_read_error_during_a_save_is_named_and_is_no_change_on_disk() {
     for (call, step) in [("openat", 2), ("openat", 3), ("read", 9), ("read", 14)] {
         let launch = Launch::on_table_1();
         let case = launch.case();
-        let (trace, inject) = (
-            format!("trace={call}"),
-            format!("inject={call}:error=EIO:when={step}"),
-        );
+        let (trace, inject) =
+            (format!("trace={call}"), format!("inject={call}:error=EIO:when={step}"));
         let launch = launch.through(&[
             "strace",
             "-f",

@@ -33,9 +33,7 @@ fn edited() -> Desk {
 /// its name.
 fn meddle(desk: &Desk, how: &str, text: &str) {
     let path = desk.path("case.toml");
-    let time = fs::metadata(&path)
-        .and_then(|old| old.modified())
-        .expect("a file");
+    let time = fs::metadata(&path).and_then(|old| old.modified()).expect("a file");
     match how {
         "replaced" => {
             desk.write("other", text);
@@ -63,9 +61,7 @@ fn a_file_changed_by_another_program_is_refused_and_the_differences_are_shown() 
         meddle(
             &desk,
             how,
-            &TABLE_1
-                .replace("2000 rpm", "2100 rpm")
-                .replace("\"5 mm\"", "\"6 mm\""),
+            &TABLE_1.replace("2000 rpm", "2100 rpm").replace("\"5 mm\"", "\"6 mm\""),
         );
         desk.keys(&["Ctrl-S"]);
         assert!(desk.shows("has changed on disk"), "{how}");
@@ -84,10 +80,7 @@ fn a_file_changed_by_another_program_is_refused_and_the_differences_are_shown() 
             "{how}\n{}",
             desk.screen()
         );
-        assert!(
-            desk.read("case.toml").contains("2100 rpm") && desk.app.tab.is_unsaved(),
-            "{how}"
-        );
+        assert!(desk.read("case.toml").contains("2100 rpm") && desk.app.tab.is_unsaved(), "{how}");
     }
 }
 
@@ -98,18 +91,13 @@ fn a_changed_file_is_reloaded_saved_elsewhere_overwritten_or_kept() {
         (&["r"][..], "2100 rpm", false),
         (&["o"], "1500 rpm", false),
         (&["c"], "2100 rpm", true),
-        (
-            &["s", "Ctrl-U", "DIR/other.toml", "Enter"],
-            "2100 rpm",
-            false,
-        ),
+        (&["s", "Ctrl-U", "DIR/other.toml", "Enter"], "2100 rpm", false),
     ] {
         let mut desk = edited();
         meddle(&desk, "newer", &theirs);
         let folder = desk.folder.path().display().to_string();
         let keys: Vec<_> = keys.iter().map(|key| key.replace("DIR", &folder)).collect();
-        desk.keys(&["Ctrl-S"])
-            .keys(&keys.iter().map(String::as_str).collect::<Vec<_>>());
+        desk.keys(&["Ctrl-S"]).keys(&keys.iter().map(String::as_str).collect::<Vec<_>>());
         assert!(desk.read("case.toml").contains(there), "{keys:?}");
         assert_eq!(desk.app.tab.is_unsaved(), unsaved, "{keys:?}");
         assert_eq!(desk.path("other.toml").exists(), keys[0] == "s", "{keys:?}");
@@ -148,46 +136,26 @@ fn overwrite_asks_again_after_a_change_that_was_not_shown() {
 fn a_failed_save_changes_nothing_and_skips_the_next_step() {
     let faults = [
         SaveFault::Exists(Found::default()),
-        SaveFault::Changed(Found {
-            lines: vec!["speed".to_owned()],
-            stamp: None,
-        }),
+        SaveFault::Changed(Found { lines: vec!["speed".to_owned()], stamp: None }),
         SaveFault::Held("process 1 on another machine for 3 s".to_owned()),
         SaveFault::Failed("no room".to_owned()),
     ];
-    let nexts = [
-        Next::Stay,
-        Next::Quit,
-        Next::Close,
-        Next::SaveRest,
-        Next::Load("other.toml".into()),
-    ];
-    for (fault, next) in faults
-        .iter()
-        .flat_map(|fault| nexts.iter().map(move |next| (fault, next)))
+    let nexts =
+        [Next::Stay, Next::Quit, Next::Close, Next::SaveRest, Next::Load("other.toml".into())];
+    for (fault, next) in faults.iter().flat_map(|fault| nexts.iter().map(move |next| (fault, next)))
     {
         let mut desk = edited();
         let before = desk.app.tab.clone();
         let failed = Action::Saved(desk.path("other.toml"), next.clone(), Err(fault.clone()));
-        assert!(
-            update(&mut desk.app, failed).is_empty(),
-            "{fault:?} {next:?}"
-        );
+        assert!(update(&mut desk.app, failed).is_empty(), "{fault:?} {next:?}");
         let after = &desk.app.tab;
         assert_eq!(
             (&after.path, &after.case, &after.saved),
             (&before.path, &before.case, &before.saved),
             "{fault:?} {next:?}"
         );
-        assert_eq!(
-            after.document.stamp(),
-            before.document.stamp(),
-            "{fault:?} {next:?}"
-        );
-        assert!(
-            after.is_unsaved() && desk.app.tabs().count() == 1,
-            "{fault:?} {next:?}"
-        );
+        assert_eq!(after.document.stamp(), before.document.stamp(), "{fault:?} {next:?}");
+        assert!(after.is_unsaved() && desk.app.tabs().count() == 1, "{fault:?} {next:?}");
         desk.keys(&["Esc", "Esc", "Ctrl-Q"]);
         assert!(
             desk.shows("has unsaved edits") && !desk.has_quit,
@@ -201,18 +169,12 @@ fn a_failed_save_changes_nothing_and_skips_the_next_step() {
 fn text_typed_during_a_save_remains_unsaved() {
     let mut desk = edited();
     let effects = update(&mut desk.app, Action::Do(Do::Save));
-    let save = effects
-        .into_iter()
-        .find(|effect| matches!(effect, Effect::Save(..)))
-        .expect("a save");
+    let save =
+        effects.into_iter().find(|effect| matches!(effect, Effect::Save(..))).expect("a save");
     desk.keys(&["Ctrl-U", "1600 rpm"]);
     desk.perform(save);
     assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
-    assert!(
-        desk.shows("1600 rpm") && desk.app.tab.is_unsaved(),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("1600 rpm") && desk.app.tab.is_unsaved(), "{}", desk.screen());
     desk.keys(&["Ctrl-S"]);
     assert!(desk.read("case.toml").contains("1600 rpm") && !desk.app.tab.is_unsaved());
 }
@@ -236,11 +198,7 @@ fn a_save_creates_a_deleted_file_again_with_its_mode_and_reports_this() {
     assert_eq!(mode & 0o7777, 0o600);
     assert!(desk.read("case.toml").contains("1500 rpm") && !desk.app.tab.is_unsaved());
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
-    assert!(
-        desk.shows("saved ") && !desk.shows("deleted"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("saved ") && !desk.shows("deleted"), "{}", desk.screen());
 }
 
 #[test]
@@ -270,11 +228,7 @@ fn after_a_save_under_another_name_the_case_is_the_new_file() {
     let mut desk = edited();
     let new = desk.path("new.toml").display().to_string();
     desk.keys(&["F2", "Ctrl-U", &new, "Enter"]);
-    assert!(
-        desk.shows("saved ") && desk.app.tab.short_name() == "new.toml",
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("saved ") && desk.app.tab.short_name() == "new.toml", "{}", desk.screen());
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
     assert!(desk.read("new.toml").contains("1600 rpm") && desk.read("case.toml") == TABLE_1);
 }
@@ -285,11 +239,7 @@ fn the_fix_of_a_failed_save_is_on_the_smallest_screen() {
     desk.act(Action::Resize(Size::new(60, 16)));
     let path = desk.path("case.toml");
     let full = SaveError::Unwritable("folder/case.toml".to_owned(), ErrorKind::StorageFull.into());
-    desk.act(Action::Saved(
-        path,
-        Next::Stay,
-        Err(SaveFault::Failed(full.to_string())),
-    ));
+    desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Failed(full.to_string()))));
     assert!(
         desk.shows("not saved: folder/case.toml") && desk.shows("save elsewhere"),
         "{}",
@@ -300,10 +250,7 @@ fn the_fix_of_a_failed_save_is_on_the_smallest_screen() {
 #[test]
 fn changed_comments_and_a_file_that_is_no_case_are_named() {
     for (text, expected) in [
-        (
-            format!("{TABLE_1}# mine\n"),
-            "only comments or spacing differ",
-        ),
+        (format!("{TABLE_1}# mine\n"), "only comments or spacing differ"),
         (TABLE_1.replace("\"5 mm\"", "5"), "not a valid case"),
         (String::new(), "not a valid case"),
         ("\u{1b}[2J\u{9b}".to_owned(), "not a valid case"),
@@ -339,11 +286,7 @@ fn after_a_save_form_and_file_are_equal() {
         ("pair.module", "5.5 mm "),
     ] {
         desk.fill(key, text).keys(&["Ctrl-S"]);
-        assert!(
-            desk.shows("saved ") && !desk.app.tab.is_unsaved(),
-            "{key}\n{}",
-            desk.screen()
-        );
+        assert!(desk.shows("saved ") && !desk.app.tab.is_unsaved(), "{key}\n{}", desk.screen());
         let file = Document::read(&desk.path("case.toml")).expect("a good case");
         assert!(desk.app.tab.case == file.case, "{key}");
         let field = fields::index_of(key).expect("a field");
@@ -354,10 +297,7 @@ fn after_a_save_form_and_file_are_equal() {
         );
     }
     assert_eq!(
-        desk.app
-            .tab
-            .case
-            .text(fields::index_of("driver.teeth").expect("a field")),
+        desk.app.tab.case.text(fields::index_of("driver.teeth").expect("a field")),
         Some("21")
     );
 }
@@ -370,33 +310,16 @@ fn links_and_modes_stay_and_hard_links_are_refused() {
     symlink("sub/one.toml", desk.path("two.toml")).expect("a link");
     fs::set_permissions(desk.path("case.toml"), Permissions::from_mode(0o604))
         .expect("our own file");
-    desk.keys(&["Ctrl-O", "two", "Enter"])
-        .fill("operation.speed", "1500 rpm")
-        .keys(&["Ctrl-S"]);
+    desk.keys(&["Ctrl-O", "two", "Enter"]).fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     assert!(desk.shows("saved "), "{}", desk.screen());
     for link in ["two.toml", "sub/one.toml"] {
-        assert!(
-            fs::symlink_metadata(desk.path(link))
-                .expect("it is there")
-                .is_symlink(),
-            "{link}"
-        );
+        assert!(fs::symlink_metadata(desk.path(link)).expect("it is there").is_symlink(), "{link}");
     }
     assert!(desk.read("case.toml").contains("1500 rpm"));
-    assert_eq!(
-        fs::metadata(desk.path("case.toml"))
-            .expect("it is there")
-            .mode()
-            & 0o7777,
-        0o604
-    );
+    assert_eq!(fs::metadata(desk.path("case.toml")).expect("it is there").mode() & 0o7777, 0o604);
     fs::hard_link(desk.path("case.toml"), desk.path("hard.toml")).expect("a link");
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
-    assert!(
-        desk.shows("2 names (hard links)") && desk.app.tab.is_unsaved(),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("2 names (hard links)") && desk.app.tab.is_unsaved(), "{}", desk.screen());
     assert!(desk.read("hard.toml").contains("1500 rpm"));
 }
 
@@ -421,11 +344,7 @@ fn a_path_that_is_no_file_is_reported_by_the_workbench() {
         if desk.shows("The file exists") {
             desk.keys(&["o"]);
         }
-        assert!(
-            desk.shows("not saved: ") && desk.shows(expected),
-            "{name}\n{}",
-            desk.screen()
-        );
+        assert!(desk.shows("not saved: ") && desk.shows(expected), "{name}\n{}", desk.screen());
         assert!(desk.app.tab.is_unsaved(), "{name}");
         if name != "folder.toml" {
             desk.keys(&["Esc", "Esc", "Ctrl-O", "d", "Ctrl-U", &path, "Enter"]);
@@ -438,12 +357,7 @@ fn a_path_that_is_no_file_is_reported_by_the_workbench() {
 fn a_path_that_is_no_file_is_reported_without_a_terminal() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
-    assert!(
-        Command::new("mkfifo")
-            .arg(path("pipe"))
-            .status()
-            .is_ok_and(|status| status.success())
-    );
+    assert!(Command::new("mkfifo").arg(path("pipe")).status().is_ok_and(|status| status.success()));
     symlink("loop", path("loop")).expect("a link");
     symlink("nowhere", path("dangling")).expect("a link");
     for name in ["pipe", "loop", "dangling", "none", ".", "none/case.toml"] {
@@ -462,11 +376,8 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
         }
     }
     for name in ["pipe", "loop", ".", "none/case.toml"] {
-        let output = Command::new(PROGRAM)
-            .arg("new")
-            .arg(path(name))
-            .output()
-            .expect("the program starts");
+        let output =
+            Command::new(PROGRAM).arg("new").arg(path(name)).output().expect("the program starts");
         let words = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(
             (output.status.code(), words.lines().count()),
@@ -493,16 +404,10 @@ fn a_path_that_is_no_file_is_reported_without_a_terminal() {
         ),
         ("new/", format!("the folder {here}/new does not exist")),
         ("file/x/y", format!("{here}/file is not a folder")),
-        (
-            "/",
-            "/: this is a folder: add the name of a file to it, such as /case.toml".to_owned(),
-        ),
+        ("/", "/: this is a folder: add the name of a file to it, such as /case.toml".to_owned()),
     ] {
-        let output = Command::new(PROGRAM)
-            .arg("new")
-            .arg(path(name))
-            .output()
-            .expect("the program starts");
+        let output =
+            Command::new(PROGRAM).arg("new").arg(path(name)).output().expect("the program starts");
         let words = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(5), "new {name}: {words}");
         assert!(words.contains(&cause), "new {name}: {words}");
@@ -522,25 +427,12 @@ fn a_path_to_save_to_is_completed_where_possible() {
     let path = |name: &str| desk.folder.path().join(name).display().to_string();
     let (folder, missing, good) = (path("."), path("none/such/case.toml"), path("good.toml"));
     desk.keys(&["F2", "Ctrl-U", &folder, "Enter"]);
-    assert!(
-        desk.shows("this is a folder: add the name of a file"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("this is a folder: add the name of a file"), "{}", desk.screen());
     desk.keys(&["Ctrl-U", &missing, "Enter"]);
     assert!(desk.shows("does not exist: create"), "{}", desk.screen());
-    assert!(
-        desk.app
-            .message
-            .as_ref()
-            .is_some_and(|message| message.text.contains("mkdir -p"))
-    );
+    assert!(desk.app.message.as_ref().is_some_and(|message| message.text.contains("mkdir -p")));
     desk.keys(&["Ctrl-U", &good, "Enter"]);
-    assert!(
-        desk.shows("saved ") && Path::new(&good).is_file(),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("saved ") && Path::new(&good).is_file(), "{}", desk.screen());
 }
 
 #[test]
@@ -548,14 +440,9 @@ fn a_tilde_is_the_home_folder_where_paths_are_typed() {
     let launch = Launch::on_table_1();
     let home = launch.folder.path().join("home");
     fs::create_dir(&home).expect("a folder");
-    fs::write(
-        home.join("there.toml"),
-        TABLE_1.replace("2000 rpm", "2100 rpm"),
-    )
-    .expect("room on the disk");
-    let mut tty = launch
-        .variable("HOME", home.to_str().expect("UTF-8"))
-        .start();
+    fs::write(home.join("there.toml"), TABLE_1.replace("2000 rpm", "2100 rpm"))
+        .expect("room on the disk");
+    let mut tty = launch.variable("HOME", home.to_str().expect("UTF-8")).start();
     tty.wait_for("Corner contact");
     tty.type_in("\x1bs\x15~/mine.toml\r");
     tty.wait_for("saved ");
@@ -645,10 +532,7 @@ fn another_file_at_the_path_of_the_case_is_read() {
         tty.wait_for("6 mm");
         tty.type_in("\x157 mm\x13");
         tty.wait_for("saved ");
-        assert!(
-            fs::read_to_string(at(case)).is_ok_and(|text| text.contains("7 mm")),
-            "{swap}"
-        );
+        assert!(fs::read_to_string(at(case)).is_ok_and(|text| text.contains("7 mm")), "{swap}");
         tty.quit();
     }
 }

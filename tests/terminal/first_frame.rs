@@ -33,10 +33,8 @@ fn the_first_frame_takes_at_most_two_and_a_half_times_that_of_vim() {
     for _ in 0..PAIRS {
         let (ours, bytes) = first_frame(Launch::on_table_1(), "F1 help");
         let launch = Launch::on_table_1();
-        let (vims, _) = first_frame(
-            launch.instead("vim").argument("-u").argument("NONE"),
-            "format = 1",
-        );
+        let (vims, _) =
+            first_frame(launch.instead("vim").argument("-u").argument("NONE"), "format = 1");
         println!("tipstrike {ours:.1?}, vim -u NONE {vims:.1?}, {bytes} bytes");
         assert!(bytes <= MOST_BYTES, "the first frame takes {bytes} bytes");
         ratios.push(ours.as_secs_f64() / vims.as_secs_f64());
@@ -44,10 +42,7 @@ fn the_first_frame_takes_at_most_two_and_a_half_times_that_of_vim() {
     }
     let (ratio, time) = (median(ratios), median(times));
     println!("median {time:.1} ms, {ratio:.2} times vim's");
-    assert!(
-        ratio <= MOST,
-        "the first frame takes {ratio:.2} times vim's"
-    );
+    assert!(ratio <= MOST, "the first frame takes {ratio:.2} times vim's");
 }
 
 #[test]
@@ -59,11 +54,7 @@ fn a_headless_solve_is_soon_done() {
     let case = launch.case();
     let run = |program: &str, words: &[&str]| {
         let start = Instant::now();
-        let status = Command::new(program)
-            .args(words)
-            .arg(&case)
-            .stdout(Stdio::null())
-            .status();
+        let status = Command::new(program).args(words).arg(&case).stdout(Stdio::null()).status();
         assert!(status.is_ok_and(|status| status.success()), "{program}");
         start.elapsed().as_secs_f64()
     };
@@ -78,8 +69,5 @@ fn a_headless_solve_is_soon_done() {
     }
     let ratio = solve / nothing;
     println!("solve: {:.1} ms, {ratio:.1} times `true`", solve * 1e3);
-    assert!(
-        ratio <= MOST,
-        "a solve takes {ratio:.1} times as long as an empty program"
-    );
+    assert!(ratio <= MOST, "a solve takes {ratio:.1} times as long as an empty program");
 }

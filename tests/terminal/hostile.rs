@@ -55,20 +55,13 @@ fn folder() -> (TempDir, Vec<PathBuf>) {
         HOSTILE.to_owned(),
     ];
     let named = |(number, text): (usize, String)| {
-        let name = [
-            format!("{number}{}", HOSTILE.replace('/', "")).as_bytes(),
-            b"\xff.toml",
-        ]
-        .concat();
+        let name =
+            [format!("{number}{}", HOSTILE.replace('/', "")).as_bytes(), b"\xff.toml"].concat();
         let path = folder.path().join(OsStr::from_bytes(&name));
         fs::write(&path, text).expect("room on the disk");
         path
     };
-    let paths = std::iter::once(good.clone())
-        .chain(bad)
-        .enumerate()
-        .map(named)
-        .collect();
+    let paths = std::iter::once(good.clone()).chain(bad).enumerate().map(named).collect();
     (folder, paths)
 }
 
@@ -98,17 +91,11 @@ fn no_command_prints_a_control_character() {
         ] {
             let mut command = Command::new(PROGRAM);
             // Some arguments are names of new files.
-            command
-                .args(words)
-                .arg(path)
-                .env("TERM", "xterm")
-                .current_dir(folder.path());
+            command.args(words).arg(path).env("TERM", "xterm").current_dir(folder.path());
             let output = command.output().expect("it starts");
             for bytes in [&output.stdout, &output.stderr] {
                 let text = std::str::from_utf8(bytes).expect("words in UTF-8");
-                let raw = text
-                    .chars()
-                    .find(|&letter| letter != '\n' && is_hidden(letter));
+                let raw = text.chars().find(|&letter| letter != '\n' && is_hidden(letter));
                 assert_eq!(raw, None, "{words:?} {path:?}: {text:?}");
             }
             runs += 1;
@@ -135,28 +122,20 @@ fn on(text: &str, size: Size, look: Look) -> Desk {
 
 fn assert_harmless(buffer: &Buffer, what: &str) {
     for cell in &buffer.content {
-        assert!(
-            !cell.symbol().chars().any(is_hidden),
-            "{what}: {:?}",
-            cell.symbol()
-        );
+        assert!(!cell.symbol().chars().any(is_hidden), "{what}: {:?}", cell.symbol());
     }
 }
 
 #[test]
 fn no_screen_shows_a_control() {
     let (_folder, paths) = folder();
-    for (keys, size) in SCREENS
-        .iter()
-        .flat_map(|keys| [SMALL, LARGE].map(|size| (keys, size)))
-    {
+    for (keys, size) in SCREENS.iter().flat_map(|keys| [SMALL, LARGE].map(|size| (keys, size))) {
         let mut desk = on(&hostile_case(), size, Look::FULL);
         for name in [HOSTILE, "b\u{202e}.toml"] {
             desk.write(&name.replace('/', ""), TABLE_1);
         }
         desk.recents = paths.clone();
-        desk.fill("title", HOSTILE)
-            .act(Action::Paste(HOSTILE.to_owned()));
+        desk.fill("title", HOSTILE).act(Action::Paste(HOSTILE.to_owned()));
         desk.keys(keys);
         desk.act(Action::Paste(HOSTILE.to_owned()));
         assert_harmless(&desk.buffer(size), &format!("{keys:?}"));
@@ -180,27 +159,16 @@ fn no_screen_shows_a_control() {
 fn foreign_texts() -> Vec<Action> {
     let words = || HOSTILE.to_owned();
     let saved = |fault| Action::Saved(HOSTILE.into(), Next::Stay, Err(fault));
-    let change = Change {
-        key: "title".to_owned(),
-        from: Some(words()),
-        to: Some(words()),
-    };
+    let change = Change { key: "title".to_owned(), from: Some(words()), to: Some(words()) };
     let offer = Offer {
         journal: HOSTILE.into(),
         age: words(),
         changes: vec![change],
         is_file_changed: true,
     };
-    let found = || Found {
-        lines: vec![words()],
-        stamp: None,
-    };
-    let claim = Claim {
-        id: 0,
-        access: Access::Held(words()),
-        offers: vec![offer],
-        notices: vec![words()],
-    };
+    let found = || Found { lines: vec![words()], stamp: None };
+    let claim =
+        Claim { id: 0, access: Access::Held(words()), offers: vec![offer], notices: vec![words()] };
     vec![
         Action::Failed(words()),
         saved(SaveFault::Exists(found())),
@@ -216,19 +184,15 @@ fn every_size_is_drawn_on_every_screen() {
     for keys in SCREENS {
         let mut desk = on(TABLE_1, SMALL, Look::FULL);
         desk.keys(keys);
-        for (width, height) in (0..=90u16)
-            .step_by(3)
-            .flat_map(|width| (0..=30u16).map(move |height| (width, height)))
+        for (width, height) in
+            (0..=90u16).step_by(3).flat_map(|width| (0..=30u16).map(move |height| (width, height)))
         {
             let size = Size { width, height };
             desk.act(Action::Resize(size));
             let area = Rect::new(0, 0, width, height);
             let mut buffer = Buffer::empty(area);
             let cursor = view::draw(&desk.app, area, &mut buffer);
-            assert!(
-                cursor.is_none_or(|cursor| area.contains(cursor)),
-                "{keys:?} {size:?}"
-            );
+            assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{keys:?} {size:?}");
         }
         desk.act(Action::Resize(SMALL));
         assert_harmless(&desk.buffer(SMALL), "back at its size");

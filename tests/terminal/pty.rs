@@ -76,9 +76,7 @@ fn the_workbench_suspends_and_resumes() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.send_signal("TSTP");
-    tty.wait_until("the alternate screen to be left", |tty| {
-        !tty.screen().alternate_screen()
-    });
+    tty.wait_until("the alternate screen to be left", |tty| !tty.screen().alternate_screen());
     tty.wait_until("it to stop", |tty| tty.state() == Some('T'));
     tty.assert_restored();
     tty.send_signal("CONT");
@@ -108,9 +106,7 @@ fn a_flood_of_keys_does_not_block_the_workbench() {
     tty.wait_for("777777");
     tty.type_in("\x15");
     tty.type_in("5 mm");
-    tty.wait_until("the end of the flood", |tty| {
-        tty.shows("5 mm") && !tty.shows("*unsaved*")
-    });
+    tty.wait_until("the end of the flood", |tty| tty.shows("5 mm") && !tty.shows("*unsaved*"));
     tty.type_in("\x11");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
 }
@@ -130,10 +126,7 @@ fn a_paste_presses_no_button() {
 
 #[test]
 fn a_terminal_without_unicode_gets_ascii_and_no_color_no_colour() {
-    let mut tty = Launch::on_table_1()
-        .variable("TERM", "linux")
-        .variable("NO_COLOR", "1")
-        .start();
+    let mut tty = Launch::on_table_1().variable("TERM", "linux").variable("NO_COLOR", "1").start();
     tty.wait_for("quit");
     let screen = tty.screen();
     assert!(screen.contents().is_ascii(), "{}", screen.contents());
@@ -147,10 +140,7 @@ fn a_terminal_without_unicode_gets_ascii_and_no_color_no_colour() {
         bold += usize::from(cell.bold());
         inverse += usize::from(cell.inverse());
     }
-    assert!(
-        bold > 0 && inverse > 0,
-        "without colours, bold and reverse remain"
-    );
+    assert!(bold > 0 && inverse > 0, "without colours, bold and reverse remain");
     tty.type_in("\x11");
     tty.wait_for_end();
 }

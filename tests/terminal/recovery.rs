@@ -66,9 +66,7 @@ fn bench(folder: &Path) -> (App, Autosave, Arc<JournalWriter>) {
 }
 
 fn write(app: &mut App, key: &str, text: &str) {
-    app.tab
-        .case
-        .write(fields::index_of(key).expect("a field"), text);
+    app.tab.case.write(fields::index_of(key).expect("a field"), text);
 }
 
 #[test]
@@ -77,40 +75,21 @@ fn edits_are_journaled_a_second_after_the_last_and_every_two_during_typing() {
     let (mut app, mut autosave, _chest) = bench(folder.path());
     let start = Instant::now();
     assert!(autosave.follow(&app.sheets(), start).is_empty());
-    assert_eq!(
-        autosave.deadline(),
-        None,
-        "without edits there is no deadline"
-    );
+    assert_eq!(autosave.deadline(), None, "without edits there is no deadline");
     write(&mut app, "pair.module", "6 mm");
     autosave.follow(&app.sheets(), start);
-    assert!(
-        autosave
-            .deadline()
-            .is_some_and(|deadline| deadline <= start + SECOND)
-    );
+    assert!(autosave.deadline().is_some_and(|deadline| deadline <= start + SECOND));
     for tenth in 1..40 {
         let now = start + SECOND / 10 * tenth;
         write(&mut app, "pair.module", &format!("6.{tenth} mm"));
         autosave.follow(&app.sheets(), now);
         let deadline = autosave.deadline().expect("there is something to keep");
-        assert!(
-            deadline <= start + 2 * SECOND && deadline <= now + SECOND,
-            "{tenth}"
-        );
+        assert!(deadline <= start + 2 * SECOND && deadline <= now + SECOND, "{tenth}");
     }
     autosave.keep_if_due(start + 2 * SECOND);
-    assert_eq!(
-        autosave.deadline(),
-        None,
-        "journaled edits have no deadline"
-    );
+    assert_eq!(autosave.deadline(), None, "journaled edits have no deadline");
     autosave.follow(&app.sheets(), start + 3 * SECOND);
-    assert_eq!(
-        autosave.deadline(),
-        None,
-        "journaled edits are not written again"
-    );
+    assert_eq!(autosave.deadline(), None, "journaled edits are not written again");
     autosave.end();
 }
 
@@ -125,15 +104,9 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     let path = journals(folder.path()).pop().expect("a journal");
     let journal =
         Journal::from_text(&fs::read_to_string(path).expect("it is there")).expect("whole");
-    assert_eq!(
-        journal.case.as_deref(),
-        Some(folder.path().join("case.toml").as_path())
-    );
+    assert_eq!(journal.case.as_deref(), Some(folder.path().join("case.toml").as_path()));
     assert_eq!(journal.changes.len(), 1);
-    assert_eq!(
-        journal.changes[0].to.as_deref(),
-        Some("no \u{1b}[2J number")
-    );
+    assert_eq!(journal.changes[0].to.as_deref(), Some("no \u{1b}[2J number"));
     app.tab.case = app.tab.saved.clone();
     autosave.follow(&app.sheets(), Instant::now());
     autosave.keep();
@@ -141,14 +114,9 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     write(&mut app, "pair.module", "6 mm");
     autosave.follow(&app.sheets(), Instant::now());
     autosave.end();
-    assert!(
-        journals(folder.path()).is_empty(),
-        "an intended end leaves no journal"
-    );
+    assert!(journals(folder.path()).is_empty(), "an intended end leaves no journal");
     assert_eq!(
-        fs::read_dir(folder.path().join("tipstrike/sessions"))
-            .map(Iterator::count)
-            .ok(),
+        fs::read_dir(folder.path().join("tipstrike/sessions")).map(Iterator::count).ok(),
         Some(0)
     );
     assert!(!folder.path().join(".case.toml.tipstrike").exists());
@@ -178,10 +146,7 @@ fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_saved_again() {
     autosave.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "6 mm");
     autosave.follow(&app.sheets(), Instant::now());
-    let (place, old) = (
-        folder.path().join("tipstrike/journals"),
-        folder.path().join("old.toml"),
-    );
+    let (place, old) = (folder.path().join("tipstrike/journals"), folder.path().join("old.toml"));
     fs::remove_dir_all(&place).expect("our own folder");
     fs::write(&old, "the edits of an earlier session").expect("room on the disk");
     autosave.adopt(old.clone());
@@ -207,15 +172,10 @@ fn edits_that_cannot_be_written_to_a_journal_are_reported() {
         "{claims:?}"
     );
     drop(autosave);
-    let mut homeless = Autosave::new(
-        State::choose(None, Vec::new()),
-        Arc::new(JournalWriter::default()),
-    );
+    let mut homeless =
+        Autosave::new(State::choose(None, Vec::new()), Arc::new(JournalWriter::default()));
     let claims = homeless.follow(&app.sheets(), Instant::now());
-    assert!(
-        matches!(&claims[..], [Ok(claim)] if claim.notices[0].contains("HOME")),
-        "{claims:?}"
-    );
+    assert!(matches!(&claims[..], [Ok(claim)] if claim.notices[0].contains("HOME")), "{claims:?}");
 }
 
 #[test]
@@ -252,29 +212,14 @@ fn a_folder_or_file_system_without_locks_is_reported() {
         return;
     }
     for (call, error, cause) in [
-        (
-            "openat",
-            "EROFS",
-            "its folder is read-only: save it elsewhere",
-        ),
-        (
-            "openat",
-            "EACCES",
-            "its folder is read-only: save it elsewhere",
-        ),
+        ("openat", "EROFS", "its folder is read-only: save it elsewhere"),
+        ("openat", "EACCES", "its folder is read-only: save it elsewhere"),
         ("openat", "EIO", "Input/output error: open it only once"),
-        (
-            "flock",
-            "EOPNOTSUPP",
-            "the lock is valid on this machine only: Operation not supported",
-        ),
+        ("flock", "EOPNOTSUPP", "the lock is valid on this machine only: Operation not supported"),
     ] {
         let launch = Launch::on_table_1().size(24, 200);
         let lock = launch.folder.path().join(".case.toml.tipstrike");
-        let (trace, inject) = (
-            format!("trace={call}"),
-            format!("inject={call}:error={error}"),
-        );
+        let (trace, inject) = (format!("trace={call}"), format!("inject={call}:error={error}"));
         let launch = launch.through(&[
             "strace",
             "-f",
@@ -395,11 +340,7 @@ fn kill_9_after_two_seconds_loses_nothing() {
     tty.wait_for_end();
     let mut next = again(&tty);
     next.wait_for(OFFER);
-    assert!(
-        next.shows("module: 5 mm -> 1.25 in"),
-        "{}",
-        next.screen().contents()
-    );
+    assert!(next.shows("module: 5 mm -> 1.25 in"), "{}", next.screen().contents());
     assert!(!next.shows("*unsaved*"), "nothing is taken over unasked");
     next.type_in("\r");
     next.wait_for("*unsaved*");
@@ -424,26 +365,16 @@ fn text_typed_just_before_a_signal_is_journaled() {
         tty.wait_for("1.25 in");
         tty.send_signal(signal);
         tty.wait_for_end();
-        assert!(
-            tty.shows("unsaved edits are kept"),
-            "{signal}:\n{}",
-            tty.screen().contents()
-        );
+        assert!(tty.shows("unsaved edits are kept"), "{signal}:\n{}", tty.screen().contents());
         tty.assert_restored();
         let mut next = again(&tty);
         next.wait_for(OFFER);
-        assert!(
-            next.shows("5 mm ->  1.25 in") || next.shows("1.25 in"),
-            "{signal}"
-        );
+        assert!(next.shows("5 mm ->  1.25 in") || next.shows("1.25 in"), "{signal}");
         // Discarded edits are deleted.
         next.type_in("d\x11");
         assert_eq!(next.wait_for_end().exit_code(), 0, "{signal}");
         assert!(journals(next.folder.path()).is_empty(), "{signal}");
-        assert_eq!(
-            fs::read_to_string(next.case()).expect("it is there"),
-            TABLE_1
-        );
+        assert_eq!(fs::read_to_string(next.case()).expect("it is there"), TABLE_1);
     }
 }
 
@@ -461,9 +392,7 @@ fn a_workbench_that_is_stuck_is_ended_by_a_hang_up_without_loss_and_without_work
     if !has_faults_on_demand() {
         return;
     }
-    let mut tty = Launch::on_table_1()
-        .variable("TIPSTRIKE_FAULT", "stuck screen")
-        .start();
+    let mut tty = Launch::on_table_1().variable("TIPSTRIKE_FAULT", "stuck screen").start();
     tty.wait_for("Corner contact");
     tty.type_in("\x151.25 in");
     tty.wait_for("1.25 in");
@@ -484,9 +413,8 @@ fn a_terminal_closed_without_a_signal_is_noticed() {
     for fault in ["", "stuck screen"] {
         // In its own session the program has no controlling terminal, so no signal reports the end
         // of the terminal.
-        let launch = Launch::on_table_1()
-            .through(&["setsid", "--wait"])
-            .variable("TIPSTRIKE_FAULT", fault);
+        let launch =
+            Launch::on_table_1().through(&["setsid", "--wait"]).variable("TIPSTRIKE_FAULT", fault);
         let mut tty = launch.start();
         tty.wait_for("Corner contact");
         tty.type_in("\x151.25 in");
@@ -518,10 +446,7 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
         })
     };
     let before = ticks(id);
-    assert!(
-        journals(tty.folder.path()).is_empty(),
-        "no journal is written yet"
-    );
+    assert!(journals(tty.folder.path()).is_empty(), "no journal is written yet");
     let broken = Instant::now();
     tty.hang_up();
     let (mut kept, mut burnt) = (None, before);
@@ -539,16 +464,9 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
         burnt - before
     );
     // The promises are 0.2 s and 1 s; a busy machine may wake the process later.
-    assert!(
-        kept.unwrap_or(gone) < SECOND / 2,
-        "its edits are kept after {kept:?}"
-    );
+    assert!(kept.unwrap_or(gone) < SECOND / 2, "its edits are kept after {kept:?}");
     assert!(gone < 5 * SECOND, "it remains for {gone:.1?}");
-    assert!(
-        burnt - before <= 8,
-        "it burns {} ticks on its way out",
-        burnt - before
-    );
+    assert!(burnt - before <= 8, "it burns {} ticks on its way out", burnt - before);
     journals(tty.folder.path())
         .first()
         .and_then(|path| fs::read_to_string(path).ok())
@@ -603,11 +521,7 @@ fn an_offer_for_a_changed_file_shows_the_present_differences() {
     let mut next = next.size(24, 160).start();
     next.wait_for(OFFER);
     next.wait_for("The file has changed");
-    assert!(
-        next.shows("module: 7 mm -> 6 mm"),
-        "{}",
-        next.screen().contents()
-    );
+    assert!(next.shows("module: 7 mm -> 6 mm"), "{}", next.screen().contents());
     next.type_in("l");
     next.quit();
     // Edits equal to the present file are not offered.
@@ -645,10 +559,8 @@ fn a_damaged_journal_is_set_aside_reported_and_never_trusted_nor_deleted() {
         assert!(!next.shows(OFFER) && !next.shows("9 mm"));
         next.quit();
         assert!(!path.exists());
-        let aside: Vec<_> = fs::read_dir(path.parent().expect("a folder"))
-            .expect("a folder")
-            .flatten()
-            .collect();
+        let aside: Vec<_> =
+            fs::read_dir(path.parent().expect("a folder")).expect("a folder").flatten().collect();
         assert_eq!(aside.len(), count + 1, "none is deleted");
         assert!(
             aside
@@ -674,11 +586,7 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
     second.wait_for("*read-only*");
     second.wait_for(&format!("process {}", first.id()));
     let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
-    assert!(
-        second.shows(&format!("on {} for ", host.trim())),
-        "{}",
-        second.screen().contents()
-    );
+    assert!(second.shows(&format!("on {} for ", host.trim())), "{}", second.screen().contents());
     second.type_in("\x156 mm");
     wait_for_journal(&mut second, "6 mm");
     assert!(second.shows("*unsaved*"), "{}", second.screen().contents());
@@ -712,11 +620,7 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
         .flatten()
         .map(|entry| entry.file_name())
         .collect();
-    assert!(
-        left.iter()
-            .all(|name| !name.to_string_lossy().ends_with(".tipstrike")),
-        "{left:?}"
-    );
+    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".tipstrike")), "{left:?}");
 }
 
 #[test]
@@ -725,9 +629,7 @@ fn when_the_first_session_has_ended_the_second_may_save() {
     let link = first.folder.path().join("link.toml");
     symlink("case.toml", &link).expect("a link");
     // Under any name.
-    let mut second = Launch::of(Arc::clone(&first.folder))
-        .argument(&link)
-        .start();
+    let mut second = Launch::of(Arc::clone(&first.folder)).argument(&link).start();
     second.wait_for("*read-only*");
     first.send_signal("KILL");
     first.wait_for_end();

@@ -75,9 +75,7 @@ fn a_shell_stops_and_resumes_the_workbench() {
     let ours = tty.modes();
     for _ in 0..2 {
         tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
-        tty.wait_until("the workbench", |tty| {
-            tty.screen().alternate_screen() && tty.shows("quit")
-        });
+        tty.wait_until("the workbench", |tty| tty.screen().alternate_screen() && tty.shows("quit"));
         let taken = tty.modes();
         for by_key in [false, true] {
             if by_key {
@@ -134,9 +132,7 @@ fn a_shell_ends_a_stopped_workbench_without_resuming_it() {
         tty.wait_for("ready>");
         let ours = tty.modes();
         tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
-        tty.wait_until("the workbench", |tty| {
-            tty.screen().alternate_screen() && tty.shows("quit")
-        });
+        tty.wait_until("the workbench", |tty| tty.screen().alternate_screen() && tty.shows("quit"));
         tty.settle(QUIET);
         tty.send_to_program(stop);
         tty.wait_for("Stopped");
@@ -163,18 +159,12 @@ fn a_terminal_that_accepts_no_bytes_does_not_block_the_end() {
     tty.send_signal("TERM");
     let start = Instant::now();
     while !tty.has_ended() {
-        assert!(
-            start.elapsed() < PATIENCE,
-            "it waits for a terminal that accepts no bytes"
-        );
+        assert!(start.elapsed() < PATIENCE, "it waits for a terminal that accepts no bytes");
         std::thread::sleep(Duration::from_millis(5));
     }
     println!("gone after {:.1?}", start.elapsed());
     let kept = journals(tty.folder.path());
-    assert!(
-        fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")),
-        "{kept:?}"
-    );
+    assert!(fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")), "{kept:?}");
 }
 
 #[test]
@@ -229,20 +219,14 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
 #[test]
 fn a_storm_of_sizes_ends_in_the_right_picture() {
     let mut tty = opened(Launch::on_table_1());
-    let sizes: Vec<_> = (0..400u16)
-        .map(|at| (at * 7 % 61, at * 13 % 201))
-        .chain([(24, 80)])
-        .collect();
+    let sizes: Vec<_> =
+        (0..400u16).map(|at| (at * 7 % 61, at * 13 % 201)).chain([(24, 80)]).collect();
     tty.pour(vec![b"\t".repeat(200)], &sizes);
     tty.settle(QUIET);
     tty.wait_for("Corner contact");
     let plain = opened(Launch::on_table_1());
     let line = |tty: &Tty| {
-        tty.screen()
-            .contents()
-            .lines()
-            .next()
-            .map(|line| line.split_whitespace().count())
+        tty.screen().contents().lines().next().map(|line| line.split_whitespace().count())
     };
     assert_eq!(line(&tty), line(&plain));
     tty.quit();
@@ -251,14 +235,7 @@ fn a_storm_of_sizes_ends_in_the_right_picture() {
 
 #[test]
 fn every_kind_of_terminal_gets_its_character_set_and_colours() {
-    for term in [
-        "xterm",
-        "xterm-256color",
-        "screen",
-        "tmux-256color",
-        "vt100",
-        "linux",
-    ] {
+    for term in ["xterm", "xterm-256color", "screen", "tmux-256color", "vt100", "linux"] {
         for locale in ["C.UTF-8", "C", "POSIX", "de_DE.ISO-8859-1"] {
             for colour in ["", "1"] {
                 let launch = Launch::on_table_1()
@@ -277,9 +254,8 @@ fn every_kind_of_terminal_gets_its_character_set_and_colours() {
                 let cells = (0..24)
                     .flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
                 let plain = vt100::Color::Default;
-                let coloured = cells
-                    .filter(|cell| (cell.fgcolor(), cell.bgcolor()) != (plain, plain))
-                    .count();
+                let coloured =
+                    cells.filter(|cell| (cell.fgcolor(), cell.bgcolor()) != (plain, plain)).count();
                 assert_eq!(
                     coloured == 0,
                     !colour.is_empty(),
@@ -306,20 +282,13 @@ fn a_flood_and_a_long_paste_are_cheap_and_press_no_button() {
     tty.pour(vec![b"7".repeat(100_000)], &[]);
     tty.settle(QUIET);
     let written = tty.written.as_ref().map_or(0, Vec::len);
-    println!(
-        "100,000 keys: {written} bytes out, {:.0?} with {QUIET:?} of quiet",
-        start.elapsed()
-    );
+    println!("100,000 keys: {written} bytes out, {:.0?} with {QUIET:?} of quiet", start.elapsed());
     assert!(written <= 64 << 10, "{written} bytes");
     // Into a question, a megabyte of the first letters of every button.
     tty.type_in("\x11");
     tty.wait_for("Discard");
     tty.pour(
-        vec![
-            b"\x1b[200~".to_vec(),
-            b"dscyn\r \x11\x03".repeat(1 << 17),
-            b"\x1b[201~".to_vec(),
-        ],
+        vec![b"\x1b[200~".to_vec(), b"dscyn\r \x11\x03".repeat(1 << 17), b"\x1b[201~".to_vec()],
         &[],
     );
     tty.settle(QUIET);
@@ -330,10 +299,7 @@ fn a_flood_and_a_long_paste_are_cheap_and_press_no_button() {
     );
     tty.type_in("d");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
-    assert_eq!(
-        fs::read_to_string(tty.case()).expect("it is there"),
-        TABLE_1
-    );
+    assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1);
 }
 
 #[test]
@@ -392,10 +358,7 @@ fn an_old_picture_in_the_alternate_screen_is_cleared() {
     let written = String::from_utf8(tty.written.clone().unwrap_or_default()).expect("words");
     old.process(written.replace("\x1b[?1049h", "").as_bytes());
     assert_eq!(old.screen().contents(), tty.screen().contents());
-    assert_eq!(
-        old.screen().contents_formatted(),
-        tty.screen().contents_formatted()
-    );
+    assert_eq!(old.screen().contents_formatted(), tty.screen().contents_formatted());
     tty.quit();
 }
 
@@ -453,32 +416,21 @@ fn an_idle_workbench_sleeps_and_is_small() {
 
 /// The number of times that the system scheduled its threads.
 fn wake_ups(process: u32) -> u64 {
-    let tasks = fs::read_dir(format!("/proc/{process}/task"))
-        .expect("it runs")
-        .flatten();
+    let tasks = fs::read_dir(format!("/proc/{process}/task")).expect("it runs").flatten();
     let switches = |text: String| {
         number_after(&text, "\nvoluntary_ctxt_switches:")
             + number_after(&text, "nonvoluntary_ctxt_switches:")
     };
-    tasks
-        .filter_map(|task| fs::read_to_string(task.path().join("status")).ok())
-        .map(switches)
-        .sum()
+    tasks.filter_map(|task| fs::read_to_string(task.path().join("status")).ok()).map(switches).sum()
 }
 
 fn resident(process: u32) -> u64 {
-    number_after(
-        &fs::read_to_string(format!("/proc/{process}/status")).expect("it runs"),
-        "VmRSS:",
-    )
+    number_after(&fs::read_to_string(format!("/proc/{process}/status")).expect("it runs"), "VmRSS:")
 }
 
 fn number_after(text: &str, name: &str) -> u64 {
     let rest = text.split_once(name).map_or("", |(_, rest)| rest);
-    rest.split_whitespace()
-        .next()
-        .and_then(|number| number.parse().ok())
-        .unwrap_or(0)
+    rest.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
 #[test]
@@ -498,10 +450,7 @@ fn a_typed_digit_costs_few_bytes() {
             "{columns}x{rows}: {alone} bytes for a field alone ({first} with the mark), {whole} \
                 with results and chart"
         );
-        assert!(
-            alone <= 120,
-            "{columns}x{rows}: {alone} bytes for a field alone"
-        );
+        assert!(alone <= 120, "{columns}x{rows}: {alone} bytes for a field alone");
         assert!(
             first <= 600 && whole <= 600,
             "{columns}x{rows}: {whole} bytes with results and chart"

@@ -132,8 +132,7 @@ impl Soak {
 
     fn suspend(&mut self) {
         self.tty.send_signal("TSTP");
-        self.tty
-            .wait_until("it to stop", |tty| tty.state() == Some('T'));
+        self.tty.wait_until("it to stop", |tty| tty.state() == Some('T'));
         // Every edit must be in a journal, because the suspension may last long.
         for path in journals(self.tty.folder.path()) {
             let text = fs::read_to_string(&path).expect("it is there");
@@ -146,11 +145,7 @@ impl Soak {
 
     fn look(&mut self, step: usize) -> u64 {
         self.tty.settle(QUIET);
-        assert!(
-            !self.tty.has_ended(),
-            "it ended at {step}:\n{}",
-            self.tty.screen().contents()
-        );
+        assert!(!self.tty.has_ended(), "it ended at {step}:\n{}", self.tty.screen().contents());
         for path in files(self.tty.folder.path()) {
             let text = fs::read_to_string(&path).expect("it is there");
             assert!(
@@ -212,15 +207,9 @@ impl Soak {
             let (name, is_unsaved) = self.case()?;
             if name.starts_with("built-in") || name.starts_with("new case") {
                 // Neither case has a file.
-                for keys in [
-                    &b"\x1b"[..],
-                    b"\x1b",
-                    b"\x1b",
-                    b"\x0f",
-                    b"\x15case.toml",
-                    b"\r",
-                    b"\x13",
-                ] {
+                for keys in
+                    [&b"\x1b"[..], b"\x1b", b"\x1b", b"\x0f", b"\x15case.toml", b"\r", b"\x13"]
+                {
                     self.press(keys);
                 }
             } else if self.tty.shows("Reload") {
@@ -233,8 +222,7 @@ impl Soak {
             } else {
                 // Names may end in invisible characters.
                 let is_it = |path: &PathBuf| {
-                    path.file_name()
-                        .is_some_and(|own| own.to_string_lossy().trim() == name)
+                    path.file_name().is_some_and(|own| own.to_string_lossy().trim() == name)
                 };
                 return files(self.tty.folder.path()).into_iter().find(is_it);
             }
@@ -252,20 +240,12 @@ impl Soak {
         let (name, is_unsaved) = match own {
             Some(own) => (own.trim_end_matches('*'), own.ends_with('*')),
             None => (
-                head.strip_prefix("tipstrike")?
-                    .trim_start()
-                    .split("  ")
-                    .next()?,
+                head.strip_prefix("tipstrike")?.trim_start().split("  ").next()?,
                 head.contains("*unsaved*"),
             ),
         };
         let name = name.trim_end_matches("*unsaved*").trim();
-        Some((
-            name.rsplit_once('/')
-                .map_or(name, |(_, name)| name)
-                .to_owned(),
-            is_unsaved,
-        ))
+        Some((name.rsplit_once('/').map_or(name, |(_, name)| name).to_owned(), is_unsaved))
     }
 
     /// Every value of the form, copied through the clipboard.
@@ -311,23 +291,14 @@ fn values_of_file(path: &Path) -> Vec<String> {
     let text = fs::read_to_string(path).expect("it is there");
     let document =
         Document::parse_draft("case", &text).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let mut app = opened(
-        document,
-        Some(path.to_owned()),
-        Look::FULL,
-        Size::new(80, 24),
-    );
+    let mut app = opened(document, Some(path.to_owned()), Look::FULL, Size::new(80, 24));
     let lines = 0..rows::count(&app.tab.case);
     let copied = lines.filter_map(|line| {
         app.tab.form.focus = line;
         let effects = update(&mut app, Action::Do(Command::CopyValue));
-        effects.into_iter().find_map(|effect| {
-            if let Effect::Copy(text) = effect {
-                Some(text)
-            } else {
-                None
-            }
-        })
+        effects
+            .into_iter()
+            .find_map(|effect| if let Effect::Copy(text) = effect { Some(text) } else { None })
     });
     copied.collect()
 }
@@ -352,18 +323,13 @@ fn decoded(text: Option<&str>) -> String {
 fn resident(tty: &Tty) -> u64 {
     let text = fs::read_to_string(format!("/proc/{}/status", tty.id())).expect("it runs");
     let rest = text.split_once("VmRSS:").map_or("", |(_, rest)| rest);
-    rest.split_whitespace()
-        .next()
-        .and_then(|number| number.parse().ok())
-        .unwrap_or(0)
+    rest.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
 #[test]
 fn a_long_session_loses_nothing_and_does_not_grow() {
-    let count = std::env::var("TIPSTRIKE_SOAK")
-        .ok()
-        .and_then(|count| count.parse().ok())
-        .unwrap_or(FEW);
+    let count =
+        std::env::var("TIPSTRIKE_SOAK").ok().and_then(|count| count.parse().ok()).unwrap_or(FEW);
     // Memory that a thread frees remains in its glibc arena: with one arena the test measures what
     // the program itself keeps.
     let launch = Launch::on_table_1().variable("MALLOC_ARENA_MAX", "1");
@@ -404,15 +370,7 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
             soak.compare();
         }
     }
-    let Soak {
-        looks,
-        comparisons,
-        suspensions,
-        values,
-        saves,
-        most_tabs,
-        ..
-    } = soak;
+    let Soak { looks, comparisons, suspensions, values, saves, most_tabs, .. } = soak;
     let rate = count as f64 / begun.elapsed().as_secs_f64();
     println!(
         "{count} actions, {rate:.0}/s: {start} KiB at first, {early} in the first quarter, {most} \
@@ -423,12 +381,6 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
             cases open at most"
     );
     println!("{comparisons} comparisons of form and file, {values} values");
-    assert!(
-        comparisons * COMPARE * 2 >= count,
-        "too few comparisons: {comparisons}"
-    );
-    assert!(
-        most <= early + MOST_GROWTH && most <= 30 << 10,
-        "{early} KiB, then {most} KiB"
-    );
+    assert!(comparisons * COMPARE * 2 >= count, "too few comparisons: {comparisons}");
+    assert!(most <= early + MOST_GROWTH && most <= 30 << 10, "{early} KiB, then {most} KiB");
 }

@@ -21,10 +21,7 @@ fn launch(command: &[&str]) -> Launch {
     let case = launch.case();
     match command {
         [] => launch,
-        words => words
-            .iter()
-            .fold(Launch::of(launch.folder), Launch::argument)
-            .argument(case),
+        words => words.iter().fold(Launch::of(launch.folder), Launch::argument).argument(case),
     }
 }
 
@@ -50,18 +47,10 @@ fn a_trade_shows_its_progress_and_ctrl_c_ends_it() {
     let begun = Instant::now();
     tty.wait_until("no bar", |tty| !tty.shows("settings"));
     let status = tty.wait_for_end();
-    warn_beyond(
-        "Ctrl-C to the end",
-        begun.elapsed(),
-        Duration::from_millis(100),
-    );
+    warn_beyond("Ctrl-C to the end", begun.elapsed(), Duration::from_millis(100));
     assert!(!status.success());
     tty.assert_restored();
-    assert_eq!(
-        tty.screen().contents().trim(),
-        "",
-        "no bar and no word are left"
-    );
+    assert_eq!(tty.screen().contents().trim(), "", "no bar and no word are left");
 }
 
 #[test]
@@ -98,11 +87,7 @@ fn esc_ends_a_measurement_at_once() {
     tty.type_in("\x1b");
     let time = time_until(&mut tty, "the benchmark is stopped");
     // 50 ms of silence distinguish a lone Esc from the start of an arrow key.
-    warn_beyond(
-        "Esc to the end of a measurement",
-        time,
-        Duration::from_millis(150),
-    );
+    warn_beyond("Esc to the end of a measurement", time, Duration::from_millis(150));
     tty.type_in("\x11");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
 }

@@ -20,12 +20,10 @@ const ROUNDING: f64 = 1e-11;
 /// The cases, by name.
 pub(crate) fn cases() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let files = std::fs::read_dir(folder)
-        .expect("the cases")
-        .map(|entry| entry.expect("an entry").path());
-    let mut cases: Vec<PathBuf> = files
-        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .collect();
+    let files =
+        std::fs::read_dir(folder).expect("the cases").map(|entry| entry.expect("an entry").path());
+    let mut cases: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
     cases.sort();
     cases
 }
@@ -37,10 +35,7 @@ pub(crate) fn inputs(path: &Path) -> Inputs {
         .case
         .inputs()
         .unwrap_or_else(|problems| panic!("{}: {}", path.display(), problems[0]));
-    Inputs {
-        tooth_compliance: None,
-        ..inputs
-    }
+    Inputs { tooth_compliance: None, ..inputs }
 }
 
 /// Every setting that is compared in each case.
@@ -76,21 +71,11 @@ fn path() -> PathBuf {
 
 /// Every case and its trade study, in the order of `cases`.
 pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
-    let parameters = TradeParameters {
-        within: 0.05,
-        patience: *patience,
-    };
+    let parameters = TradeParameters { within: 0.05, patience: *patience };
     let made = |path: PathBuf| {
         let found = trade(&inputs(&path), &parameters, &|| true, &mut |_| ());
-        let name = path
-            .file_stem()
-            .expect("a name")
-            .to_string_lossy()
-            .into_owned();
-        (
-            name,
-            found.unwrap_or_else(|refusal| panic!("{}: {refusal}", path.display())),
-        )
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        (name, found.unwrap_or_else(|refusal| panic!("{}: {refusal}", path.display())))
     };
     cases().into_iter().map(made).collect()
 }
@@ -104,12 +89,7 @@ pub(crate) fn traded_once() -> &'static [(String, Trade)] {
 
 impl Table {
     pub(crate) fn of(trades: &[(String, Trade)]) -> Table {
-        Table(
-            settings()
-                .iter()
-                .map(|setting| row(setting, trades))
-                .collect(),
-        )
+        Table(settings().iter().map(|setting| row(setting, trades)).collect())
     }
 
     pub(crate) fn stored() -> Table {
@@ -130,11 +110,7 @@ impl Table {
             let name = made.split('|').nth(1);
             let mut lines = stored.lines();
             let times = lines.find(|line| line.split('|').nth(1) == name);
-            let times = times
-                .unwrap_or("| | - | - |")
-                .split('|')
-                .skip(2)
-                .take(TIMES - 2);
+            let times = times.unwrap_or("| | - | - |").split('|').skip(2).take(TIMES - 2);
             let before = made.split('|').take(2).chain(times);
             let cells: Vec<&str> = before.chain(made.split('|').skip(TIMES)).collect();
             cells.join("|") + "\n"
@@ -150,22 +126,16 @@ impl Table {
             .to_owned();
         for row in &self.0 {
             let time = row.seconds.map_or_else(|| "-".to_owned(), duration);
-            let evaluations = row
-                .evaluations
-                .map_or_else(|| "-".to_owned(), |count| format!("{count:.0}"));
+            let evaluations =
+                row.evaluations.map_or_else(|| "-".to_owned(), |count| format!("{count:.0}"));
             let errors = row.errors.map(|error| {
                 error.map_or_else(
                     || "-".to_owned(),
                     |(median, most)| format!("{median:.1e} / {most:.1e}"),
                 )
             });
-            writeln!(
-                text,
-                "| {} | {time} | {evaluations} | {} |",
-                row.setting,
-                errors.join(" | ")
-            )
-            .expect("a string");
+            writeln!(text, "| {} | {time} | {evaluations} | {} |", row.setting, errors.join(" | "))
+                .expect("a string");
         }
         text
     }
@@ -191,29 +161,20 @@ impl Table {
         let table_1 = tipstrike::case::Case::table_1();
         let pair = table_1.inputs().expect("the built-in case is valid");
         let cell = |method: Method, models: StiffnessModels| {
-            let setting = Setting {
-                models: Some(models),
-                ..Setting::usual(method, &pair)
-            };
-            let mut lines = text
-                .lines()
-                .map(|line| line.split(" | ").collect::<Vec<_>>());
+            let setting = Setting { models: Some(models), ..Setting::usual(method, &pair) };
+            let mut lines = text.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
             let line = lines.find(|cells| cells[0] == format!("| {setting}"));
             let line = line.unwrap_or_else(|| panic!("no {setting}"));
             let total = line[5].trim_end_matches(" |").split(" / ");
-            let total: Vec<String> = total
-                .map(|total| percent(total.parse().expect("a number")))
-                .collect();
+            let total: Vec<String> =
+                total.map(|total| percent(total.parse().expect("a number"))).collect();
             format!("{}, {} %", line[1], total.join(" / "))
         };
         let row = |models: StiffnessModels| {
             let cells = METHODS.map(|method| cell(method, models));
             format!("| {} | {} |", models.names(), cells.join(" | "))
         };
-        let heads = [
-            "| compliance | paper | exact | static | dynamic |",
-            "|---|---|---|---|---|",
-        ];
+        let heads = ["| compliance | paper | exact | static | dynamic |", "|---|---|---|---|---|"];
         let rows = StiffnessModels::covering(&pair).map(row);
         heads.map(str::to_owned).into_iter().chain(rows).collect()
     }
@@ -221,18 +182,9 @@ impl Table {
     /// Checks that no error of the other table is more than twice that of this table; times may
     /// differ.
     pub(crate) fn holds(&self, made: &Table) {
-        let names = |table: &Table| {
-            table
-                .0
-                .iter()
-                .map(|row| row.setting.clone())
-                .collect::<Vec<_>>()
-        };
-        assert_eq!(
-            names(self),
-            names(made),
-            "the stored table has other settings"
-        );
+        let names =
+            |table: &Table| table.0.iter().map(|row| row.setting.clone()).collect::<Vec<_>>();
+        assert_eq!(names(self), names(made), "the stored table has other settings");
         for (stored, made) in self.0.iter().zip(&made.0) {
             for (stored_error, error) in stored.errors.iter().zip(&made.errors) {
                 let held = match (stored_error, error) {
@@ -243,11 +195,7 @@ impl Table {
                     (None, None) => true,
                     _ => false,
                 };
-                assert!(
-                    held,
-                    "{}: {stored_error:?} is stored and {error:?} is made",
-                    made.setting
-                );
+                assert!(held, "{}: {stored_error:?} is stored and {error:?} is made", made.setting);
             }
         }
     }
@@ -255,27 +203,18 @@ impl Table {
 
 /// Writes the lines of docs/speed.md between its marks.
 pub(crate) fn write_docs() {
-    const MARKS: [&str; 2] = [
-        "<!-- speed against accuracy -->\n",
-        "<!-- /speed against accuracy -->",
-    ];
+    const MARKS: [&str; 2] =
+        ["<!-- speed against accuracy -->\n", "<!-- /speed against accuracy -->"];
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/speed.md");
     let text = std::fs::read_to_string(&path).expect("docs/speed.md");
     let (before, rest) = text.split_once(MARKS[0]).expect("the first mark");
     let (_, after) = rest.split_once(MARKS[1]).expect("the second mark");
     let lines = Table::of_docs().join("\n");
     let text = format!("{before}{}{lines}\n{}{after}", MARKS[0], MARKS[1]);
-    let (before, rest) = text
-        .split_once(COMPLIANCE_MARKS[0])
-        .expect("the first mark");
-    let (_, after) = rest
-        .split_once(COMPLIANCE_MARKS[1])
-        .expect("the second mark");
+    let (before, rest) = text.split_once(COMPLIANCE_MARKS[0]).expect("the first mark");
+    let (_, after) = rest.split_once(COMPLIANCE_MARKS[1]).expect("the second mark");
     let lines = Table::of_compliances().join("\n");
-    let text = format!(
-        "{before}{}{lines}\n{}{after}",
-        COMPLIANCE_MARKS[0], COMPLIANCE_MARKS[1]
-    );
+    let text = format!("{before}{}{lines}\n{}{after}", COMPLIANCE_MARKS[0], COMPLIANCE_MARKS[1]);
     std::fs::write(&path, text).expect("docs/speed.md is written");
 }
 
@@ -283,18 +222,14 @@ const COMPLIANCE_MARKS: [&str; 2] = ["<!-- compliances -->\n", "<!-- /compliance
 
 /// Whether docs/speed.md lists the setting.
 fn is_listed(setting: &Setting) -> bool {
-    let few = setting
-        .stations
-        .is_none_or(|stations| [8, 64, 1024].contains(&stations));
+    let few = setting.stations.is_none_or(|stations| [8, 64, 1024].contains(&stations));
     // At the coarsest and at the default tolerance; every other tolerance once.
     few && !setting.accurate && has_default_compliance(setting)
 }
 
 /// Whether the compliance is the default one.
 fn has_default_compliance(setting: &Setting) -> bool {
-    let usual = settings()
-        .into_iter()
-        .find(|usual| usual.method == setting.method);
+    let usual = settings().into_iter().find(|usual| usual.method == setting.method);
     usual.is_none_or(|usual| usual.models == setting.models)
 }
 
@@ -304,30 +239,18 @@ fn row(setting: &Setting, trades: &[(String, Trade)]) -> Row {
         .flat_map(|(_, trade)| &trade.settings)
         .filter(|measured| measured.setting == *setting)
         .collect();
-    let figures = || {
-        found
-            .iter()
-            .filter_map(|measured| measured.found.as_ref().ok())
-    };
-    let numbers = figures()
-        .filter_map(|figures| greatest(&without_curve(&figures.numerical)))
-        .collect();
-    let curve = figures()
-        .filter_map(|figures| figures.numerical[Subject::Curve as usize])
-        .collect();
-    let total = found
-        .iter()
-        .filter_map(|measured| measured.total())
-        .collect();
+    let figures = || found.iter().filter_map(|measured| measured.found.as_ref().ok());
+    let numbers =
+        figures().filter_map(|figures| greatest(&without_curve(&figures.numerical))).collect();
+    let curve =
+        figures().filter_map(|figures| figures.numerical[Subject::Curve as usize]).collect();
+    let total = found.iter().filter_map(|measured| measured.total()).collect();
     Row {
         setting: setting.to_string(),
         seconds: median(figures().map(|figures| figures.time.seconds).collect())
             .map(|(median, _)| median),
         evaluations: median(
-            figures()
-                .filter_map(|figures| figures.evaluations)
-                .map(|count| count as f64)
-                .collect(),
+            figures().filter_map(|figures| figures.evaluations).map(|count| count as f64).collect(),
         )
         .map(|(median, _)| median),
         errors: [numbers, curve, total].map(median),
@@ -349,10 +272,8 @@ pub(crate) fn median(mut values: Vec<f64>) -> Option<(f64, f64)> {
 fn read(line: &str) -> Row {
     let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
     let number = |text: &str| text.parse::<f64>().expect("a number");
-    let error = |text: &str| {
-        text.split_once(" / ")
-            .map(|(median, most)| (number(median), number(most)))
-    };
+    let error =
+        |text: &str| text.split_once(" / ").map(|(median, most)| (number(median), number(most)));
     Row {
         setting: cells[0].to_owned(),
         seconds: None,

@@ -84,15 +84,8 @@ impl Launch {
             ("TERM", "xterm-256color".to_owned()),
             ("LC_ALL", "C.UTF-8".to_owned()),
         ];
-        let variables = variables
-            .map(|(name, value)| (name.to_owned(), value))
-            .to_vec();
-        Launch {
-            command: vec![PROGRAM.into()],
-            variables,
-            size: (24, 80),
-            folder,
-        }
+        let variables = variables.map(|(name, value)| (name.to_owned(), value)).to_vec();
+        Launch { command: vec![PROGRAM.into()], variables, size: (24, 80), folder }
     }
 
     pub(crate) fn argument(mut self, argument: impl AsRef<OsStr>) -> Launch {
@@ -102,8 +95,7 @@ impl Launch {
 
     /// Runs through another program, such as `strace`.
     pub(crate) fn through(mut self, wrapper: &[&str]) -> Launch {
-        self.command
-            .splice(0..0, wrapper.iter().map(OsString::from));
+        self.command.splice(0..0, wrapper.iter().map(OsString::from));
         self
     }
 
@@ -130,11 +122,7 @@ impl Launch {
     pub(crate) fn start(self) -> Tty {
         let (rows, cols) = self.size;
         let pair = native_pty_system()
-            .openpty(PtySize {
-                rows,
-                cols,
-                ..PtySize::default()
-            })
+            .openpty(PtySize { rows, cols, ..PtySize::default() })
             .expect("a pseudo terminal");
         let mut command = CommandBuilder::new(&self.command[0]);
         command.args(&self.command[1..]);
@@ -143,16 +131,10 @@ impl Launch {
             command.env(name, value);
         }
         let before = modes(&*pair.master);
-        assert!(
-            before.contains("ECHO") && before.contains("ICANON"),
-            "a fresh terminal echoes"
-        );
+        assert!(before.contains("ECHO") && before.contains("ICANON"), "a fresh terminal echoes");
         let mut reader = pair.master.try_clone_reader().expect("a reader");
         let writer = pair.master.take_writer().expect("a writer");
-        let child = pair
-            .slave
-            .spawn_command(command)
-            .expect("the program starts");
+        let child = pair.slave.spawn_command(command).expect("the program starts");
         let (sender, output) = channel();
         let is_stalled = Arc::new(AtomicBool::new(false));
         let stalled = Arc::clone(&is_stalled);
@@ -162,11 +144,8 @@ impl Launch {
             let mut buffer = [0; 16384];
             loop {
                 let pace = their_pace.load(Ordering::Relaxed);
-                let most = if pace == 0 {
-                    buffer.len()
-                } else {
-                    (pace / BEATS).clamp(1, buffer.len())
-                };
+                let most =
+                    if pace == 0 { buffer.len() } else { (pace / BEATS).clamp(1, buffer.len()) };
                 let Ok(count @ 1..) = reader.read(&mut buffer[..most]) else {
                     return;
                 };
@@ -181,23 +160,9 @@ impl Launch {
                 }
             }
         });
-        let line = Some(Line {
-            master: pair.master,
-            writer,
-            output,
-            reader,
-            is_stalled,
-            pace,
-        });
+        let line = Some(Line { master: pair.master, writer, output, reader, is_stalled, pace });
         let screen = vt100::Parser::new(cells(rows), cells(cols), 0);
-        Tty {
-            folder: self.folder,
-            child,
-            written: None,
-            line,
-            screen,
-            before,
-        }
+        Tty { folder: self.folder, child, written: None, line, screen, before }
     }
 }
 
@@ -220,8 +185,7 @@ impl Tty {
     }
 
     pub(crate) fn type_in(&mut self, keys: impl AsRef<[u8]>) {
-        self.try_to_type(keys.as_ref())
-            .expect("the terminal accepts keys");
+        self.try_to_type(keys.as_ref()).expect("the terminal accepts keys");
     }
 
     /// Sends keys; fails if the program has ended.
@@ -257,11 +221,7 @@ impl Tty {
     pub(crate) fn resize(&mut self, rows: u16, columns: u16) {
         self.line()
             .master
-            .resize(PtySize {
-                rows,
-                cols: columns,
-                ..PtySize::default()
-            })
+            .resize(PtySize { rows, cols: columns, ..PtySize::default() })
             .expect("a new size");
         let (rows, columns) = (rows.min(MOST_ROWS), columns.min(MOST_COLUMNS));
         if let (Some(rows), Some(columns)) = (NonZero::new(rows), NonZero::new(columns)) {
@@ -298,9 +258,7 @@ impl Tty {
         match line.output.recv_timeout(time) {
             Ok(bytes) => {
                 self.screen.process(&bytes);
-                self.written
-                    .iter_mut()
-                    .for_each(|written| written.extend(&bytes));
+                self.written.iter_mut().for_each(|written| written.extend(&bytes));
                 bytes.len()
             }
             Err(RecvTimeoutError::Timeout) => 0,
@@ -320,11 +278,7 @@ impl Tty {
                 0 => return total,
                 count => total += count,
             }
-            assert!(
-                Instant::now() < end,
-                "it never stops writing:\n{}",
-                self.screen().contents()
-            );
+            assert!(Instant::now() < end, "it never stops writing:\n{}", self.screen().contents());
         }
     }
 
@@ -376,13 +330,8 @@ impl Tty {
 
     /// Closes the terminal, as a broken connection does.
     pub(crate) fn hang_up(&mut self) {
-        let Line {
-            master,
-            writer,
-            output,
-            reader,
-            ..
-        } = self.line.take().expect("the terminal has not hung up");
+        let Line { master, writer, output, reader, .. } =
+            self.line.take().expect("the terminal has not hung up");
         drop(output);
         drop(writer);
         // The reader sleeps on a copy of our end until bytes arrive: the test writes to the other
@@ -429,22 +378,13 @@ impl Tty {
     }
 
     pub(crate) fn modes(&self) -> String {
-        modes(
-            &*self
-                .line
-                .as_ref()
-                .expect("the terminal has not hung up")
-                .master,
-        )
+        modes(&*self.line.as_ref().expect("the terminal has not hung up").master)
     }
 
     /// Checks that the terminal is restored: modes, screen, cursor, paste.
     pub(crate) fn assert_restored(&self) {
         assert_eq!(self.modes(), self.before, "the modes are unchanged");
-        assert!(
-            !self.screen().alternate_screen(),
-            "the alternate screen is left"
-        );
+        assert!(!self.screen().alternate_screen(), "the alternate screen is left");
         assert!(!self.screen().hide_cursor(), "the cursor is shown");
         assert!(!self.screen().bracketed_paste(), "pastes are plain again");
     }
@@ -473,13 +413,7 @@ impl Drop for Tty {
 /// ticks in user and system mode.
 pub(crate) fn stat(process: u32) -> Option<Vec<String>> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    Some(
-        text.rsplit_once(')')?
-            .1
-            .split_whitespace()
-            .map(str::to_owned)
-            .collect(),
-    )
+    Some(text.rsplit_once(')')?.1.split_whitespace().map(str::to_owned).collect())
 }
 
 /// The journals of unsaved edits in a state folder.
@@ -489,9 +423,8 @@ pub(crate) fn journals(state: &Path) -> Vec<PathBuf> {
         .flatten()
         .flatten()
         .map(|entry| entry.path());
-    let mut paths: Vec<_> = entries
-        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .collect();
+    let mut paths: Vec<_> =
+        entries.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
     paths.sort();
     paths
 }
@@ -519,10 +452,7 @@ pub(crate) fn has_faults_on_demand() -> bool {
 /// Reports a skipped test directly, because the harness hides the output of passing tests;
 /// `.ci/run` counts these reports.
 pub(crate) fn skip(why: &str) {
-    let line = format!(
-        "SKIPPED {}: {why}\n",
-        thread::current().name().unwrap_or("a test")
-    );
+    let line = format!("SKIPPED {}: {why}\n", thread::current().name().unwrap_or("a test"));
     std::io::stderr().write_all(line.as_bytes()).ok();
     if let Some(file) = std::env::var_os("TIPSTRIKE_SKIPPED") {
         fs::OpenOptions::new()

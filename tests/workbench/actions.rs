@@ -210,14 +210,7 @@ fn press(desk: &mut Desk, keys: &str) {
             None if key == "METHOD" => desk.go_to("model.method"),
             None => desk.keys(&[key]),
         };
-        if key == "m"
-            && desk
-                .app
-                .tab
-                .traded
-                .as_ref()
-                .is_some_and(|traded| traded.trade.is_some())
-        {
+        if key == "m" && desk.app.tab.traded.as_ref().is_some_and(|traded| traded.trade.is_some()) {
             time_evenly(desk);
         }
     }
@@ -232,15 +225,8 @@ fn out(desk: &Desk) -> String {
         (desk.has_redrawn, "[redrawn]"),
         (desk.is_suspended, "[suspended]"),
     ];
-    let flags = flags
-        .into_iter()
-        .filter(|(is_set, _)| *is_set)
-        .map(|(_, name)| name);
-    let copied = desk
-        .copied
-        .as_ref()
-        .map(|text| format!("[copied {text}]"))
-        .unwrap_or_default();
+    let flags = flags.into_iter().filter(|(is_set, _)| *is_set).map(|(_, name)| name);
+    let copied = desk.copied.as_ref().map(|text| format!("[copied {text}]")).unwrap_or_default();
     format!("{}\n{}{copied}", desk.screen(), flags.collect::<String>())
 }
 
@@ -273,15 +259,10 @@ fn every_key_has_the_effect_of_its_line() {
         press(&mut without, after);
         let (with, without) = (out(&with), out(&without));
         if !with.contains(says) || without.contains(says) {
-            let new: Vec<&str> = with
-                .lines()
-                .filter(|line| !without.contains(line))
-                .collect();
+            let new: Vec<&str> = with.lines().filter(|line| !without.contains(line)).collect();
             let (first, last) = (new.iter().take(3), new.iter().rev().take(4));
-            let lines: Vec<_> = first
-                .chain(last)
-                .map(|line| line.chars().take(90).collect::<String>())
-                .collect();
+            let lines: Vec<_> =
+                first.chain(last).map(|line| line.chars().take(90).collect::<String>()).collect();
             wrong.push(format!(
                 "{key} after {before:?} must show {says:?}; the screen is:\n{}",
                 lines.join("\n")
@@ -292,33 +273,18 @@ fn every_key_has_the_effect_of_its_line() {
     let missing: Vec<String> = (0..BINDINGS.len())
         .filter(|at| !covered.contains(at) && !BINDINGS[*at].sentence.is_empty())
         .map(|at| {
-            format!(
-                "{} {}: {}",
-                BINDINGS[at].keys(),
-                BINDINGS[at].name,
-                BINDINGS[at].sentence
-            )
+            format!("{} {}: {}", BINDINGS[at].keys(), BINDINGS[at].name, BINDINGS[at].sentence)
         })
         .collect();
-    assert!(
-        missing.is_empty(),
-        "no test has these lines of the table:\n{}",
-        missing.join("\n")
-    );
+    assert!(missing.is_empty(), "no test has these lines of the table:\n{}", missing.join("\n"));
 }
 
 #[test]
 fn the_help_has_every_key_with_its_sentence() {
     let lines = tipstrike::tui::testing::help::lines();
-    for binding in BINDINGS
-        .iter()
-        .filter(|binding| !binding.sentence.is_empty())
-    {
-        let keys = if binding.chords.is_empty() {
-            format!(":{}", binding.name)
-        } else {
-            binding.keys()
-        };
+    for binding in BINDINGS.iter().filter(|binding| !binding.sentence.is_empty()) {
+        let keys =
+            if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
         let stands = |line: &String| {
             line.trim_start()
                 .strip_prefix(&keys)

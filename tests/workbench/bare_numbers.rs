@@ -6,11 +6,7 @@ use tipstrike::case::fields::index_of;
 use tipstrike::case::units::System;
 
 fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
-    desk.app
-        .tab
-        .case
-        .text(index_of(key).unwrap())
-        .unwrap_or_default()
+    desk.app.tab.case.text(index_of(key).unwrap()).unwrap_or_default()
 }
 
 #[test]
@@ -22,15 +18,9 @@ fn a_bare_number_gets_its_unit_during_typing() {
         "{}",
         desk.screen()
     );
-    assert!(
-        !desk.shows("LAST VALID") && !desk.shows("2191.0"),
-        "the results are those of 48 um"
-    );
+    assert!(!desk.shows("LAST VALID") && !desk.shows("2191.0"), "the results are those of 48 um");
     assert_eq!(
-        (
-            desk.app.tab.form.input.value(),
-            text(&desk, "deviations.base_pitch")
-        ),
+        (desk.app.tab.form.input.value(), text(&desk, "deviations.base_pitch")),
         ("48", "48 um")
     );
     desk.keys(&["Down"]);
@@ -42,11 +32,7 @@ fn a_bare_number_gets_its_unit_during_typing() {
     desk.keys(&["Ctrl-S"]);
     assert_eq!(desk.read("case.toml"), TABLE_1.replace("16 um", "48 um"));
     desk.keys(&["Up", "Esc"]);
-    assert_eq!(
-        desk.app.tab.form.input.value(),
-        "48 um",
-        "a line that is left is the case's"
-    );
+    assert_eq!(desk.app.tab.form.input.value(), "48 um", "a line that is left is the case's");
 }
 
 #[test]
@@ -73,11 +59,7 @@ fn on_the_way_to_a_value_no_error_flickers() {
             let typed = desk.app.tab.form.input.value().to_owned();
             assert!(!desk.shows("  ! "), "{typed}:\n{}", desk.screen());
         }
-        assert!(
-            !desk.shows("Not yet:") && !desk.shows("LAST VALID"),
-            "{key}:\n{}",
-            desk.screen()
-        );
+        assert!(!desk.shows("Not yet:") && !desk.shows("LAST VALID"), "{key}:\n{}", desk.screen());
     }
 }
 
@@ -102,11 +84,7 @@ fn the_unit_is_the_written_one_or_else_the_displayed_one() {
 fn a_typed_unit_is_never_replaced() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "48 m");
-    assert!(
-        desk.shows("Not yet: 48 m is above the limit of"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("Not yet: 48 m is above the limit of"), "{}", desk.screen());
     assert_eq!(text(&desk, "deviations.base_pitch"), "48 m");
     desk.keys(&["Down"]);
     assert!(
@@ -130,8 +108,7 @@ fn a_typed_unit_is_never_replaced() {
 #[test]
 fn an_equal_text_is_not_an_edit() {
     let mut desk = Desk::new(SMALL);
-    desk.go_to("deviations.base_pitch")
-        .keys(&["End", "Backspace", "Backspace", "Backspace"]);
+    desk.go_to("deviations.base_pitch").keys(&["End", "Backspace", "Backspace", "Backspace"]);
     assert_eq!(desk.app.tab.form.input.value(), "16");
     assert!(!desk.app.tab.is_unsaved());
     desk.keys(&["Ctrl-Z"]);
@@ -143,10 +120,7 @@ fn steps_copies_and_limits_know_the_unit_of_a_bare_number() {
     let mut desk = Desk::new(SMALL);
     desk.fill("deviations.base_pitch", "48").keys(&["Shift-Up"]);
     assert_eq!(
-        (
-            desk.app.tab.form.input.value(),
-            text(&desk, "deviations.base_pitch")
-        ),
+        (desk.app.tab.form.input.value(), text(&desk, "deviations.base_pitch")),
         ("49 um", "49 um")
     );
     desk.keys(&["Ctrl-U", "50", "Esc", "y"]);

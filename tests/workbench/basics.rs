@@ -29,14 +29,8 @@ use tipstrike::tui::testing::theme::{CONTRAST, Look, MONO};
 use tipstrike::tui::testing::update::update;
 use tipstrike::tui::testing::view;
 
-const TINY: Size = Size {
-    width: 60,
-    height: 16,
-};
-const HUGE: Size = Size {
-    width: 240,
-    height: 70,
-};
+const TINY: Size = Size { width: 60, height: 16 };
+const HUGE: Size = Size { width: 240, height: 70 };
 
 /// Three cases, the last one current, the second one unsaved.
 fn three_cases(size: Size) -> Desk {
@@ -65,24 +59,13 @@ fn a_new_case_marks_its_required_fields_and_shows_the_defaults_of_the_others() {
         assert!(desk.shows(line), "{line}\n{}", desk.screen());
     }
     assert!(!desk.shows("LAST VALID") && !desk.app.tab.is_unsaved());
-    for (at, value) in ["4", "17", "20", "40", "22", "5 kW", "1500"]
-        .iter()
-        .enumerate()
-    {
+    for (at, value) in ["4", "17", "20", "40", "22", "5 kW", "1500"].iter().enumerate() {
         assert_eq!(desk.app.tab.problems.len(), 7 - at);
         desk.keys(&[value, "Alt-E"]);
     }
-    let text = |key| {
-        desk.app
-            .tab
-            .case
-            .text(fields::index_of(key).expect("a field"))
-    };
+    let text = |key| desk.app.tab.case.text(fields::index_of(key).expect("a field"));
     assert_eq!(text("driven.teeth"), Some("40"));
-    assert_eq!(
-        (text("model.method"), text("model.within")),
-        (Some("auto"), None)
-    );
+    assert_eq!((text("model.method"), text("model.within")), (Some("auto"), None));
     assert!(desk.app.tab.answer.is_some() && desk.app.tab.problems.is_empty());
 }
 
@@ -97,10 +80,7 @@ fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
         "{}",
         desk.screen()
     );
-    assert!(
-        desk.read("pair.toml")
-            .contains("\nmodule = \"4 mm\"  # required")
-    );
+    assert!(desk.read("pair.toml").contains("\nmodule = \"4 mm\"  # required"));
     desk.keys(&["Alt-W", "Ctrl-O", "Ctrl-U", path]);
     assert!(
         desk.shows("Required values are missing:") && desk.shows("the driver's number of teeth"),
@@ -108,17 +88,9 @@ fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
         desk.screen()
     );
     desk.keys(&["Enter"]);
-    assert!(
-        desk.shows("! 6 required values are missing"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("! 6 required values are missing"), "{}", desk.screen());
     desk.go_to("driver.teeth").keys(&["17.5", "Ctrl-S"]);
-    assert!(
-        desk.shows("not saved: fix the fields marked with ! first"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("not saved: fix the fields marked with ! first"), "{}", desk.screen());
 }
 
 fn listed(desk: &Desk) -> Vec<Item> {
@@ -154,81 +126,44 @@ fn the_palette_lists_commands_of_the_focused_pane_and_field_first() {
 
 #[test]
 fn the_first_line_names_the_last_case_and_the_key_of_table_1() {
-    for (size, name) in [
-        (
-            SMALL,
-            "a case with a name that leaves no room for its title",
-        ),
-        (LARGE, "pair"),
-    ] {
+    for (size, name) in
+        [(SMALL, "a case with a name that leaves no room for its title"), (LARGE, "pair")]
+    {
         let mut desk = Desk::on(size, &format!("{name}.toml"), TABLE_1);
         desk.app.tab.origin = Origin::LastCase;
         let first = |desk: &Desk| desk.screen().lines().next().unwrap_or_default().to_owned();
-        assert!(
-            first(&desk).contains("(last case; Alt-T: Table 1)"),
-            "{}",
-            desk.screen()
-        );
+        assert!(first(&desk).contains("(last case; Alt-T: Table 1)"), "{}", desk.screen());
         desk.keys(&["Alt-T"]);
-        assert!(
-            first(&desk).starts_with("tipstrike  built-in Table 1"),
-            "{}",
-            desk.screen()
-        );
+        assert!(first(&desk).starts_with("tipstrike  built-in Table 1"), "{}", desk.screen());
     }
     let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
     assert!(!desk.shows("last case"));
     desk.keys(&["Alt-T", "Ctrl-PageUp", "Alt-T"]);
-    assert!(
-        desk.shows("1 pair.toml [2 built-in Table 1]"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("1 pair.toml [2 built-in Table 1]"), "{}", desk.screen());
 }
 
 #[test]
 fn a_field_takes_text_until_esc_leaves_it() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Ctrl-U", "6 mm", "Esc", "q"]);
-    assert!(
-        desk.shows("has unsaved edits"),
-        "outside a field q quits, and asks"
-    );
+    assert!(desk.shows("has unsaved edits"), "outside a field q quits, and asks");
     desk.keys(&["Esc", "jjjj"]);
     assert!(desk.shows("z1 driver number of teeth"), "j moves down");
     desk.keys(&["kk", "i", "Ctrl-U", "21 deg", "Esc", "u"]);
-    assert!(
-        desk.shows("6 mm") && desk.shows("20 deg"),
-        "u undoes a visit"
-    );
+    assert!(desk.shows("6 mm") && desk.shows("20 deg"), "u undoes a visit");
     desk.keys(&["Ctrl-R"]);
     assert!(desk.shows("21 deg"));
     desk.keys(&["Enter", "End", "Backspace"]);
-    assert_eq!(
-        desk.app.tab.form.input.value(),
-        "21 de",
-        "Enter edits again"
-    );
+    assert_eq!(desk.app.tab.form.input.value(), "21 de", "Enter edits again");
 }
 
 #[test]
 fn hjkl_and_the_arrows_are_alike_outside_a_field() {
-    for (letter, arrow) in [
-        ("j", "Down"),
-        ("k", "Up"),
-        ("h", "Left"),
-        ("l", "Right"),
-        ("g", "Home"),
-        ("G", "End"),
-    ] {
-        let focus = |key: &str| {
-            Desk::new(SMALL)
-                .keys(&["Esc", "j", "l", "j", key])
-                .app
-                .tab
-                .form
-                .focus
-        };
+    for (letter, arrow) in
+        [("j", "Down"), ("k", "Up"), ("h", "Left"), ("l", "Right"), ("g", "Home"), ("G", "End")]
+    {
+        let focus =
+            |key: &str| Desk::new(SMALL).keys(&["Esc", "j", "l", "j", key]).app.tab.form.focus;
         assert_eq!(focus(letter), focus(arrow), "{letter}");
     }
 }
@@ -237,21 +172,10 @@ fn hjkl_and_the_arrows_are_alike_outside_a_field() {
 fn tab_cycles_the_panes_whose_letters_are_commands() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc"]);
-    for pane in [
-        Pane::Results,
-        Pane::Chart,
-        Pane::Teeth,
-        Pane::Trade,
-        Pane::Study,
-        Pane::Form,
-    ] {
+    for pane in [Pane::Results, Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study, Pane::Form] {
         desk.keys(&["Tab"]);
         assert_eq!(desk.app.layout.focus(), pane);
-        assert!(
-            desk.shows(&format!("▸ {}", pane.number())),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows(&format!("▸ {}", pane.number())), "{}", desk.screen());
         desk.keys(&["xwv0"]).act(Action::Paste("999".to_owned()));
         assert!(!desk.app.tab.is_unsaved());
     }
@@ -267,15 +191,9 @@ fn every_pane_can_be_shown_at_every_size() {
         for pane in Pane::ALL {
             let mut desk = Desk::new(size);
             desk.keys(&["Esc", &pane.number().to_string()]);
-            assert!(
-                desk.shows(&format!("▸ {}", pane.number())),
-                "{pane:?} at {size}"
-            );
+            assert!(desk.shows(&format!("▸ {}", pane.number())), "{pane:?} at {size}");
             desk.keys(&["z"]);
-            assert!(
-                desk.shows(&format!("▸ {}", pane.number())),
-                "{pane:?} zoomed at {size}"
-            );
+            assert!(desk.shows(&format!("▸ {}", pane.number())), "{pane:?} zoomed at {size}");
         }
     }
 }
@@ -301,10 +219,7 @@ fn hidden_results_are_not_computed() {
     desk.keys(&["F5"]).fill("operation.speed", "1500 rpm");
     assert!(!stages(&desk).has(Stage::Stations) && stages(&desk).has(Stage::Friction));
     desk.keys(&["Esc", "3"]);
-    assert!(
-        stages(&desk).has(Stage::Stations),
-        "and is as soon as it is looked at"
-    );
+    assert!(stages(&desk).has(Stage::Stations), "and is as soon as it is looked at");
     assert!(desk.shows("⠒"));
 }
 
@@ -316,10 +231,7 @@ fn the_palette_finds_and_runs_every_command() {
     desk.keys(&["Enter"]);
     assert!(desk.shows("method static") && desk.app.tab.is_unsaved());
     desk.keys(&["Esc", ":", "undo", "Enter"]);
-    assert!(
-        !desk.app.tab.is_unsaved(),
-        "a change by the palette is undone like any other"
-    );
+    assert!(!desk.app.tab.is_unsaved(), "a change by the palette is undone like any other");
     desk.keys(&[":", "xyzzy", "Enter"]);
     assert!(desk.shows("No match."));
     desk.keys(&["Esc"]);
@@ -353,10 +265,7 @@ fn a_field_is_found_by_its_name_or_symbol() {
     desk.keys(&["Esc", "/", "speed", "Enter"]);
     assert!(desk.shows("n1 speed, "));
     desk.keys(&["/", "ca2", "Enter", "i", "Ctrl-U", "3 um"]);
-    assert_eq!(
-        desk.app.tab.case.text(desk.app.tab.form.focus),
-        Some("3 um")
-    );
+    assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("3 um"));
 }
 
 #[test]
@@ -441,9 +350,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
     };
     desk.keys(&["Alt-2"]);
     let before = desk.screen();
-    desk.act(Action::Solved(Box::new(
-        tipstrike::tui::testing::solver::answer(&request),
-    )));
+    desk.act(Action::Solved(Box::new(tipstrike::tui::testing::solver::answer(&request))));
     assert_eq!(desk.screen(), before);
     desk.keys(&["Alt-1"]);
     assert!(desk.shows("2191.0"));
@@ -475,16 +382,9 @@ fn the_baseline_is_pinned_and_the_difference_is_shown_beside_it() {
         "{}",
         desk.screen()
     );
-    assert!(
-        line(&desk, "p_b ").trim_end().ends_with("unchanged"),
-        "{}",
-        line(&desk, "p_b ")
-    );
+    assert!(line(&desk, "p_b ").trim_end().ends_with("unchanged"), "{}", line(&desk, "p_b "));
     desk.act(Action::Resize(SMALL));
-    assert!(
-        desk.shows("-5.0 %"),
-        "where there is no room the other method gives way"
-    );
+    assert!(desk.shows("-5.0 %"), "where there is no room the other method gives way");
     desk.keys(&["Alt-B"]);
     assert!(desk.app.baseline.is_none() && !desk.shows("-5.0 %"));
 }
@@ -496,41 +396,21 @@ fn the_baseline_is_common_to_tabs_and_has_its_curve_even_if_no_chart_was_visible
     let pinned = desk.app.baseline.as_ref().expect("it is pinned");
     assert_eq!(pinned.name, "one.toml");
     assert!(pinned.answer.stages.covers(Stages::EVERY));
-    desk.fill("driven.tip_relief", "20 um")
-        .keys(&["Esc", "2", "z"]);
-    assert!(
-        desk.shows("vs baseline") && desk.shows(" %"),
-        "{}",
-        desk.screen()
-    );
+    desk.fill("driven.tip_relief", "20 um").keys(&["Esc", "2", "z"]);
+    assert!(desk.shows("vs baseline") && desk.shows(" %"), "{}", desk.screen());
     desk.fill("operation.speed", "bad").keys(&["Esc", "b", "b"]);
     assert!(desk.shows("no valid results to pin"));
 }
 
 #[test]
 fn comparisons_with_the_baseline_are_readable_at_every_size() {
-    for size in [
-        Size {
-            width: 60,
-            height: 16,
-        },
-        SMALL,
-        LARGE,
-    ] {
+    for size in [Size { width: 60, height: 16 }, SMALL, LARGE] {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Esc", "b", "2"]);
-        assert!(
-            desk.shows("vs baseline") && !desk.shows("…  "),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("vs baseline") && !desk.shows("…  "), "{}", desk.screen());
         desk.fill("operation.speed", "3000 rpm");
         desk.keys(&["Esc", "2"]);
-        assert!(
-            desk.shows(" %") && desk.shows("; baseline: "),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows(" %") && desk.shows("; baseline: "), "{}", desk.screen());
         desk.keys(&["Ctrl-T"]);
         assert!(
             desk.shows("vs exact baseline")
@@ -546,13 +426,7 @@ fn comparisons_with_the_baseline_are_readable_at_every_size() {
 fn a_verdict_is_a_word_if_it_fits_and_its_limit_is_not_cut() {
     for (size, words) in [
         (SMALL, "EXCEEDED 110 %"),
-        (
-            Size {
-                width: 60,
-                height: 16,
-            },
-            "EXCEEDED 110 %",
-        ),
+        (Size { width: 60, height: 16 }, "EXCEEDED 110 %"),
         (LARGE, "EXCEEDED 110 %"),
     ] {
         let mut desk = Desk::on(size, "case.toml", &TABLE_1.replace("2500 N", "2000 N"));
@@ -625,8 +499,7 @@ fn the_animation_plays_to_its_end_and_then_the_clock_stops() {
         desk.keys(&[stop]);
         assert!(!desk.ticks && !desk.app.is_playing, "{stop}");
     }
-    desk.fill("driven.tip_relief", "80 um")
-        .keys(&["Esc", "3", "Space"]);
+    desk.fill("driven.tip_relief", "80 um").keys(&["Esc", "3", "Space"]);
     assert!(!desk.ticks && desk.shows("nothing to play"));
 }
 
@@ -671,11 +544,7 @@ fn notes_are_never_off_the_screen() {
         let mut desk = Desk::new(size);
         assert!(desk.shows("(Esc n)") || desk.shows("Note: "), "{size}");
         desk.keys(&["Esc", "2", "G"]);
-        assert!(
-            desk.shows("(n)") || desk.shows("Note: "),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("(n)") || desk.shows("Note: "), "{}", desk.screen());
         desk.keys(&["n"]);
         if size == TINY {
             desk.keys(&["PageDown"]);
@@ -687,10 +556,7 @@ fn notes_are_never_off_the_screen() {
 #[test]
 fn long_work_shows_its_progress_and_esc_stops_it() {
     let mut desk = Desk::new(SMALL);
-    desk.act(Action::Progress(Some(Progress {
-        what: "trade".to_owned(),
-        part: 0.25,
-    })));
+    desk.act(Action::Progress(Some(Progress { what: "trade".to_owned(), part: 0.25 })));
     assert!(desk.shows("█████░") && desk.shows("25 % trade; Ctrl-C cancels"));
     desk.keys(&["Esc"]);
     assert!(!desk.has_cancelled && !desk.app.has_line());
@@ -716,10 +582,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         panic!("it asks for a solve")
     };
     let whole = tipstrike::tui::testing::solver::answer(&request);
-    let mut first = Answer {
-        stages: whole.stages.without(Stage::Clearing),
-        ..whole.clone()
-    };
+    let mut first = Answer { stages: whole.stages.without(Stage::Clearing), ..whole.clone() };
     for solution in first
         .methods
         .iter_mut()
@@ -737,11 +600,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
     let effects = update(&mut stopped, Action::Do(Command::Cancel));
     assert!(matches!(effects[..], [Effect::CancelSolve]) && stopped.message.is_some());
     assert!(
-        stopped
-            .tab
-            .answer
-            .as_ref()
-            .is_some_and(|answer| !answer.lacks(Stage::Clearing)),
+        stopped.tab.answer.as_ref().is_some_and(|answer| !answer.lacks(Stage::Clearing)),
         "it is waited for no more"
     );
     desk.act(Action::Solved(Box::new(whole)));
@@ -761,11 +620,7 @@ fn a_slow_solve_shows_its_progress_and_esc_stops_it() {
         panic!("it asks for a solve")
     };
     let whole = tipstrike::tui::testing::solver::answer(&request);
-    let half = Answer {
-        active: Method::Exact,
-        pending: Some(Method::Static),
-        ..whole
-    };
+    let half = Answer { active: Method::Exact, pending: Some(Method::Static), ..whole };
     desk.act(Action::Solved(Box::new(half)));
     desk.act(Action::Solving(request.serial, 0.25));
     assert!(
@@ -797,11 +652,7 @@ fn the_mouse_is_off_by_default_and_then_selects() {
     desk.act(Action::Click(Position::new(50, 10)));
     assert_eq!(desk.app.layout.focus(), Pane::Results);
     desk.act(Action::Click(Position::new(8, 15)));
-    assert!(
-        desk.app
-            .cursor
-            .is_some_and(|cursor| (cursor.to_degrees() - 1.5).abs() < 1e-9)
-    );
+    assert!(desk.app.cursor.is_some_and(|cursor| (cursor.to_degrees() - 1.5).abs() < 1e-9));
     desk.act(Action::Wheel(Position::new(10, 7), 3));
     assert_eq!(desk.app.tab.form.top, 3);
     desk.act(Action::Wheel(Position::new(50, 10), 3));
@@ -824,10 +675,7 @@ fn settings_for_every_case_are_saved() {
 #[test]
 fn recent_cases_are_a_key_away() {
     let mut desk = Desk::new(SMALL);
-    desk.recents = vec![
-        desk.write("late.toml", TABLE_1),
-        desk.write("early.toml", TABLE_1),
-    ];
+    desk.recents = vec![desk.write("late.toml", TABLE_1), desk.write("early.toml", TABLE_1)];
     desk.keys(&["Alt-R", "early", "Enter"]);
     assert!(desk.shows("opened") && desk.app.tab.short_name() == "early.toml");
 }
@@ -839,11 +687,7 @@ fn torque_replaces_power_and_restores_it() {
     let notice = "power 15 kW replaced by the torque";
     assert!(desk.shows(notice), "{}", desk.screen());
     desk.keys(&["0 N m"]);
-    assert!(
-        desk.shows(notice),
-        "as long as it is typed\n{}",
-        desk.screen()
-    );
+    assert!(desk.shows(notice), "as long as it is typed\n{}", desk.screen());
     assert!(!desk.shows("both given") && desk.app.tab.problems.is_empty());
     desk.keys(&["Ctrl-U"]);
     assert!(desk.shows("power 15 kW restored") && desk.app.tab.problems.is_empty());
@@ -859,11 +703,7 @@ fn a_keystroke_to_its_frame() {
     for method in ["exact", "static", "dynamic"] {
         let runs: Vec<Vec<f64>> = (0..RUNS).map(|_| keystrokes(method)).collect();
         let mut times: Vec<f64> = (0..runs[0].len())
-            .map(|key| {
-                runs.iter()
-                    .map(|run| run[key])
-                    .fold(f64::INFINITY, f64::min)
-            })
+            .map(|key| runs.iter().map(|run| run[key]).fold(f64::INFINITY, f64::min))
             .collect();
         times.sort_by(f64::total_cmp);
         let (median, late) = (times[times.len() / 2], times[times.len() * 99 / 100]);
@@ -879,23 +719,13 @@ fn a_keystroke_to_its_frame() {
 /// letter, then moves the cursor through every chart at two zooms.
 fn keystrokes(method: &str) -> Vec<f64> {
     const KEYS: usize = 60;
-    let size = Size {
-        width: 200,
-        height: 60,
-    };
-    let mut desk = Desk::on(
-        size,
-        "case.toml",
-        &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")),
-    );
+    let size = Size { width: 200, height: 60 };
+    let mut desk =
+        Desk::on(size, "case.toml", &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")));
     desk.fill("operation.speed", "2000 rpm");
     let mut times = Vec::new();
     for key in 0..KEYS {
-        let code = if key % 2 == 0 {
-            KeyCode::Backspace
-        } else {
-            KeyCode::Char('m')
-        };
+        let code = if key % 2 == 0 { KeyCode::Backspace } else { KeyCode::Char('m') };
         times.extend(frame_of(&mut desk, code));
     }
     desk.keys(&["Esc", "3"]);
@@ -916,18 +746,11 @@ fn frame_of(desk: &mut Desk, code: KeyCode) -> Vec<f64> {
         (start.elapsed().as_secs_f64() * 1e3, effects)
     };
     let (time, effects) = frame(action);
-    let asked = effects.into_iter().find_map(|effect| {
-        if let Effect::Solve(request) = effect {
-            Some(request)
-        } else {
-            None
-        }
-    });
+    let asked = effects
+        .into_iter()
+        .find_map(|effect| if let Effect::Solve(request) = effect { Some(request) } else { None });
     let answered = asked.map(|request| {
-        frame(Action::Solved(Box::new(
-            tipstrike::tui::testing::solver::answer(&request),
-        )))
-        .0
+        frame(Action::Solved(Box::new(tipstrike::tui::testing::solver::answer(&request)))).0
     });
     [Some(time), answered].into_iter().flatten().collect()
 }
@@ -945,13 +768,7 @@ fn the_screens() {
         for (size, look) in [
             ("80x24", Look::FULL),
             ("140x45", Look::FULL),
-            (
-                "ascii",
-                Look {
-                    theme: &MONO,
-                    ascii: true,
-                },
-            ),
+            ("ascii", Look { theme: &MONO, ascii: true }),
         ] {
             let mut desk = Desk::new(if size == "140x45" { LARGE } else { SMALL });
             desk.app.look = look;
@@ -1015,10 +832,6 @@ fn the_first_frame_waits_for_no_elastic_field() {
         let area = Rect::from((Position::ORIGIN, LARGE));
         view::draw(&app, area, &mut Buffer::empty(area));
         assert_eq!(is_built(), [false, false], "{method} {compliance}");
-        assert_eq!(
-            app.tab.answer.is_some(),
-            !compliance.is_empty(),
-            "{method} {compliance}"
-        );
+        assert_eq!(app.tab.answer.is_some(), !compliance.is_empty(), "{method} {compliance}");
     }
 }

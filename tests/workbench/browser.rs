@@ -27,24 +27,13 @@ fn shelf(desk: &mut Desk) {
     for (file, text) in [
         ("a-strikes.toml", TABLE_1.to_owned()),
         ("b-exceeds.toml", TABLE_1.replace("2500 N", "2000 N")),
-        (
-            "c-relieved.toml",
-            TABLE_1.replace("tip_relief = \"0 um\"", "tip_relief = \"80 um\""),
-        ),
+        ("c-relieved.toml", TABLE_1.replace("tip_relief = \"0 um\"", "tip_relief = \"80 um\"")),
         (
             "d-bad.toml",
-            TABLE_1
-                .replace("\"5 mm\"", "\"5 kg\"")
-                .replace("teeth = 20\n", "teth = 20\n"),
+            TABLE_1.replace("\"5 mm\"", "\"5 kg\"").replace("teeth = 20\n", "teth = 20\n"),
         ),
-        (
-            "e-newer.toml",
-            TABLE_1.replacen("format = 1", "format = 2", 1),
-        ),
-        (
-            "f-refused.toml",
-            TABLE_1.replace("addendum = 1.0", "addendum = 1.9"),
-        ),
+        ("e-newer.toml", TABLE_1.replacen("format = 1", "format = 2", 1)),
+        ("f-refused.toml", TABLE_1.replace("addendum = 1.0", "addendum = 1.9")),
         ("note.txt", String::new()),
     ] {
         desk.write(file, &text);
@@ -72,27 +61,16 @@ fn preview(desk: &Desk) -> String {
 
 fn marked(desk: &Desk) -> String {
     let screen = desk.screen();
-    let line = screen
-        .lines()
-        .find_map(|line| line.split_once("│ ▸ "))
-        .map(|(_, rest)| rest.to_owned());
-    line.unwrap_or_default()
-        .split('│')
-        .next()
-        .unwrap_or_default()
-        .trim()
-        .to_owned()
+    let line =
+        screen.lines().find_map(|line| line.split_once("│ ▸ ")).map(|(_, rest)| rest.to_owned());
+    line.unwrap_or_default().split('│').next().unwrap_or_default().trim().to_owned()
 }
 
 #[test]
 fn the_case_under_the_cursor_shows_its_verdict() {
     let mut desk = desk_before_a_shelf(LARGE);
     desk.keys(&["Ctrl-O"]);
-    assert_eq!(
-        marked(&desk),
-        "case.toml",
-        "the present case, among the others"
-    );
+    assert_eq!(marked(&desk), "case.toml", "the present case, among the others");
     for (file, expected) in [
         (
             "a-str",
@@ -110,10 +88,7 @@ fn the_case_under_the_cursor_shows_its_verdict() {
                 "ok impact_force 2191.0 N <= 2500 N",
             ],
         ),
-        (
-            "b-exc",
-            &["EXCEEDED impact_force 2191.0 N > 2000 N (110 %)"],
-        ),
+        ("b-exc", &["EXCEEDED impact_force 2191.0 N > 2000 N (110 %)"]),
         (
             "c-rel",
             &[
@@ -121,34 +96,18 @@ fn the_case_under_the_cursor_shows_its_verdict() {
                 "ok impact_force does not occur: no corner contact",
             ],
         ),
-        (
-            "d-bad",
-            &["It cannot be opened:", "11:10: pair.module", "teth"],
-        ),
-        (
-            "e-new",
-            &[
-                "Newer format: opens read-only.",
-                "Corner contact: θ_1 = 1.366 deg",
-            ],
-        ),
+        ("d-bad", &["It cannot be opened:", "11:10: pair.module", "teth"]),
+        ("e-new", &["Newer format: opens read-only.", "Corner contact: θ_1 = 1.366 deg"]),
         ("f-ref", &["Not solved: ", "unknown impact_force"]),
         ("sub", &["A folder with 1 case, 0 folders."]),
     ] {
         desk.keys(&["Ctrl-U", file]);
         for expected in expected {
-            assert!(
-                preview(&desk).contains(expected),
-                "{file}: {expected}\n{}",
-                desk.screen()
-            );
+            assert!(preview(&desk).contains(expected), "{file}: {expected}\n{}", desk.screen());
         }
     }
     desk.keys(&["Esc", "Ctrl-P", "units", "Enter", "Ctrl-O", "a-str"]);
-    assert!(
-        preview(&desk).contains("492.56 lbf"),
-        "in the units of the results"
-    );
+    assert!(preview(&desk).contains("492.56 lbf"), "in the units of the results");
 }
 
 #[test]
@@ -163,18 +122,12 @@ fn entering_and_leaving_folders_selects_the_previous_folder() {
     desk.keys(&["Enter", "Up", "Enter"]);
     assert_eq!(marked(&desk), "sub/", "../ leads up as well");
     desk.keys(&["x", "Backspace"]);
-    assert!(
-        desk.shows("a-strikes.toml"),
-        "a letter is deleted before the folder is left"
-    );
+    assert!(desk.shows("a-strikes.toml"), "a letter is deleted before the folder is left");
     for _ in 0..40 {
         desk.keys(&["Alt-Up"]);
     }
     assert!(
-        desk.screen()
-            .lines()
-            .nth(2)
-            .is_some_and(|line| line.contains("│ / ")),
+        desk.screen().lines().nth(2).is_some_and(|line| line.contains("│ / ")),
         "{}",
         desk.screen()
     );
@@ -184,8 +137,7 @@ fn entering_and_leaving_folders_selects_the_previous_folder() {
 fn paths_are_typed_or_pasted_and_the_home_folder_is_a_tilde() {
     let mut desk = desk_before_a_shelf(LARGE);
     let deep = desk.path("sub/deep.toml");
-    desk.keys(&["Ctrl-O"])
-        .act(Action::Paste(name(&deep).to_owned()));
+    desk.keys(&["Ctrl-O"]).act(Action::Paste(name(&deep).to_owned()));
     assert_eq!(marked(&desk), "deep.toml");
     desk.keys(&["Enter"]);
     assert!(desk.shows("opened ") && desk.app.tab.short_name() == "deep.toml");
@@ -198,11 +150,7 @@ fn paths_are_typed_or_pasted_and_the_home_folder_is_a_tilde() {
     let home = fs::canonicalize(home).expect("it is there");
     for typed in ["~", "~/"] {
         desk.keys(&["Ctrl-O", typed]);
-        assert!(
-            desk.shows(&format!("│ {} ", home.display())),
-            "{typed}\n{}",
-            desk.screen()
-        );
+        assert!(desk.shows(&format!("│ {} ", home.display())), "{typed}\n{}", desk.screen());
         desk.keys(&["Esc"]);
     }
 }
@@ -214,30 +162,19 @@ fn an_entry_with_the_typed_name_is_selected_before_those_that_contain_it() {
     desk.keys(&["Ctrl-O", "case.toml"]);
     assert_eq!(marked(&desk), "case.toml");
     desk.keys(&["Ctrl-U", "DEEP"]);
-    assert_eq!(
-        marked(&desk),
-        "sub/deep.toml",
-        "cases below the folder are found"
-    );
+    assert_eq!(marked(&desk), "sub/deep.toml", "cases below the folder are found");
     desk.write(".hidden.toml", TABLE_1);
     desk.keys(&["Esc", "Ctrl-O"]);
     assert!(!desk.shows("hidden"));
     desk.keys(&[".hi"]);
-    assert_eq!(
-        marked(&desk),
-        ".hidden.toml",
-        "hidden ones are there where their dot is typed"
-    );
+    assert_eq!(marked(&desk), ".hidden.toml", "hidden ones are there where their dot is typed");
 }
 
 #[test]
 fn recent_cases_are_on_the_same_page_and_missing_files_are_marked() {
     let mut desk = desk_before_a_shelf(SMALL);
-    desk.recents = vec![
-        desk.path("a-strikes.toml"),
-        desk.path("gone.toml"),
-        desk.path("sub/deep.toml"),
-    ];
+    desk.recents =
+        vec![desk.path("a-strikes.toml"), desk.path("gone.toml"), desk.path("sub/deep.toml")];
     desk.keys(&["Ctrl-O"]);
     assert!(
         desk.shows("Recent cases")
@@ -251,11 +188,7 @@ fn recent_cases_are_on_the_same_page_and_missing_files_are_marked() {
     desk.keys(&["Esc", "Alt-R"]);
     assert!(!desk.shows("file not found"), "back in the folder");
     desk.keys(&["deep", "Enter"]);
-    assert_eq!(
-        desk.app.tab.short_name(),
-        "deep.toml",
-        "typing also finds recent cases"
-    );
+    assert_eq!(desk.app.tab.short_name(), "deep.toml", "typing also finds recent cases");
 }
 
 #[test]
@@ -272,13 +205,8 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
             .expect("any bytes are a name");
     }
     fs::create_dir(desk.folder.path().join(OsStr::from_bytes(b"z5 \xff\x1b"))).expect("a folder");
-    fs::write(
-        desk.folder
-            .path()
-            .join(OsStr::from_bytes(b"z5 \xff\x1b/in.toml")),
-        TABLE_1,
-    )
-    .expect("a case in it");
+    fs::write(desk.folder.path().join(OsStr::from_bytes(b"z5 \xff\x1b/in.toml")), TABLE_1)
+        .expect("a case in it");
     for start in ["z1", "z2", "z3", "z4"] {
         desk.keys(&["Ctrl-O", start]);
         assert!(
@@ -286,20 +214,10 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
             "{start}\n{}",
             desk.screen()
         );
-        assert!(
-            desk.screen()
-                .chars()
-                .all(|letter| letter == '\n' || is_safe(letter)),
-            "{start}"
-        );
+        assert!(desk.screen().chars().all(|letter| letter == '\n' || is_safe(letter)), "{start}");
         desk.keys(&["Enter"]);
         assert!(desk.shows("opened "), "{start}\n{}", desk.screen());
-        assert!(
-            desk.screen()
-                .chars()
-                .all(|letter| letter == '\n' || is_safe(letter)),
-            "{start}"
-        );
+        assert!(desk.screen().chars().all(|letter| letter == '\n' || is_safe(letter)), "{start}");
     }
     desk.keys(&["Ctrl-O", "z5", "Enter"]);
     assert_eq!(marked(&desk), "in.toml", "{}", desk.screen());
@@ -311,12 +229,7 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
 fn a_file_that_is_no_case_is_refused_with_a_message() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     let pipe = desk.path("p-pipe.toml");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .is_ok_and(|status| status.success())
-    );
+    assert!(Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()));
     symlink("l-loop.toml", desk.path("l-loop.toml")).expect("a link");
     fs::write(desk.path("m-long.toml"), vec![b'x'; (1 << 20) + 1]).expect("room");
     fs::write(desk.path("n-zeroes.toml"), vec![0; 1 << 20]).expect("room");
@@ -351,11 +264,7 @@ fn a_file_that_is_no_case_is_refused_with_a_message() {
         desk.screen()
     );
     desk.keys(&["Ctrl-U", "case.toml/"]);
-    assert!(
-        desk.shows("This folder cannot be read: Not a"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("This folder cannot be read: Not a"), "{}", desk.screen());
 }
 
 #[test]
@@ -374,14 +283,10 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
         asked.extend(update(&mut desk.app, action));
         desk.screen();
     }
-    let previews = asked
-        .iter()
-        .filter(|effect| matches!(effect, Effect::Job(Job::Preview(..))))
-        .count();
-    let searches = asked
-        .iter()
-        .filter(|effect| matches!(effect, Effect::Job(Job::Search(..))))
-        .count();
+    let previews =
+        asked.iter().filter(|effect| matches!(effect, Effect::Job(Job::Preview(..)))).count();
+    let searches =
+        asked.iter().filter(|effect| matches!(effect, Effect::Job(Job::Search(..)))).count();
     assert!(
         previews + searches == asked.len() && previews <= keys.len() && searches == 1,
         "{asked:?}"
@@ -406,10 +311,7 @@ fn keys_work_during_the_reading_of_a_folder_and_a_late_result_is_dropped() {
         press(&mut desk, letter);
     }
     update(&mut desk.app, Action::Listed(Box::new(late)));
-    assert!(
-        desk.shows("reading ...") && !desk.shows("a-strikes.toml"),
-        "that was another folder"
-    );
+    assert!(desk.shows("reading ...") && !desk.shows("a-strikes.toml"), "that was another folder");
     press(&mut desk, "Esc");
     assert!(desk.app.prompts.is_empty());
 }
@@ -422,9 +324,7 @@ fn the_threads_answer_and_the_latest_wish_counts() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["one", "two", "three"] {
         fs::create_dir(folder.path().join(name)).expect("a folder");
-        workers
-            .job(Job::Folder(folder.path().to_owned(), format!("{name}/")))
-            .expect("a thread");
+        workers.job(Job::Folder(folder.path().to_owned(), format!("{name}/"))).expect("a thread");
     }
     let mut last = String::new();
     while last != "three/" {
@@ -434,9 +334,7 @@ fn the_threads_answer_and_the_latest_wish_counts() {
         assert!(listing.entries.is_ok());
         last = listing.asked.1;
     }
-    workers
-        .job(Job::Examples(tipstrike::case::units::System::Metric))
-        .expect("a thread");
+    workers.job(Job::Examples(tipstrike::case::units::System::Metric)).expect("a thread");
     assert!(
         matches!(replies.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8)
     );
@@ -479,13 +377,7 @@ fn the_screens() {
     for (size, look) in [
         ("80x24", Look::FULL),
         ("140x45", Look::FULL),
-        (
-            "ascii",
-            Look {
-                theme: &MONO,
-                ascii: true,
-            },
-        ),
+        ("ascii", Look { theme: &MONO, ascii: true }),
     ] {
         let mut desk = desk_before_a_shelf(if size == "140x45" { LARGE } else { SMALL });
         desk.app.look = look;
@@ -507,24 +399,12 @@ fn typing_searches_the_folders_below_and_the_examples() {
     let mut desk = desk_before_a_shelf(LARGE);
     fs::create_dir_all(desk.path("sub/gearbox/stage 2")).expect("folders");
     fs::create_dir_all(desk.path(".hidden/x")).expect("folders");
-    desk.write(
-        "sub/gearbox/stage 2/Pinion.toml",
-        &TABLE_1.replace("2000 rpm", "777 rpm"),
-    );
+    desk.write("sub/gearbox/stage 2/Pinion.toml", &TABLE_1.replace("2000 rpm", "777 rpm"));
     desk.write(".hidden/x/pinion.toml", TABLE_1);
     symlink(desk.folder.path(), desk.path("sub/round and round")).expect("a link");
     desk.keys(&["Ctrl-O", "pinion"]);
-    assert_eq!(
-        marked(&desk),
-        "sub/gearbox/stage 2/Pinion.toml",
-        "{}",
-        desk.screen()
-    );
-    assert!(
-        preview(&desk).contains("777 rpm") && !desk.shows("hidden"),
-        "{}",
-        desk.screen()
-    );
+    assert_eq!(marked(&desk), "sub/gearbox/stage 2/Pinion.toml", "{}", desk.screen());
+    assert!(preview(&desk).contains("777 rpm") && !desk.shows("hidden"), "{}", desk.screen());
     desk.keys(&["Enter"]);
     assert_eq!(
         desk.app.tab.path.as_deref(),
@@ -553,14 +433,8 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
     let below = case_search::find(desk.folder.path().to_owned(), String::new(), &|_| true)
         .expect("it is wanted");
     let names: Vec<&str> = below.cases.iter().map(|case| case.name.as_str()).collect();
-    assert_eq!(
-        (names, below.is_cut),
-        (vec!["sub/deep.toml", "1/2/3/near.toml"], true)
-    );
-    assert_eq!(
-        case_search::find(desk.folder.path().to_owned(), String::new(), &|_| false),
-        None
-    );
+    assert_eq!((names, below.is_cut), (vec!["sub/deep.toml", "1/2/3/near.toml"], true));
+    assert_eq!(case_search::find(desk.folder.path().to_owned(), String::new(), &|_| false), None);
     assert_eq!(
         case_search::find("/no/such/folder".into(), String::new(), &|_| true)
             .expect("wanted")
@@ -571,16 +445,11 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
     let mut asked = 0;
     for letter in "near".chars() {
         let effects = update(&mut desk.app, Action::Insert(letter));
-        asked += effects
-            .iter()
-            .filter(|effect| matches!(effect, Effect::Job(Job::Search(..))))
-            .count();
+        asked +=
+            effects.iter().filter(|effect| matches!(effect, Effect::Job(Job::Search(..)))).count();
     }
     assert_eq!(asked, 1);
     assert!(desk.shows("Searching below ..."), "{}", desk.screen());
-    desk.act(Action::Found(Box::new(case_search::SearchResult {
-        cases: Vec::new(),
-        ..below
-    })));
+    desk.act(Action::Found(Box::new(case_search::SearchResult { cases: Vec::new(), ..below })));
     assert!(desk.shows("No match here or below."), "{}", desk.screen());
 }

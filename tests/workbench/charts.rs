@@ -24,26 +24,14 @@ use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 use tipstrike::tui::testing::worker_chart::{ChartPart, ChartRequest, ChartValues};
 
-const HUGE: Size = Size {
-    width: 240,
-    height: 70,
-};
-const MIDDLE: Size = Size {
-    width: 120,
-    height: 40,
-};
-const TINY: Size = Size {
-    width: 60,
-    height: 16,
-};
+const HUGE: Size = Size { width: 240, height: 70 };
+const MIDDLE: Size = Size { width: 120, height: 40 };
+const TINY: Size = Size { width: 60, height: 16 };
 
 /// Table 1 with a method, the chart pane focused.
 fn at_method(size: Size, method: &str) -> Desk {
-    let mut desk = Desk::on(
-        size,
-        "case.toml",
-        &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")),
-    );
+    let mut desk =
+        Desk::on(size, "case.toml", &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")));
     // The first frame does not wait for a slow method; an edit starts it.
     desk.fill("title", "a");
     desk.keys(&["Esc", "3"]);
@@ -61,11 +49,7 @@ fn chart(desk: &Desk) -> Vec<String> {
     let cell = |x, y| buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
     area.rows()
         .map(|row| {
-            row.columns()
-                .map(|at| cell(at.x, at.y))
-                .collect::<String>()
-                .trim_end()
-                .to_owned()
+            row.columns().map(|at| cell(at.x, at.y)).collect::<String>().trim_end().to_owned()
         })
         .collect()
 }
@@ -95,20 +79,14 @@ fn a_chart_opened_with_an_invalid_field_reports_it() {
 #[test]
 fn every_chart() {
     for method in ["exact", "static", "dynamic"] {
-        assert_snapshot!(
-            format!("{method}_80x24"),
-            album(&mut at_method(SMALL, method))
-        );
+        assert_snapshot!(format!("{method}_80x24"), album(&mut at_method(SMALL, method)));
     }
     assert_snapshot!("dynamic_140x45", album(&mut at_method(LARGE, "dynamic")));
     let mut whole = at_method(SMALL, "dynamic");
     assert_snapshot!("dynamic_whole_80x24", album(whole.keys(&["0"])));
     assert_snapshot!("static_60x16", album(&mut at_method(TINY, "static")));
     let mut desk = at_method(SMALL, "dynamic");
-    desk.app.look = Look {
-        theme: &MONO,
-        ascii: true,
-    };
+    desk.app.look = Look { theme: &MONO, ascii: true };
     assert_snapshot!("dynamic_ascii", album(desk.keys(&["l"])));
     let mut huge = at_method(HUGE, "static");
     assert_snapshot!("static_240x70", chart(huge.keys(&["b", "l"])).join("\n"));
@@ -140,20 +118,10 @@ fn charts_are_selected_by_key_and_by_name() {
     desk.keys(&["Up", "k", "k", "k", "k"]);
     assert_title(&desk, &GRAPHS[GRAPHS.len() - 1]);
     for graph in GRAPHS {
-        desk.keys(&[
-            "1",
-            ":",
-            "chart: ",
-            &graph.label.to_lowercase(),
-            "Enter",
-            "3",
-        ]);
+        desk.keys(&["1", ":", "chart: ", &graph.label.to_lowercase(), "Enter", "3"]);
         assert_title(&desk, graph);
     }
-    assert_eq!(
-        desk.kept, None,
-        "the chart is no setting: a session starts with the force"
-    );
+    assert_eq!(desk.kept, None, "the chart is no setting: a session starts with the force");
 }
 
 #[test]
@@ -171,11 +139,7 @@ fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
 
         let mut desk = at_method(SMALL, method);
         desk.fill("driven.tip_relief", "80 um");
-        assert_eq!(
-            window(&desk),
-            desk.app.tab.scale.across,
-            "there is no strike"
-        );
+        assert_eq!(window(&desk), desk.app.tab.scale.across, "there is no strike");
         desk.fill("driven.tip_relief", "0 um");
         assert!(window(&desk).length() < 0.2 * whole.length());
     }
@@ -254,10 +218,7 @@ fn the_charts_with_their_own_axes() {
     assert_snapshot!("speed_80x24", chart(&small).join("\n"));
     small.keys(&["k"]);
     assert_snapshot!("spectrum_80x24", chart(&small).join("\n"));
-    small.app.look = Look {
-        theme: &MONO,
-        ascii: true,
-    };
+    small.app.look = Look { theme: &MONO, ascii: true };
     assert_snapshot!("spectrum_ascii", chart(&small).join("\n"));
 }
 
@@ -267,17 +228,9 @@ fn the_charts_with_their_own_axes() {
 fn a_harmonic_without_amplitude_has_no_bar_and_titles_keep_their_units() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["k"]);
-    assert!(
-        desk.shows("Dynamic factor over speed in rpm"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("Dynamic factor over speed in rpm"), "{}", desk.screen());
     desk.keys(&["k"]);
-    assert!(
-        desk.shows("Transmission error harmonics in um"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("Transmission error harmonics in um"), "{}", desk.screen());
     let Some((_, ChartValues::Spectra(spectra))) = &mut desk.app.tab.chart_work.found else {
         panic!("spectra");
     };
@@ -308,13 +261,8 @@ fn the_latest_request_for_a_chart_of_the_worker_wins() {
     let first = request(press(&mut desk, "k")).expect("a request");
     assert!(desk.shows("computing"), "{}", desk.screen());
     assert!(request(press(&mut desk, "l")).is_none(), "the same pair");
-    let part = |serial, found, is_over| {
-        Action::Charted(Box::new(ChartPart {
-            serial,
-            found,
-            is_over,
-        }))
-    };
+    let part =
+        |serial, found, is_over| Action::Charted(Box::new(ChartPart { serial, found, is_over }));
     let curve = speeds(&first.inputs, &mut |_| true).expect("a curve");
     let mut so_far = curve.clone();
     so_far.up[60..].fill(None);
@@ -383,16 +331,9 @@ fn the_axis_ends_at_the_last_contact_for_static_and_dynamic() {
     for (method, ends) in [("exact", false), ("static", true), ("dynamic", true)] {
         let mut desk = at_method(SMALL, method);
         desk.keys(&["0"]);
-        let axis = chart(&desk)
-            .into_iter()
-            .find(|line| line.contains('└'))
-            .expect("an axis");
+        let axis = chart(&desk).into_iter().find(|line| line.contains('└')).expect("an axis");
         assert!(axis.contains('D') && axis.contains('E'), "{axis}");
-        assert_eq!(
-            (axis.contains('B'), axis.contains('L')),
-            (ends, ends),
-            "{axis}"
-        );
+        assert_eq!((axis.contains('B'), axis.contains('L')), (ends, ends), "{axis}");
         assert_eq!(desk.app.tab.scale.across.to > 0.0, ends);
     }
 }
@@ -402,11 +343,7 @@ fn the_cursor_moves_beyond_e_and_the_readout_shows_every_value() {
     let mut desk = at_method(SMALL, "dynamic");
     desk.keys(&["0", "End", "L"]);
     let cursor = desk.app.cursor.expect("a cursor");
-    assert!(
-        cursor < 0.0 && desk.shows("deg of the driver after E: F "),
-        "{}",
-        desk.screen()
-    );
+    assert!(cursor < 0.0 && desk.shows("deg of the driver after E: F "), "{}", desk.screen());
     for symbol in ["S ", "ΔV_τ ", "F/ΣF ", "q_s ", "x "] {
         assert!(desk.shows(symbol), "{symbol}\n{}", desk.screen());
     }
@@ -418,11 +355,7 @@ fn the_cursor_moves_beyond_e_and_the_readout_shows_every_value() {
     assert!(desk.shows("after E"), "the teeth pane has the same cursor");
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["Home", "LL"]);
-    assert!(
-        desk.shows(" N, exact "),
-        "the readout has every visible curve\n{}",
-        desk.screen()
-    );
+    assert!(desk.shows(" N, exact "), "the readout has every visible curve\n{}", desk.screen());
 }
 
 #[test]
@@ -433,10 +366,7 @@ fn a_click_moves_the_cursor_to_its_column() {
         desk.act(Action::Click(Position::new(x, area.y + 2)));
         let axis = area.bottom() - 2;
         assert_eq!(
-            desk.buffer(SMALL)
-                .cell((x, axis))
-                .map(|cell| cell.symbol().to_owned())
-                .as_deref(),
+            desk.buffer(SMALL).cell((x, axis)).map(|cell| cell.symbol().to_owned()).as_deref(),
             Some("▴"),
             "{x}"
         );
@@ -467,10 +397,7 @@ fn zoom_is_around_the_cursor_and_ends_at_the_whole_contact() {
     desk.keys(&["0", "c"]);
     assert_eq!(chart(&desk), whole);
     assert!(desk.keys(&["-"]).shows("the charts show the whole contact"));
-    desk.act(Action::Wheel(
-        Position::new(20, chart_area(&desk).y + 2),
-        -3,
-    ));
+    desk.act(Action::Wheel(Position::new(20, chart_area(&desk).y + 2), -3));
     assert!(window(&desk).length() < all.length(), "the wheel zooms");
     desk.keys(&["+"; 30]);
     assert!(desk.shows("closest zoom"));
@@ -505,11 +432,7 @@ fn the_time_axis_shows_the_same_curve() {
         "{}",
         time[0]
     );
-    assert_eq!(
-        angle[1..angle.len() - 2],
-        time[1..time.len() - 2],
-        "the curves do not move"
-    );
+    assert_eq!(angle[1..angle.len() - 2], time[1..time.len() - 2], "the curves do not move");
     desk.keys(&["l"]);
     assert!(desk.shows(" us: F "), "{}", desk.screen());
     assert_eq!(desk.kept, None, "the x axis is no setting");
@@ -531,10 +454,7 @@ fn the_axis_covers_the_results_and_the_baseline() {
                 let solution = |answer: &Answer| answer.of(answer.active).expect("solved").clone();
                 let baseline = solution(&desk.app.baseline.as_ref().expect("pinned").answer);
                 let now = solution(desk.app.tab.answer.as_ref().expect("solved"));
-                for first in [&baseline, &now]
-                    .into_iter()
-                    .filter_map(chart::first_contact)
-                {
+                for first in [&baseline, &now].into_iter().filter_map(chart::first_contact) {
                     assert!(
                         window.from <= -first.to_degrees(),
                         "{method} {relief} {key}: {window:?} {first}"
@@ -571,9 +491,8 @@ fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
             for symbol in ["F_S", "F", "S", "ΔV_n", "ΔV_τ", "x", "F/ΣF", "q_s", "E_k"] {
                 if let Some(readout) = readout(symbol) {
                     let alone = format!(" {readout}");
-                    let same = said
-                        .split([':', ',', ';'])
-                        .any(|part| part.trim_end_matches('.') == alone);
+                    let same =
+                        said.split([':', ',', ';']).any(|part| part.trim_end_matches('.') == alone);
                     assert!(same, "{method}: {readout} in {said}");
                 }
             }
@@ -665,15 +584,10 @@ fn labels(desk: &Desk) -> (Vec<f64>, Vec<f64>) {
         return (Vec::new(), Vec::new());
     };
     let number = |text: &str| {
-        text.parse::<f64>()
-            .unwrap_or_else(|_| panic!("{text} is no number\n{}", desk.screen()))
+        text.parse::<f64>().unwrap_or_else(|_| panic!("{text} is no number\n{}", desk.screen()))
     };
-    let below = lines
-        .get(axis + 1)
-        .map_or("", String::as_str)
-        .split_whitespace()
-        .map(number)
-        .collect();
+    let below =
+        lines.get(axis + 1).map_or("", String::as_str).split_whitespace().map(number).collect();
     let beside = lines[..axis]
         .iter()
         .filter_map(|line| line.split_once('┤'))
@@ -682,24 +596,15 @@ fn labels(desk: &Desk) -> (Vec<f64>, Vec<f64>) {
 }
 
 fn assert_round(numbers: &[f64], desk: &Desk) {
-    let steps: Vec<f64> = numbers
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .collect();
+    let steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     for step in &steps {
         let digit = step / 10f64.powf((step * (1.0 + 1e-6)).log10().floor());
         assert!(
-            [1.0, 2.0, 5.0]
-                .iter()
-                .any(|round| (digit - round).abs() < 1e-6),
+            [1.0, 2.0, 5.0].iter().any(|round| (digit - round).abs() < 1e-6),
             "{numbers:?}\n{}",
             desk.screen()
         );
-        assert!(
-            (step - steps[0]).abs() < 1e-6 * step,
-            "{numbers:?}\n{}",
-            desk.screen()
-        );
+        assert!((step - steps[0]).abs() < 1e-6 * step, "{numbers:?}\n{}", desk.screen());
     }
 }
 
@@ -778,12 +683,7 @@ fn assert_charts(desk: &mut Desk) {
         desk.keys(&[keys, "l"]);
         for _ in GRAPHS {
             let screen = desk.screen();
-            assert!(
-                !["NaN", "inf ", "n/a"]
-                    .iter()
-                    .any(|none| screen.contains(none)),
-                "{screen}"
-            );
+            assert!(!["NaN", "inf ", "n/a"].iter().any(|none| screen.contains(none)), "{screen}");
             assert_legends(desk);
             if size.height < HUGE.height {
                 let (below, beside) = labels(desk);
@@ -801,19 +701,14 @@ fn assert_charts(desk: &mut Desk) {
 
 #[test]
 fn every_example_is_drawn_at_every_method() {
-    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases"))
-        .expect("the cases")
-        .flatten()
+    for entry in
+        fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases")).expect("the cases").flatten()
     {
         let path = entry.path();
         if path.extension().is_none_or(|ending| ending != "toml") {
             continue;
         }
-        let mut desk = Desk::on(
-            SMALL,
-            "case.toml",
-            &fs::read_to_string(&path).expect("a case"),
-        );
+        let mut desk = Desk::on(SMALL, "case.toml", &fs::read_to_string(&path).expect("a case"));
         for _ in 0..4 {
             desk.keys(&["Ctrl-T"]);
             assert_charts(&mut desk);
@@ -837,11 +732,8 @@ fn every_example_is_drawn_at_every_method() {
 fn random_cases_are_drawn() {
     let sizes = (12..150u32, 12..150u32, -1.3..1.69f64, -9.0..-3.5f64);
     let loads = (0.0..6.0f64, 0.0..4.5f64, 0..3usize);
-    let config = ProptestConfig {
-        cases: 24,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    };
+    let config =
+        ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() };
     proptest!(config, |((z1, z2, module, deviation) in sizes, (power, speed, method) in loads)| {
         let text = TABLE_1
             .replacen("teeth = 20", &format!("teeth = {z1}"), 1)
@@ -860,13 +752,9 @@ fn random_cases_are_drawn() {
 /// The bytes that change one picture of the chart into another.
 fn bytes(before: &Buffer, after: &Buffer, area: Rect) -> usize {
     let mut written = Vec::new();
-    let changes = before
-        .diff(after)
-        .into_iter()
-        .filter(|(x, y, _)| area.contains(Position::new(*x, *y)));
-    CrosstermBackend::new(&mut written)
-        .draw(changes)
-        .expect("room in memory");
+    let changes =
+        before.diff(after).into_iter().filter(|(x, y, _)| area.contains(Position::new(*x, *y)));
+    CrosstermBackend::new(&mut written).draw(changes).expect("room in memory");
     written.len()
 }
 
@@ -1004,11 +892,8 @@ fn the_tooth_compliance_has_a_curve_for_every_model_over_the_flank() {
     let mut large = at_method(LARGE, "exact");
     large.keys(&["1", ":", "chart: driver tooth", "Enter", "3"]);
     assert_snapshot!("tooth_compliance_140x45", chart(&large).join("\n"));
-    let mut outside = Desk::on(
-        SMALL,
-        "case.toml",
-        &TABLE_1.replacen("teeth = 20", "teeth = 111", 1),
-    );
+    let mut outside =
+        Desk::on(SMALL, "case.toml", &TABLE_1.replacen("teeth = 20", "teeth = 111", 1));
     outside.keys(&["Esc", ":", "chart: driver tooth", "Enter"]);
     assert!(
         outside.shows("kuang-yang (case) (no value)") && outside.shows("∘ beam"),
@@ -1028,16 +913,9 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
         _ => None,
     });
     let answer = solver::answer(&request.expect("a request"));
-    let without = Answer {
-        stiffness: None,
-        ..answer.clone()
-    };
+    let without = Answer { stiffness: None, ..answer.clone() };
     desk.act(Action::Solved(Box::new(without)));
-    assert!(
-        desk.shows("Computing the mesh stiffness."),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("Computing the mesh stiffness."), "{}", desk.screen());
     desk.act(Action::Solved(Box::new(answer)));
     let drawn = chart(&desk);
     desk.keys(&["3", "j", "k"]);
@@ -1048,21 +926,9 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
 fn a_chart_with_its_own_axes_offers_no_key_of_the_roll_angle() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["k"]);
-    assert!(
-        desk.shows("N is the mesh frequency over"),
-        "{}",
-        desk.screen()
-    );
-    assert!(
-        desk.shows("j next chart") && !desk.shows("Space play"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("N is the mesh frequency over"), "{}", desk.screen());
+    assert!(desk.shows("j next chart") && !desk.shows("Space play"), "{}", desk.screen());
     desk.keys(&["l"]);
-    assert!(
-        desk.shows("l is not a command in Chart"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("l is not a command in Chart"), "{}", desk.screen());
     assert_eq!(desk.app.cursor, None);
 }

@@ -43,10 +43,7 @@ fn points_have_names() {
     let mut desk = Desk::on(LARGE, "case.toml", &case);
     desk.keys(&["Esc"]);
     let [d, e, b, l, peak] = ["d", "E", "b", "L", "Peak"].map(|name| at(&mut desk, name));
-    assert!(
-        d > peak && peak > b && e == 0.0 && l < 0.0,
-        "{d} {e} {b} {l} {peak}"
-    );
+    assert!(d > peak && peak > b && e == 0.0 && l < 0.0, "{d} {e} {b} {l} {peak}");
     desk.keys(&["3", "End", "Home"]);
     assert_eq!(desk.app.cursor, Some(d), "Home moves the cursor to D");
     let screen = desk.screen();
@@ -68,17 +65,9 @@ fn a_wrong_text_shows_the_reason_and_stays() {
         assert!(desk.shows(said), "{typed}\n{}", desk.screen());
         assert!(matches!(desk.app.prompts[..], [Prompt::CursorTo(_)]) && desk.app.cursor.is_none());
     }
-    let mut desk = Desk::on(
-        SMALL,
-        "case.toml",
-        include_str!("../../cases/tip-relief-enough.toml"),
-    );
+    let mut desk = Desk::on(SMALL, "case.toml", include_str!("../../cases/tip-relief-enough.toml"));
     desk.keys(&["Esc", "a", "D", "Enter"]);
-    assert!(
-        desk.shows("no corner contact, so no D"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("no corner contact, so no D"), "{}", desk.screen());
 }
 
 #[test]
@@ -87,9 +76,5 @@ fn the_chart_opens_if_no_pane_shows_the_cursor() {
     desk.keys(&["Esc", "5", "a", "0.6", "Enter"]);
     assert!(desk.shows("▸ 3 Force"), "{}", desk.screen());
     desk.keys(&["4", "1", "a", "0.6", "Enter"]);
-    assert!(
-        desk.shows("▸ 1 Form") && desk.shows("─ 4 "),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("▸ 1 Form") && desk.shows("─ 4 "), "{}", desk.screen());
 }

@@ -20,14 +20,8 @@ fn in_box(desk: &Desk) -> Vec<String> {
     let lines = screen
         .lines()
         .filter(|line| line.ends_with(['█', '│']) || line.contains("│ ") || line.contains("█ "));
-    let inside = |line: &str| {
-        Some(
-            line.split_once("│ ")?
-                .1
-                .trim_end_matches(['│', '█', ' '])
-                .to_owned(),
-        )
-    };
+    let inside =
+        |line: &str| Some(line.split_once("│ ")?.1.trim_end_matches(['│', '█', ' ']).to_owned());
     lines.filter_map(inside).collect()
 }
 
@@ -52,10 +46,8 @@ fn of(desk: &Desk) -> &Explanation {
 }
 
 fn stdout_of(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-        .args(arguments)
-        .output()
-        .expect("it runs");
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_tipstrike")).args(arguments).output().expect("it runs");
     String::from_utf8(output.stdout).expect("text")
 }
 
@@ -97,11 +89,7 @@ fn the_fields_behind_a_result_lead_to_the_form() {
     assert!(fields.len() > 20 && fields[0] == "pair.module");
     for (at, key) in fields.iter().enumerate() {
         desk.keys(&["Tab"]);
-        assert!(
-            desk.shows(&format!("▸{key}")),
-            "{at} {key}\n{}",
-            desk.screen()
-        );
+        assert!(desk.shows(&format!("▸{key}")), "{at} {key}\n{}", desk.screen());
     }
     desk.keys(&["Tab"]);
     assert_eq!(of(&desk).field(), Some("pair.module"), "round and round");
@@ -142,21 +130,10 @@ fn an_unfinished_page_is_marked_and_a_late_page_is_dropped() {
 #[test]
 fn a_refusal_and_an_invalid_value_are_explained_in_words() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("driven.addendum", "1.9")
-        .keys(&["Esc", "2", "Enter"]);
-    assert!(
-        desk.shows("Not solved: ") && desk.shows("Correction: "),
-        "{}",
-        desk.screen()
-    );
-    desk.keys(&["Esc", "1"])
-        .fill("driven.addendum", "x")
-        .keys(&["Esc", "2", "Enter"]);
-    assert!(
-        desk.shows("these are the last valid results"),
-        "{}",
-        desk.screen()
-    );
+    desk.fill("driven.addendum", "1.9").keys(&["Esc", "2", "Enter"]);
+    assert!(desk.shows("Not solved: ") && desk.shows("Correction: "), "{}", desk.screen());
+    desk.keys(&["Esc", "1"]).fill("driven.addendum", "x").keys(&["Esc", "2", "Enter"]);
+    assert!(desk.shows("these are the last valid results"), "{}", desk.screen());
 }
 
 #[test]
@@ -176,25 +153,15 @@ fn the_page_names_its_units() {
 fn every_letter_of_every_page_has_its_like_in_ascii() {
     for example in EXAMPLES {
         let mut desk = Desk::on(LARGE, "case.toml", example.text);
-        desk.app.look = Look {
-            theme: &MONO,
-            ascii: true,
-        };
+        desk.app.look = Look { theme: &MONO, ascii: true };
         for row in 0..results::count(&desk.app.results()) {
             desk.app.tab.results.row = row;
             desk.keys(&["Esc", "2", "Enter"]);
-            let page = of(&desk)
-                .page
-                .as_ref()
-                .expect("it is written")
-                .as_ref()
-                .expect("it is explained");
+            let page =
+                of(&desk).page.as_ref().expect("it is written").as_ref().expect("it is explained");
             let page = tipstrike::report::explain::render(page, "case");
-            let strange: Vec<_> = page
-                .lines()
-                .map(written_out)
-                .filter(|line| !line.is_ascii())
-                .collect();
+            let strange: Vec<_> =
+                page.lines().map(written_out).filter(|line| !line.is_ascii()).collect();
             assert!(
                 strange.is_empty(),
                 "{} of {}: {strange:?}",
@@ -210,15 +177,7 @@ fn every_letter_of_every_page_has_its_like_in_ascii() {
 fn it_scrolls_no_farther_than_its_end_at_any_size() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2", "Enter", "PageDown", "Tab"]);
-    for (width, height) in [
-        (0, 0),
-        (1, 1),
-        (60, 16),
-        (61, 17),
-        (80, 24),
-        (200, 60),
-        (300, 100),
-    ] {
+    for (width, height) in [(0, 0), (1, 1), (60, 16), (61, 17), (80, 24), (200, 60), (300, 100)] {
         desk.act(Action::Resize(ratatui::layout::Size { width, height }));
         desk.keys(&["PageDown", "PageDown", "Down", "Tab", "PageUp"]);
         desk.screen();
@@ -237,13 +196,7 @@ fn the_screens() {
     for (size, look) in [
         ("80x24", Look::FULL),
         ("140x45", Look::FULL),
-        (
-            "ascii",
-            Look {
-                theme: &MONO,
-                ascii: true,
-            },
-        ),
+        ("ascii", Look { theme: &MONO, ascii: true }),
     ] {
         let mut desk = Desk::new(if size == "140x45" { LARGE } else { SMALL });
         desk.app.look = look;

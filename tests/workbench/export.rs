@@ -20,13 +20,7 @@ fn names(desk: &Desk) -> Vec<String> {
     let entries = fs::read_dir(desk.folder.path()).expect("the folder");
     // The lock of the open case is a hidden file.
     let mut names: Vec<_> = entries
-        .map(|entry| {
-            entry
-                .expect("an entry")
-                .file_name()
-                .into_string()
-                .expect("a name")
-        })
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"))
         .collect();
     names.retain(|name: &String| !name.starts_with('.'));
     names.sort();
@@ -40,10 +34,7 @@ fn the_report_of_the_form_is_written_and_the_status_line_shows_its_path() {
     assert!(desk.shows("Export") && desk.shows("pair.html"));
     desk.keys(&["sent", "Enter"]);
     let page = desk.read("sent.html");
-    assert!(
-        page.contains("<html") && page.contains("24 um"),
-        "the edit is in the page"
-    );
+    assert!(page.contains("<html") && page.contains("24 um"), "the edit is in the page");
     assert!(desk.shows("exported to ") && desk.shows("sent.html") && desk.app.prompts.is_empty());
     assert!(desk.app.tab.is_unsaved(), "an export saves no case");
 }
@@ -117,17 +108,9 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
     let effects = update(&mut desk.app, accept);
     assert!(matches!(effects.first(), Some(Effect::Job(Job::Export(_)))));
     desk.keys(&["Enter"]);
-    assert!(
-        desk.shows("still runs: wait for its end"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("still runs: wait for its end"), "{}", desk.screen());
     desk.keys(&["Esc", "Esc", "Ctrl-S", "Ctrl-Q"]);
-    assert!(
-        desk.shows("An export runs") && !desk.has_quit,
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("An export runs") && !desk.has_quit, "{}", desk.screen());
     desk.keys(&["w", "Ctrl-Q", "q"]);
     assert!(desk.has_quit);
 }
@@ -135,31 +118,9 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
 #[test]
 fn a_picture_is_refused_by_name_if_no_chart_is_visible() {
     let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
-    desk.keys(&[
-        "Esc",
-        "6",
-        "Alt-X",
-        "Ctrl-U",
-        &desk_path(&desk, "a.svg"),
-        "Enter",
-    ]);
-    assert!(
-        desk.shows("not exported: no chart is visible"),
-        "{}",
-        desk.screen()
-    );
+    desk.keys(&["Esc", "6", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
+    assert!(desk.shows("not exported: no chart is visible"), "{}", desk.screen());
     assert_eq!(names(&desk), ["pair.toml"]);
-    desk.keys(&[
-        "Esc",
-        "3",
-        "Alt-X",
-        "Ctrl-U",
-        &desk_path(&desk, "a.svg"),
-        "Enter",
-    ]);
-    assert!(
-        desk.shows("exported the chart force to "),
-        "{}",
-        desk.screen()
-    );
+    desk.keys(&["Esc", "3", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
+    assert!(desk.shows("exported the chart force to "), "{}", desk.screen());
 }

@@ -5,11 +5,7 @@ use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::case::fields::index_of;
 
 fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
-    desk.app
-        .tab
-        .case
-        .text(index_of(key).unwrap())
-        .unwrap_or_default()
+    desk.app.tab.case.text(index_of(key).unwrap()).unwrap_or_default()
 }
 
 /// A line of the screen with this text.
@@ -36,11 +32,7 @@ fn a_value_steps_inside_a_field_and_outside() {
         "7 um",
         "a letter that is typed unseen changes no value"
     );
-    assert!(
-        desk.shows("< is not a command in Form"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("< is not a command in Form"), "{}", desk.screen());
     desk.keys(&["Alt-Up", "Shift-Down"]);
     assert_eq!(text(&desk, "deviations.base_pitch"), "16 um");
     desk.keys(&["Shift-Up"]);
@@ -58,19 +50,11 @@ fn the_form_shows_the_given_size_and_the_value_of_its_alternative() {
     desk.go_to("driver.tip_diameter").type_in("109");
     assert_eq!(text(&desk, "driver.tip_diameter"), "109 mm");
     assert_eq!(text(&desk, "driver.addendum"), "");
-    assert!(
-        line(&desk, "addendum").contains("(0.9)"),
-        "{}",
-        desk.screen()
-    );
+    assert!(line(&desk, "addendum").contains("(0.9)"), "{}", desk.screen());
     assert!(desk.shows("addendum 1.0 replaced by the tip diameter"));
     desk.go_to("pair.diametral_pitch").type_in("8");
     assert_eq!(text(&desk, "pair.diametral_pitch"), "8 1/in");
-    assert!(
-        line(&desk, "module").contains("(3.175 mm)"),
-        "{}",
-        desk.screen()
-    );
+    assert!(line(&desk, "module").contains("(3.175 mm)"), "{}", desk.screen());
     desk.keys(&["Ctrl-U"]);
     assert_eq!(text(&desk, "pair.module"), "5 mm");
 }
@@ -111,11 +95,7 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
     desk.go_to("driven.teeth").keys(&["Alt-G"]);
     assert!(desk.shows("Material of the driven gear"));
     desk.keys(&["42cr", "Enter"]);
-    assert!(
-        desk.shows("driven: E 210 GPa, ν 0.3, ρ 7720 kg/m3 from 42CrMo4"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("driven: E 210 GPa, ν 0.3, ρ 7720 kg/m3 from 42CrMo4"), "{}", desk.screen());
     assert_eq!(
         (text(&desk, "driven.young"), text(&desk, "driven.density")),
         ("210 GPa", "7720 kg/m3")
@@ -134,20 +114,13 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
         desk.screen()
     );
     desk.go_to("driven.young");
-    assert!(
-        desk.shows("42CrMo4: Deutsche Edelstahlwerke"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("42CrMo4: Deutsche Edelstahlwerke"), "{}", desk.screen());
     desk.keys(&["Ctrl-Z"]);
     assert!(!desk.app.tab.is_unsaved());
     assert!(!desk.shows(" *E2 "), "{}", desk.screen());
     desk.go_to("pair.module").keys(&["Alt-G", "PEEK", "Enter"]);
     assert!(desk.shows("both gears: E 4 GPa"), "{}", desk.screen());
-    assert_eq!(
-        (text(&desk, "driver.young"), text(&desk, "driven.young")),
-        ("4 GPa", "4 GPa")
-    );
+    assert_eq!((text(&desk, "driver.young"), text(&desk, "driven.young")), ("4 GPa", "4 GPa"));
 }
 
 #[test]
@@ -156,11 +129,7 @@ fn limits_are_a_group_of_the_form_with_their_verdicts() {
     desk.keys(&["Ctrl-End"]);
     assert!(line(&desk, "impact force         2500 N").contains("ok 88 %"));
     desk.keys(&["Ctrl-U", "2 kN"]);
-    assert!(
-        line(&desk, "force         2 kN").contains("EXCEEDED 110 %"),
-        "{}",
-        desk.screen()
-    );
+    assert!(line(&desk, "force         2 kN").contains("EXCEEDED 110 %"), "{}", desk.screen());
     assert!(desk.shows("2191.0 N !"), "the result is marked too");
     desk.keys(&["Shift-Up"]);
     desk.keys(&["Ctrl-S"]);
@@ -171,25 +140,13 @@ fn limits_are_a_group_of_the_form_with_their_verdicts() {
 fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Alt-L", "normal_vel", "Enter"]);
-    assert!(
-        line(&desk, "ok 100 %").contains("0.82107 m/s"),
-        "{}",
-        desk.screen()
-    );
+    assert!(line(&desk, "ok 100 %").contains("0.82107 m/s"), "{}", desk.screen());
     desk.keys(&["Ctrl-U"]);
     assert!(desk.shows("(no limit)"));
     desk.keys(&["0.8"]);
-    assert!(
-        desk.shows("Unit added: m/s.") && desk.shows("0.8 m/s"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("Unit added: m/s.") && desk.shows("0.8 m/s"), "{}", desk.screen());
     desk.keys(&[" m/s", "Ctrl-U", "Up"]);
-    assert!(
-        !desk.shows("(no limit)") && !desk.app.tab.is_unsaved(),
-        "{}",
-        desk.screen()
-    );
+    assert!(!desk.shows("(no limit)") && !desk.app.tab.is_unsaved(), "{}", desk.screen());
 }
 
 #[test]
@@ -198,29 +155,17 @@ fn a_limit_that_is_no_value_is_not_saved() {
     desk.keys(&["Ctrl-End", "Ctrl-U", "much", "Ctrl-Home", "Ctrl-S"]);
     assert!(desk.shows("not saved"));
     assert_eq!(desk.read("case.toml"), TABLE_1);
-    assert_eq!(
-        desk.app.tab.form.input.value(),
-        "much",
-        "the focus is on the invalid field"
-    );
+    assert_eq!(desk.app.tab.form.input.value(), "much", "the focus is on the invalid field");
 }
 
 #[test]
 fn inch_units_are_shown_and_the_case_keeps_its_own_units() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "units", "Enter"]);
-    assert!(
-        desk.shows("492.56 lbf") && desk.shows("thou"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("492.56 lbf") && desk.shows("thou"), "{}", desk.screen());
     assert!(desk.shows("5 mm") && !desk.app.tab.is_unsaved());
     desk.go_to("pair.module");
-    assert!(
-        desk.shows("= 0.19685 in. m module, about 0.00197 to 1.97 in"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("= 0.19685 in. m module, about 0.00197 to 1.97 in"), "{}", desk.screen());
     desk.keys(&["Esc", ":", "units", "Enter"]);
     assert!(desk.shows("2191.0 N"));
 }
@@ -229,11 +174,7 @@ fn inch_units_are_shown_and_the_case_keeps_its_own_units() {
 fn a_form_speaks_of_labels_and_not_of_files() {
     let mut desk = Desk::new(LARGE);
     desk.fill("operation.speed", "fast");
-    assert!(
-        desk.shows("such as 20 rpm") && !desk.shows("\"20 rpm\""),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("such as 20 rpm") && !desk.shows("\"20 rpm\""), "{}", desk.screen());
 }
 
 #[test]

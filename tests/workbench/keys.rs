@@ -14,11 +14,7 @@ use tipstrike::tui::testing::solver::Request;
 fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
     let mut desk = Desk::new(SMALL);
     let force = |desk: &Desk| {
-        let line = desk
-            .screen()
-            .lines()
-            .find(|line| line.contains("F_S   "))
-            .map(str::to_owned);
+        let line = desk.screen().lines().find(|line| line.contains("F_S   ")).map(str::to_owned);
         line.expect("the impact force is in sight")
     };
     assert!(force(&desk).contains("2191"));
@@ -49,8 +45,7 @@ fn the_method_is_a_field_and_a_key() {
     assert!(desk.shows("‹ paper ›"));
     desk.keys(&["Space"]);
     assert!(desk.shows("▸exact"));
-    desk.go_to("pair.module")
-        .keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
+    desk.go_to("pair.module").keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
     assert!(desk.shows("▸paper"));
     assert!(desk.shows("5 mm"));
 }
@@ -58,13 +53,8 @@ fn the_method_is_a_field_and_a_key() {
 #[test]
 fn undo_and_redo_move_by_one_field() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("operation.speed", "1500 rpm")
-        .keys(&["Tab", "0.1", "Ctrl-Z"]);
-    assert!(
-        desk.shows("undo: friction coefficient: 0.1 -> (empty)"),
-        "{}",
-        desk.screen()
-    );
+    desk.fill("operation.speed", "1500 rpm").keys(&["Tab", "0.1", "Ctrl-Z"]);
+    assert!(desk.shows("undo: friction coefficient: 0.1 -> (empty)"), "{}", desk.screen());
     assert!(desk.shows("1500 rpm"));
     desk.keys(&["Ctrl-Z"]);
     assert!(
@@ -83,11 +73,7 @@ fn undo_and_redo_move_by_one_field() {
 fn switching_through_methods_is_one_step_of_undo() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["6", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(
-        desk.shows("method auto") && desk.shows("6 mm"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("method auto") && desk.shows("6 mm"), "{}", desk.screen());
     desk.keys(&["Ctrl-Z"]);
     assert!(
         desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "),
@@ -107,21 +93,11 @@ fn a_character_that_cannot_begin_a_value_is_a_command() {
     let mut desk = Desk::new(LARGE);
     for (keys, expected) in [
         (&["/power", "Enter", "16"][..], "16 kW"),
-        (
-            &["Ctrl-U", ":undo", "Enter"],
-            "undo: power: (empty) -> 15 kW",
-        ),
+        (&["Ctrl-U", ":undo", "Enter"], "undo: power: (empty) -> 15 kW"),
         (&["/method", "Enter", ":theme", "Enter"], "theme contrast"),
-        (
-            &["Alt-L", "impact_force", "Enter", "/"],
-            "Go to a field or a result",
-        ),
+        (&["Alt-L", "impact_force", "Enter", "/"], "Go to a field or a result"),
     ] {
-        assert!(
-            desk.keys(keys).shows(expected),
-            "{keys:?}\n{}",
-            desk.screen()
-        );
+        assert!(desk.keys(keys).shows(expected), "{keys:?}\n{}", desk.screen());
     }
     desk.keys(&["Esc"]).go_to("pair.module").keys(&["End", "/"]);
     assert!(desk.shows("5 mm/") && desk.shows("! "), "{}", desk.screen());
@@ -138,8 +114,7 @@ fn the_notes_open_from_every_pane() {
     for pane in ["1", "2", "3", "4", "5"] {
         let mut desk = Desk::new(LARGE);
         assert!(
-            desk.keys(&["Esc", pane, "n"])
-                .shows("Outcome, limits, notes"),
+            desk.keys(&["Esc", pane, "n"]).shows("Outcome, limits, notes"),
             "{pane}\n{}",
             desk.screen()
         );
@@ -151,11 +126,7 @@ fn chart_and_teeth_copy_the_reading_at_the_cursor() {
     for pane in ["3", "4"] {
         let mut desk = Desk::new(LARGE);
         desk.keys(&["Esc", pane, "y"]);
-        assert!(
-            desk.shows("no value to copy") && desk.copied.is_none(),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("no value to copy") && desk.copied.is_none(), "{}", desk.screen());
         desk.keys(&["l", "y"]);
         let copied = desk.copied.clone().unwrap_or_default();
         assert!(
@@ -163,11 +134,7 @@ fn chart_and_teeth_copy_the_reading_at_the_cursor() {
                 && copied.contains("F_S 2191.0 N"),
             "{copied}"
         );
-        assert!(
-            desk.shows("copied 1.3663 deg of the driver before E"),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("copied 1.3663 deg of the driver before E"), "{}", desk.screen());
     }
 }
 
@@ -188,10 +155,7 @@ fn a_save_keeps_comments_and_order_and_clears_the_mark() {
     desk.keys(&["Ctrl-S"]);
     assert!(!desk.shows("*unsaved*"));
     assert!(desk.shows("saved "));
-    assert_eq!(
-        desk.read("case.toml"),
-        TABLE_1.replace("2000 rpm", "1500 rpm")
-    );
+    assert_eq!(desk.read("case.toml"), TABLE_1.replace("2000 rpm", "1500 rpm"));
 }
 
 #[test]
@@ -212,8 +176,7 @@ fn saving_the_built_in_case_asks_for_a_name_and_about_an_existing_file() {
 #[test]
 fn a_faulty_form_is_not_saved() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("operation.speed", "fast")
-        .keys(&["Ctrl-Home", "Ctrl-S"]);
+    desk.fill("operation.speed", "fast").keys(&["Ctrl-Home", "Ctrl-S"]);
     assert!(desk.shows("not saved"));
     assert_eq!(desk.read("case.toml"), TABLE_1);
     assert_eq!(
@@ -244,16 +207,9 @@ fn an_invalid_form_is_never_marked_as_saved() {
             desk.app.tab.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit,
             "{keys:?}"
         );
-        assert_eq!(
-            desk.app.tab.case.text(desk.app.tab.form.focus),
-            Some("fast"),
-            "{keys:?}"
-        );
+        assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("fast"), "{keys:?}");
         desk.keys(&["Ctrl-Q"]);
-        assert!(
-            desk.shows("has unsaved edits") && !desk.has_quit,
-            "{keys:?}"
-        );
+        assert!(desk.shows("has unsaved edits") && !desk.has_quit, "{keys:?}");
         assert_eq!(desk.read("case.toml"), TABLE_1, "{keys:?}");
     }
     // Of several cases, an invalid one stops the quitting; the others are saved.
@@ -298,10 +254,7 @@ fn a_file_that_someone_else_changed_is_not_overwritten_unasked() {
     desk.fill("operation.speed", "1200 rpm");
     desk.write("case.toml", TABLE_1);
     desk.keys(&["Ctrl-S", "o"]);
-    assert_eq!(
-        desk.read("case.toml"),
-        theirs.replace("2000 rpm", "1200 rpm")
-    );
+    assert_eq!(desk.read("case.toml"), theirs.replace("2000 rpm", "1200 rpm"));
 }
 
 #[test]
@@ -344,9 +297,7 @@ fn an_invalid_file_shows_every_fault_at_its_place_and_no_edit_is_lost() {
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     desk.write(
         "bad.toml",
-        &TABLE_1
-            .replace("5 mm", "5 kg")
-            .replace("poisson = 0.3", "poison = 0.3"),
+        &TABLE_1.replace("5 mm", "5 kg").replace("poisson = 0.3", "poison = 0.3"),
     );
     desk.keys(&["Ctrl-O", "bad", "Enter"]);
     assert!(desk.shows("bad.toml cannot be opened"));
@@ -381,10 +332,7 @@ fn edits_are_not_lost_unasked() {
         desk.fill("operation.speed", "1500 rpm").keys(keys);
         assert_eq!(desk.has_quit, leaves, "{keys:?}");
         assert!(desk.read("case.toml").contains(on_disk), "{keys:?}");
-        assert!(
-            leaves || keys.contains(&"Ctrl-N") || desk.shows("1500 rpm"),
-            "{keys:?}"
-        );
+        assert!(leaves || keys.contains(&"Ctrl-N") || desk.shows("1500 rpm"), "{keys:?}");
     }
 }
 
@@ -409,16 +357,14 @@ fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_the_second_time() {
 #[test]
 fn escape_never_destroys() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("operation.speed", "1500 rpm")
-        .keys(&["Esc", "Esc", "Esc"]);
+    desk.fill("operation.speed", "1500 rpm").keys(&["Esc", "Esc", "Esc"]);
     assert!(desk.shows("1500 rpm") && desk.app.tab.is_unsaved() && !desk.has_quit);
 }
 
 #[test]
 fn a_paste_never_presses_a_button_and_inserts_no_control_character() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("operation.speed", "")
-        .act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
+    desk.fill("operation.speed", "").act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
     assert_eq!(
         desk.app.tab.case.text(desk.app.tab.form.focus),
         Some("15[2J00 rpm"),
@@ -431,8 +377,7 @@ fn a_paste_never_presses_a_button_and_inserts_no_control_character() {
 #[test]
 fn a_long_paste_is_cut_and_quick() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("title", "")
-        .act(Action::Paste("x".repeat(1 << 20)));
+    desk.fill("title", "").act(Action::Paste("x".repeat(1 << 20)));
     assert_eq!(desk.app.tab.form.input.value().len(), 4096);
     desk.screen();
 }
@@ -440,8 +385,7 @@ fn a_long_paste_is_cut_and_quick() {
 #[test]
 fn backspace_may_arrive_as_ctrl_h() {
     let mut desk = Desk::new(SMALL);
-    desk.go_to("operation.speed")
-        .keys(&["End", "Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
+    desk.go_to("operation.speed").keys(&["End", "Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
     assert!(!desk.app.tab.is_unsaved());
 }
 
@@ -458,9 +402,7 @@ fn a_late_answer_is_dropped() {
     };
     desk.fill("operation.speed", "500 rpm");
     let screen = desk.screen();
-    desk.act(Action::Solved(Box::new(
-        tipstrike::tui::testing::solver::answer(&late),
-    )));
+    desk.act(Action::Solved(Box::new(tipstrike::tui::testing::solver::answer(&late))));
     assert_eq!(desk.screen(), screen);
 }
 
@@ -494,10 +436,7 @@ fn a_saved_file_keeps_its_mode() {
     fs::set_permissions(desk.path("case.toml"), fs::Permissions::from_mode(0o640))
         .expect("our own file");
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    let mode = fs::metadata(desk.path("case.toml"))
-        .expect("it is there")
-        .permissions()
-        .mode();
+    let mode = fs::metadata(desk.path("case.toml")).expect("it is there").permissions().mode();
     assert_eq!(mode & 0o777, 0o640);
 }
 
@@ -524,12 +463,7 @@ fn typing_replaces_the_value_and_a_move_keeps_it() {
         let mut desk = Desk::new(SMALL);
         desk.go_to("operation.speed").keys(keys);
         let speed = tipstrike::case::fields::index_of("operation.speed").expect("a field");
-        assert_eq!(
-            desk.app.tab.case.text(speed),
-            Some(text),
-            "{keys:?}\n{}",
-            desk.screen()
-        );
+        assert_eq!(desk.app.tab.case.text(speed), Some(text), "{keys:?}\n{}", desk.screen());
     }
 }
 
@@ -552,9 +486,7 @@ fn the_first_digit_is_announced_with_the_keys_that_restore_the_value() {
 
 #[test]
 fn leaving_a_field_keeps_its_value() {
-    for leave in [
-        "Esc", "Enter", "Tab", "BackTab", "Down", "Up", "PageDown", "F9", "Ctrl-O",
-    ] {
+    for leave in ["Esc", "Enter", "Tab", "BackTab", "Down", "Up", "PageDown", "F9", "Ctrl-O"] {
         for (field, typed, text) in [
             ("pair.module", &["7"][..], "7 mm"),
             ("pair.module", &["2", "Backspace", "3"], "3 mm"),
@@ -579,10 +511,7 @@ fn keys_of_hints_work_from_a_field_also_while_work_runs() {
     for runs in [false, true] {
         let mut desk = Desk::new(SMALL);
         let before = desk.app.tab.case.clone();
-        let progress = Progress {
-            what: "trade".to_owned(),
-            part: 0.25,
-        };
+        let progress = Progress { what: "trade".to_owned(), part: 0.25 };
         desk.act(Action::Progress(Some(progress).filter(|_| runs)));
         assert!(desk.shows("notes (Esc n)"), "{}", desk.screen());
         desk.keys(&["Esc"]);
@@ -614,17 +543,9 @@ fn a_choice_field_names_the_way_to_a_pane() {
 #[test]
 fn an_unbound_key_is_reported() {
     for (pane, letter, expected) in [
-        (
-            "1",
-            "7",
-            "7 is not a command in Form: Enter edits the field, ? lists the keys",
-        ),
+        ("1", "7", "7 is not a command in Form: Enter edits the field, ? lists the keys"),
         ("2", "x", "x is not a command in Results: ? lists the keys"),
-        (
-            "5",
-            "Space",
-            "Space is not a command in Trade: ? lists the keys",
-        ),
+        ("5", "Space", "Space is not a command in Trade: ? lists the keys"),
     ] {
         let mut desk = Desk::new(SMALL);
         desk.keys(&["Esc", pane, letter]);
@@ -636,17 +557,9 @@ fn an_unbound_key_is_reported() {
 fn undo_reports_the_reverted_edit() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u"]);
-    assert!(
-        desk.shows("undo: driven tip relief: 48 um -> 0 um"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("undo: driven tip relief: 48 um -> 0 um"), "{}", desk.screen());
     desk.keys(&["Ctrl-R"]);
-    assert!(
-        desk.shows("redo: driven tip relief: 0 um -> 48 um"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("redo: driven tip relief: 0 um -> 48 um"), "{}", desk.screen());
     desk.keys(&["Alt-G", "34crnimo", "Enter", "u"]);
     assert!(
         desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "),
@@ -661,17 +574,12 @@ fn undo_reports_the_reverted_edit() {
 fn the_baseline_gets_the_name_of_its_saved_file() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "Alt-B"]);
-    assert!(
-        desk.shows("for this session") && desk.shows("against built-in"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("for this session") && desk.shows("against built-in"), "{}", desk.screen());
     let path = desk.path("whine.toml");
     desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
     assert!(desk.shows("against whine.toml"), "{}", desk.screen());
     let path = desk.path("quiet.toml");
-    desk.fill("driven.tip_relief", "48")
-        .keys(&["F2", "Ctrl-U", name(&path), "Enter", "Esc"]);
+    desk.fill("driven.tip_relief", "48").keys(&["F2", "Ctrl-U", name(&path), "Enter", "Esc"]);
     assert!(
         desk.app.tab.short_name() == "quiet.toml" && desk.shows("against whine.toml"),
         "{}",
@@ -683,9 +591,12 @@ fn the_baseline_gets_the_name_of_its_saved_file() {
 fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
     let mut desk = Desk::new(LARGE);
     let path = desk.path("quiet.toml");
-    desk.keys(&["Alt-B"])
-        .fill("driven.tip_relief", "48")
-        .keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    desk.keys(&["Alt-B"]).fill("driven.tip_relief", "48").keys(&[
+        "F2",
+        "Ctrl-U",
+        name(&path),
+        "Enter",
+    ]);
     assert!(
         desk.app.tab.short_name() == "quiet.toml" && desk.shows("against built-in"),
         "{}",
@@ -698,24 +609,14 @@ fn results_are_found_as_fields_are() {
     for (keys, expected) in [
         (&["Esc", "/", "fs", "Enter"][..], "F_S impact force, Eq. 57"),
         (&["Esc", "2", "/", "friction", "Enter"], "f friction ratio"),
-        (
-            &["Esc", ":", "sliding_velocity", "Enter"],
-            "sliding velocity",
-        ),
+        (&["Esc", ":", "sliding_velocity", "Enter"], "sliding velocity"),
         (&["Ctrl-P", "tip relief", "Enter"], "▸ Ca2   tip relief"),
         (&["/relief", "Enter", "48"], "▸*Ca2   tip relief"),
-        (
-            &["Ctrl-P", "driven tip relief", "Enter", "48"],
-            "▸*Ca2   tip relief",
-        ),
+        (&["Ctrl-P", "driven tip relief", "Enter", "48"], "▸*Ca2   tip relief"),
     ] {
         let mut desk = Desk::new(LARGE);
         desk.keys(keys);
-        assert!(
-            desk.app.prompts.is_empty() && desk.shows(expected),
-            "{keys:?}\n{}",
-            desk.screen()
-        );
+        assert!(desk.app.prompts.is_empty() && desk.shows(expected), "{keys:?}\n{}", desk.screen());
     }
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2", "/", "driver.inertia", "Enter"]);
@@ -723,11 +624,7 @@ fn results_are_found_as_fields_are() {
     assert_eq!(field.map(|field| field.key), Some("driver.inertia"));
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "/", "dynamic_peak_force"]);
-    assert!(
-        !desk.shows("dynamic_peak_force, "),
-        "no result of another method:\n{}",
-        desk.screen()
-    );
+    assert!(!desk.shows("dynamic_peak_force, "), "no result of another method:\n{}", desk.screen());
 }
 
 #[test]
@@ -749,8 +646,5 @@ fn typing_replaces_a_text_of_the_greatest_length() {
     let mut desk = Desk::new(SMALL);
     desk.fill("title", "").act(Action::Paste("x".repeat(5000)));
     desk.keys(&["Down", "Up", "short"]);
-    assert_eq!(
-        desk.app.tab.case.text(desk.app.tab.form.focus),
-        Some("short")
-    );
+    assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("short"));
 }

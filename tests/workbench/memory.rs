@@ -43,21 +43,11 @@ fn an_open_case_needs_little_memory_and_a_closed_one_none() {
                 let document = Document::read(&path).unwrap();
                 desk.act(Action::Loaded(path, Ok(Box::new(document))));
                 desk.fill("operation.speed", "1500 rpm");
-                while desk
-                    .app
-                    .tab
-                    .answer
-                    .as_ref()
-                    .is_none_or(|answer| answer.active != method)
-                {
+                while desk.app.tab.answer.as_ref().is_none_or(|answer| answer.active != method) {
                     desk.keys(&["Ctrl-T"]);
                 }
             });
-            println!(
-                "an open case, method {}: {:.1} kB",
-                method.name(),
-                bytes / 1e3
-            );
+            println!("an open case, method {}: {:.1} kB", method.name(), bytes / 1e3);
             assert!(bytes < most, "{method:?}: {bytes}");
             (0..CASES).for_each(|_| {
                 desk.keys(&["Alt-W", "d"]);
@@ -65,10 +55,7 @@ fn an_open_case_needs_little_memory_and_a_closed_one_none() {
         });
         assert_eq!(desk.app.tabs().count(), 1);
         // The list of cases keeps its capacity, and the first case its results.
-        println!(
-            "after closing them: {:.1} kB",
-            whole.bytes_current as f64 / 1e3
-        );
+        println!("after closing them: {:.1} kB", whole.bytes_current as f64 / 1e3);
         assert!(whole.bytes_current < 400_000, "{}", whole.bytes_current);
     };
     tell(Method::Exact, 40e3);

@@ -6,10 +6,7 @@ use ratatui::layout::Size;
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::solver::Answer;
 
-const TINY: Size = Size {
-    width: 60,
-    height: 16,
-};
+const TINY: Size = Size { width: 60, height: 16 };
 
 #[test]
 fn last_valid_results_show_their_reason_and_the_key_that_goes_there() {
@@ -25,19 +22,12 @@ fn last_valid_results_show_their_reason_and_the_key_that_goes_there() {
             desk.screen()
         );
         desk.keys(&["Alt-E"]);
-        assert_eq!(
-            desk.app.tab.case.text(desk.app.tab.form.focus),
-            Some("20 mm")
-        );
+        assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("20 mm"));
         assert!(desk.shows("rh1 driver bore radius, "), "{}", desk.screen());
         desk.keys(&["Alt-E"]);
         assert!(desk.shows("rh2 driven bore radius, "), "{}", desk.screen());
         desk.fill("pair.module", "5 mm").keys(&["Alt-E"]);
-        assert!(
-            desk.shows("no field has an error") && !desk.shows("! rh"),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("no field has an error") && !desk.shows("! rh"), "{}", desk.screen());
     }
 }
 
@@ -51,26 +41,14 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     assert_eq!(marked(&desk), Some("base_pitch"));
     let is_in_sight = |desk: &Desk| desk.shows("▸p_b ");
     desk.keys(&["j", "k", "Ctrl-T"]);
-    assert!(
-        marked(&desk) == Some("base_pitch") && is_in_sight(&desk),
-        "{}",
-        desk.screen()
-    );
+    assert!(marked(&desk) == Some("base_pitch") && is_in_sight(&desk), "{}", desk.screen());
     desk.keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(
-        marked(&desk) == Some("base_pitch") && is_in_sight(&desk),
-        "{}",
-        desk.screen()
-    );
+    assert!(marked(&desk) == Some("base_pitch") && is_in_sight(&desk), "{}", desk.screen());
     // A removed quantity is selected again when it returns.
     desk.keys(&["g", "j", "j"]);
     assert_eq!(marked(&desk), Some("approach_angle_driver"));
     desk.fill("driven.tip_relief", "80 um");
-    assert!(
-        desk.app.tab.results.row == 0 && desk.app.tab.results.top == 0,
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.app.tab.results.row == 0 && desk.app.tab.results.top == 0, "{}", desk.screen());
     desk.fill("driven.tip_relief", "0 um");
     assert_eq!(marked(&desk), Some("approach_angle_driver"));
 }
@@ -81,11 +59,8 @@ fn the_top_of_the_results_is_shown_without_a_selection() {
     for (relief, first) in [("80 um", "Δ  "), ("0 um", "F_S  ")] {
         desk.fill("driven.tip_relief", relief);
         let screen = desk.screen();
-        let below_heading = screen
-            .lines()
-            .skip_while(|line| !line.contains("▸exact"))
-            .nth(1)
-            .expect("a first row");
+        let below_heading =
+            screen.lines().skip_while(|line| !line.contains("▸exact")).nth(1).expect("a first row");
         assert!(below_heading.contains(first), "{screen}");
     }
 }
@@ -125,10 +100,7 @@ fn the_mark_of_a_change_follows_the_unit_after_a_space() {
 
 #[test]
 fn no_mark_touches_a_unit_and_no_name_is_cut_where_there_is_room() {
-    let size = Size {
-        width: 240,
-        height: 70,
-    };
+    let size = Size { width: 240, height: 70 };
     let mut desk = Desk::on(size, "case.toml", TABLE_1);
     desk.keys(&["Esc", "b"]).fill("operation.speed", "1900 rpm");
     desk.keys(&["Esc"]);
@@ -154,10 +126,7 @@ fn the_angle_of_the_verdict_has_the_symbol_of_its_row_in_ascii_too() {
 
 #[test]
 fn the_closed_forms_beside_another_method_are_named_free_impact() {
-    for (size, heading) in [
-        (LARGE, "free impact: paper     exact"),
-        (SMALL, "free: exact"),
-    ] {
+    for (size, heading) in [(LARGE, "free impact: paper     exact"), (SMALL, "free: exact")] {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         assert!(!desk.shows("free"), "{}", desk.screen());
         desk.keys(&["Ctrl-T"]);
@@ -167,22 +136,16 @@ fn the_closed_forms_beside_another_method_are_named_free_impact() {
 
 #[test]
 fn the_verdict_in_motion_has_the_overall_peak_at_every_size() {
-    for (size, words) in [
-        (TINY, "2003.0 N overall"),
-        (SMALL, "2003.0 N overall."),
-        (LARGE, "2003.0 N"),
-    ] {
+    for (size, words) in
+        [(TINY, "2003.0 N overall"), (SMALL, "2003.0 N overall."), (LARGE, "2003.0 N")]
+    {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Ctrl-T", "Ctrl-T"]);
         assert!(desk.shows(words), "{}", desk.screen());
         let is_unit_alone = |line: &str| {
             ["N", "um", "deg"].contains(&line.split('│').nth(1).unwrap_or_default().trim())
         };
-        assert!(
-            !desk.screen().lines().any(is_unit_alone),
-            "{}",
-            desk.screen()
-        );
+        assert!(!desk.screen().lines().any(is_unit_alone), "{}", desk.screen());
     }
 }
 
@@ -201,11 +164,7 @@ fn values_have_their_units_beside_the_baseline_on_the_smallest_screen() {
         desk.screen()
     );
     desk.keys(&["Ctrl-T"]);
-    assert!(
-        desk.shows("▸static vs exact baseline") && desk.shows("F_st,max"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("▸static vs exact baseline") && desk.shows("F_st,max"), "{}", desk.screen());
 }
 
 #[test]
@@ -213,10 +172,7 @@ fn a_hint_beside_a_message_ends_with_a_sentence() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Down", "Down", "Ctrl-T"]);
     let screen = desk.screen();
-    let hint = screen
-        .lines()
-        .find(|line| line.contains("= 0.34907 rad."))
-        .expect("a hint");
+    let hint = screen.lines().find(|line| line.contains("= 0.34907 rad.")).expect("a hint");
     assert!(
         desk.shows("method static") && hint.trim_end().ends_with("(default 20 deg)."),
         "{screen}"
@@ -225,27 +181,13 @@ fn a_hint_beside_a_message_ends_with_a_sentence() {
 
 #[test]
 fn a_limit_with_a_long_name_shows_the_name_where_the_line_has_room() {
-    let text = TABLE_1.replace(
-        "impact_force = \"2500 N\"",
-        "dynamic_peak_force = \"2500 N\"",
-    );
-    let mut desk = Desk::on(
-        SMALL,
-        "case.toml",
-        &text.replace("method = \"exact\"", "method = \"dynamic\""),
-    );
+    let text = TABLE_1.replace("impact_force = \"2500 N\"", "dynamic_peak_force = \"2500 N\"");
+    let mut desk =
+        Desk::on(SMALL, "case.toml", &text.replace("method = \"exact\"", "method = \"dynamic\""));
     desk.keys(&["Esc", "1", "G"]);
-    assert!(
-        desk.shows("F_d,max dynamic: peak force <= 2500 N   ok"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("F_d,max dynamic: peak force <= 2500 N   ok"), "{}", desk.screen());
     desk.act(Action::Resize(Size::new(70, 24)));
-    assert!(
-        desk.shows("F_d,max <= 2500 N") && desk.shows(" 80 %"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("F_d,max <= 2500 N") && desk.shows(" 80 %"), "{}", desk.screen());
 }
 
 #[test]
@@ -273,11 +215,7 @@ fn an_axis_fits_the_visible_part_of_its_curves() {
         axis(&desk)
     );
     desk.keys(&["v"]);
-    assert!(
-        axis(&desk).from >= 0.0,
-        "the strike has one sign: {:?}",
-        axis(&desk)
-    );
+    assert!(axis(&desk).from >= 0.0, "the strike has one sign: {:?}", axis(&desk));
     desk.keys(&["v"]);
     assert!(axis(&desk).from < 0.0, "{:?}", axis(&desk));
 }
@@ -289,11 +227,7 @@ fn a_limit_that_is_not_met_is_in_the_verdict_and_every_limit_is_on_the_page() {
         let mut desk = Desk::on(size, "case.toml", &strict);
         assert!(desk.shows("! F_S 2191.0 N > 1 kN"), "{}", desk.screen());
         desk.keys(&["Esc", "n"]);
-        assert!(
-            desk.shows("Limit EXCEEDED: impact_force"),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("Limit EXCEEDED: impact_force"), "{}", desk.screen());
         let desk = Desk::on(size, "case.toml", TABLE_1);
         assert!(!desk.shows(" > 2500 N"), "{}", desk.screen());
     }
@@ -332,13 +266,6 @@ fn the_page_of_the_outcome_follows_later_results() {
     desk.keys(&["Esc", "n"]);
     assert!(desk.shows("│ Note: "), "{}", desk.screen());
     let answer = desk.app.tab.answer.clone().expect("an answer");
-    desk.act(Action::Solved(Box::new(Answer {
-        notes: Vec::new(),
-        ..answer
-    })));
-    assert!(
-        desk.shows("│ Corner contact") && !desk.shows("│ Note: "),
-        "{}",
-        desk.screen()
-    );
+    desk.act(Action::Solved(Box::new(Answer { notes: Vec::new(), ..answer })));
+    assert!(desk.shows("│ Corner contact") && !desk.shows("│ Note: "), "{}", desk.screen());
 }

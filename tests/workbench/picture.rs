@@ -16,11 +16,7 @@ const MARGIN: f64 = 12.0;
 /// The name of a picture, its title, and the keys to its screen.
 const PICTURES: [(&str, &str, &[&str]); 3] = [
     ("workbench", "The tipstrike workbench on Table 1", &[]),
-    (
-        "explanation",
-        "The impact force explained",
-        &["Esc", "2", "Enter"],
-    ),
+    ("explanation", "The impact force explained", &["Esc", "2", "Enter"]),
     ("browser", "Opening a case", &["Ctrl-O", "Up", "Up", "Up"]),
 ];
 
@@ -48,10 +44,7 @@ fn taken(title: &str, keys: &[&str]) -> String {
     for example in EXAMPLES {
         desk.write(&format!("gears/{}.toml", example.name), example.text);
     }
-    desk.recents = vec![
-        desk.path("gears/zhou-chen-2014.toml"),
-        desk.path("gears/gone.toml"),
-    ];
+    desk.recents = vec![desk.path("gears/zhou-chen-2014.toml"), desk.path("gears/gone.toml")];
     let path = desk.path("gears/zhou-chen-2014.toml");
     desk.app = tipstrike::tui::testing::update::opened(
         Document::read(&path).expect("a good case"),
@@ -69,10 +62,8 @@ fn taken(title: &str, keys: &[&str]) -> String {
 /// A screen as SVG: one text per row, split where the style changes, each piece at its column.
 fn picture(title: &str, buffer: &Buffer) -> String {
     let (columns, rows) = (buffer.area.width, buffer.area.height);
-    let (width, height) = (
-        f64::from(columns) * CELL.0 + 2.0 * MARGIN,
-        f64::from(rows) * CELL.1 + 2.0 * MARGIN,
-    );
+    let (width, height) =
+        (f64::from(columns) * CELL.0 + 2.0 * MARGIN, f64::from(rows) * CELL.1 + 2.0 * MARGIN);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {height:.1}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" font-size=\"14\">\n\
          <title>{title}</title>\n<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#1b1f24\"/>\n"
@@ -90,10 +81,7 @@ fn picture(title: &str, buffer: &Buffer) -> String {
 /// Adds one piece of a row in one style.
 fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
     let text: String = piece.iter().map(Cell::symbol).collect();
-    let (x, y) = (
-        MARGIN + column as f64 * CELL.0,
-        MARGIN + row as f64 * CELL.1,
-    );
+    let (x, y) = (MARGIN + column as f64 * CELL.0, MARGIN + row as f64 * CELL.1);
     let (fill, bold, reversed) = look(&piece[0]);
     let length = piece.len() as f64 * CELL.0;
     if reversed {
@@ -118,10 +106,7 @@ fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
     }
     let text = text.replace(is_dotted, " ");
     for (start, words) in stretches(&text) {
-        let (x, length) = (
-            x + start as f64 * CELL.0,
-            words.chars().count() as f64 * CELL.0,
-        );
+        let (x, length) = (x + start as f64 * CELL.0, words.chars().count() as f64 * CELL.0);
         let words = words.replace('&', "&amp;").replace('<', "&lt;");
         writeln!(svg, "<text x=\"{x:.1}\" y=\"{baseline:.1}\" textLength=\"{length:.1}\" fill=\"{ink}\"{weight}>{words}</text>")
             .expect("room");
@@ -135,21 +120,8 @@ fn is_dotted(cell: char) -> bool {
 
 /// The dots of a cell of Braille at a position.
 fn dots(cell: char, x: f64, y: f64) -> Vec<String> {
-    const PLACES: [(u8, u8); 8] = [
-        (0, 0),
-        (0, 1),
-        (0, 2),
-        (1, 0),
-        (1, 1),
-        (1, 2),
-        (0, 3),
-        (1, 3),
-    ];
-    let set = if is_dotted(cell) {
-        u32::from(cell) - 0x2800
-    } else {
-        0
-    };
+    const PLACES: [(u8, u8); 8] = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3)];
+    let set = if is_dotted(cell) { u32::from(cell) - 0x2800 } else { 0 };
     let at = |(column, row): (u8, u8)| {
         let (x, y) = (
             x + (0.25 + 0.5 * f64::from(column)) * CELL.0,
@@ -157,10 +129,7 @@ fn dots(cell: char, x: f64, y: f64) -> Vec<String> {
         );
         format!("M{x:.1} {y:.1}h0")
     };
-    (0..8)
-        .filter(|bit| set >> bit & 1 == 1)
-        .map(|bit| at(PLACES[bit]))
-        .collect()
+    (0..8).filter(|bit| set >> bit & 1 == 1).map(|bit| at(PLACES[bit])).collect()
 }
 
 /// The pieces between gaps of two or more blanks, each with its column, so that columns are aligned
@@ -191,9 +160,5 @@ fn look(cell: &Cell) -> (&'static str, bool, bool) {
         _ if dim => "#7f8794",
         _ => "#d7dae0",
     };
-    (
-        fill,
-        cell.modifier.contains(Modifier::BOLD),
-        cell.modifier.contains(Modifier::REVERSED),
-    )
+    (fill, cell.modifier.contains(Modifier::BOLD), cell.modifier.contains(Modifier::REVERSED))
 }

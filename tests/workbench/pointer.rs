@@ -27,10 +27,7 @@ fn a_click_on_the_name_of_a_hidden_pane_shows_it() {
         }
         desk.keys(&["Ctrl-P"]);
         desk.act(Action::Click(Position::new(size.width - 5, 13)));
-        assert!(
-            desk.shows("Commands"),
-            "a click beside a list changes nothing"
-        );
+        assert!(desk.shows("Commands"), "a click beside a list changes nothing");
     }
 }
 
@@ -46,11 +43,7 @@ fn a_first_click_selects_a_line_of_a_list_and_a_second_accepts_it() {
         desk.keys(&["Alt-G"]);
         press(&mut desk, "18CrNiMo7-6");
         press(&mut desk, "18CrNiMo7-6");
-        assert!(
-            desk.app.prompts.is_empty() && desk.shows("from 18CrNiMo7-6"),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.app.prompts.is_empty() && desk.shows("from 18CrNiMo7-6"), "{}", desk.screen());
         desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
         desk.recents = vec![desk.path("other.toml")];
         desk.keys(&["Ctrl-O"]);
@@ -74,28 +67,18 @@ fn a_button_and_the_name_of_a_case_are_pressed() {
     for (button, leaves) in [("Cancel", false), ("Discard", true)] {
         desk.keys(&["Ctrl-Q"]);
         press(&mut desk, button);
-        assert!(
-            desk.app.prompts.is_empty() && desk.has_quit == leaves,
-            "{button}"
-        );
+        assert!(desk.app.prompts.is_empty() && desk.has_quit == leaves, "{button}");
     }
     desk.keys(&["Ctrl-Q"]);
     desk.act(Action::Click(Position::new(1, 1)));
-    assert!(
-        desk.shows("[> Cancel <]"),
-        "a press beside the buttons presses none"
-    );
+    assert!(desk.shows("[> Cancel <]"), "a press beside the buttons presses none");
 }
 
 #[test]
 fn a_first_click_focuses_a_field_and_a_second_edits_it() {
     let mut desk = Desk::new(LARGE);
     press(&mut desk, "number of teeth");
-    assert!(
-        desk.shows("▸ z1") && !desk.app.has_line(),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("▸ z1") && !desk.app.has_line(), "{}", desk.screen());
     press(&mut desk, "number of teeth");
     desk.type_in("25");
     assert!(desk.shows("number of teeth      25"), "{}", desk.screen());

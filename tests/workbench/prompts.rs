@@ -48,18 +48,13 @@ const SCREENS: &[(&str, Way)] = &[
         desk.fill("operation.power", "20 hp");
     }),
     ("progress", |desk| {
-        desk.act(Action::Progress(Some(Progress {
-            what: "trade".to_owned(),
-            part: 0.37,
-        })));
+        desk.act(Action::Progress(Some(Progress { what: "trade".to_owned(), part: 0.37 })));
     }),
     ("changed_on_disk", |desk| {
         desk.fill("operation.speed", "1500 rpm");
         desk.write(
             "case.toml",
-            &TABLE_1
-                .replace("2000 rpm", "2100 rpm")
-                .replace("\"5 mm\"", "\"6 mm\""),
+            &TABLE_1.replace("2000 rpm", "2100 rpm").replace("\"5 mm\"", "\"6 mm\""),
         );
         desk.keys(&["Ctrl-S"]);
     }),
@@ -77,11 +72,7 @@ const SCREENS: &[(&str, Way)] = &[
     }),
     ("held", |desk| {
         let path = desk.path("case.toml");
-        desk.act(Action::Saved(
-            path,
-            Next::Stay,
-            Err(SaveFault::Held(HOLDER.to_owned())),
-        ));
+        desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Held(HOLDER.to_owned()))));
     }),
     ("recovery", |desk| {
         let change = |key: &str, from: &str, to: &str| Change {
@@ -99,9 +90,7 @@ const SCREENS: &[(&str, Way)] = &[
             changes,
             is_file_changed: true,
         };
-        desk.app
-            .prompts
-            .push(Prompt::Ask(Question::recover("case.toml", offer)));
+        desk.app.prompts.push(Prompt::Ask(Question::recover("case.toml", offer)));
     }),
     ("quit", |desk| {
         desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
@@ -133,10 +122,7 @@ const SCREENS: &[(&str, Way)] = &[
 /// A list, a question and a page show how every dialog uses a large screen and ASCII.
 const IN_EVERY_LOOK: [&str; 3] = ["materials", "quit", "help"];
 
-const ASCII: Look = Look {
-    theme: &MONO,
-    ascii: true,
-};
+const ASCII: Look = Look { theme: &MONO, ascii: true };
 
 fn screen(way: Way, size: Size, look: Look) -> String {
     let mut desk = Desk::on(size, "case.toml", TABLE_1);
@@ -184,22 +170,9 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
     desk.keys(&["F2", "other", "Enter"]);
-    assert!(
-        desk.shows("speed: 900 rpm in the file, 2000 rpm in the form"),
-        "{}",
-        desk.screen()
-    );
-    desk.keys(&[
-        "Esc",
-        "Ctrl-U",
-        harness::name(&desk.path("case.toml")),
-        "Enter",
-    ]);
-    assert!(
-        desk.shows("saved "),
-        "its own file is not asked about: {}",
-        desk.screen()
-    );
+    assert!(desk.shows("speed: 900 rpm in the file, 2000 rpm in the form"), "{}", desk.screen());
+    desk.keys(&["Esc", "Ctrl-U", harness::name(&desk.path("case.toml")), "Enter"]);
+    assert!(desk.shows("saved "), "its own file is not asked about: {}", desk.screen());
 }
 
 #[test]

@@ -15,14 +15,9 @@ fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
     desk.keys(&["Esc", ":", "relief", "Enter"]);
     insta::assert_snapshot!("relief_140x45", desk.screen());
     desk.keys(&["Enter"]);
-    let amounts = [
-        text(&desk, "driver.tip_relief"),
-        text(&desk, "driven.tip_relief"),
-    ];
+    let amounts = [text(&desk, "driver.tip_relief"), text(&desk, "driven.tip_relief")];
     assert!(
-        amounts
-            .iter()
-            .all(|amount| *amount != "0 um" && amount.ends_with(" um")),
+        amounts.iter().all(|amount| *amount != "0 um" && amount.ends_with(" um")),
         "{amounts:?}"
     );
     assert!(text(&desk, "driven.tip_relief_length").ends_with(" mm"));
@@ -37,19 +32,11 @@ fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     desk.keys(&["Esc", ":", "relief", "Enter"]);
     assert!(desk.shows("for 25 to 110 %"), "{}", desk.screen());
     desk.keys(&["Ctrl-U", "110..25 %", "Enter"]);
-    assert!(
-        desk.shows("! the range is reversed: write a range"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("! the range is reversed: write a range"), "{}", desk.screen());
     desk.keys(&["Ctrl-U", "50..100 %, 2 um"]);
     assert!(desk.shows("Enter searches again"), "{}", desk.screen());
     desk.keys(&["Enter"]);
-    assert!(
-        desk.shows("for 50 to 100 %") && desk.shows("tolerance 2 um"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("for 50 to 100 %") && desk.shows("tolerance 2 um"), "{}", desk.screen());
     desk.keys(&["PageDown", "Down", "Esc"]);
     assert!(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
 }
@@ -58,11 +45,7 @@ fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
 fn on_a_narrow_screen_sentences_are_wrapped_and_the_last_row_is_reached() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "relief", "Enter"]);
-    assert!(
-        desk.shows("because method exact does not share the load"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("because method exact does not share the load"), "{}", desk.screen());
     assert!(!desk.shows("corner contact at the greatest load, *"));
     desk.keys(&["PageDown"; 6]);
     let end = desk.screen();

@@ -8,10 +8,7 @@ use tipstrike::tui::testing::chart::curves::{self, CurveSource};
 use tipstrike::tui::testing::results;
 
 const HYDRO: &str = include_str!("../../cases/hydro-speed-up.toml");
-const TINY: Size = Size {
-    width: 60,
-    height: 16,
-};
+const TINY: Size = Size { width: 60, height: 16 };
 const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n";
 
 /// The example with another method.
@@ -97,10 +94,7 @@ fn the_stiffness_model_of_the_case_is_drawn_on_top() {
         let graph = GRAPHS.iter().find(|graph| graph.by_model.is_some());
         let curves = curves::curves(&desk.app.charts(), graph.expect("a chart"));
         let top = curves.last().expect("a curve").source;
-        assert!(
-            matches!(top, CurveSource::Model { is_own: true, .. }),
-            "{top:?}"
-        );
+        assert!(matches!(top, CurveSource::Model { is_own: true, .. }), "{top:?}");
     }
 }
 
@@ -126,11 +120,7 @@ fn the_tolerance_shows_its_figures_first_and_how_to_scroll() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "d"]);
     assert!(desk.shows("Tolerance 1 to "), "{}", desk.screen());
-    assert!(
-        desk.shows("corner contact         100.00 %"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("corner contact         100.00 %"), "{}", desk.screen());
     assert!(desk.shows("j scroll  l next page"), "{}", desk.screen());
     assert!(!desk.shows("narrower"), "{}", desk.screen());
     desk.keys(&["PageDown", "PageDown"]);
@@ -151,11 +141,7 @@ fn with_inch_units_a_study_is_in_inches() {
     assert!(desk.shows("over module in in"), "{}", desk.screen());
     assert!(desk.shows("m = 0.19685 in:"), "{}", desk.screen());
     desk.keys(&["l", "Enter"]);
-    let text = desk
-        .app
-        .tab
-        .case
-        .text(tipstrike::case::fields::index_of("pair.module").unwrap());
+    let text = desk.app.tab.case.text(tipstrike::case::fields::index_of("pair.module").unwrap());
     assert!(text.is_some_and(|text| text.ends_with(" in")), "{text:?}");
 }
 
@@ -167,16 +153,10 @@ fn the_descriptions_of_commands_line_up() {
         let screen = desk.screen();
         let charts = screen.lines().filter(|line| line.contains("  chart: "));
         let columns: Vec<Option<usize>> = charts
-            .map(|line| {
-                line.split_once("Show ")
-                    .map(|(before, _)| before.chars().count())
-            })
+            .map(|line| line.split_once("Show ").map(|(before, _)| before.chars().count()))
             .collect();
         assert!(columns.len() > 5, "{screen}");
-        assert!(
-            columns.iter().all(|column| *column == columns[0]),
-            "{screen}"
-        );
+        assert!(columns.iter().all(|column| *column == columns[0]), "{screen}");
     }
 }
 
@@ -218,14 +198,9 @@ fn the_values_of_a_chart_at_the_cursor_have_one_unit() {
         desk.keys(&["l"]);
         let screen = desk.screen();
         let line = screen.lines().find(|line| line.contains(" before E: "));
-        let (_, values) = line
-            .and_then(|line| line.split_once(": "))
-            .expect("a readout");
+        let (_, values) = line.and_then(|line| line.split_once(": ")).expect("a readout");
         let forces = values.split(';').next().unwrap_or_default();
-        let units: Vec<bool> = forces
-            .split(", ")
-            .map(|value| value.ends_with(" kN"))
-            .collect();
+        let units: Vec<bool> = forces.split(", ").map(|value| value.ends_with(" kN")).collect();
         assert!(units.len() > 1, "{screen}");
         assert!(units.iter().all(|unit| *unit == units[0]), "{line:?}");
     }

@@ -9,10 +9,7 @@ use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::results;
 use tipstrike::tui::testing::theme::{Look, MONO};
 
-const TINY: Size = Size {
-    width: 60,
-    height: 16,
-};
+const TINY: Size = Size { width: 60, height: 16 };
 
 #[test]
 fn the_opening_screen() {
@@ -40,10 +37,7 @@ fn the_method_paper_beside_exact() {
 
 #[test]
 fn no_corner_contact_is_a_result() {
-    for (name, size) in [
-        ("no_corner_contact_80x24", SMALL),
-        ("no_corner_contact_140x45", LARGE),
-    ] {
+    for (name, size) in [("no_corner_contact_80x24", SMALL), ("no_corner_contact_140x45", LARGE)] {
         let mut desk = Desk::new(size);
         desk.fill("driven.tip_relief", "80 um");
         assert_snapshot!(name, desk.screen());
@@ -60,18 +54,13 @@ fn in_motion(size: Size) -> Desk {
 
 #[test]
 fn the_results_of_the_method_itself_come_first() {
-    for (name, size) in [
-        ("in_motion_80x24", SMALL),
-        ("in_motion_140x45", LARGE),
-        ("in_motion_60x16", TINY),
-    ] {
+    for (name, size) in
+        [("in_motion_80x24", SMALL), ("in_motion_140x45", LARGE), ("in_motion_60x16", TINY)]
+    {
         assert_snapshot!(name, in_motion(size).screen());
     }
     let mut desk = in_motion(SMALL);
-    desk.app.look = Look {
-        theme: &MONO,
-        ascii: true,
-    };
+    desk.app.look = Look { theme: &MONO, ascii: true };
     assert_snapshot!("in_motion_ascii", desk.screen());
 }
 
@@ -122,12 +111,7 @@ fn the_help() {
 fn the_open_prompt_and_a_bad_file() {
     let mut desk = Desk::on(SMALL, "table-1.toml", TABLE_1);
     desk.write("another.toml", TABLE_1);
-    desk.write(
-        "bad.toml",
-        &TABLE_1
-            .replace("5 mm", "5 kg")
-            .replace("teeth = 20\n", "teth = 20\n"),
-    );
+    desk.write("bad.toml", &TABLE_1.replace("5 mm", "5 kg").replace("teeth = 20\n", "teth = 20\n"));
     desk.keys(&["Ctrl-O"]);
     assert_snapshot!("open_80x24", without_folder(&desk));
     desk.keys(&["bad", "Enter"]);
@@ -145,10 +129,7 @@ fn the_questions() {
 fn plain_ascii_on_a_terminal_without_unicode() {
     for (name, size) in [("ascii_80x24", SMALL), ("ascii_140x45", LARGE)] {
         let mut desk = Desk::new(size);
-        desk.app.look = Look {
-            theme: &MONO,
-            ascii: true,
-        };
+        desk.app.look = Look { theme: &MONO, ascii: true };
         let screen = desk.screen();
         assert!(screen.is_ascii());
         assert_snapshot!(name, screen);
@@ -162,16 +143,7 @@ fn a_too_small_terminal_shows_a_message_and_keeps_the_state() {
     let before = desk.screen();
     desk.act(Action::Resize(Size::new(40, 10)));
     assert_snapshot!("too_small_40x10", desk.screen());
-    for (width, height) in [
-        (59, 16),
-        (60, 15),
-        (20, 5),
-        (10, 3),
-        (5, 1),
-        (4, 4),
-        (1, 1),
-        (0, 0),
-    ] {
+    for (width, height) in [(59, 16), (60, 15), (20, 5), (10, 3), (5, 1), (4, 4), (1, 1), (0, 0)] {
         desk.act(Action::Resize(Size::new(width, height)));
         assert_snapshot!(format!("too_small_{width}x{height}"), desk.screen());
     }
@@ -224,14 +196,9 @@ fn no_hostile_character_of_a_file_reaches_the_screen() {
         .replace("Zhou & Chen 2014, Table 1", hostile)
         .replace("face width reconstructed", hostile);
     let mut desk = Desk::on(LARGE, "hos\u{202e}tile\u{1b}[31m.toml", &text);
-    for keys in [
-        &[][..],
-        &["Ctrl-Home"],
-        &["Down"],
-        &["Ctrl-O"],
-        &["Esc", "F2"],
-        &["Esc", "x", "Ctrl-Q"],
-    ] {
+    for keys in
+        [&[][..], &["Ctrl-Home"], &["Down"], &["Ctrl-O"], &["Esc", "F2"], &["Esc", "x", "Ctrl-Q"]]
+    {
         let screen = desk.keys(keys).screen();
         let bad = screen
             .chars()
@@ -244,9 +211,7 @@ fn no_hostile_character_of_a_file_reaches_the_screen() {
 fn sizes() -> impl Iterator<Item = Size> {
     let widths = [0, 1, 2, 3, 7, 20, 40, 59, 60, 61, 75, 80, 100, 200];
     let heights = [0, 1, 2, 3, 5, 10, 15, 16, 17, 20, 24, 35, 80];
-    widths.into_iter().flat_map(move |width| {
-        heights
-            .into_iter()
-            .map(move |height| Size { width, height })
-    })
+    widths
+        .into_iter()
+        .flat_map(move |width| heights.into_iter().map(move |height| Size { width, height }))
 }

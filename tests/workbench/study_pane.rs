@@ -65,17 +65,12 @@ fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
     desk.keys(&["Esc", "6", "b"]);
     let ends = |desk: &Desk| {
         let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-        let StudyParameters::Grid(grid) = &shown.request.parameters else {
-            panic!("a curve")
-        };
+        let StudyParameters::Grid(grid) = &shown.request.parameters else { panic!("a curve") };
         let axis = &grid.axes[0];
         (axis.key(), axis.with_unit(0), axis.with_unit(100))
     };
     desk.fill("operation.power", "20 kW");
-    assert_eq!(
-        ends(&desk),
-        ("operation.power", "10 kW".into(), "30 kW".into())
-    );
+    assert_eq!(ends(&desk), ("operation.power", "10 kW".into(), "30 kW".into()));
     assert!(desk.shows("+ baseline"), "{}", desk.screen());
     desk.keys(&["Esc", "6", "+"]);
     assert_eq!(ends(&desk).1, "15 kW");
@@ -90,11 +85,7 @@ fn enter_uses_the_value_at_the_cursor_and_undo_reverts_it() {
     let mut desk = study(SMALL, "operation.speed");
     desk.keys(&["l", "l", "h", "Enter"]);
     assert_eq!(written(&desk, "operation.speed"), "2020 rpm");
-    assert!(
-        desk.shows("speed = 2020 rpm; Ctrl-Z undoes"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("speed = 2020 rpm; Ctrl-Z undoes"), "{}", desk.screen());
     desk.keys(&["u"]);
     assert_eq!(written(&desk, "operation.speed"), "2000 rpm");
 }
@@ -104,11 +95,7 @@ fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = study(size, "driven.tip_relief");
         desk.keys(&["s", "operation.speed", "Enter"]);
-        assert!(
-            desk.shows("+ limit 2500") && desk.shows("o edge of contact"),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("+ limit 2500") && desk.shows("o edge of contact"), "{}", desk.screen());
         desk.keys(&["l", "k"]);
         assert_snapshot!(format!("map_{name}"), desk.screen());
         let cursor = desk.app.tab.study.cursor.expect("a cursor");
@@ -142,39 +129,19 @@ fn escape_stops_the_study_and_its_results_stay() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "z"]);
     let effects = desk.effects("d");
-    let Some(Effect::Study(request)) = effects
-        .into_iter()
-        .find(|effect| matches!(effect, Effect::Study(_)))
+    let Some(Effect::Study(request)) =
+        effects.into_iter().find(|effect| matches!(effect, Effect::Study(_)))
     else {
         panic!("a study is asked for");
     };
-    let part = |found, end| StudyPart {
-        serial: request.serial,
-        found,
-        end,
-    };
+    let part = |found, end| StudyPart { serial: request.serial, found, end };
     let page = Found::Page(vec!["half of the samples".to_owned()], 0.5);
     update(&mut desk.app, Action::Studied(Box::new(part(page, None))));
-    assert!(
-        desk.shows("50 % solved") && desk.shows("half of the samples"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("50 % solved") && desk.shows("half of the samples"), "{}", desk.screen());
     let effects = desk.effects("Esc");
-    assert!(
-        effects
-            .iter()
-            .any(|effect| matches!(effect, Effect::CancelStudy))
-    );
-    update(
-        &mut desk.app,
-        Action::Studied(Box::new(part(Found::Nothing, Some(End::Stopped)))),
-    );
-    assert!(
-        desk.shows("stopped") && desk.shows("half of the samples"),
-        "{}",
-        desk.screen()
-    );
+    assert!(effects.iter().any(|effect| matches!(effect, Effect::CancelStudy)));
+    update(&mut desk.app, Action::Studied(Box::new(part(Found::Nothing, Some(End::Stopped)))));
+    assert!(desk.shows("stopped") && desk.shows("half of the samples"), "{}", desk.screen());
 }
 
 #[test]
@@ -190,14 +157,7 @@ fn a_hidden_study_is_not_computed_and_a_late_result_is_ignored() {
         end: None,
     };
     update(&mut desk.app, Action::Studied(Box::new(late)));
-    assert!(
-        desk.app
-            .tab
-            .study
-            .shown
-            .as_ref()
-            .is_some_and(|shown| shown.page.is_empty())
-    );
+    assert!(desk.app.tab.study.shown.as_ref().is_some_and(|shown| shown.page.is_empty()));
     desk.fill("operation.speed", "2 kg");
     assert_eq!(
         desk.app.tab.study.obstacle.as_deref(),
@@ -208,13 +168,8 @@ fn a_hidden_study_is_not_computed_and_a_late_result_is_ignored() {
 #[test]
 fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("driven.tip_relief", "48 um")
-        .keys(&["Esc", ":", "variant relieved", "Enter"]);
-    assert!(
-        desk.shows("variant relieved now has 1 edit"),
-        "{}",
-        desk.screen()
-    );
+    desk.fill("driven.tip_relief", "48 um").keys(&["Esc", ":", "variant relieved", "Enter"]);
+    assert!(desk.shows("variant relieved now has 1 edit"), "{}", desk.screen());
     assert_eq!(written(&desk, "driven.tip_relief"), "0 um");
     desk.keys(&["Ctrl-S"]);
     let saved = desk.read("case.toml");
@@ -223,11 +178,7 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     desk.keys(&[":", "variant relieved", "Enter"]);
     assert_eq!(written(&desk, "driven.tip_relief"), "48 um");
     desk.keys(&["u", ":", "variant other", "Enter"]);
-    assert!(
-        desk.shows("no edits since the last save"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("no edits since the last save"), "{}", desk.screen());
 }
 
 #[test]
@@ -237,11 +188,7 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = Desk::on(size, "case.toml", &format!("{TABLE_1}{variants}"));
         desk.keys(&["Esc", "2", "v"]);
-        assert!(
-            desk.shows("relieved") && desk.shows("-40.1 %"),
-            "{}",
-            desk.screen()
-        );
+        assert!(desk.shows("relieved") && desk.shows("-40.1 %"), "{}", desk.screen());
         assert_snapshot!(format!("variants_{name}"), desk.screen());
         assert!(
             !desk.shows("% N") && !desk.shows("um um") && desk.shows(", variants"),
@@ -276,11 +223,7 @@ fn a_study_interrupted_by_another_tab_is_requested_again() {
     desk.keys(&["Esc", "Esc"]);
     let first = requested(desk.effects("6")).expect("a study of the first tab");
     let answers = update(&mut desk.app, Action::Do(Command::Tab(1)));
-    assert!(
-        answers
-            .iter()
-            .any(|effect| matches!(effect, Effect::CancelStudy))
-    );
+    assert!(answers.iter().any(|effect| matches!(effect, Effect::CancelStudy)));
     let again = update(&mut desk.app, Action::Do(Command::Tab(0)));
     let again = requested(again).expect("the study of the first tab again");
     assert!(again.serial > first.serial);
@@ -299,9 +242,7 @@ fn the_labels_of_a_map_are_round_and_whole() {
             }
         }
         let screen = desk.screen();
-        let labels = screen
-            .lines()
-            .filter_map(|line| line.split_once(['┤', '▸']));
+        let labels = screen.lines().filter_map(|line| line.split_once(['┤', '▸']));
         for (label, _) in labels.filter(|(label, _)| !label.trim().is_empty()) {
             assert!(label.starts_with(' '), "{screen}");
         }
@@ -327,8 +268,7 @@ fn a_tolerance_that_fails_shows_the_reason() {
 #[test]
 fn escape_in_a_field_leaves_the_field_while_a_study_runs() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
-    desk.go_to("operation.speed")
-        .keys(&["Esc", "6", "1", "Enter"]);
+    desk.go_to("operation.speed").keys(&["Esc", "6", "1", "Enter"]);
     assert!(desk.app.has_line());
     assert!(requested(desk.effects("3")).is_some());
     // The digit is undone, then the field is left.
@@ -359,11 +299,7 @@ fn the_cursor_returns_to_the_present_value_on_other_axes_alone() {
     desk.keys(&["l", "l", "+"]);
     assert_eq!(desk.app.tab.study.cursor, None);
     desk.keys(&["Enter"]);
-    assert!(
-        desk.shows("the cursor is at the present value"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("the cursor is at the present value"), "{}", desk.screen());
     assert_eq!(written(&desk, "operation.speed"), "2040 rpm");
     desk.keys(&["l"]);
     let cursor = desk.app.tab.study.cursor;
@@ -378,11 +314,7 @@ fn fields_that_exclude_each_other_make_no_map() {
     let mut desk = study(SMALL, "operation.power");
     desk.keys(&["s", "operation.torque", "Enter"]);
     assert!(desk.shows("exclude each other"), "{}", desk.screen());
-    assert!(
-        desk.shows("s in this pane leaves the map"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("s in this pane leaves the map"), "{}", desk.screen());
 }
 
 #[test]
@@ -421,11 +353,7 @@ fn variants_lost_to_another_tab_are_requested_again() {
     let effects = update(&mut desk.app, Action::Loaded(path, Ok(Box::new(loaded))));
     assert_eq!(requests(&effects), 1);
     let effects = update(&mut desk.app, Action::Do(Command::Tab(0)));
-    assert_eq!(
-        requests(&effects),
-        1,
-        "the job of the other tab replaced the first one"
-    );
+    assert_eq!(requests(&effects), 1, "the job of the other tab replaced the first one");
 }
 
 #[test]
@@ -448,10 +376,7 @@ fn the_number_of_refused_points_is_that_of_the_marks() {
     let mut desk = study(LARGE, "driven.addendum");
     desk.keys(&["-"]);
     let shown = desk.app.tab.study.shown.as_ref().expect("a study");
-    let refused = shown.layers[0]
-        .values
-        .iter()
-        .filter(|value| value.is_none());
+    let refused = shown.layers[0].values.iter().filter(|value| value.is_none());
     let count = refused.count();
     assert!(
         count > 1 && desk.shows(&format!(" {count} points refused")),
@@ -463,9 +388,5 @@ fn the_number_of_refused_points_is_that_of_the_marks() {
 #[test]
 fn both_ends_of_a_yes_or_no_field_have_their_name() {
     let desk = study(SMALL, "model.accurate");
-    assert!(
-        desk.shows("false ") && desk.shows(" true"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("false ") && desk.shows(" true"), "{}", desk.screen());
 }

@@ -27,15 +27,10 @@ use tipstrike::tui::testing::teeth::{Centre, Exaggeration, TeethView};
 use tipstrike::tui::testing::theme::{Look, MONO};
 
 const SIZES: [(u16, u16); 3] = [(80, 18), (140, 30), (200, 60)];
-const ASCII: Look = Look {
-    theme: &MONO,
-    ascii: true,
-};
+const ASCII: Look = Look { theme: &MONO, ascii: true };
 
 fn solved(case: &str) -> (Inputs, Solution) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("cases")
-        .join(case);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
     let inputs = Document::read(&path).unwrap().case.inputs().unwrap();
     let solution = model::solve(&inputs, Stages::ALL).unwrap();
     (inputs, solution)
@@ -46,9 +41,7 @@ fn picture<'a>(
     view: &'a TeethView,
     part: f64,
 ) -> Picture<'a> {
-    let cursor = solution
-        .position
-        .map(|position| part * position.approach_angle_driver);
+    let cursor = solution.position.map(|position| part * position.approach_angle_driver);
     Picture {
         inputs,
         solution,
@@ -72,15 +65,9 @@ fn drawn(picture: &Picture, (width, height): (u16, u16)) -> Buffer {
 fn screen(picture: &Picture, size: (u16, u16)) -> String {
     let buffer = drawn(picture, size);
     let rows = buffer.content.chunks(size.0.max(1).into());
-    rows.map(|row| {
-        row.iter()
-            .map(Cell::symbol)
-            .collect::<String>()
-            .trim_end()
-            .to_owned()
-    })
-    .collect::<Vec<_>>()
-    .join("\n")
+    rows.map(|row| row.iter().map(Cell::symbol).collect::<String>().trim_end().to_owned())
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 #[test]
@@ -102,40 +89,21 @@ fn the_strike_at_every_size() {
 #[test]
 fn the_approach_from_before_d_to_after_e() {
     let table_1 = solved("zhou-chen-2014.toml");
-    for (name, part) in [
-        ("before_d", 1.5),
-        ("between_d_and_e", 0.5),
-        ("after_e", -2.0),
-    ] {
-        assert_snapshot!(
-            name,
-            screen(&picture(&table_1, &TeethView::default(), part), (100, 30))
-        );
+    for (name, part) in [("before_d", 1.5), ("between_d_and_e", 0.5), ("after_e", -2.0)] {
+        assert_snapshot!(name, screen(&picture(&table_1, &TeethView::default(), part), (100, 30)));
     }
 }
 
 #[test]
 fn the_path_of_contact_and_the_whole_pair() {
     let table_1 = solved("zhou-chen-2014.toml");
-    for (name, centre) in [
-        ("path_of_contact", Centre::PitchPoint),
-        ("whole_pair", Centre::Pair),
-    ] {
-        let view = TeethView {
-            centre,
-            ..TeethView::default()
-        };
+    for (name, centre) in [("path_of_contact", Centre::PitchPoint), ("whole_pair", Centre::Pair)] {
+        let view = TeethView { centre, ..TeethView::default() };
         assert_snapshot!(name, screen(&picture(&table_1, &view, 1.0), (120, 36)));
     }
     let turbo = solved("turbo-fine-fast.toml");
-    let view = TeethView {
-        centre: Centre::Pair,
-        ..TeethView::default()
-    };
-    assert_snapshot!(
-        "whole_pair_of_fine_teeth",
-        screen(&picture(&turbo, &view, 1.0), (100, 30))
-    );
+    let view = TeethView { centre: Centre::Pair, ..TeethView::default() };
+    assert_snapshot!("whole_pair_of_fine_teeth", screen(&picture(&turbo, &view, 1.0), (100, 30)));
 }
 
 #[test]
@@ -152,13 +120,7 @@ fn other_markers_and_ascii_draw_the_same_picture() {
     let table_1 = solved("zhou-chen-2014.toml");
     let view = TeethView::default();
     let plain = picture(&table_1, &view, 1.5);
-    let ascii = screen(
-        &Picture {
-            look: ASCII,
-            ..plain
-        },
-        (80, 24),
-    );
+    let ascii = screen(&Picture { look: ASCII, ..plain }, (80, 24));
     assert!(ascii.is_ascii());
     assert_snapshot!("ascii", ascii);
     for (name, marker) in [("half_block", Marker::HalfBlock), ("dot", Marker::Dot)] {
@@ -182,41 +144,24 @@ fn the_cursor_turns_the_gears_and_shows_the_values_of_the_solution() {
     ] {
         assert!(at_d.contains(value), "no {value} in\n{at_d}");
     }
-    let without = Picture {
-        cursor: None,
-        ..picture(&table_1, &view, 1.0)
-    };
-    assert_eq!(
-        screen(&without, (140, 30)),
-        at_d,
-        "without a cursor D is shown"
-    );
+    let without = Picture { cursor: None, ..picture(&table_1, &view, 1.0) };
+    assert_eq!(screen(&without, (140, 30)), at_d, "without a cursor D is shown");
     let before = screen(&picture(&table_1, &view, 1.5), (140, 30));
-    assert!(
-        before.contains("F_S –") && before.contains("open 58.13 um"),
-        "{before}"
-    );
-    let rows_that_differ = at_d
-        .lines()
-        .zip(before.lines())
-        .filter(|(one, other)| one != other)
-        .count();
+    assert!(before.contains("F_S –") && before.contains("open 58.13 um"), "{before}");
+    let rows_that_differ =
+        at_d.lines().zip(before.lines()).filter(|(one, other)| one != other).count();
     assert!(rows_that_differ > 10, "the gears do not move");
 }
 
 #[test]
 fn static_and_dynamic_show_their_own_first_contact_and_force() {
-    for (method, expected) in [
-        (Method::Static, ["F ", "x "]),
-        (Method::Dynamic, ["t ", "F/ΣF "]),
-    ] {
+    for (method, expected) in [(Method::Static, ["F ", "x "]), (Method::Dynamic, ["t ", "F/ΣF "])]
+    {
         let (mut inputs, _) = solved("zhou-chen-2014.toml");
         inputs.method = method;
         let solution = model::solve(&inputs, Stages::EVERY).unwrap();
-        let (angle, solved) = (
-            contact_state::first_contact(&solution).unwrap(),
-            (inputs, solution),
-        );
+        let (angle, solved) =
+            (contact_state::first_contact(&solution).unwrap(), (inputs, solution));
         let view = TeethView::default();
         let at = |part: f64| {
             screen(
@@ -255,11 +200,7 @@ fn the_factor_is_shown_and_decreases_to_one() {
     assert!(shown(TeethView::default()).contains("gap x20"));
     assert!(shown(TeethView::default().exaggerated_or_not()).contains("gap x1"));
     assert!(
-        shown(TeethView {
-            zoom: 10,
-            ..TeethView::default()
-        })
-        .contains("gap x1"),
+        shown(TeethView { zoom: 10, ..TeethView::default() }).contains("gap x1"),
         "a large gap is drawn true to scale"
     );
     let far = screen(&picture(&table_1, &TeethView::default(), 3.0), (100, 30));
@@ -287,20 +228,14 @@ fn the_factor_is_shown_and_decreases_to_one() {
 fn zoom_ends_at_the_whole_pair_and_at_a_micrometre() {
     let (inputs, solution) = solved("zhou-chen-2014.toml");
     for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
-        let view = TeethView {
-            centre,
-            ..TeethView::default()
-        };
+        let view = TeethView { centre, ..TeethView::default() };
         let out = view.zoomed(-1000, &inputs, &solution);
         assert_eq!(out.zoomed(-1, &inputs, &solution), out);
         let extent = out.extent(&inputs, &solution);
         assert!((0.2..0.4).contains(&extent), "{centre:?}: {extent} m");
         let closest = view.zoomed(i32::MAX, &inputs, &solution);
         assert!(closest.extent(&inputs, &solution) < 1e-3, "{centre:?}");
-        assert_eq!(
-            closest.zoomed(-1, &inputs, &solution).zoom,
-            closest.zoom - 1
-        );
+        assert_eq!(closest.zoomed(-1, &inputs, &solution).zoom, closest.zoom - 1);
     }
 }
 
@@ -319,11 +254,7 @@ fn keys_change_the_view_and_0_resets_it() {
     ] {
         let before = desk.screen();
         desk.keys(keys);
-        assert!(
-            desk.shows(expected) && desk.screen() != before,
-            "{keys:?}\n{}",
-            desk.screen()
-        );
+        assert!(desk.shows(expected) && desk.screen() != before, "{keys:?}\n{}", desk.screen());
     }
     desk.keys(&["0"]);
     assert_eq!(desk.screen(), at_first);
@@ -334,11 +265,7 @@ fn keys_change_the_view_and_0_resets_it() {
         desk.screen()
     );
     desk.keys(&["+"; 40]);
-    assert!(
-        desk.shows("closest zoom") && desk.shows("um "),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("closest zoom") && desk.shows("um "), "{}", desk.screen());
 }
 
 #[test]
@@ -351,24 +278,10 @@ fn a_run_starts_before_d_and_ends_at_e() {
         desk.act(Action::Tick);
         screens.push(desk.screen());
     }
-    let closed = screens
-        .iter()
-        .position(|screen| screen.contains("open 0 um"))
-        .expect("it closes");
-    assert!(
-        (10..30).contains(&closed),
-        "closed after {closed} of {} pictures",
-        screens.len()
-    );
-    assert!(
-        screens[closed..]
-            .iter()
-            .all(|screen| screen.contains("open 0 um"))
-    );
-    assert!(
-        screens.windows(2).all(|pair| pair[0] != pair[1]),
-        "a picture repeats"
-    );
+    let closed = screens.iter().position(|screen| screen.contains("open 0 um")).expect("it closes");
+    assert!((10..30).contains(&closed), "closed after {closed} of {} pictures", screens.len());
+    assert!(screens[closed..].iter().all(|screen| screen.contains("open 0 um")));
+    assert!(screens.windows(2).all(|pair| pair[0] != pair[1]), "a picture repeats");
     assert!(desk.app.cursor == Some(0.0) && desk.shows("θ_1 0 deg"));
 }
 
@@ -403,44 +316,18 @@ fn some_pairs(count: u64) -> impl Iterator<Item = (Inputs, Solution, Random)> {
 }
 
 fn any_view(random: &mut Random) -> TeethView {
-    let centre = random.one_of(&[
-        Centre::Strike,
-        Centre::Strike,
-        Centre::PitchPoint,
-        Centre::Pair,
-    ]);
-    let exaggeration = random.one_of(&[
-        Exaggeration::Fitted,
-        Exaggeration::Fitted,
-        Exaggeration::True,
-    ]);
+    let centre = random.one_of(&[Centre::Strike, Centre::Strike, Centre::PitchPoint, Centre::Pair]);
+    let exaggeration =
+        random.one_of(&[Exaggeration::Fitted, Exaggeration::Fitted, Exaggeration::True]);
     TeethView {
         centre,
-        zoom: random.one_of(&[
-            0,
-            0,
-            0,
-            -1,
-            -3,
-            -8,
-            -40,
-            2,
-            5,
-            9,
-            14,
-            20,
-            60,
-            i32::MIN,
-            i32::MAX,
-        ]),
+        zoom: random.one_of(&[0, 0, 0, -1, -3, -8, -40, 2, 5, 9, 14, 20, 60, i32::MIN, i32::MAX]),
         exaggeration,
     }
 }
 
 fn any_cursor(solution: &Solution, random: &mut Random) -> Option<f64> {
-    let contact = solution
-        .position
-        .map_or(0.01, |position| position.approach_angle_driver);
+    let contact = solution.position.map_or(0.01, |position| position.approach_angle_driver);
     let part = random.even(-3.0, 4.0);
     random.one_of(&[
         None,
@@ -470,12 +357,8 @@ fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
             let view = any_view(&mut random);
             let cursor = any_cursor(&solution, &mut random);
             let look = random.one_of(&[Look::FULL, Look::FULL, ASCII]);
-            let marker = random.one_of(&[
-                Marker::Braille,
-                Marker::Braille,
-                Marker::HalfBlock,
-                Marker::Dot,
-            ]);
+            let marker =
+                random.one_of(&[Marker::Braille, Marker::Braille, Marker::HalfBlock, Marker::Dot]);
             let is_stale = random.chance(0.2);
             let picture = Picture {
                 inputs: &inputs,
@@ -497,21 +380,14 @@ fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
                 expected()
             );
             assert!(!look.ascii || screen.is_ascii(), "{screen}\n{}", expected());
-            let share = examine(
-                &picture,
-                Size::new(size.0.max(12), size.1.max(4)),
-                &expected,
-            );
+            let share = examine(&picture, Size::new(size.0.max(12), size.1.max(4)), &expected);
             if share > most.0 {
                 most = (share, expected());
             }
         }
         drawn_pairs += 1;
     }
-    println!(
-        "{drawn_pairs} pairs; greatest part of the allowed strokes {:.2}: {}",
-        most.0, most.1
-    );
+    println!("{drawn_pairs} pairs; greatest part of the allowed strokes {:.2}: {}", most.0, most.1);
     assert!(drawn_pairs > 4_000, "only {drawn_pairs}");
 }
 
@@ -531,11 +407,7 @@ fn examine(picture: &Picture, size: Size, expected: &dyn Fn() -> String) -> f64 
         for point in [stroke.from, stroke.to] {
             let in_sight = (left - margin..=right + margin).contains(&point.x)
                 && (low - margin..=high + margin).contains(&point.y);
-            assert!(
-                in_sight,
-                "{stroke:?} out of {left}..{right}, {low}..{high}: {}",
-                expected()
-            );
+            assert!(in_sight, "{stroke:?} out of {left}..{right}, {low}..{high}: {}", expected());
         }
     }
     let area = Rect::new(0, 0, size.width, size.height);
@@ -548,12 +420,7 @@ fn examine(picture: &Picture, size: Size, expected: &dyn Fn() -> String) -> f64 
         );
     }
     let share = scene.strokes.len() as f64 / most_strokes(size) as f64;
-    assert!(
-        share <= 1.0,
-        "{} strokes: {}",
-        scene.strokes.len(),
-        expected()
-    );
+    assert!(share <= 1.0, "{} strokes: {}", scene.strokes.len(), expected());
     share
 }
 
@@ -570,19 +437,11 @@ fn words_cover_no_line_where_there_is_room() {
         let solved = solved(&case);
         for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
             for zoom in [-6, -3, -1, 0, 1, 2, 4, 8, 14] {
-                for ((width, height), look) in PLOTS
-                    .into_iter()
-                    .flat_map(|size| [Look::FULL, ASCII].map(|look| (size, look)))
+                for ((width, height), look) in
+                    PLOTS.into_iter().flat_map(|size| [Look::FULL, ASCII].map(|look| (size, look)))
                 {
-                    let view = TeethView {
-                        centre,
-                        zoom,
-                        ..TeethView::default()
-                    };
-                    let picture = Picture {
-                        look,
-                        ..picture(&solved, &view, 1.0)
-                    };
+                    let view = TeethView { centre, zoom, ..TeethView::default() };
+                    let picture = Picture { look, ..picture(&solved, &view, 1.0) };
                     let moment =
                         ContactState::at(picture.inputs, picture.solution, picture.angle());
                     let area = Rect::new(0, 0, width, height);
@@ -592,11 +451,8 @@ fn words_cover_no_line_where_there_is_room() {
                     let drawn = buffer.clone();
                     let words = Labels::new(area).draw(&scene, &picture, &mut buffer);
                     // The second rectangle is the scale bar.
-                    for word in words
-                        .iter()
-                        .enumerate()
-                        .filter(|(at, _)| *at != 1)
-                        .map(|(_, word)| word)
+                    for word in
+                        words.iter().enumerate().filter(|(at, _)| *at != 1).map(|(_, word)| word)
                     {
                         words_in_all += 1;
                         if word.positions().any(|at| drawn[at].symbol() != " ") {
@@ -615,10 +471,7 @@ fn words_cover_no_line_where_there_is_room() {
             }
         }
     }
-    println!(
-        "{} of {words_in_all} words lie on a line: {covering:#?}",
-        covering.len()
-    );
+    println!("{} of {words_in_all} words lie on a line: {covering:#?}", covering.len());
     assert!(
         200 * covering.len() <= words_in_all,
         "{} of {words_in_all}: {covering:#?}",
@@ -635,10 +488,7 @@ fn a_picture_has_few_strokes() {
         ("turbo-fine-fast.toml", Centre::Pair),
     ] {
         let solved = solved(case);
-        let view = TeethView {
-            centre,
-            ..TeethView::default()
-        };
+        let view = TeethView { centre, ..TeethView::default() };
         let mut times: Vec<Duration> = (0..101)
             .map(|step| {
                 let picture = picture(&solved, &view, 2.0 - f64::from(step) / 50.0);

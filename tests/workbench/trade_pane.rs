@@ -29,11 +29,7 @@ fn the_benchmark_runs_only_on_request() {
     desk.keys(&["Esc", "5", "z"]);
     assert!(desk.shows("No benchmark yet: m runs"), "{}", desk.screen());
     desk.keys(&["Right", "Enter"]);
-    assert!(
-        desk.shows("no benchmark yet: m runs it"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("no benchmark yet: m runs it"), "{}", desk.screen());
     assert!(desk.app.tab.traded.is_none());
 }
 
@@ -56,16 +52,8 @@ fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
     let traded = desk.app.tab.traded.as_ref().expect("a measurement");
     assert_eq!(traded.marked.expect("a mark").method, Method::Dynamic);
-    assert!(
-        desk.shows("Within 5.0 %: dynamic with"),
-        "{}",
-        desk.screen()
-    );
-    assert!(
-        desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("Within 5.0 %: dynamic with"), "{}", desk.screen());
+    assert!(desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")), "{}", desk.screen());
     assert!(desk.shows("P") && desk.shows("1 ms") && desk.app.progress.is_none());
 }
 
@@ -74,10 +62,7 @@ fn the_reference_has_no_error() {
     let screen = timed(LARGE).screen();
     let words: Vec<_> = screen.split_whitespace().collect();
     let text = words.join(" ");
-    assert!(
-        text.contains("model: the reference") && !text.contains("model 0 %"),
-        "{screen}"
-    );
+    assert!(text.contains("model: the reference") && !text.contains("model 0 %"), "{screen}");
 }
 
 #[test]
@@ -115,15 +100,8 @@ fn enter_uses_the_selected_setting_and_undo_reverts_it() {
     let marked = desk.app.tab.traded.as_ref().unwrap().marked.unwrap();
     desk.keys(&["Enter"]);
     assert_eq!(own(&desk), marked);
-    assert_eq!(
-        desk.app.tab.answer.as_ref().unwrap().active,
-        Method::Dynamic
-    );
-    assert!(
-        desk.shows(&format!("method {marked}; Ctrl-Z undoes")),
-        "{}",
-        desk.screen()
-    );
+    assert_eq!(desk.app.tab.answer.as_ref().unwrap().active, Method::Dynamic);
+    assert!(desk.shows(&format!("method {marked}; Ctrl-Z undoes")), "{}", desk.screen());
     assert!(!desk.shows("OUTDATED"), "a setting makes no other case");
     desk.keys(&["u"]);
     assert_eq!(own(&desk), before);
@@ -152,13 +130,7 @@ fn esc_stops_a_benchmark_and_keeps_its_results() {
         }
         other => panic!("{other:?}"),
     };
-    assert_eq!(
-        desk.app.progress,
-        Some(Progress {
-            what: "measuring".to_owned(),
-            part: 0.0
-        })
-    );
+    assert_eq!(desk.app.progress, Some(Progress { what: "measuring".to_owned(), part: 0.0 }));
     assert!(matches!(desk.effects("Esc")[..], [Effect::CancelWork]));
     update(
         &mut desk.app,
@@ -177,15 +149,10 @@ fn a_measurement_out_of_sight_stops() {
     desk.keys(&["Esc", "5"]);
     assert!(matches!(desk.effects("m")[..], [Effect::Measure(_)]));
     assert!(
-        desk.effects("2")
-            .iter()
-            .all(|effect| !matches!(effect, Effect::CancelWork)),
+        desk.effects("2").iter().all(|effect| !matches!(effect, Effect::CancelWork)),
         "it is in sight"
     );
-    assert!(
-        matches!(desk.effects("3")[..], [Effect::CancelWork]),
-        "the chart replaces it"
-    );
+    assert!(matches!(desk.effects("3")[..], [Effect::CancelWork]), "the chart replaces it");
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
     desk.effects("m");
@@ -208,11 +175,7 @@ fn the_results_of_a_replaced_benchmark_are_ignored() {
         other => panic!("{other:?}"),
     });
     assert!(serials[0] < serials[1]);
-    let late = BenchmarkProgress {
-        serial: serials[0],
-        trade: None,
-        end: Some(End::Stopped),
-    };
+    let late = BenchmarkProgress { serial: serials[0], trade: None, end: Some(End::Stopped) };
     update(&mut desk.app, Action::Measured(Box::new(late)));
     assert!(desk.app.progress.is_some(), "the second one runs");
     let failed = BenchmarkProgress {
@@ -233,11 +196,7 @@ fn a_measurement_ends_although_its_case_was_closed() {
         other => panic!("{other:?}"),
     };
     desk.keys(&["Alt-W"]);
-    assert!(
-        desk.app.progress.is_some() && desk.has_cancelled,
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.app.progress.is_some() && desk.has_cancelled, "{}", desk.screen());
     update(
         &mut desk.app,
         Action::Measured(Box::new(BenchmarkProgress {
@@ -246,11 +205,7 @@ fn a_measurement_ends_although_its_case_was_closed() {
             end: Some(End::Stopped),
         })),
     );
-    assert!(
-        desk.app.progress.is_none() && desk.app.measuring.is_none(),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.app.progress.is_none() && desk.app.measuring.is_none(), "{}", desk.screen());
 }
 
 #[test]
@@ -268,18 +223,11 @@ fn it_is_drawn_at_every_size() {
     for width in (0..=150).step_by(7) {
         for height in 0..=50 {
             let screen = desk.screen_at(Size { width, height });
-            assert!(
-                !screen.contains("NaN") && !screen.contains("inf"),
-                "{screen}"
-            );
+            assert!(!screen.contains("NaN") && !screen.contains("inf"), "{screen}");
         }
     }
     desk.keys(&["Tab", "BackTab", "Right", "Left"]);
-    assert!(
-        desk.shows("1 ms") || desk.shows("100 us"),
-        "{}",
-        desk.screen()
-    );
+    assert!(desk.shows("1 ms") || desk.shows("100 us"), "{}", desk.screen());
 }
 
 fn timed(size: Size) -> Desk {
@@ -297,10 +245,7 @@ fn the_pane_as_it_looks() {
         assert_snapshot!(format!("alone_{name}"), desk.screen());
     }
     let mut desk = timed(SMALL);
-    desk.app.look = Look {
-        theme: &MONO,
-        ascii: true,
-    };
+    desk.app.look = Look { theme: &MONO, ascii: true };
     assert!(desk.screen().is_ascii());
     assert_snapshot!("alone_ascii", desk.screen());
     desk.keys(&["z"]);
@@ -333,10 +278,7 @@ fn v_shows_every_method_with_every_compliance_as_a_table() {
 fn evened(desk: &mut Desk) {
     let traded = desk.app.tab.traded.as_mut().expect("a measurement");
     let trade = traded.trade.as_mut().expect("it is whole");
-    trade.build = Ok(Build {
-        driver: 12e-3,
-        driven: 15e-3,
-    });
+    trade.build = Ok(Build { driver: 12e-3, driven: 15e-3 });
 }
 
 #[test]
@@ -363,10 +305,8 @@ fn every_mark_is_on_the_right_side_of_the_tolerance() {
         desk.app.layout.resize(Size { width, height });
         let area = desk.app.layout.plan().trade;
         let screen = desk.screen();
-        let rows: Vec<Vec<char>> = screen
-            .lines()
-            .map(|line| line.chars().skip(area.x.into()).collect())
-            .collect();
+        let rows: Vec<Vec<char>> =
+            screen.lines().map(|line| line.chars().skip(area.x.into()).collect()).collect();
         let pane = &rows[usize::from(area.y) + 1..usize::from(area.bottom())];
         let level = pane
             .iter()
@@ -377,24 +317,17 @@ fn every_mark_is_on_the_right_side_of_the_tolerance() {
             line.contains("5.0 %┤") && !line.contains(char::is_alphabetic),
             "{width}x{height}: {line}"
         );
-        let axis = pane
-            .iter()
-            .position(|row| row.contains(&'└'))
-            .expect("an axis");
+        let axis = pane.iter().position(|row| row.contains(&'└')).expect("an axis");
         let letters = |rows: &[Vec<char>]| -> Vec<char> {
-            let plot = rows.iter().flat_map(|row| {
-                row.iter()
-                    .skip_while(|cell| !"│┤".contains(**cell))
-                    .copied()
-            });
+            let plot = rows
+                .iter()
+                .flat_map(|row| row.iter().skip_while(|cell| !"│┤".contains(**cell)).copied());
             plot.filter(|cell| "pesdaPESDA".contains(*cell)).collect()
         };
         // On Table 1 the closed forms, the load at rest and every other compliance differ by more
         // than 5 %.
-        let (above, below) = (
-            letters(&pane[usize::from(level > 5)..level]),
-            letters(&pane[level + 1..axis]),
-        );
+        let (above, below) =
+            (letters(&pane[usize::from(level > 5)..level]), letters(&pane[level + 1..axis]));
         assert!(
             above.iter().all(|letter| "pesdPESD".contains(*letter)) && !above.is_empty(),
             "{width}x{height}:\n{screen}"

@@ -103,9 +103,7 @@ impl CircleFields {
             .filter_map(|height| height.outside_range(gear, inputs.module))
             .collect();
         let [_, root] = &self.heights;
-        let is_root_sound = found
-            .iter()
-            .all(|problem| problem.field != root.diameter_key);
+        let is_root_sound = found.iter().all(|problem| problem.field != root.diameter_key);
         if is_root_sound && sound(&[self.bore_radius, self.dedendum, root.diameter_key]) {
             found.extend(bore_through_root(self.bore_radius, gear, inputs.module));
         }
@@ -150,11 +148,7 @@ fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
         let cause = format!(
             "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
         );
-        Problem::new(
-            field,
-            cause,
-            format!("write a radius (not a diameter) below {root} mm"),
-        )
+        Problem::new(field, cause, format!("write a radius (not a diameter) below {root} mm"))
     })
 }
 

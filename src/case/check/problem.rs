@@ -24,11 +24,7 @@ impl Problem {
         cause: impl Into<String>,
         fix: impl Into<String>,
     ) -> Problem {
-        Problem {
-            field: field.to_owned(),
-            cause: cause.into(),
-            fix: fix.into(),
-        }
+        Problem { field: field.to_owned(), cause: cause.into(), fix: fix.into() }
     }
 
     /// An invalid value, as a problem of its field.
@@ -40,13 +36,7 @@ impl Problem {
 /// One line: `field: cause: fix`.
 impl std::fmt::Display for Problem {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "{}: {}: {}",
-            sanitize(&self.field),
-            sanitize(&self.cause),
-            sanitize(&self.fix)
-        )
+        write!(f, "{}: {}: {}", sanitize(&self.field), sanitize(&self.cause), sanitize(&self.fix))
     }
 }
 
@@ -81,9 +71,7 @@ pub fn unknown_key(key: &str) -> Problem {
         .find(|field| field.name() == name)
         .map(|field| format!("did you mean {}?", field.key));
     let fix = same_name.unwrap_or_else(|| {
-        suggest::fix(key, known, || {
-            "`tipstrike fields` lists every key".to_owned()
-        })
+        suggest::fix(key, known, || "`tipstrike fields` lists every key".to_owned())
     });
     Problem::new(key, format!("unknown key {}", quoted(key)), fix)
 }

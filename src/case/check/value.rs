@@ -42,10 +42,9 @@ static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     FIELDS
         .iter()
         .map(|field| match field.kind {
-            Kind::Number(dimension, range, _) => (
-                end(range.from, dimension, range.unit),
-                end(range.to, dimension, range.unit),
-            ),
+            Kind::Number(dimension, range, _) => {
+                (end(range.from, dimension, range.unit), end(range.to, dimension, range.unit))
+            }
             _ => (0.0, 0.0),
         })
         .collect()
@@ -79,22 +78,10 @@ fn number(
     // The same end in another unit can differ by rounding.
     let slack = 4.0 * f64::EPSILON;
     if value < from - slack * from.abs() {
-        return Err(outside(
-            known,
-            text,
-            "below",
-            shortest(range.from),
-            range.unit,
-        ));
+        return Err(outside(known, text, "below", shortest(range.from), range.unit));
     }
     if value > to + slack * to.abs() {
-        return Err(outside(
-            known,
-            text,
-            "above",
-            shortest(range.to),
-            range.unit,
-        ));
+        return Err(outside(known, text, "above", shortest(range.to), range.unit));
     }
     Ok(value)
 }
@@ -113,19 +100,9 @@ fn likely_units(
         let value = units::parse(&format!("{} {unit}", text.trim()), dimension, unit);
         value.is_ok_and(|value| (from..=to).contains(&value))
     };
-    let others = || {
-        dimension
-            .symbols()
-            .filter(|&unit| unit != usual)
-            .filter(fits)
-    };
+    let others = || dimension.symbols().filter(|&unit| unit != usual).filter(fits);
     let first = std::iter::once(usual).chain(others()).find(fits);
-    let is_common = |unit: &&str| {
-        dimension
-            .symbols()
-            .take(COMMON)
-            .any(|common| common == *unit)
-    };
+    let is_common = |unit: &&str| dimension.symbols().take(COMMON).any(|common| common == *unit);
     let second = others().find(|unit| is_common(unit) && Some(*unit) != first);
     first.into_iter().chain(second).collect()
 }
@@ -139,11 +116,7 @@ fn outside(
 ) -> Problem {
     let end = format!("{end} {unit}");
     let cause = format!("{} is {side} the limit of {}", quoted(text), end.trim_end());
-    Problem::new(
-        known.key,
-        cause,
-        format!("write a value from {}", known.range_text()),
-    )
+    Problem::new(known.key, cause, format!("write a value from {}", known.range_text()))
 }
 
 fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> {
@@ -163,24 +136,15 @@ fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> 
 }
 
 fn not_whole(known: &Field, text: &str) -> Problem {
-    let example = format!(
-        "write a whole number from {}, such as {}",
-        known.range_text(),
-        known.example()
-    );
+    let example =
+        format!("write a whole number from {}, such as {}", known.range_text(), known.example());
     match units::parse(text, Dimension::Number, "") {
-        Ok(value) if value < 0.0 => outside(
-            known,
-            text,
-            "below",
-            known.range_text().split(' ').next().unwrap_or("0"),
-            "",
-        ),
-        Ok(_) => Problem::new(
-            known.key,
-            format!("{} is not a whole number", quoted(text)),
-            example,
-        ),
+        Ok(value) if value < 0.0 => {
+            outside(known, text, "below", known.range_text().split(' ').next().unwrap_or("0"), "")
+        }
+        Ok(_) => {
+            Problem::new(known.key, format!("{} is not a whole number", quoted(text)), example)
+        }
         Err(misread) if misread.cause.starts_with("unit") => Problem::of(known.key, misread),
         Err(misread) => Problem::new(known.key, misread.cause, example),
     }
@@ -191,12 +155,7 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
     if let Some(index) = names.iter().position(|&known| known == name) {
         return Ok(index);
     }
-    let fix = suggest::fix(name, names.iter().copied(), || {
-        format!("use one of {}", names.join(", "))
-    });
-    Err(Problem::new(
-        known.key,
-        format!("unknown choice {}", quoted(name)),
-        fix,
-    ))
+    let fix =
+        suggest::fix(name, names.iter().copied(), || format!("use one of {}", names.join(", ")));
+    Err(Problem::new(known.key, format!("unknown choice {}", quoted(name)), fix))
 }

@@ -83,11 +83,8 @@ const VARIANTS: &[(&str, Change)] = &[
 const AS_IT_IS: [&str; 2] = ["as it is", "static, relieved, with friction"];
 
 fn relieved(inputs: &mut Inputs, method: Method) {
-    (
-        inputs.method,
-        inputs.friction_coefficient,
-        inputs.base_pitch_deviation,
-    ) = (method, Some(0.05), 0.0);
+    (inputs.method, inputs.friction_coefficient, inputs.base_pitch_deviation) =
+        (method, Some(0.05), 0.0);
     for gear in [&mut inputs.driver, &mut inputs.driven] {
         (gear.tip_relief, gear.root_relief) = (3e-6, 2e-6);
     }
@@ -105,18 +102,11 @@ fn nearly_double_contact(inputs: &mut Inputs, addendum: f64) {
 /// Every stage. Excludes inertia for very slow pairs, whose motion has too many oscillations.
 fn wanted(inputs: &Inputs) -> Stages {
     const SLOW: f64 = 500.0;
-    if inputs.speed < SLOW {
-        Stages::ALL.and(Stages::of(Stage::Static))
-    } else {
-        Stages::EVERY
-    }
+    if inputs.speed < SLOW { Stages::ALL.and(Stages::of(Stage::Static)) } else { Stages::EVERY }
 }
 
 fn few_stations(inputs: &Inputs) -> Inputs {
-    Inputs {
-        stations: inputs.stations.map(|count| count.min(2)),
-        ..inputs.clone()
-    }
+    Inputs { stations: inputs.stations.map(|count| count.min(2)), ..inputs.clone() }
 }
 
 fn solve(inputs: &Inputs) -> Result<Solution, Refusal> {
@@ -125,24 +115,12 @@ fn solve(inputs: &Inputs) -> Result<Solution, Refusal> {
 
 /// The solution after another solve, with reuse of its results.
 fn resolved(before: &Solved, inputs: &Inputs) -> Solution {
-    let earlier = Earlier {
-        inputs: &few_stations(&before.inputs),
-        solution: &before.solution,
-    };
-    solve_after(
-        &few_stations(inputs),
-        wanted(inputs),
-        Some(earlier),
-        &|_| true,
-    )
-    .unwrap()
+    let earlier = Earlier { inputs: &few_stations(&before.inputs), solution: &before.solution };
+    solve_after(&few_stations(inputs), wanted(inputs), Some(earlier), &|_| true).unwrap()
 }
 
 fn solved_cases() -> Vec<Solved> {
-    EXAMPLES
-        .iter()
-        .flat_map(|example| variants(&example.document().case, example.name))
-        .collect()
+    EXAMPLES.iter().flat_map(|example| variants(&example.document().case, example.name)).collect()
 }
 
 fn variants(case: &Case, name: &str) -> Vec<Solved> {
@@ -184,24 +162,19 @@ fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
         {
             Vec::new()
         }
-        Kind::Choice(names, put) => (0..names.len())
-            .map(|choice| with(&|inputs| put(inputs, choice)))
-            .collect(),
+        Kind::Choice(names, put) => {
+            (0..names.len()).map(|choice| with(&|inputs| put(inputs, choice))).collect()
+        }
         Kind::Count(_, _, put) => {
             let now = solved.case.value(field).unwrap_or(1.0) as u32;
-            [1, 9]
-                .map(|more| with(&|inputs| put(inputs, now + more)))
-                .into()
+            [1, 9].map(|more| with(&|inputs| put(inputs, now + more))).into()
         }
         Kind::Number(_, range, put) => {
             let values = match solved.case.value(field) {
                 Some(now) if now != 0.0 => vec![now * 0.997, now * 1.2],
                 _ => offered(solved, FIELDS[field].key, range.unit),
             };
-            values
-                .into_iter()
-                .map(|value| with(&|inputs| put(inputs, value)))
-                .collect()
+            values.into_iter().map(|value| with(&|inputs| put(inputs, value))).collect()
         }
     }
 }
@@ -209,9 +182,9 @@ fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
 /// Values for a field that is zero or not given.
 fn offered(solved: &Solved, key: &str, unit: &str) -> Vec<f64> {
     match (key, unit) {
-        ("pair.centre_distance", _) => [1.0002, 1.003]
-            .map(|part| part * solved.solution.geometry.centre_distance)
-            .into(),
+        ("pair.centre_distance", _) => {
+            [1.0002, 1.003].map(|part| part * solved.solution.geometry.centre_distance).into()
+        }
         ("operation.power", _) => vec![1e4],
         ("operation.torque", _) => vec![50.0],
         (key, _) if key.ends_with("relief_length") => vec![0.2e-3, 1.5e-3, 30e-3],
@@ -283,12 +256,7 @@ fn results_are_reused_only_if_a_change_does_not_affect_them() {
 const ROUNDING: f64 = 1e-9;
 
 /// The variants in which every quantity is compared with the list of its fields.
-const LISTED: [&str; 4] = [
-    "as it is",
-    "static, relieved, with friction",
-    "dynamic",
-    "edge radius",
-];
+const LISTED: [&str; 4] = ["as it is", "static, relieved, with friction", "dynamic", "edge radius"];
 
 #[test]
 fn a_quantity_lists_every_field_whose_change_alters_it() {
@@ -339,17 +307,11 @@ fn a_quantity_lists_no_field_without_effect() {
     assert_eq!(listed("base_pitch", &case), base_pitch);
     // The case of Table 1 gives the deflection, which then needs no load and no stiffness.
     for key in ["operation.power", "driver.young", "model.tooth_compliance"] {
-        assert!(
-            !listed("approach_angle_driven", &case).contains(&key),
-            "{key}"
-        );
+        assert!(!listed("approach_angle_driven", &case).contains(&key), "{key}");
     }
     case.set("model.deflection", "").unwrap();
     for key in ["operation.power", "driver.young", "model.tooth_compliance"] {
-        assert!(
-            listed("approach_angle_driven", &case).contains(&key),
-            "{key}"
-        );
+        assert!(listed("approach_angle_driven", &case).contains(&key), "{key}");
     }
     // Other gears do not fit a given centre distance, but the contact ratio depends on their
     // fields.
@@ -369,10 +331,7 @@ fn a_stage_reads_only_its_own_fields() {
     // The case of Table 1 gives the deflection, so that load and stiffness do not change D.
     assert_eq!(stages("operation.power"), Stages::NONE.with(Stage::Load));
     assert!(!stages("driver.young").has(Stage::Deviation));
-    let computed = Inputs {
-        deflection: None,
-        ..inputs.clone()
-    };
+    let computed = Inputs { deflection: None, ..inputs.clone() };
     assert!(stages_of(index_of("driver.young").unwrap(), &computed).has(Stage::Deviation));
     for silent in ["title", "notes", "operation.friction_coefficient"] {
         assert_eq!(stages(silent), Stages::NONE, "{silent}");

@@ -93,10 +93,7 @@ mod tests {
             (inputs.tooth_compliance, inputs.contact_compliance) = (Some(tooth), contact);
             edit(&mut inputs);
             let solution = model::solve(&inputs, Stages::of(Stage::Impact)).unwrap();
-            let results = [
-                solution.compliance.unwrap().driver,
-                solution.impact.unwrap().force,
-            ];
+            let results = [solution.compliance.unwrap().driver, solution.impact.unwrap().force];
             results.map(f64::to_bits)
         };
         for tooth in ToothCompliance::ALL {
@@ -107,12 +104,7 @@ mod tests {
                 assert_eq!(bored != before[0], reads, "{}", tooth.name());
                 let [_, deeper] = results(tooth, contact, |inputs| inputs.driver.dedendum = 1.3);
                 let reads = reads || contact.model().reads_root;
-                assert!(
-                    reads || deeper == before[1],
-                    "{} with {}",
-                    tooth.name(),
-                    contact.name()
-                );
+                assert!(reads || deeper == before[1], "{} with {}", tooth.name(), contact.name());
             }
         }
     }

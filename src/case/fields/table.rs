@@ -27,12 +27,7 @@ use model::MODEL;
 use operation::OPERATION;
 
 const fn text(key: &'static str, label: &'static str, help: &'static str) -> Field {
-    Field {
-        key,
-        label,
-        help,
-        ..Field::PLAIN
-    }
+    Field { key, label, help, ..Field::PLAIN }
 }
 
 const PAIR: &[Field] = &[
@@ -51,9 +46,7 @@ const PAIR: &[Field] = &[
         "Module of both gears; give either the module or the diametral pitch."
     )
     .with_example("5 mm")
-    .instead_of("pair.diametral_pitch", |inputs| {
-        (inputs.module > 0.0).then_some(inputs.module)
-    }),
+    .instead_of("pair.diametral_pitch", |inputs| (inputs.module > 0.0).then_some(inputs.module)),
     number!(
         "pair.diametral_pitch",
         "Pd",
@@ -67,9 +60,7 @@ const PAIR: &[Field] = &[
         "Diametral pitch of both gears, the reciprocal of the module; replaces the module."
     )
     .with_example("8 1/in")
-    .instead_of("pair.module", |inputs| {
-        (inputs.module > 0.0).then(|| 1.0 / inputs.module)
-    }),
+    .instead_of("pair.module", |inputs| (inputs.module > 0.0).then(|| 1.0 / inputs.module)),
     number!(
         "pair.pressure_angle",
         "α",

@@ -14,9 +14,7 @@ pub fn without_comments(text: &str) -> String {
     let mut kept: Vec<(String, bool)> = Vec::new();
     let mut start = 0;
     for line in text.split_inclusive('\n') {
-        let is_inside = strings
-            .iter()
-            .any(|span| span.start < start && start < span.end);
+        let is_inside = strings.iter().any(|span| span.start < start && start < span.end);
         let trimmed = line.trim();
         if is_inside || !(trimmed.is_empty() || trimmed.starts_with('#')) {
             let is_header = !is_inside && line.starts_with('[');

@@ -60,11 +60,7 @@ impl Document {
         let bytes = capped(open(path, &name)?, &name)?;
         let text = std::str::from_utf8(&bytes);
         let text = text.map_err(|error| {
-            ReadError::Bad(vec![super::fault::not_text(
-                &name,
-                &bytes,
-                error.valid_up_to(),
-            )])
+            ReadError::Bad(vec![super::fault::not_text(&name, &bytes, error.valid_up_to())])
         })?;
         let mut document = Document::parse_newer(&name, text);
         document.origin = followed(path).ok();
@@ -131,16 +127,9 @@ impl Document {
         let mode = self.mode.filter(|_| is_own);
         target.replace(text.as_bytes(), mode, path, false)?;
         let is_recreated = is_own && target.old.is_none();
-        self.mode = fs::metadata(&target.path)
-            .ok()
-            .and_then(|about| files::mode(&about))
-            .or(mode);
+        self.mode = fs::metadata(&target.path).ok().and_then(|about| files::mode(&about)).or(mode);
         self.settle(&text, name, target.path);
-        Ok(if is_recreated {
-            Saved::Recreated
-        } else {
-            Saved::Written
-        })
+        Ok(if is_recreated { Saved::Recreated } else { Saved::Written })
     }
 
     /// Compares the content, not the time stamp, because a touched file is unchanged.
@@ -157,10 +146,7 @@ impl Document {
 }
 
 fn refused(mut faults: Vec<Fault>) -> ReadError {
-    match faults
-        .iter()
-        .position(|fault| fault.kind == FaultKind::NewerFormat)
-    {
+    match faults.iter().position(|fault| fault.kind == FaultKind::NewerFormat) {
         Some(newer) => ReadError::NewerFormat(faults.swap_remove(newer)),
         None => ReadError::Bad(faults),
     }

@@ -58,10 +58,7 @@ pub(super) fn gives(text: &str, case: &Case) -> bool {
 
 fn written(case: &Case) -> Vec<Written> {
     let fields = entries(case).into_iter().map(|entry| Written {
-        table: Some(entry.table.to_owned())
-            .filter(|table| !table.is_empty())
-            .into_iter()
-            .collect(),
+        table: Some(entry.table.to_owned()).filter(|table| !table.is_empty()).into_iter().collect(),
         name: entry.name,
         value: entry.value,
     });
@@ -129,18 +126,10 @@ fn remove(text: &mut String, key: &[String]) {
 
 fn remove_variant(text: &mut String, name: &str) {
     let of_it = |path: &[String]| path.iter().take(2).eq(["variants", name]);
-    while let Some(entry) = Layout::of(text)
-        .entries
-        .iter()
-        .find(|entry| of_it(&entry.path))
-    {
+    while let Some(entry) = Layout::of(text).entries.iter().find(|entry| of_it(&entry.path)) {
         take_out(text, entry);
     }
-    while let Some(header) = Layout::of(text)
-        .headers
-        .iter()
-        .find(|header| of_it(&header.path))
-    {
+    while let Some(header) = Layout::of(text).headers.iter().find(|header| of_it(&header.path)) {
         let mut line = line(text, header.span.clone());
         let above = text[..line.start].trim_end_matches([' ', '\t', '\r', '\n']);
         let blank = text[above.len()..line.start].match_indices('\n').nth(1);
@@ -158,17 +147,12 @@ fn take_out(text: &mut String, entry: &Entry) {
     }
     let is_blank = |range: &Range<usize>| text[range.clone()].bytes().all(|b| b" \t".contains(&b));
     let to_comma = entry.comma.map(|comma| own.end..comma);
-    let with_comma = own.start
-        ..to_comma
-            .clone()
-            .filter(is_blank)
-            .map_or(own.end, |gap| gap.end + 1);
+    let with_comma =
+        own.start..to_comma.clone().filter(is_blank).map_or(own.end, |gap| gap.end + 1);
     let lines = line(text, with_comma.clone());
     if is_blank(&(lines.start..own.start)) && ends_line(&text[with_comma.end..lines.end]) {
         let comma = entry.comma.filter(|comma| *comma >= lines.end);
-        comma
-            .into_iter()
-            .for_each(|comma| text.replace_range(comma..=comma, ""));
+        comma.into_iter().for_each(|comma| text.replace_range(comma..=comma, ""));
         return text.replace_range(lines, "");
     }
     let before = entry.comma_before.map(|comma| comma..own.start);
@@ -204,10 +188,7 @@ fn insert(text: &mut String, layout: &Layout, new: &Written) {
     };
     for header in &layout.headers {
         if table.starts_with(&header.path) {
-            offer(
-                (header.path.len(), false, false),
-                Place::Below(header.span.end),
-            );
+            offer((header.path.len(), false, false), Place::Below(header.span.end));
         }
     }
     for entry in &layout.entries {
@@ -224,12 +205,7 @@ fn insert(text: &mut String, layout: &Layout, new: &Written) {
     let assignment = |given: usize, neighbour: Option<&Entry>| {
         let written = neighbour.filter(|entry| entry.table() == table);
         let above = written.map_or_else(
-            || {
-                table[given..]
-                    .iter()
-                    .map(|name| key_of(name) + ".")
-                    .collect()
-            },
+            || table[given..].iter().map(|name| key_of(name) + ".").collect(),
             |entry| text[entry.keys.start..entry.key.start].to_owned(),
         );
         format!("{above}{} = {}", new.name, new.value)

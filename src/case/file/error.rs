@@ -100,11 +100,7 @@ pub(super) fn shown(path: &Path) -> String {
 }
 
 fn one_a_line(faults: &[Fault]) -> String {
-    faults
-        .iter()
-        .map(ToString::to_string)
-        .collect::<Vec<_>>()
-        .join("\n")
+    faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// The fix for a file that the system refuses to write.

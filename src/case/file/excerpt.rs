@@ -71,10 +71,8 @@ mod tests {
     fn only_lines_with_content_are_counted() {
         let filler = "\n  # a = 1\n\t\r\n".repeat(MOST_LINES);
         for quotes in ["\"\"\"", "'''"] {
-            let notes = format!(
-                "notes = {quotes}{}{quotes}\n",
-                "a = 1 \\\\\"'\n".repeat(2 * MOST_LINES)
-            );
+            let notes =
+                format!("notes = {quotes}{}{quotes}\n", "a = 1 \\\\\"'\n".repeat(2 * MOST_LINES));
             let text = format!("{filler}{notes}b = \"\\\"#\"\n{filler}");
             assert_eq!(excerpt(&text), (text.as_str(), 0));
         }

@@ -40,29 +40,13 @@ pub struct Fault {
 impl Fault {
     pub(super) fn new(file: &str, (line, column): (usize, usize), problem: Problem) -> Fault {
         let Problem { field, cause, fix } = problem;
-        Fault {
-            file: file.to_owned(),
-            line,
-            column,
-            field,
-            cause,
-            fix,
-            kind: FaultKind::Bad,
-        }
+        Fault { file: file.to_owned(), line, column, field, cause, fix, kind: FaultKind::Bad }
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Fault {
-            file,
-            line,
-            column,
-            field,
-            cause,
-            fix,
-            ..
-        } = self;
+        let Fault { file, line, column, field, cause, fix, .. } = self;
         write!(
             f,
             "{}:{line}:{column}: {}: {}: {}",
@@ -88,12 +72,7 @@ pub(super) struct Found {
 
 impl Found {
     pub(super) fn new(at: usize, problem: Problem) -> Found {
-        Found {
-            at,
-            problem,
-            kind: FaultKind::Bad,
-            is_missing: false,
-        }
+        Found { at, problem, kind: FaultKind::Bad, is_missing: false }
     }
 }
 
@@ -112,11 +91,8 @@ pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>, more: usize)
         })
         .collect();
     if let (Some(last), 1..) = (faults.last(), more) {
-        let problem = Problem::new(
-            "toml",
-            format!("and {more} more faults"),
-            "fix those above first",
-        );
+        let problem =
+            Problem::new("toml", format!("and {more} more faults"), "fix those above first");
         faults.push(Fault::new(file, (last.line, last.column), problem));
     }
     faults
@@ -135,10 +111,8 @@ pub(super) fn too_large(file: &str) -> Fault {
 /// The refusal of bytes that are not UTF-8.
 pub(super) fn not_text(file: &str, bytes: &[u8], at: usize) -> Fault {
     let before = String::from_utf8_lossy(&bytes[..at]);
-    let cause = format!(
-        "byte 0x{:02x} is not UTF-8 text",
-        bytes.get(at).copied().unwrap_or_default()
-    );
+    let cause =
+        format!("byte 0x{:02x} is not UTF-8 text", bytes.get(at).copied().unwrap_or_default());
     Fault::new(
         file,
         Lines::of(&before).place(at),
@@ -154,9 +128,8 @@ pub(super) struct Lines<'t> {
 
 impl<'t> Lines<'t> {
     pub(super) fn of(text: &'t str) -> Lines<'t> {
-        let starts = std::iter::once(0)
-            .chain(text.match_indices('\n').map(|(at, _)| at + 1))
-            .collect();
+        let starts =
+            std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
         Lines { text, starts }
     }
 
@@ -174,10 +147,7 @@ impl<'t> Lines<'t> {
     /// The bytes of the line with the byte `at`, without the line end.
     pub(super) fn around(&self, at: usize) -> std::ops::Range<usize> {
         let line = self.starts.partition_point(|&start| start <= at).max(1);
-        let end = self
-            .starts
-            .get(line)
-            .map_or(self.text.len(), |&next| next - 1);
+        let end = self.starts.get(line).map_or(self.text.len(), |&next| next - 1);
         let start = self.starts[line - 1];
         start..start + self.text[start..end].trim_end_matches('\r').len()
     }

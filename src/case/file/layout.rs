@@ -105,10 +105,7 @@ impl Reader<'_> {
             }
             EventKind::StdTableClose => {
                 let path: Vec<String> = self.keys.drain(..).map(|(name, _)| name).collect();
-                self.open = vec![Table {
-                    path: path.clone(),
-                    ..Table::default()
-                }];
+                self.open = vec![Table { path: path.clone(), ..Table::default() }];
                 let span = self.header..span.end;
                 self.layout.headers.push(Header { path, span });
             }
@@ -121,11 +118,7 @@ impl Reader<'_> {
                     (own.value, own.is_table) = (span, true);
                     own.path.clone()
                 });
-                self.open.push(Table {
-                    path,
-                    entry,
-                    ..Table::default()
-                });
+                self.open.push(Table { path, entry, ..Table::default() });
             }
             EventKind::InlineTableClose if self.open.len() > 1 => {
                 let entry = self.open.pop().and_then(|table| table.entry);
@@ -137,8 +130,7 @@ impl Reader<'_> {
                 if let Some(table) = self.open.last_mut() {
                     table.comma = Some(span.start);
                     let last = table.last.and_then(|at| self.layout.entries.get_mut(at));
-                    last.into_iter()
-                        .for_each(|own| own.comma = Some(span.start));
+                    last.into_iter().for_each(|own| own.comma = Some(span.start));
                 }
             }
             _ => {}

@@ -26,21 +26,12 @@ impl Places {
     }
 
     pub(super) fn table(&self, name: &str) -> Option<&Range<usize>> {
-        self.tables
-            .iter()
-            .find(|(table, _)| table == name)
-            .map(|(_, span)| span)
+        self.tables.iter().find(|(table, _)| table == name).map(|(_, span)| span)
     }
 
     /// The place to report for a key: its value, its table, or the end.
     pub(super) fn offset(&self, key: &str) -> usize {
-        let table = || {
-            self.table(key.split('.').next().unwrap_or_default())
-                .map(|span| span.start)
-        };
-        self.entry(key)
-            .map(|place| place.value.start)
-            .or_else(table)
-            .unwrap_or(self.end)
+        let table = || self.table(key.split('.').next().unwrap_or_default()).map(|span| span.start);
+        self.entry(key).map(|place| place.value.start).or_else(table).unwrap_or(self.end)
     }
 }

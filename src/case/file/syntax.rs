@@ -38,10 +38,8 @@ pub(super) fn recover(source: &str) -> Recovered {
     let lines = Lines::of(source);
     for round in 0..ROUNDS {
         let (_, errors) = DeTable::parse_recoverable(&recovered.text);
-        let mut errors: Vec<(usize, Error)> = errors
-            .into_iter()
-            .map(|error| (start(&error, source), error))
-            .collect();
+        let mut errors: Vec<(usize, Error)> =
+            errors.into_iter().map(|error| (start(&error, source), error)).collect();
         errors.sort_by_key(|(at, _)| *at);
         // One broken line can have several errors, and a broken key can occur twice.
         errors.dedup_by(|(at, error), (before, other)| {
@@ -63,11 +61,9 @@ pub(super) fn recover(source: &str) -> Recovered {
         if slips.is_empty() || beyond > 0 || round + 1 == ROUNDS {
             recovered.more = beyond;
             recovered.tables_known &= slips.is_empty();
-            recovered.faults.extend(
-                doubles
-                    .iter()
-                    .map(|(at, error)| double(*at, error, &lines, source)),
-            );
+            recovered
+                .faults
+                .extend(doubles.iter().map(|(at, error)| double(*at, error, &lines, source)));
             break;
         }
         for (at, _) in &slips {
@@ -83,16 +79,13 @@ impl Recovered {
         self.tables_known &= !text.trim_start().starts_with('[');
         self.broken.push_str(text);
         self.broken.push('\n');
-        self.text
-            .replace_range(line.clone(), &" ".repeat(line.len()));
+        self.text.replace_range(line.clone(), &" ".repeat(line.len()));
     }
 }
 
 /// Whether the lines name the key.
 pub(super) fn names(lines: &str, key: &str) -> bool {
-    lines
-        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
-        .any(|word| word == key)
+    lines.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|word| word == key)
 }
 
 fn start(error: &Error, source: &str) -> usize {
@@ -114,19 +107,11 @@ fn first_of_each_line(errors: &[(usize, Error)], lines: &Lines<'_>, source: &str
 
 /// The error in terms of a case if the line belongs to a field, otherwise in terms of TOML.
 fn fault(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -> Found {
-    if let Some(control) = source[at..]
-        .chars()
-        .next()
-        .filter(|c| c.is_control() && !matches!(c, '\n' | '\r'))
+    if let Some(control) =
+        source[at..].chars().next().filter(|c| c.is_control() && !matches!(c, '\n' | '\r'))
     {
-        let cause = format!(
-            "control character {} in the text",
-            quoted(&control.to_string())
-        );
-        return Found::new(
-            at,
-            Problem::new(&field_name(source, &line), cause, "remove it"),
-        );
+        let cause = format!("control character {} in the text", quoted(&control.to_string()));
+        return Found::new(at, Problem::new(&field_name(source, &line), cause, "remove it"));
     }
     let text = &source[line.clone()];
     let field = key_and_value(text)
@@ -163,21 +148,14 @@ fn key_and_value(line: &str) -> Option<(&str, &str)> {
 }
 
 fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
-    let header = source[..line]
-        .lines()
-        .rev()
-        .find_map(|line| line.trim().strip_prefix('['));
+    let header = source[..line].lines().rev().find_map(|line| line.trim().strip_prefix('['));
     let table = header.map_or("", |rest| rest.split(']').next().unwrap_or_default().trim());
     let table = match table.strip_prefix("variants.") {
         Some(variant) => variant.split_once('.').map_or("", |(_, table)| table),
         None => table,
     };
     let key = key.trim_matches('"');
-    let path = if table.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{table}.{key}")
-    };
+    let path = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
     index_of(&path).map(|index| &FIELDS[index])
 }
 
@@ -192,10 +170,7 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
         );
     }
     if field.takes_auto() && value == AUTO {
-        return problem(
-            format!("{} is not in quotes", quoted(value)),
-            format!("write \"{AUTO}\""),
-        );
+        return problem(format!("{} is not in quotes", quoted(value)), format!("write \"{AUTO}\""));
     }
     let read = match field.kind {
         Kind::Number(dimension, ..) => units::parse(inner, dimension, field.usual_unit()),
@@ -207,10 +182,7 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
         Err(misread)
             if matches!(field.kind, Kind::Count(..)) && misread.fix.contains("such as") =>
         {
-            problem(
-                misread.cause,
-                format!("write a whole number, such as {}", field.example()),
-            )
+            problem(misread.cause, format!("write a whole number, such as {}", field.example()))
         }
         Err(misread) => problem(misread.cause, misread.fix),
         Ok(_) if field.is_flag() => problem(
@@ -235,38 +207,17 @@ const FIXES: [(&str, &str); 16] = [
     ("recurse", "a case has no nested arrays"),
     ("recursion", "a case has no nested arrays"),
     ("unclosed inline table", "close it with }"),
-    (
-        "key with no value",
-        "write key = value, or # in front of a comment",
-    ),
+    ("key with no value", "write key = value, or # in front of a comment"),
     ("extra `=`", "leave a single ="),
-    (
-        "invalid unquoted key",
-        "a key has only letters, digits, - and _",
-    ),
-    (
-        "string values must be quoted",
-        "put the value between quotes",
-    ),
+    ("invalid unquoted key", "a key has only letters, digits, - and _"),
+    ("string values must be quoted", "put the value between quotes"),
     ("multi-line basic string", "close the string with \"\"\""),
     ("multi-line literal string", "close the string with '''"),
-    (
-        "invalid basic string",
-        "close the string with \" on its line",
-    ),
-    (
-        "invalid literal string",
-        "close the string with ' on its line",
-    ),
-    (
-        "escape",
-        "write \\\\ for a backslash, or put the text between single quotes",
-    ),
+    ("invalid basic string", "close the string with \" on its line"),
+    ("invalid literal string", "close the string with ' on its line"),
+    ("escape", "write \\\\ for a backslash, or put the text between single quotes"),
     ("carriage return", "end lines with LF or CR LF"),
-    (
-        "unexpected key or value",
-        "only a # comment may follow a value on its line",
-    ),
+    ("unexpected key or value", "only a # comment may follow a value on its line"),
 ];
 
 fn in_general(error: &Error, field: &str) -> Problem {
@@ -285,17 +236,11 @@ fn is_double(error: &Error) -> bool {
 
 /// A key or table that occurs twice.
 fn double(at: usize, error: &Error, lines: &Lines<'_>, source: &str) -> Found {
-    let name = error
-        .span()
-        .and_then(|span| source.get(span))
-        .unwrap_or_default();
+    let name = error.span().and_then(|span| source.get(span)).unwrap_or_default();
     let line = lines.around(at);
     if source[line.clone()].trim_start().starts_with('[') {
         let cause = format!("the table {} appears twice", quoted(name));
-        return Found::new(
-            at,
-            Problem::new(name, cause, "put its keys under one header"),
-        );
+        return Found::new(at, Problem::new(name, cause, "put its keys under one header"));
     }
     let field = field_of(source, line.start, name).map_or(name, |field| field.key);
     Found::new(

@@ -57,10 +57,8 @@ fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
 
 // The error for a file that is not a link depends on the system.
 fn is_no_link(path: &Path, error: &io::Error) -> bool {
-    matches!(
-        error.kind(),
-        ErrorKind::InvalidInput | ErrorKind::NotFound | ErrorKind::NotADirectory
-    ) || fs::symlink_metadata(path).is_ok_and(|about| !about.is_symlink())
+    matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::NotFound | ErrorKind::NotADirectory)
+        || fs::symlink_metadata(path).is_ok_and(|about| !about.is_symlink())
 }
 
 /// Refuses what Linux refuses with `fs.protected_symlinks` and `fs.protected_regular`, after the link
@@ -87,9 +85,7 @@ fn place_of(path: &Path) -> io::Result<PathBuf> {
 }
 
 fn folder_of(path: &Path) -> &Path {
-    path.parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-        .unwrap_or(Path::new("."))
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// A file to write, after resolution of links, and its present state.
@@ -105,18 +101,12 @@ pub(super) fn target_of(path: &Path) -> Result<Target, SaveError> {
         Ok(old) => {
             refuse_planted(&target).map_err(|error| SaveError::Unwritable(name, error))?;
             replaceable(&target, &old, path)?;
-            Ok(Target {
-                path: target,
-                old: Some(old),
-            })
+            Ok(Target { path: target, old: Some(old) })
         }
         Err(error) if error.kind() == ErrorKind::NotFound && files::names_a_folder(path) => {
             Err(no_folder(path, &path.join("file"), error))
         }
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target {
-            path: target,
-            old: None,
-        }),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target { path: target, old: None }),
         Err(error) => Err(SaveError::Unwritable(name, error)),
     }
 }

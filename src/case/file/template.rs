@@ -29,21 +29,13 @@ impl Entry {
 pub(super) fn entries(case: &Case) -> Vec<Entry> {
     let fields = FIELDS.iter().enumerate().filter_map(|(index, field)| {
         let value = value(field, case.text(index)?);
-        Some(Entry {
-            table: field.table(),
-            name: field.name().to_owned(),
-            value,
-        })
+        Some(Entry { table: field.table(), name: field.name().to_owned(), value })
     });
-    let limits = case
-        .limits
-        .iter()
-        .filter(|limit| !limit.text.is_empty())
-        .map(|limited| Entry {
-            table: "limits",
-            name: limited.quantity.to_owned(),
-            value: limit(&limited.text),
-        });
+    let limits = case.limits.iter().filter(|limit| !limit.text.is_empty()).map(|limited| Entry {
+        table: "limits",
+        name: limited.quantity.to_owned(),
+        value: limit(&limited.text),
+    });
     let spread = case.spread.iter().map(|spread| Entry {
         table: "spread",
         name: format!("\"{}\"", spread.field),
@@ -71,11 +63,7 @@ pub(super) fn override_entry(change: &Override) -> (String, String) {
 }
 
 fn limit(text: &str) -> String {
-    if units::parse(text, Dimension::Number, "").is_ok() {
-        number(text)
-    } else {
-        string(text)
-    }
+    if units::parse(text, Dimension::Number, "").is_ok() { number(text) } else { string(text) }
 }
 
 fn distribution(shape: &str, width: &str) -> String {
@@ -95,9 +83,8 @@ pub(super) fn text(case: &Case, comments: &[(&str, String)]) -> String {
         }
         for (index, field) in FIELDS.iter().enumerate() {
             if field.table() == table {
-                let written = entries
-                    .iter()
-                    .find(|entry| entry.table == table && entry.name == field.name());
+                let written =
+                    entries.iter().find(|entry| entry.table == table && entry.name == field.name());
                 let line = written.map_or_else(|| unwritten(case, index), Entry::line);
                 let comments = comments.iter().filter(|(key, _)| *key == field.key);
                 let comments = comments.map(|(_, comment)| comment.as_str());
@@ -141,25 +128,14 @@ fn variants(variants: &[Variant]) -> String {
 /// A name as a key, with quotes if TOML needs them.
 pub(super) fn key_of(name: &str) -> String {
     let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || b"-_".contains(&byte);
-    if name.bytes().all(is_bare) {
-        name.to_owned()
-    } else {
-        string(name)
-    }
+    if name.bytes().all(is_bare) { name.to_owned() } else { string(name) }
 }
 
 fn described<'a>(field: &Field, line: &str, comments: impl Iterator<Item = &'a str>) -> String {
-    let symbol = if field.symbol.is_empty() {
-        String::new()
-    } else {
-        format!("{}: ", field.symbol)
-    };
+    let symbol =
+        if field.symbol.is_empty() { String::new() } else { format!("{}: ", field.symbol) };
     let range = field.range_text();
-    let range = if range.is_empty() {
-        range
-    } else {
-        format!(" [{range}]")
-    };
+    let range = if range.is_empty() { range } else { format!(" [{range}]") };
     let absent = match field.absent {
         Absent::Without(words) => format!(" Left out: {words}."),
         _ => String::new(),
@@ -168,10 +144,7 @@ fn described<'a>(field: &Field, line: &str, comments: impl Iterator<Item = &'a s
         let _ = writeln!(lines, "# {}", sanitize(comment));
         lines
     });
-    format!(
-        "# {symbol}{}{range}{absent}\n{comments}{line}\n",
-        field.help
-    )
+    format!("# {symbol}{}{range}{absent}\n{comments}{line}\n", field.help)
 }
 
 /// A field without a value: an empty text if required, otherwise an example as a comment.
@@ -183,24 +156,16 @@ fn unwritten(case: &Case, index: usize) -> String {
     if !case.lacks(index) || other.is_some_and(|other| other < index) {
         return format!("# {assignment}");
     }
-    let unless = other.map_or_else(String::new, |other| {
-        format!(" unless {} is given", FIELDS[other].name())
-    });
+    let unless = other
+        .map_or_else(String::new, |other| format!(" unless {} is given", FIELDS[other].name()));
     format!("{name} = \"\"  # required{unless}, such as {example}")
 }
 
 fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
     let mut text = format!("\n# {help}\n[{table}]\n");
-    let lines: Vec<String> = entries
-        .iter()
-        .filter(|entry| entry.table == table)
-        .map(Entry::line)
-        .collect();
-    let lines = if lines.is_empty() {
-        format!("# {example}")
-    } else {
-        lines.join("\n")
-    };
+    let lines: Vec<String> =
+        entries.iter().filter(|entry| entry.table == table).map(Entry::line).collect();
+    let lines = if lines.is_empty() { format!("# {example}") } else { lines.join("\n") };
     let _ = writeln!(text, "{lines}");
     text
 }
@@ -230,12 +195,10 @@ fn number(text: &str) -> String {
 
 fn is_toml_number(text: &str) -> bool {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let (mantissa, exponent) = unsigned
-        .split_once(['e', 'E'])
-        .map_or((unsigned, None), |(a, b)| (a, Some(b)));
-    let (whole, fraction) = mantissa
-        .split_once('.')
-        .map_or((mantissa, None), |(a, b)| (a, Some(b)));
+    let (mantissa, exponent) =
+        unsigned.split_once(['e', 'E']).map_or((unsigned, None), |(a, b)| (a, Some(b)));
+    let (whole, fraction) =
+        mantissa.split_once('.').map_or((mantissa, None), |(a, b)| (a, Some(b)));
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let exponent = exponent.map(|text| text.strip_prefix(['+', '-']).unwrap_or(text));
     digits(whole)

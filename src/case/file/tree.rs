@@ -46,12 +46,7 @@ pub(super) fn read_newer(text: &str) -> Reading {
     if recovered.tables_known {
         reader.tables(tree.get_ref());
     }
-    Reading {
-        case: reader.case,
-        places: reader.places,
-        faults: Vec::new(),
-        more: 0,
-    }
+    Reading { case: reader.case, places: reader.places, faults: Vec::new(), more: 0 }
 }
 
 /// Reads a text. Recovers from syntax errors if possible.
@@ -75,12 +70,7 @@ pub(super) fn read(text: &str) -> Reading {
         reader.faults.extend(recovered.faults);
         reader.more += recovered.more + unread;
     }
-    Reading {
-        case: reader.case,
-        places: reader.places,
-        faults: reader.faults,
-        more: reader.more,
-    }
+    Reading { case: reader.case, places: reader.places, faults: reader.faults, more: reader.more }
 }
 
 struct Reader {
@@ -95,17 +85,8 @@ struct Reader {
 
 impl Reader {
     fn of(text: &str) -> Reader {
-        let places = Places {
-            end: text.len(),
-            ..Places::default()
-        };
-        Reader {
-            case: Case::empty(),
-            places,
-            faults: Vec::new(),
-            more: 0,
-            wrong: Vec::new(),
-        }
+        let places = Places { end: text.len(), ..Places::default() };
+        Reader { case: Case::empty(), places, faults: Vec::new(), more: 0, wrong: Vec::new() }
     }
 
     fn root(&mut self, root: &DeTable<'_>) {
@@ -178,17 +159,10 @@ impl Reader {
     fn table(&mut self, key: Key<'_, '_>, value: Value<'_, '_>) {
         let name = key.get_ref().as_ref();
         let Some(table) = value.get_ref().as_table() else {
-            let cause = format!(
-                "expected the table [{name}], found {}",
-                kind_of(value.get_ref())
-            );
+            let cause = format!("expected the table [{name}], found {}", kind_of(value.get_ref()));
             self.fault(
                 value.span().start,
-                Problem::new(
-                    name,
-                    cause,
-                    format!("write [{name}] on a line of its own, once"),
-                ),
+                Problem::new(name, cause, format!("write [{name}] on a line of its own, once")),
             );
             let belongs = |field: &usize| FIELDS[*field].table() == name;
             self.wrong.extend((0..FIELDS.len()).filter(belongs));
@@ -264,11 +238,8 @@ impl Reader {
         self.note(&place, value);
         let bare = known.unit == "1";
         let example = format!("{name} = {}", limit_by_example(known));
-        let written = if bare {
-            bare_number(value.get_ref(), &example)
-        } else {
-            measure(value.get_ref())
-        };
+        let written =
+            if bare { bare_number(value.get_ref(), &example) } else { measure(value.get_ref()) };
         let taken = match written {
             Ok(text) => Limit::new(name, &text),
             Err(misread) => {
@@ -297,20 +268,14 @@ impl Reader {
     fn distribution(&mut self, path: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
         let place = spread::place(path);
         if index_of(path).is_none() {
-            return self.unknown(key, || Problem {
-                field: place,
-                ..check::unknown_key(path)
-            });
+            return self.unknown(key, || Problem { field: place, ..check::unknown_key(path) });
         }
         let table = value.get_ref().as_table();
         self.note(&place, value);
         let only = table.and_then(|table| table.iter().next().filter(|_| table.len() == 1));
         let taken = match only.map(|(shape, width)| (shape.get_ref(), scalar(width.get_ref()))) {
             Some((shape, Some(width))) => Spread::new(path, shape, &width),
-            found => Err(Spread::malformed(
-                path,
-                found.map(|(shape, _)| shape.as_ref()),
-            )),
+            found => Err(Spread::malformed(path, found.map(|(shape, _)| shape.as_ref()))),
         };
         match taken {
             Ok(spread) => self.case.spread.push(spread),
@@ -329,18 +294,12 @@ impl Reader {
         for problem in problems {
             let is_missing = index_of(&problem.field).is_some_and(|field| self.case.lacks(field));
             let found = Found::new(self.places.offset(&problem.field), problem);
-            self.faults.push(Found {
-                is_missing,
-                ..found
-            });
+            self.faults.push(Found { is_missing, ..found });
         }
     }
 
     fn note(&mut self, path: &str, value: Value<'_, '_>) {
-        self.places.entries.push(Place {
-            key: path.to_owned(),
-            value: value.span(),
-        });
+        self.places.entries.push(Place { key: path.to_owned(), value: value.span() });
     }
 
     /// Suggests a known key for the first faults only, because the search is slow.
@@ -371,18 +330,12 @@ fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>
 
 /// A key with the name of its table.
 fn joined(table: &str, name: &str) -> String {
-    if table.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{table}.{name}")
-    }
+    if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") }
 }
 
 fn is_table(name: &str) -> bool {
     matches!(name, "limits" | "spread" | "variants")
-        || GROUPS
-            .iter()
-            .any(|(group, _)| *group == name && !name.is_empty())
+        || GROUPS.iter().any(|(group, _)| *group == name && !name.is_empty())
 }
 
 /// An example of a limit of the quantity.

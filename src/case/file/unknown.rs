@@ -5,9 +5,7 @@ use crate::case::sanitize::quoted;
 use crate::case::{Problem, suggest};
 
 /// Common names of the two gears.
-const GEARS: [&str; 8] = [
-    "pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2",
-];
+const GEARS: [&str; 8] = ["pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2"];
 
 /// The refusal of an unknown name at the top of the file.
 pub(super) fn unknown_at_top(name: &str) -> Problem {
@@ -37,10 +35,7 @@ pub(super) fn unknown_at_top(name: &str) -> Problem {
 
 /// The refusal of an unknown name in a table.
 pub(super) fn unknown_in_table(table: &str, name: &str) -> Problem {
-    let here = FIELDS
-        .iter()
-        .filter(|field| field.table() == table)
-        .map(Field::name);
+    let here = FIELDS.iter().filter(|field| field.table() == table).map(Field::name);
     let elsewhere = || {
         FIELDS
             .iter()
@@ -49,15 +44,8 @@ pub(super) fn unknown_in_table(table: &str, name: &str) -> Problem {
     };
     let fix = elsewhere().unwrap_or_else(|| {
         suggest::fix(name, here.clone(), || {
-            format!(
-                "[{table}] has {}",
-                here.clone().collect::<Vec<_>>().join(", ")
-            )
+            format!("[{table}] has {}", here.clone().collect::<Vec<_>>().join(", "))
         })
     });
-    Problem::new(
-        &format!("{table}.{name}"),
-        format!("unknown key {}", quoted(name)),
-        fix,
-    )
+    Problem::new(&format!("{table}.{name}"), format!("unknown key {}", quoted(name)), fix)
 }

@@ -70,10 +70,7 @@ pub(super) fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> ParseEr
 }
 
 pub(super) fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> ParseError {
-    ParseError::new(
-        format!("expected {due}, found {}", kind_of(value)),
-        format!("write {example}"),
-    )
+    ParseError::new(format!("expected {due}, found {}", kind_of(value)), format!("write {example}"))
 }
 
 pub(super) fn kind_of(value: &DeValue<'_>) -> &'static str {

@@ -16,20 +16,14 @@ const MOST_FILES: usize = 1000;
 
 /// The text of a model.
 pub(super) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Refusal> {
-    let bytes = if bytes.starts_with(ZIP) {
-        Cow::Owned(unpacked(bytes)?)
-    } else {
-        Cow::Borrowed(bytes)
-    };
+    let bytes =
+        if bytes.starts_with(ZIP) { Cow::Owned(unpacked(bytes)?) } else { Cow::Borrowed(bytes) };
     let text = match bytes {
         Cow::Borrowed(bytes) => std::str::from_utf8(bytes).map(Cow::Borrowed).ok(),
         Cow::Owned(bytes) => String::from_utf8(bytes).map(Cow::Owned).ok(),
     };
     text.ok_or_else(|| {
-        Refusal::new(
-            "the text of the model is not UTF-8",
-            "export the model as UTF-8",
-        )
+        Refusal::new("the text of the model is not UTF-8", "export the model as UTF-8")
     })
 }
 
@@ -59,16 +53,11 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
     let file = archive.by_name(model).map_err(|error| damaged(&error))?;
     let mut text = Vec::new();
     // The size in the directory can be wrong, so the bytes are counted.
-    let read = file
-        .take(MOST_MODEL_BYTES as u64 + 1)
-        .read_to_end(&mut text);
+    let read = file.take(MOST_MODEL_BYTES as u64 + 1).read_to_end(&mut text);
     read.map_err(|error| damaged(&ZipError::Io(error)))?;
     if text.len() > MOST_MODEL_BYTES {
         return Err(Refusal::new(
-            format!(
-                "the model is longer than {} MiB unpacked",
-                MOST_MODEL_BYTES >> 20
-            ),
+            format!("the model is longer than {} MiB unpacked", MOST_MODEL_BYTES >> 20),
             "export the model without results",
         ));
     }
@@ -77,9 +66,7 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
 
 fn is_model(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
-    [".rexs", ".rexsj", ".xml", ".json"]
-        .iter()
-        .any(|ending| name.ends_with(ending))
+    [".rexs", ".rexsj", ".xml", ".json"].iter().any(|ending| name.ends_with(ending))
 }
 
 fn damaged(error: &ZipError) -> Refusal {

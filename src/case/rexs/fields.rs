@@ -11,19 +11,14 @@ use crate::case::units::{self, Dimension};
 pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], values: &mut Values) {
     let [driver, driven] = gears.map(|gear| Gear::new(model, gear));
     let module = Wanted::length("normal_module");
-    let module = values.shared("pair.module", module, [&driver, &driven], |gear| {
-        module.read(gear.component)
-    });
+    let module = values
+        .shared("pair.module", module, [&driver, &driven], |gear| module.read(gear.component));
     let angle = Wanted::new("normal_pressure_angle", Dimension::Angle, "deg");
-    let angle = values.shared("pair.pressure_angle", angle, [&driver, &driven], |gear| {
-        gear.of_flanks(angle)
-    });
+    let angle = values
+        .shared("pair.pressure_angle", angle, [&driver, &driven], |gear| gear.of_flanks(angle));
     values.put(
         "pair.centre_distance",
-        found(
-            Wanted::length("center_distance").read(stage),
-            "the model gives no center_distance",
-        ),
+        found(Wanted::length("center_distance").read(stage), "the model gives no center_distance"),
     );
     for (keys, gear) in [(&DRIVER, &driver), (&DRIVEN, &driven)] {
         body(values, keys, gear, module);
@@ -70,11 +65,7 @@ fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) {
     let own = |wanted: Wanted| found(wanted.read(gear.component), &none(wanted.id));
     values.put(keys.teeth, own(TEETH));
     let shift = profile_shift(gear, module);
-    values.put_equal(
-        keys.profile_shift,
-        shift,
-        "addendum_modification_coefficient",
-    );
+    values.put_equal(keys.profile_shift, shift, "addendum_modification_coefficient");
     values.put(keys.face_width, own(Wanted::length("face_width")));
     let bore = Wanted::length("inner_diameter").read(gear.component);
     let radius = bore.map(|bore| bore.map(|bore| derived(&bore, 0.5, "mm", "half of")));
@@ -84,18 +75,9 @@ fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) {
         let reading = wanted.first(gear.materials.iter().copied());
         found(reading, &format!("no material of the gear has {id}"))
     };
-    values.put(
-        keys.young,
-        of_material("elastic_modulus", Dimension::Pressure, "MPa"),
-    );
-    values.put(
-        keys.poisson,
-        of_material("poisson_ratio", Dimension::Number, ""),
-    );
-    values.put(
-        keys.density,
-        of_material("density", Dimension::Density, "kg/dm3"),
-    );
+    values.put(keys.young, of_material("elastic_modulus", Dimension::Pressure, "MPa"));
+    values.put(keys.poisson, of_material("poisson_ratio", Dimension::Number, ""));
+    values.put(keys.density, of_material("density", Dimension::Density, "kg/dm3"));
     let chamfer = gear.of_flanks(Wanted::length("tooth_tip_chamfer"));
     values.put(keys.tip_chamfer, found(chamfer, &none("tooth_tip_chamfer")));
 }
@@ -167,35 +149,22 @@ const PITCH_DEVIATIONS_OF_STAGE: [&str; 2] = [
 
 fn deviations(values: &mut Values, stage: &Component, gears: [&Gear; 2]) {
     let micrometres = |id| Wanted::new(id, Dimension::Length, "um");
-    let of_stage = PITCH_DEVIATIONS_OF_STAGE
-        .iter()
-        .map(|id| micrometres(id).read(stage));
+    let of_stage = PITCH_DEVIATIONS_OF_STAGE.iter().map(|id| micrometres(id).read(stage));
     let of_gears = || {
         let deviation = micrometres("base_pitch_deviation_din_3962_1978");
         let [first, second] = gears.map(|gear| deviation.read(gear.component));
         Ok(greater(first?, second?))
     };
     let deviation = of_stage
-        .reduce(|first, next| {
-            if matches!(first, Ok(None)) {
-                next
-            } else {
-                first
-            }
-        })
+        .reduce(|first, next| if matches!(first, Ok(None)) { next } else { first })
         .filter(|reading| !matches!(reading, Ok(None)))
         .unwrap_or_else(of_gears);
-    values.put(
-        "deviations.base_pitch",
-        found(deviation, "the model gives no base pitch deviation"),
-    );
+    values
+        .put("deviations.base_pitch", found(deviation, "the model gives no base pitch deviation"));
     let least = Wanted::length("minimum_normal_backlash").read(stage);
     let greatest = Wanted::length("maximum_normal_backlash").read(stage);
     let backlash = least.and_then(|least| agreed(least, greatest?));
-    values.put(
-        "deviations.backlash",
-        found(backlash, "the model gives no normal backlash"),
-    );
+    values.put("deviations.backlash", found(backlash, "the model gives no normal backlash"));
 }
 
 fn greater(first: Option<Reading>, second: Option<Reading>) -> Option<Reading> {

@@ -30,10 +30,8 @@ impl<'a> Gear<'a> {
     /// A value that both flanks must share, or the value of the gear itself.
     pub(super) fn of_flanks(&self, wanted: Wanted) -> Result<Option<Reading>, Problem> {
         let [left, right] = &self.flanks;
-        let reading = agreed(
-            wanted.first(left.iter().copied())?,
-            wanted.first(right.iter().copied())?,
-        )?;
+        let reading =
+            agreed(wanted.first(left.iter().copied())?, wanted.first(right.iter().copied())?)?;
         reading.map_or_else(|| wanted.read(self.component), |reading| Ok(Some(reading)))
     }
 }

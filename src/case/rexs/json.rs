@@ -15,11 +15,8 @@ pub(super) fn parse(text: &str) -> Result<Model, Refusal> {
     let file: File = serde_json::from_str(text).map_err(|error| {
         let words = error.to_string();
         let cause = words.split(" at line ").next().unwrap_or(&words);
-        Refusal::new(
-            format!("this is not a REXS model in JSON: {cause}"),
-            "export the model again",
-        )
-        .at(error.line(), error.column())
+        Refusal::new(format!("this is not a REXS model in JSON: {cause}"), "export the model again")
+            .at(error.line(), error.column())
     })?;
     Ok(file.model)
 }

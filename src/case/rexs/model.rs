@@ -159,11 +159,7 @@ impl Model {
         let groups = loads.chunk_by(|&a, &b| self.id_of_load(a) == self.id_of_load(b));
         let most = groups.map(<[_]>::len).max().unwrap_or_default();
         within(most, MOST_OF_COMPONENT, "load cases of one component")?;
-        self.index = Index {
-            components,
-            refs,
-            loads,
-        };
+        self.index = Index { components, refs, loads };
         Ok(self)
     }
 
@@ -209,11 +205,7 @@ impl Model {
     }
 
     pub(super) fn component(&self, id: &str) -> Option<&Component> {
-        let found = of_id(
-            &self.index.components,
-            |&at| self.components[at].id.as_str(),
-            id,
-        );
+        let found = of_id(&self.index.components, |&at| self.components[at].id.as_str(), id);
         found.first().map(|&at| &self.components[at])
     }
 
@@ -265,9 +257,7 @@ impl Model {
 /// Each entry of several lists by its list and its position there.
 fn places(lengths: impl Iterator<Item = usize>) -> Vec<(usize, usize)> {
     let lists = lengths.enumerate();
-    lists
-        .flat_map(|(list, length)| (0..length).map(move |at| (list, at)))
-        .collect()
+    lists.flat_map(|(list, length)| (0..length).map(move |at| (list, at))).collect()
 }
 
 impl Relation {
@@ -308,7 +298,5 @@ impl Component {
 
 /// An attribute with a value.
 pub(super) fn find<'a>(attributes: &'a [Attribute], id: &str) -> Option<&'a Attribute> {
-    attributes
-        .iter()
-        .find(|attribute| attribute.id == id && !attribute.value.is_empty())
+    attributes.iter().find(|attribute| attribute.id == id && !attribute.value.is_empty())
 }

@@ -61,10 +61,7 @@ pub(super) fn read(model: &Model, stage: &str, gears: [&Component; 2], values: &
     };
     values.put(
         "operation.speed",
-        found(
-            speed(model, gears, ratio),
-            "neither gear nor its shaft has a rotational_speed",
-        ),
+        found(speed(model, gears, ratio), "neither gear nor its shaft has a rotational_speed"),
     );
     match load(model, stage, gears, ratio) {
         Ok(Some((key, reading))) => values.put(key, reading.found()),
@@ -162,11 +159,7 @@ fn is_acting(reading: &Reading) -> bool {
 fn transferred(reading: Reading, factor: f64, unit: &str) -> Reading {
     if (factor - 1.0).abs() < f64::EPSILON {
         let text = reading.text.trim_start_matches(['-', '+']).to_owned();
-        return Reading {
-            text,
-            value: reading.value.abs(),
-            ..reading
-        };
+        return Reading { text, value: reading.value.abs(), ..reading };
     }
     let value = (reading.value * factor).abs();
     Reading {

@@ -25,26 +25,15 @@ pub(super) fn within(count: usize, most: usize, parts: &str) -> Result<(), Refus
 
 impl Refusal {
     pub(super) fn new(cause: impl Into<String>, fix: impl Into<String>) -> Refusal {
-        Refusal {
-            file: String::new(),
-            place: None,
-            cause: cause.into(),
-            fix: fix.into(),
-        }
+        Refusal { file: String::new(), place: None, cause: cause.into(), fix: fix.into() }
     }
 
     pub(super) fn at(self, line: usize, column: usize) -> Refusal {
-        Refusal {
-            place: Some((line, column)),
-            ..self
-        }
+        Refusal { place: Some((line, column)), ..self }
     }
 
     pub(super) fn of(self, file: &str) -> Refusal {
-        Refusal {
-            file: file.to_owned(),
-            ..self
-        }
+        Refusal { file: file.to_owned(), ..self }
     }
 }
 

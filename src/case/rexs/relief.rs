@@ -16,13 +16,8 @@ pub(super) fn read(
 ) {
     let tip = of_flanks(model, gear, "tip_relief");
     let root = of_flanks(model, gear, "root_relief");
-    let depth = both(&tip, |relief| {
-        Wanted::length("tip_relief_depth").read(relief)
-    });
-    values.put(
-        keys.tip_relief,
-        found(depth, "the model gives no tip relief"),
-    );
+    let depth = both(&tip, |relief| Wanted::length("tip_relief_depth").read(relief));
+    values.put(keys.tip_relief, found(depth, "the model gives no tip relief"));
     if tip.iter().flatten().next().is_some() {
         let diameter = Wanted::length("tip_diameter").read(gear.component);
         let diameter = diameter.ok().flatten().map(|diameter| diameter.value);
@@ -30,20 +25,12 @@ pub(super) fn read(
         let missing = "the model gives neither its length nor its start diameter";
         values.put(keys.tip_relief_length, found(length, missing));
     }
-    let depth = both(&root, |relief| {
-        Wanted::length("root_relief_depth").read(relief)
-    });
-    values.put(
-        keys.root_relief,
-        found(depth, "the model gives no root relief"),
-    );
+    let depth = both(&root, |relief| Wanted::length("root_relief_depth").read(relief));
+    values.put(keys.root_relief, found(depth, "the model gives no root relief"));
     if root.iter().flatten().next().is_some() {
         let wanted = Wanted::length("root_relief_datum_length");
         let length = both(&root, |relief| wanted.read(relief));
-        values.put(
-            keys.root_relief_length,
-            found(length, "the model gives no length"),
-        );
+        values.put(keys.root_relief_length, found(length, "the model gives no length"));
     }
     for relief in tip.iter().chain(&root).flatten() {
         shape(relief, values);
@@ -55,10 +42,8 @@ fn of_flanks<'a>(model: &'a Model, gear: &Gear<'a>, kind: &'a str) -> [Vec<&'a C
     let of_gear: Vec<&Component> = model.linked(&gear.component.id, kind).collect();
     let [left, right] = &gear.flanks;
     [left, right].map(|flank| {
-        let own: Vec<&Component> = flank
-            .iter()
-            .flat_map(|part| model.linked(&part.id, kind))
-            .collect();
+        let own: Vec<&Component> =
+            flank.iter().flat_map(|part| model.linked(&part.id, kind)).collect();
         if own.is_empty() { of_gear.clone() } else { own }
     })
 }
@@ -72,10 +57,7 @@ fn both<E: Into<String>>(
     let only = |flank: &[&Component]| match flank {
         [] => Ok(None),
         [only] => read(only).map_err(Into::into),
-        [first, ..] => Err(format!(
-            "{} is not the only relief of its flank",
-            first.label()
-        )),
+        [first, ..] => Err(format!("{} is not the only relief of its flank", first.label())),
     };
     match (left.is_empty(), right.is_empty()) {
         (true, false) | (false, true) => Err("only one flank has the relief".to_owned()),
@@ -116,14 +98,10 @@ fn shape(relief: &Component, values: &mut Values) {
     };
     let source = format!("shape_of_relief of {}", relief.label());
     let found = match shape.value.as_str() {
-        "linear" | "parabolic" => Found::Value {
-            text: shape.value.clone(),
-            source,
-        },
-        other => Found::Absent(format!(
-            "{source} is {}; a case has linear or parabolic",
-            quoted(other)
-        )),
+        "linear" | "parabolic" => Found::Value { text: shape.value.clone(), source },
+        other => {
+            Found::Absent(format!("{source} is {}; a case has linear or parabolic", quoted(other)))
+        }
     };
     values.put_once(KEY, found);
 }

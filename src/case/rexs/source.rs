@@ -35,10 +35,7 @@ impl From<Problem> for String {
 
 impl Problem {
     fn unreadable(words: String) -> Problem {
-        Problem {
-            words,
-            is_unequal: false,
-        }
+        Problem { words, is_unequal: false }
     }
 }
 
@@ -83,10 +80,7 @@ pub(super) struct Reading {
 impl Reading {
     /// The reading as a value of a field.
     pub(super) fn found(self) -> Found {
-        Found::Value {
-            text: self.text,
-            source: self.source,
-        }
+        Found::Value { text: self.text, source: self.source }
     }
 }
 
@@ -100,11 +94,7 @@ pub(super) struct Wanted {
 
 impl Wanted {
     pub(super) const fn new(id: &'static str, dimension: Dimension, unit: &'static str) -> Wanted {
-        Wanted {
-            id,
-            dimension,
-            unit,
-        }
+        Wanted { id, dimension, unit }
     }
 
     pub(super) const fn number(id: &'static str) -> Wanted {
@@ -131,9 +121,7 @@ impl Wanted {
                 quoted(&other.value),
             )));
         }
-        first
-            .map(|attribute| self.reading(attribute, &component.label()))
-            .transpose()
+        first.map(|attribute| self.reading(attribute, &component.label())).transpose()
     }
 
     /// The value of an attribute of the labelled component.
@@ -144,11 +132,7 @@ impl Wanted {
         let source = format!("{} of {label}", self.id);
         let (text, value) = units::read(attribute, self.dimension, self.unit)
             .map_err(|cause| Problem::unreadable(format!("{source}: {cause}")))?;
-        Ok(Reading {
-            text,
-            value,
-            source,
-        })
+        Ok(Reading { text, value, source })
     }
 
     /// The value of the first component that has it.

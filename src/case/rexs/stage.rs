@@ -66,21 +66,13 @@ impl Stage {
     /// The id and the name of the stage.
     #[must_use]
     pub fn label(&self) -> String {
-        if self.name.is_empty() {
-            self.id.clone()
-        } else {
-            format!("{} {:?}", self.id, self.name)
-        }
+        if self.name.is_empty() { self.id.clone() } else { format!("{} {:?}", self.id, self.name) }
     }
 
     /// A title for the case of the stage.
     #[must_use]
     pub fn title(&self) -> String {
-        if self.name.is_empty() {
-            format!("Stage {}", self.id)
-        } else {
-            self.name.clone()
-        }
+        if self.name.is_empty() { format!("Stage {}", self.id) } else { self.name.clone() }
     }
 }
 
@@ -136,28 +128,20 @@ fn cylindrical(model: &Model, stage: &Component) -> Kind {
         let teeth = TEETH.read(gear).ok().flatten();
         teeth.map_or("unknown".to_owned(), |teeth| teeth.text)
     });
-    Kind::Spur {
-        gears: gears.map(|gear| gear.id.clone()),
-        teeth: teeth.join("/"),
-    }
+    Kind::Spur { gears: gears.map(|gear| gear.id.clone()), teeth: teeth.join("/") }
 }
 
 pub(super) const TEETH: Wanted = Wanted::number("number_of_teeth");
 
-const HELIX: [&str; 3] = [
-    "helix_angle_reference_diameter",
-    "helix_angle_base_diameter",
-    "helix_angle_base_circle",
-];
+const HELIX: [&str; 3] =
+    ["helix_angle_reference_diameter", "helix_angle_base_diameter", "helix_angle_base_circle"];
 
 /// The helix angle if it is not zero or cannot be read. A model can have a rounded zero.
 fn helix(gear: &Component) -> Option<String> {
     const NONE: f64 = 1e-8;
-    HELIX.iter().find_map(
-        |&id| match Wanted::new(id, Dimension::Angle, "deg").read(gear) {
-            Ok(Some(angle)) if angle.value.abs() > NONE => Some(angle.text),
-            Ok(_) => None,
-            Err(_) => gear.attribute(id).map(|angle| cut(&angle.value)),
-        },
-    )
+    HELIX.iter().find_map(|&id| match Wanted::new(id, Dimension::Angle, "deg").read(gear) {
+        Ok(Some(angle)) if angle.value.abs() > NONE => Some(angle.text),
+        Ok(_) => None,
+        Err(_) => gear.attribute(id).map(|angle| cut(&angle.value)),
+    })
 }

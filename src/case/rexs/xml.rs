@@ -32,10 +32,7 @@ pub(super) fn parse(text: &str) -> Result<Model, Refusal> {
 }
 
 fn malformed(cause: &dyn std::fmt::Display) -> Refusal {
-    Refusal::new(
-        format!("this is not XML: {cause}"),
-        "export the model again",
-    )
+    Refusal::new(format!("this is not XML: {cause}"), "export the model again")
 }
 
 fn placed(refusal: Refusal, text: &str, start: u64) -> Refusal {
@@ -72,10 +69,7 @@ const NAMES: [&str; 9] = [
 
 impl State {
     fn read(&mut self, event: &Event) -> Result<(), Refusal> {
-        if matches!(
-            event,
-            Event::Start(_) | Event::Empty(_) | Event::GeneralRef(_)
-        ) {
+        if matches!(event, Event::Start(_) | Event::Empty(_) | Event::GeneralRef(_)) {
             self.elements += 1;
             within(self.elements, MOST_ELEMENTS, "elements and references")?;
         }
@@ -152,38 +146,27 @@ impl State {
                 model.application_version = text("applicationVersion")?;
             }
             ["model", "components", "component"] => model.components.push(component()?),
-            ["model", "relations", "relation"] => model.relations.push(Relation {
-                kind: text("type")?,
-                refs: Vec::new(),
-            }),
+            ["model", "relations", "relation"] => {
+                model.relations.push(Relation { kind: text("type")?, refs: Vec::new() })
+            }
             ["model", "relations", "relation", "ref"] => {
                 if let Some(relation) = model.relations.last_mut() {
                     let (role, id) = (text("role")?, text("id")?);
                     relation.refs.push(Ref { role, id });
                 }
             }
-            ["model", "load_spectrum", "load_case"] => model.load_cases.push(LoadCase {
-                id: text("id")?,
-                components: Vec::new(),
-            }),
+            ["model", "load_spectrum", "load_case"] => {
+                model.load_cases.push(LoadCase { id: text("id")?, components: Vec::new() })
+            }
             ["model", "load_spectrum", "load_case", "component"] => {
                 if let Some(case) = model.load_cases.last_mut() {
                     case.components.push(component()?);
                 }
             }
             ["model", "components", "component", "attribute"]
-            | [
-                "model",
-                "load_spectrum",
-                "load_case",
-                "component",
-                "attribute",
-            ] => {
-                self.attribute = Some(Attribute {
-                    id: text("id")?,
-                    unit: text("unit")?,
-                    value: String::new(),
-                });
+            | ["model", "load_spectrum", "load_case", "component", "attribute"] => {
+                self.attribute =
+                    Some(Attribute { id: text("id")?, unit: text("unit")?, value: String::new() });
                 return Ok(());
             }
             _ => {

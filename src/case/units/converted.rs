@@ -30,10 +30,7 @@ pub fn converted(
     let digits = (typed_digits(digits) + 1).clamp(LEAST_DIGITS, MOST_DIGITS);
     let written = find(unit, units_of(dimension))?.symbol;
     let usual = system.unit(usual);
-    let beside = BESIDE
-        .iter()
-        .find(|(unit, _)| *unit == usual)
-        .map(|(_, si)| *si);
+    let beside = BESIDE.iter().find(|(unit, _)| *unit == usual).map(|(_, si)| *si);
     let text: Vec<String> = std::iter::once(usual)
         .chain(beside)
         .filter(|unit| *unit != written)
@@ -54,9 +51,8 @@ fn rounded(value: f64, unit: &str, digits: usize) -> String {
     let exact = text(value, unit);
     let number = exact.split(' ').next().unwrap_or_default();
     let short = significant(number.parse().unwrap_or(f64::NAN), digits);
-    let (mantissa, exponent) = short
-        .find('e')
-        .map_or((short.as_str(), ""), |at| short.split_at(at));
+    let (mantissa, exponent) =
+        short.find('e').map_or((short.as_str(), ""), |at| short.split_at(at));
     let plain = if mantissa.contains('.') {
         mantissa.trim_end_matches('0').trim_end_matches('.')
     } else {
@@ -98,29 +94,17 @@ mod tests {
         let speed = |typed| metric(typed, Dimension::AngularVelocity, "rpm");
         assert_eq!(speed("2000 rpm").as_deref(), Some("= 209.44 rad/s"));
         assert_eq!(speed("2000 1/min").as_deref(), Some("= 209.44 rad/s"));
-        assert_eq!(
-            speed("10 rev/s").as_deref(),
-            Some("= 600 rpm = 62.832 rad/s")
-        );
+        assert_eq!(speed("10 rev/s").as_deref(), Some("= 600 rpm = 62.832 rad/s"));
         assert_eq!(speed("100 rad/s").as_deref(), Some("= 954.93 rpm"));
-        assert_eq!(
-            metric("20 deg", Dimension::Angle, "deg").as_deref(),
-            Some("= 0.34907 rad")
-        );
+        assert_eq!(metric("20 deg", Dimension::Angle, "deg").as_deref(), Some("= 0.34907 rad"));
     }
 
     #[test]
     fn in_inch_units_the_inch_unit_is_the_usual_one() {
         let inch = |typed, dimension, usual| converted(typed, dimension, usual, System::Inch);
-        assert_eq!(
-            inch("5 mm", Dimension::Length, "mm").as_deref(),
-            Some("= 0.19685 in")
-        );
+        assert_eq!(inch("5 mm", Dimension::Length, "mm").as_deref(), Some("= 0.19685 in"));
         assert_eq!(inch("0.2 in", Dimension::Length, "mm"), None);
-        assert_eq!(
-            inch("16 um", Dimension::Length, "um").as_deref(),
-            Some("= 0.62992 thou")
-        );
+        assert_eq!(inch("16 um", Dimension::Length, "um").as_deref(), Some("= 0.62992 thou"));
         assert_eq!(
             inch("2000 rpm", Dimension::AngularVelocity, "rpm").as_deref(),
             Some("= 209.44 rad/s")

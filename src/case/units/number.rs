@@ -27,20 +27,14 @@ pub(super) fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str)
 
 /// Whether the unit is a reciprocal: 1/min, 1 / min.
 fn is_reciprocal(unit: &str) -> bool {
-    unit.strip_prefix('1')
-        .is_some_and(|rest| rest.trim_start().starts_with('/'))
+    unit.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'))
 }
 
 /// Length in bytes of the number at the start. 0 without a number.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
-    let digits = |from: usize| {
-        bytes
-            .iter()
-            .skip(from)
-            .take_while(|byte| byte.is_ascii_digit())
-            .count()
-    };
+    let digits =
+        |from: usize| bytes.iter().skip(from).take_while(|byte| byte.is_ascii_digit()).count();
     let mut at = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
     let whole = digits(at);
     at += whole;
@@ -55,11 +49,7 @@ fn number_length(text: &str) -> usize {
     if let Some(b'e' | b'E') = bytes.get(at) {
         let signed = usize::from(matches!(bytes.get(at + 1), Some(b'+' | b'-')));
         let exponent = digits(at + 1 + signed);
-        at += if exponent > 0 {
-            1 + signed + exponent
-        } else {
-            0
-        };
+        at += if exponent > 0 { 1 + signed + exponent } else { 0 };
     }
     at
 }
@@ -74,27 +64,15 @@ fn no_number(text: &str, usual: &str) -> ParseError {
         ParseError::new("the value is missing", example(usual))
     } else if text.starts_with(['−', '–', '—', '‐', '‑', '－']) {
         let rest: String = text.chars().skip(1).collect();
-        let cause = format!(
-            "{} begins with a dash that is not the minus sign",
-            quoted(text)
-        );
+        let cause = format!("{} begins with a dash that is not the minus sign", quoted(text));
         ParseError::new(cause, format!("write -{}", cut(&rest)))
     } else if text.starts_with(CURLY) {
         let cause = format!("{} has curly quotes", quoted(text));
-        ParseError::new(
-            cause,
-            format!("write \"{}\"", cut(text.trim_matches(CURLY))),
-        )
+        ParseError::new(cause, format!("write \"{}\"", cut(text.trim_matches(CURLY))))
     } else if word == "nan" || word == "inf" {
-        ParseError::new(
-            format!("{} is not a finite number", quoted(text)),
-            example(usual),
-        )
+        ParseError::new(format!("{} is not a finite number", quoted(text)), example(usual))
     } else {
-        ParseError::new(
-            format!("{} does not begin with a number", quoted(text)),
-            example(usual),
-        )
+        ParseError::new(format!("{} does not begin with a number", quoted(text)), example(usual))
     }
 }
 
@@ -105,21 +83,11 @@ fn comma(text: &str) -> ParseError {
     let written = &text[..length];
     let point_last = written.rfind('.') > written.rfind(',');
     let groups = written.contains('.') || written.matches(',').count() > 1;
-    if !groups
-        && written
-            .split(',')
-            .nth(1)
-            .is_some_and(|rest| rest.len() == 3)
-    {
+    if !groups && written.split(',').nth(1).is_some_and(|rest| rest.len() == 3) {
         let (plain, point) = (written.replace(',', ""), written.replace(',', "."));
         return ParseError::new(
             "a comma inside a number",
-            format!(
-                "write {} or {}, not {}",
-                cut(&plain),
-                cut(&point),
-                cut(written)
-            ),
+            format!("write {} or {}, not {}", cut(&plain), cut(&point), cut(written)),
         );
     }
     if written.contains('.') && !point_last {
@@ -129,11 +97,7 @@ fn comma(text: &str) -> ParseError {
             format!("write {}, not {}", cut(&meant), cut(written)),
         );
     }
-    let meant = if groups {
-        written.replace(',', "")
-    } else {
-        written.replace(',', ".")
-    };
+    let meant = if groups { written.replace(',', "") } else { written.replace(',', ".") };
     ParseError::new(
         "a comma inside a number",
         format!("write {}, not {}", cut(&meant), cut(written)),
@@ -154,13 +118,11 @@ pub(super) fn shifted(number: &str, exponent: i32) -> f64 {
         number.parse()
     } else {
         let (digits, written) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
-        let written = written
-            .parse::<i64>()
-            .unwrap_or(if written.starts_with('-') {
-                i64::MIN / 2
-            } else {
-                i64::MAX / 2
-            });
+        let written = written.parse::<i64>().unwrap_or(if written.starts_with('-') {
+            i64::MIN / 2
+        } else {
+            i64::MAX / 2
+        });
         format!("{digits}e{}", written + i64::from(exponent)).parse()
     };
     parsed.unwrap_or(f64::NAN)
@@ -177,10 +139,7 @@ pub(super) fn held(number: &str, value: f64) -> Result<f64, ParseError> {
         ))
     } else if nonzero && !value.is_normal() {
         Err(ParseError::new(
-            format!(
-                "{} is too close to zero for a floating-point number",
-                quoted(number)
-            ),
+            format!("{} is too close to zero for a floating-point number", quoted(number)),
             "write 0 or a larger number",
         ))
     } else {
@@ -196,9 +155,7 @@ pub(super) fn plain(value: f64, exponent: i32) -> String {
         return scientific;
     };
     let power = power.parse::<i32>().unwrap_or(0) + exponent;
-    let (sign, mantissa) = mantissa
-        .strip_prefix('-')
-        .map_or(("", mantissa), |rest| ("-", rest));
+    let (sign, mantissa) = mantissa.strip_prefix('-').map_or(("", mantissa), |rest| ("-", rest));
     let digits = mantissa.replace('.', "");
     match usize::try_from(power) {
         _ if digits == "0" => "0".to_owned(),
@@ -208,9 +165,6 @@ pub(super) fn plain(value: f64, exponent: i32) -> String {
         }
         Ok(power) => format!("{sign}{}.{}", &digits[..=power], &digits[power + 1..]),
         Err(_) if power < -6 => format!("{sign}{mantissa}e{power}"),
-        Err(_) => format!(
-            "{sign}0.{}{digits}",
-            "0".repeat(power.unsigned_abs() as usize - 1)
-        ),
+        Err(_) => format!("{sign}0.{}{digits}", "0".repeat(power.unsigned_abs() as usize - 1)),
     }
 }

@@ -121,9 +121,7 @@ pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System)
 pub fn widest_beside(unit: &str) -> usize {
     let is_beside = |(less, more): &&(&str, &str)| *less == unit || *more == unit;
     let widths = NEXT.iter().filter(is_beside);
-    widths.fold(unit.len(), |most, (less, more)| {
-        most.max(less.len()).max(more.len())
-    })
+    widths.fold(unit.len(), |most, (less, more)| most.max(less.len()).max(more.len()))
 }
 
 /// A value in SI converted to a unit, with exactly this many significant digits, with an exponent
@@ -188,10 +186,7 @@ mod tests {
             ("in2/lbf", 0.00064516 / 4.4482216152605),
         ] {
             let scale = factor(unit).unwrap_or(f64::NAN);
-            assert!(
-                (scale / si - 1.0).abs() < 4e-16,
-                "{unit}: {scale:e} for {si:e}"
-            );
+            assert!((scale / si - 1.0).abs() < 4e-16, "{unit}: {scale:e} for {si:e}");
         }
     }
 
@@ -221,10 +216,7 @@ mod tests {
         assert_eq!(text(15e3, "kW", 5), "20.115 hp");
         assert_eq!(text(71.6197, "N m", 5), "52.824 lbf ft");
         assert_eq!(text(7800.0, "kg/m3", 5), "0.28179 lb/in3");
-        assert_eq!(
-            text(2000.0 * factor("rpm").unwrap(), "rpm", 5),
-            "2000.0 rpm"
-        );
+        assert_eq!(text(2000.0 * factor("rpm").unwrap(), "rpm", 5), "2000.0 rpm");
         assert_eq!(text(1.5568, "1", 5), "1.5568");
         assert_eq!(text(133.9e-6, "us", 4), "133.9 us");
     }
@@ -248,14 +240,8 @@ mod tests {
 
     #[test]
     fn metric_units_stay_unchanged() {
-        assert_eq!(
-            shown(47.327e-6, "um", 5, System::Metric),
-            ("47.327".to_owned(), "um")
-        );
-        assert_eq!(
-            System::find("inch").map(System::other),
-            Some(System::Metric)
-        );
+        assert_eq!(shown(47.327e-6, "um", 5, System::Metric), ("47.327".to_owned(), "um"));
+        assert_eq!(System::find("inch").map(System::other), Some(System::Metric));
     }
 
     proptest! {

@@ -31,11 +31,7 @@ pub(super) struct Family {
 }
 
 const fn ten(symbol: &'static str, aliases: &'static [&'static str], exponent: i32) -> Unit {
-    Unit {
-        symbol,
-        aliases,
-        scale: Scale::Ten(exponent),
-    }
+    Unit { symbol, aliases, scale: Scale::Ten(exponent) }
 }
 
 const fn times(
@@ -44,27 +40,16 @@ const fn times(
     factor: f64,
     rest: f64,
 ) -> Unit {
-    Unit {
-        symbol,
-        aliases,
-        scale: Scale::Times(factor, rest),
-    }
+    Unit { symbol, aliases, scale: Scale::Times(factor, rest) }
 }
 
 const fn family(dimension: Dimension, name: &'static str, units: &'static [Unit]) -> Family {
-    Family {
-        dimension,
-        name,
-        units,
-    }
+    Family { dimension, name, units }
 }
 
 /// The units of a dimension. Empty for a bare number.
 pub(super) fn units_of(dimension: Dimension) -> &'static [Unit] {
-    FAMILIES
-        .iter()
-        .find(|family| family.dimension == dimension)
-        .map_or(&[], |family| family.units)
+    FAMILIES.iter().find(|family| family.dimension == dimension).map_or(&[], |family| family.units)
 }
 
 /// The name of a value of the dimension with its article.

@@ -1,8 +1,5 @@
 //! Tests of reading texts with units.
-#![expect(
-    clippy::approx_constant,
-    reason = "a value is read to the last bit, whatever it is"
-)]
+#![expect(clippy::approx_constant, reason = "a value is read to the last bit, whatever it is")]
 
 use super::{Dimension, ParseError, factor, parse, text};
 use proptest::prelude::*;
@@ -42,11 +39,7 @@ fn powers_of_ten_are_exact() {
         ("12.3 um mm/N", Dimension::Compliance, 12.3e-9),
         ("-0.25", Dimension::Number, -0.25),
     ] {
-        assert_eq!(
-            parse(text, dimension, "").map_err(|misread| misread.cause),
-            Ok(si),
-            "{text}"
-        );
+        assert_eq!(parse(text, dimension, "").map_err(|misread| misread.cause), Ok(si), "{text}");
     }
 }
 
@@ -59,16 +52,8 @@ fn other_units_are_right_to_the_last_place() {
         ("30 arcmin", Dimension::Angle, 0.008726646259971648),
         ("2000 rpm", Dimension::AngularVelocity, 209.43951023931956),
         ("1450 1/min", Dimension::AngularVelocity, 151.84364492350667),
-        (
-            "1450 1 / min",
-            Dimension::AngularVelocity,
-            151.84364492350667,
-        ),
-        (
-            "1450 min^-1",
-            Dimension::AngularVelocity,
-            151.84364492350667,
-        ),
+        ("1450 1 / min", Dimension::AngularVelocity, 151.84364492350667),
+        ("1450 min^-1", Dimension::AngularVelocity, 151.84364492350667),
         ("1450 min⁻¹", Dimension::AngularVelocity, 151.84364492350667),
         ("0.3125 in", Dimension::Length, 0.0079375),
         ("30000 ksi", Dimension::Pressure, 206842718795.05084),
@@ -77,9 +62,7 @@ fn other_units_are_right_to_the_last_place() {
         ("635 lbf in", Dimension::Torque, 71.7453664325366),
     ] {
         let read = parse(text, dimension, "").map_err(|misread| misread.cause);
-        let ulp = read
-            .as_ref()
-            .map(|value| (value - si).abs() <= si.abs() * f64::EPSILON);
+        let ulp = read.as_ref().map(|value| (value - si).abs() <= si.abs() * f64::EPSILON);
         assert_eq!(ulp, Ok(true), "{text}: {read:?} for {si}");
     }
 }
@@ -104,38 +87,16 @@ fn invalid_values_are_refused_with_a_fix() {
         ("16 furlong", "unknown unit `furlong`", "use one of mm"),
         ("5 m m", "unknown unit `m m`", "did you mean mm"),
         ("5 mm1", "1 after the unit", "write all digits before mm"),
-        (
-            "5 mm 2.5",
-            "2.5 after the unit",
-            "write all digits before mm",
-        ),
+        ("5 mm 2.5", "2.5 after the unit", "write all digits before mm"),
         ("5 5 mm", "not one number", "20 mm"),
         ("5.5.5 mm", "not one number", "20 mm"),
         ("1_000 mm", "not one number", "20 mm"),
     ] {
         refused(text, Dimension::Length, "mm", cause, fix);
     }
-    refused(
-        "0.3 mm",
-        Dimension::Number,
-        "",
-        "is not allowed here",
-        "write 0.3",
-    );
-    refused(
-        "2 kNm",
-        Dimension::Power,
-        "kW",
-        "unit of torque, not of power",
-        "use one of kW",
-    );
-    refused(
-        "3 RPm",
-        Dimension::AngularVelocity,
-        "rpm",
-        "unknown unit",
-        "did you mean rpm",
-    );
+    refused("0.3 mm", Dimension::Number, "", "is not allowed here", "write 0.3");
+    refused("2 kNm", Dimension::Power, "kW", "unit of torque, not of power", "use one of kW");
+    refused("3 RPm", Dimension::AngularVelocity, "rpm", "unknown unit", "did you mean rpm");
 }
 
 #[test]

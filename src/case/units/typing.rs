@@ -11,23 +11,16 @@ use super::{Dimension, Unit, number, parse, plain_spelling, units_of};
 pub fn ending(typed: &str, dimension: Dimension, usual: &str) -> Option<String> {
     let begun = begun_unit(typed, dimension)?;
     if begun.trim_end().is_empty() {
-        let gap = if typed.ends_with(char::is_whitespace) {
-            ""
-        } else {
-            " "
-        };
+        let gap = if typed.ends_with(char::is_whitespace) { "" } else { " " };
         return Some(format!("{gap}{usual}")).filter(|_| !usual.is_empty());
     }
     if parse(typed, dimension, usual).is_ok() {
         return None;
     }
-    let mut units = units_of(dimension)
-        .iter()
-        .filter_map(|unit| rest(unit, begun));
+    let mut units = units_of(dimension).iter().filter_map(|unit| rest(unit, begun));
     let plain = plain_spelling(usual);
     let own = rest_of(usual, begun).or_else(|| rest_of(&plain, &plain_spelling(begun)));
-    own.or_else(|| units.next().filter(|_| units.next().is_none()))
-        .map(str::to_owned)
+    own.or_else(|| units.next().filter(|_| units.next().is_none())).map(str::to_owned)
 }
 
 /// How further typing can change a text into another value.
@@ -43,35 +36,26 @@ pub enum Open {
 #[must_use]
 pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
     let is_begun = |begun: &&str| {
-        !begun.is_empty()
-            && units_of(dimension)
-                .iter()
-                .any(|unit| rest(unit, begun).is_some())
+        !begun.is_empty() && units_of(dimension).iter().any(|unit| rest(unit, begun).is_some())
     };
     if is_number_begun(typed.trim()) {
         return Some(Open::Number);
     }
-    begun_unit(typed, dimension)
-        .filter(is_begun)
-        .map(|_| Open::Unit)
+    begun_unit(typed, dimension).filter(is_begun).map(|_| Open::Unit)
 }
 
 /// The unit of a value as written. `None` if the text is not a value.
 #[must_use]
 pub fn written_unit(text: &str, dimension: Dimension) -> Option<&str> {
     parse(text, dimension, "").ok()?;
-    number::split(text.trim(), "")
-        .ok()
-        .map(|(_, unit)| unit)
-        .filter(|unit| !unit.is_empty())
+    number::split(text.trim(), "").ok().map(|(_, unit)| unit).filter(|unit| !unit.is_empty())
 }
 
 /// The text after the number, with blanks at its end. `None` if there is no number or no unit is
 /// needed.
 fn begun_unit(typed: &str, dimension: Dimension) -> Option<&str> {
-    let (_, unit) = number::split(typed.trim_start(), "")
-        .ok()
-        .filter(|_| dimension != Dimension::Number)?;
+    let (_, unit) =
+        number::split(typed.trim_start(), "").ok().filter(|_| dimension != Dimension::Number)?;
     Some(unit)
 }
 
@@ -92,15 +76,11 @@ fn is_number_begun(text: &str) -> bool {
     let digits = |text: &'_ str| text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let mantissa = &unsigned[unsigned.len() - digits(unsigned)..];
-    let after = mantissa.strip_prefix('.').map_or(mantissa, |fraction| {
-        &fraction[fraction.len() - digits(fraction)..]
-    });
-    let exponent = after
-        .strip_prefix(['e', 'E'])
-        .filter(|_| after.len() < unsigned.len());
-    let power = exponent.map_or(after, |power| {
-        power.strip_prefix(['+', '-']).unwrap_or(power)
-    });
+    let after = mantissa
+        .strip_prefix('.')
+        .map_or(mantissa, |fraction| &fraction[fraction.len() - digits(fraction)..]);
+    let exponent = after.strip_prefix(['e', 'E']).filter(|_| after.len() < unsigned.len());
+    let power = exponent.map_or(after, |power| power.strip_prefix(['+', '-']).unwrap_or(power));
     power.is_empty() || exponent.is_some() && digits(power) == 0
 }
 
@@ -110,10 +90,7 @@ mod tests {
     use super::*;
 
     fn ended(typed: &str, dimension: Dimension, usual: &str) -> String {
-        format!(
-            "{typed}{}",
-            ending(typed, dimension, usual).unwrap_or_default()
-        )
+        format!("{typed}{}", ending(typed, dimension, usual).unwrap_or_default())
     }
 
     #[test]
@@ -139,10 +116,7 @@ mod tests {
         assert_eq!(ended("71.6 N", Dimension::Torque, "N m"), "71.6 N m");
         assert_eq!(ended("71.6 N ", Dimension::Torque, "N m"), "71.6 N m");
         assert_eq!(ended("300 r", Dimension::AngularVelocity, "rpm"), "300 rpm");
-        assert_eq!(
-            ended("300 ra", Dimension::AngularVelocity, "rpm"),
-            "300 rad/s"
-        );
+        assert_eq!(ended("300 ra", Dimension::AngularVelocity, "rpm"), "300 rad/s");
         assert_eq!(ended("20 h", Dimension::Power, "kW"), "20 hp");
     }
 
@@ -173,16 +147,11 @@ mod tests {
                 for (end, _) in whole.char_indices() {
                     let typed = &whole[..end];
                     let is_value = parse(typed, family.dimension, "").is_ok();
-                    assert!(
-                        is_value || open(typed, family.dimension).is_some(),
-                        "{typed}"
-                    );
+                    assert!(is_value || open(typed, family.dimension).is_some(), "{typed}");
                 }
             }
         }
-        for typed in [
-            "fast", "4,8", "48 x", "48 um", "48 umm", "1.2.3", "e5", "4 8",
-        ] {
+        for typed in ["fast", "4,8", "48 x", "48 um", "48 umm", "1.2.3", "e5", "4 8"] {
             assert_eq!(open(typed, Dimension::Length), None, "{typed}");
         }
     }

@@ -47,16 +47,10 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
 fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit, Failure> {
     let case = &opened.document.case;
     let (verdicts, refusal, method) = match solve(case, &opened.inputs) {
-        Ok(solution) => (
-            verdicts(case, &solution),
-            solution.withheld,
-            solution.method,
-        ),
+        Ok(solution) => (verdicts(case, &solution), solution.withheld, solution.method),
         Err(refusal) => (refused(case, &refusal), Some(refusal), opened.inputs.method),
     };
-    let is_settled = verdicts
-        .iter()
-        .all(|verdict| verdict.standing != Standing::Unknown)
+    let is_settled = verdicts.iter().all(|verdict| verdict.standing != Standing::Unknown)
         && !verdicts.is_empty();
     let refusal = refusal.filter(|_| !is_settled);
     if refusal.is_none() || !verdicts.is_empty() {
@@ -87,9 +81,5 @@ fn solve(case: &Case, inputs: &Inputs) -> Result<Solution, Refusal> {
     let needed = stages(case);
     let solution = model::solve(inputs, needed)?;
     let whole = needed.and(stages_beside(case, solution.method));
-    if needed.covers(whole) {
-        Ok(solution)
-    } else {
-        model::solve(inputs, whole).or(Ok(solution))
-    }
+    if needed.covers(whole) { Ok(solution) } else { model::solve(inputs, whole).or(Ok(solution)) }
 }

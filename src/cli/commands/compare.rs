@@ -76,10 +76,8 @@ impl Options {
 }
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Failure> {
-    let selection = Selection {
-        only: distinct(options.only.iter().flatten().copied()),
-        stations: false,
-    };
+    let selection =
+        Selection { only: distinct(options.only.iter().flatten().copied()), stations: false };
     let (mut cases, mut worst) = (Vec::new(), Exit::Done);
     for path in &options.cases {
         let found = cases::read(path, streams)
@@ -93,9 +91,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         let count = cases.len();
         let cases = cases.into_iter().enumerate();
         let wanted = cases.take_while(|(at, _)| report(*at, count));
-        wanted
-            .map(|(_, case)| case.solve(&selection))
-            .collect::<Vec<_>>()
+        wanted.map(|(_, case)| case.solve(&selection)).collect::<Vec<_>>()
     });
     if columns.len() < 2 && worst == Exit::Done {
         let name = columns.first().map_or("", |column| column.name.as_str());
@@ -106,12 +102,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     if columns.is_empty() {
         return Ok(worst);
     }
-    write(
-        &Comparison { columns, selection },
-        options.output.format,
-        streams,
-    )
-    .map(|exit| exit.max(worst))
+    write(&Comparison { columns, selection }, options.output.format, streams)
+        .map(|exit| exit.max(worst))
 }
 
 fn write(
@@ -129,11 +121,7 @@ fn write(
     for line in comparison.refusals() {
         streams.say(&line);
     }
-    Ok(if comparison.is_all_refused() {
-        Exit::BadCase
-    } else {
-        Exit::Done
-    })
+    Ok(if comparison.is_all_refused() { Exit::BadCase } else { Exit::Done })
 }
 
 /// A case, or one of its variants, with the changes of the command line.
@@ -151,20 +139,13 @@ fn edited(
     streams: &mut Streams,
 ) -> Result<Vec<Edited>, Exit> {
     let all = document.case.variants.iter().map(|variant| &variant.name);
-    let variants: Vec<&String> = if options.variants.is_empty() {
-        all.collect()
-    } else {
-        options.variants.iter().collect()
-    };
+    let variants: Vec<&String> =
+        if options.variants.is_empty() { all.collect() } else { options.variants.iter().collect() };
     let names = std::iter::once(None).chain(variants.into_iter().map(|name| Some(name.as_str())));
     let edited = names.map(|variant| {
         let (mut document, edits) = (document.clone(), options.edits(variant));
         cases::edit(&mut document, &edits)?;
-        Ok(Edited {
-            file: path.display().to_string(),
-            edits,
-            document,
-        })
+        Ok(Edited { file: path.display().to_string(), edits, document })
     });
     edited.collect::<Result<_, String>>().map_err(|line| {
         streams.say(&line);
@@ -174,23 +155,13 @@ fn edited(
 
 impl Edited {
     fn solve(self, selection: &Selection) -> Column {
-        let Edited {
-            file,
-            edits,
-            document,
-        } = self;
+        let Edited { file, edits, document } = self;
         let (case, name) = (&document.case, cases::named(file.clone(), &edits));
         let solved = case.inputs().and_then(|inputs| {
             Report::solve(name.clone(), case.clone(), inputs, selection.clone())
                 .map_err(|refusal| vec![Problem::from(&refusal).at_given(case)])
         });
         let found = solved.map_err(|problems| cases::refused(&document, problems, &edits));
-        Column {
-            name,
-            file,
-            variant: edits.variant,
-            case: document.case,
-            found,
-        }
+        Column { name, file, variant: edits.variant, case: document.case, found }
     }
 }

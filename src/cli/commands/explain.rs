@@ -37,12 +37,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         Some(path) => cases::open(path, &edits, streams),
         None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &edits, streams),
     }?;
-    let Opened {
-        name,
-        document,
-        inputs,
-        ..
-    } = &opened;
+    let Opened { name, document, inputs, .. } = &opened;
     let inputs = &inputs.clone().needing([options.quantity.stage]);
     let solution = model::solve(inputs, Stages::of(options.quantity.stage))
         .map_err(|refusal| opened.refused(&refusal, streams))?;

@@ -37,9 +37,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let shards = shards.collect::<Result<Vec<_>, _>>().and_then(in_order);
     let shards = shards.map_err(|unfit| report(unfit, streams))?;
     let request = shards[0].header.request.clone();
-    let restored = request
-        .restore()
-        .map_err(|problem| unrestored(&shards[0], &problem, streams))?;
+    let restored =
+        request.restore().map_err(|problem| unrestored(&shards[0], &problem, streams))?;
     write(&shards, &request, &restored, out, streams)
 }
 

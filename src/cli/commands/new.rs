@@ -30,10 +30,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         list(streams.output.as_mut())?;
         return Ok(Exit::Done);
     }
-    let text = options.from.map_or_else(
-        || Document::new(Case::fresh()).render(),
-        |example| example.text.to_owned(),
-    );
+    let text = options
+        .from
+        .map_or_else(|| Document::new(Case::fresh()).render(), |example| example.text.to_owned());
     write(options.file.as_deref(), &text, streams)
 }
 
@@ -58,11 +57,7 @@ pub(super) fn write(
 
 /// The examples, each with its title, its pair and its verdict.
 fn list(out: &mut dyn Write) -> io::Result<()> {
-    let width = EXAMPLES
-        .iter()
-        .map(|example| example.name.len())
-        .max()
-        .unwrap_or(0);
+    let width = EXAMPLES.iter().map(|example| example.name.len()).max().unwrap_or(0);
     for example in EXAMPLES {
         let digest = digest(example);
         writeln!(out, "{:width$}  {}", example.name, digest.title)?;

@@ -50,9 +50,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     check_out(out, &[&options.input.case])?;
     let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
     let text = draw(&opened, options, streams)?;
-    write_to(out, streams.output.as_mut(), |sink| {
-        sink.write_all(text.as_bytes())
-    })?;
+    write_to(out, streams.output.as_mut(), |sink| sink.write_all(text.as_bytes()))?;
     Ok(Exit::Done)
 }
 

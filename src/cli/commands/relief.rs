@@ -57,14 +57,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let out = options.destination.out.as_deref();
     check_out(out, &[&options.input.case])?;
     let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
-    let demand = Demand {
-        loads: options.load,
-        tolerance: options.tolerance,
-    };
+    let demand = Demand { loads: options.load, tolerance: options.tolerance };
     let found = follow("% of the budget", |report| {
-        specify(&opened.inputs, &demand, &|part| {
-            report((100.0 * part) as usize, 100)
-        })
+        specify(&opened.inputs, &demand, &|part| report((100.0 * part) as usize, 100))
     });
     let found = found.map_err(|none| match none {
         NoRelief::Refused(refusal) => opened.refused(&refusal, streams),
@@ -79,12 +74,10 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         method: opened.inputs.method,
         found: &found,
     };
-    write_to(out, streams.output.as_mut(), |sink| {
-        match options.output.format {
-            OutputFormat::Text => report.write(sink),
-            OutputFormat::Json => report.write_json(sink),
-            OutputFormat::Csv => report.write_csv(sink),
-        }
+    write_to(out, streams.output.as_mut(), |sink| match options.output.format {
+        OutputFormat::Text => report.write(sink),
+        OutputFormat::Json => report.write_json(sink),
+        OutputFormat::Csv => report.write_csv(sink),
     })?;
     Ok(Exit::Done)
 }

@@ -57,8 +57,6 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         return Ok(worst);
     }
     let text = format.render(&subjects)?;
-    write_to(Some(&options.out), streams.output.as_mut(), |sink| {
-        sink.write_all(text.as_bytes())
-    })?;
+    write_to(Some(&options.out), streams.output.as_mut(), |sink| sink.write_all(text.as_bytes()))?;
     Ok(worst)
 }

@@ -81,11 +81,9 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         condition: &condition,
         found: &found,
     };
-    write_to(out, streams.output.as_mut(), |sink| {
-        match options.output.format {
-            Listing::Text => report.write(sink),
-            Listing::Json => report.write_json(sink),
-        }
+    write_to(out, streams.output.as_mut(), |sink| match options.output.format {
+        Listing::Text => report.write(sink),
+        Listing::Json => report.write_json(sink),
     })?;
     Ok(Exit::Done)
 }

@@ -44,12 +44,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
             .and_then(|opened| solve(&opened, &selection, streams));
         match report {
             Ok(report) => {
-                print(
-                    &report,
-                    options.output.format,
-                    first,
-                    streams.output.as_mut(),
-                )?;
+                print(&report, options.output.format, first, streams.output.as_mut())?;
                 first = false;
             }
             Err(exit) => worst = worst.max(exit),
@@ -60,10 +55,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
 
 /// The changes of the command line, including `--stations` as a field.
 fn edits(options: &Options) -> Edits {
-    let stations = options
-        .stations
-        .clone()
-        .map(|value| Setting::by("--stations", "model.stations", &value));
+    let stations =
+        options.stations.clone().map(|value| Setting::by("--stations", "model.stations", &value));
     let mut edits = options.input.changes.edits();
     edits.settings.extend(stations);
     edits
@@ -72,25 +65,13 @@ fn edits(options: &Options) -> Edits {
 fn selection(options: &Options) -> Selection {
     let only = distinct(options.only.iter().flatten().copied());
     let whole_json = options.output.format == OutputFormat::Json && only.is_empty();
-    Selection {
-        only,
-        stations: options.stations.is_some() || whole_json,
-    }
+    Selection { only, stations: options.stations.is_some() || whole_json }
 }
 
 fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
-    let Opened {
-        name,
-        document,
-        inputs,
-        ..
-    } = opened;
-    let solved = Report::solve(
-        name.clone(),
-        document.case.clone(),
-        inputs.clone(),
-        selection.clone(),
-    );
+    let Opened { name, document, inputs, .. } = opened;
+    let solved =
+        Report::solve(name.clone(), document.case.clone(), inputs.clone(), selection.clone());
     match solved.and_then(in_full) {
         Ok(report) => Ok(report),
         Err(refusal) => Err(opened.refused(&refusal, streams)),

@@ -36,11 +36,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     let comparison = compare(&opened.inputs, options.points)
         .map_err(|refusal| opened.refused(&refusal, streams))?;
     let Opened { name, document, .. } = &opened;
-    let report = StiffnessReport {
-        name,
-        title: document.case.title(),
-        comparison: &comparison,
-    };
+    let report = StiffnessReport { name, title: document.case.title(), comparison: &comparison };
     match options.output.format {
         OutputFormat::Text => write(&report, streams.output.as_mut())?,
         OutputFormat::Json => write_json(&report, streams.output.as_mut())?,

@@ -77,11 +77,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     for sentence in absent(&quantities, &grid, &opened) {
         streams.say(&sentence);
     }
-    let table = SweepTable {
-        grid: &grid,
-        quantities: &quantities,
-        format: options.output.format.into(),
-    };
+    let table =
+        SweepTable { grid: &grid, quantities: &quantities, format: options.output.format.into() };
     if let Some(shard) = options.running.shard {
         let request = request(options, &opened, &table);
         let batch = batch(&opened, &table);
@@ -102,11 +99,7 @@ pub(super) fn report(
     for refused in &refusals.0 {
         streams.say(&format!("{name}: {}", table.refused(refused, count)));
     }
-    if refusals.total() == count {
-        Exit::BadCase
-    } else {
-        Exit::Done
-    }
+    if refusals.total() == count { Exit::BadCase } else { Exit::Done }
 }
 
 /// The request for the shard files of the study.
@@ -114,11 +107,7 @@ fn request(options: &Options, opened: &Opened, table: &SweepTable) -> Request {
     Request {
         name: opened.name.clone(),
         case: opened.document.render(),
-        quantities: table
-            .quantities
-            .iter()
-            .map(|known| known.key.to_owned())
-            .collect(),
+        quantities: table.quantities.iter().map(|known| known.key.to_owned()).collect(),
         format: table.format.name().to_owned(),
         points: PointsRequest::Sweep {
             vary: options.vary.clone(),
@@ -129,20 +118,14 @@ fn request(options: &Options, opened: &Opened, table: &SweepTable) -> Request {
 }
 
 fn batch<'a>(opened: &'a Opened, table: &SweepTable<'a>) -> Batch<'a> {
-    Batch {
-        inputs: &opened.inputs,
-        points: table.grid,
-        quantities: table.quantities,
-    }
+    Batch { inputs: &opened.inputs, points: table.grid, quantities: table.quantities }
 }
 
 /// The quantities that no method of the sweep computes.
 fn absent(quantities: &[&Quantity], grid: &Grid, opened: &Opened) -> Vec<String> {
     let methods = grid.methods(&opened.inputs);
     let absent = quantities.iter().filter_map(|quantity| {
-        let mut reasons = methods
-            .iter()
-            .map(|&method| Absence::by_method(quantity, method));
+        let mut reasons = methods.iter().map(|&method| Absence::by_method(quantity, method));
         let reason = reasons.next()??;
         let is_absent = reasons.all(|reason| reason.is_some());
         is_absent.then(|| format!("{} has no values: {reason}", quantity.key))

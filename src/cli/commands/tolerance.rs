@@ -74,11 +74,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
     }
     if let Some(shard) = options.running.shard {
         let request = request(options, &opened, &study);
-        let batch = Batch {
-            inputs: &opened.inputs,
-            points: &study.design,
-            quantities: &study.quantities,
-        };
+        let batch =
+            Batch { inputs: &opened.inputs, points: &study.design, quantities: &study.quantities };
         return shards::run(shard, &request, &batch, &options.running, streams);
     }
     let solve = |control: &Control| study.run(&opened.inputs, control);
@@ -121,11 +118,7 @@ fn report(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
     for refused in &whole.samples.refusals.0 {
         streams.say(&format!("{}: {}", whole.name, whole.refused(refused)));
     }
-    if is_all_refused(whole.samples) {
-        Exit::BadCase
-    } else {
-        Exit::Done
-    }
+    if is_all_refused(whole.samples) { Exit::BadCase } else { Exit::Done }
 }
 
 /// The request for the shard files of the study.
@@ -133,11 +126,7 @@ fn request(options: &Options, opened: &Opened, study: &Tolerance) -> Request {
     Request {
         name: opened.name.clone(),
         case: opened.document.render(),
-        quantities: study
-            .quantities
-            .iter()
-            .map(|known| known.key.to_owned())
-            .collect(),
+        quantities: study.quantities.iter().map(|known| known.key.to_owned()).collect(),
         format: name_of(options.output.format).to_owned(),
         points: PointsRequest::Tolerance {
             samples: study.design.samples,
@@ -161,17 +150,11 @@ fn check_size(options: &Options) -> Result<(), Failure> {
     if (2..=MOST_SAMPLES).contains(&samples) {
         return Ok(());
     }
-    Err(Failure::Usage(format!(
-        "--samples {samples}: write a number from 2 to {MOST_SAMPLES}"
-    )))
+    Err(Failure::Usage(format!("--samples {samples}: write a number from 2 to {MOST_SAMPLES}")))
 }
 
 fn study(options: &Options, opened: &Opened) -> Result<Tolerance, Problem> {
     let only: Vec<_> = options.only.iter().flatten().copied().collect();
-    let size = Size {
-        samples: options.samples,
-        seed: options.seed,
-        ranked: options.ranking,
-    };
+    let size = Size { samples: options.samples, seed: options.seed, ranked: options.ranking };
     Tolerance::of(&opened.document.case, &opened.inputs, &only, size)
 }

@@ -50,11 +50,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
         trade(&opened.inputs, &parameters, &go_on, &mut show)
     });
     let trade = found.map_err(|refusal| opened.refused(&refusal, streams))?;
-    let report = TradeReport {
-        name: &opened.name,
-        title: opened.document.case.title(),
-        trade: &trade,
-    };
+    let report =
+        TradeReport { name: &opened.name, title: opened.document.case.title(), trade: &trade };
     match options.output.format {
         Listing::Text => write(&report, streams.output.as_mut())?,
         Listing::Json => write_json(&report, streams.output.as_mut())?,
@@ -64,10 +61,8 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> Result<Exit, Fail
 
 /// Parses a fraction: "5%" or 0.05.
 fn part(text: &str) -> Result<f64, String> {
-    let (number, whole) = text
-        .trim()
-        .strip_suffix('%')
-        .map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
+    let (number, whole) =
+        text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
     let value = number
         .parse::<f64>()
         .ok()
@@ -82,14 +77,9 @@ mod tests {
 
     #[test]
     fn a_part_is_written_with_or_without_its_sign() {
-        assert_eq!(
-            (part("5%"), part("0.05"), part(" 0.5 % ")),
-            (Ok(0.05), Ok(0.05), Ok(0.005))
-        );
+        assert_eq!((part("5%"), part("0.05"), part(" 0.5 % ")), (Ok(0.05), Ok(0.05), Ok(0.005)));
         assert!(
-            ["", "%", "five", "-1%", "0", "nan", "inf%"]
-                .iter()
-                .all(|text| part(text).is_err())
+            ["", "%", "five", "-1%", "0", "nan", "inf%"].iter().all(|text| part(text).is_err())
         );
     }
 }

@@ -62,11 +62,7 @@ impl Setting {
     /// The setting of a field by an option.
     #[must_use]
     pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
-        Setting {
-            key: key.to_owned(),
-            value: value.to_owned(),
-            option,
-        }
+        Setting { key: key.to_owned(), value: value.to_owned(), option }
     }
 
     /// The setting in the syntax of the command line.
@@ -118,10 +114,7 @@ pub(in crate::cli) fn station_count(text: &str) -> Result<String, String> {
 
 pub(in crate::cli) fn methods() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(|name| {
-        Method::ALL
-            .into_iter()
-            .find(|method| method.name() == name)
-            .ok_or("no such method")
+        Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method")
     })
 }
 
@@ -132,11 +125,7 @@ mod tests {
     #[test]
     fn a_setting_is_split_at_the_first_equals_sign() {
         assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
-        assert!(
-            setting("pair.modul=5 mm")
-                .unwrap_err()
-                .contains("did you mean pair.module?")
-        );
+        assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
         assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
     }
 }

@@ -35,11 +35,7 @@ fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusa
     let [.., last] = BEYOND;
     let even = (1..=BEYOND_RATTLE)
         .map(|step| 1.0 + (last - 1.0) * f64::from(step) / f64::from(BEYOND_RATTLE));
-    let beyond: Vec<f64> = if clear.contact_lost {
-        even.collect()
-    } else {
-        BEYOND.to_vec()
-    };
+    let beyond: Vec<f64> = if clear.contact_lost { even.collect() } else { BEYOND.to_vec() };
     for part in beyond.into_iter().rev() {
         let found = tried(part * clear.relief)?;
         if found.lead > 0.0 {
@@ -62,11 +58,7 @@ fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Ref
         if touching.relief > most {
             return Err(Refusal::NoClearing { most });
         }
-        let least = if strides < 3 {
-            0.0
-        } else {
-            GROWTH * touching.relief
-        };
+        let least = if strides < 3 { 0.0 } else { GROWTH * touching.relief };
         let aim = (touching.relief + stride * touching.lead).max(least);
         strides += 1;
         let found = tried(aim + ASIDE * closeness(aim))?;
@@ -74,11 +66,7 @@ fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Ref
             return narrow_bracket(tried, touching, found);
         }
         let fall = (touching.lead - found.lead) / (found.relief - touching.relief);
-        stride = if fall > 0.0 {
-            (1.0 / fall).clamp(1.0, STRIDE)
-        } else {
-            STRIDE
-        };
+        stride = if fall > 0.0 { (1.0 / fall).clamp(1.0, STRIDE) } else { STRIDE };
         touching = found;
     }
     Ok(touching)
@@ -106,12 +94,7 @@ fn narrow_bracket(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Resu
         let before = touching.lead / (touching.lead - clear.lead);
         let aside = ASIDE * near * if before < 0.5 { 1.0 } else { -1.0 };
         let is_slow = width > 0.5 * widths[0];
-        let aim = touching.relief
-            + if is_slow {
-                0.5 * width
-            } else {
-                before * width + aside
-            };
+        let aim = touching.relief + if is_slow { 0.5 * width } else { before * width + aside };
         widths.rotate_left(1);
         widths[PATIENCE - 1] = width;
         let found = tried(aim.clamp(touching.relief + 0.1 * near, clear.relief - 0.1 * near))?;
@@ -134,11 +117,7 @@ mod tests {
         let tries = Cell::new(0);
         let tried = |relief: f64| {
             tries.set(tries.get() + 1);
-            Ok(Tried {
-                relief,
-                lead: lead(relief),
-                contact_lost,
-            })
+            Ok(Tried { relief, lead: lead(relief), contact_lost })
         };
         (least(&tried, false, 1e-3), tries.get())
     }
@@ -147,22 +126,10 @@ mod tests {
     fn the_crossing_of_a_falling_lead_is_found_with_few_tests() {
         type Lead = Box<dyn Fn(f64) -> f64>;
         let leads: [(&str, f64, Lead); 5] = [
-            (
-                "as fast as the relief grows",
-                20e-6,
-                Box::new(|relief| 20e-6 - relief),
-            ),
-            (
-                "more slowly",
-                100e-6,
-                Box::new(|relief| 0.2 * (100e-6 - relief)),
-            ),
+            ("as fast as the relief grows", 20e-6, Box::new(|relief| 20e-6 - relief)),
+            ("more slowly", 100e-6, Box::new(|relief| 0.2 * (100e-6 - relief))),
             ("faster", 20e-6, Box::new(|relief| 3.0 * (20e-6 - relief))),
-            (
-                "constant at the end",
-                20e-6,
-                Box::new(|relief| (20e-6 - relief).max(-1e-9)),
-            ),
+            ("constant at the end", 20e-6, Box::new(|relief| (20e-6 - relief).max(-1e-9))),
             (
                 "with oscillations",
                 20e-6,
@@ -174,10 +141,7 @@ mod tests {
         for (name, end, lead) in leads {
             let (relief, tries) = found(lead, false);
             let relief = relief.unwrap();
-            assert!(
-                relief >= end && relief - end <= closeness(end),
-                "{name}: {relief:e}"
-            );
+            assert!(relief >= end && relief - end <= closeness(end), "{name}: {relief:e}");
             assert!(tries <= 20, "{name}: {tries}");
         }
     }
@@ -186,18 +150,11 @@ mod tests {
     fn contact_at_a_larger_tested_relief_is_found() {
         let lead = |back: std::ops::Range<f64>| {
             move |relief: f64| {
-                if back.contains(&relief) {
-                    1e-6
-                } else {
-                    20e-6 - relief
-                }
+                if back.contains(&relief) { 1e-6 } else { 20e-6 - relief }
             }
         };
         let (relief, _) = found(lead(29e-6..31e-6), false);
-        assert!(
-            (relief.unwrap() - 31e-6).abs() < closeness(31e-6),
-            "{relief:?}"
-        );
+        assert!((relief.unwrap() - 31e-6).abs() < closeness(31e-6), "{relief:?}");
         let narrow = || lead(33.0e-6..33.8e-6);
         assert!(found(narrow(), false).0.unwrap() < 21e-6);
         assert!((found(narrow(), true).0.unwrap() - 33.8e-6).abs() < closeness(34e-6));

@@ -72,10 +72,7 @@ impl Add for ContactLaw {
     type Output = ContactLaw;
 
     fn add(self, other: ContactLaw) -> ContactLaw {
-        ContactLaw {
-            offset: self.offset + other.offset,
-            slope: self.slope + other.slope,
-        }
+        ContactLaw { offset: self.offset + other.offset, slope: self.slope + other.slope }
     }
 }
 
@@ -102,16 +99,8 @@ impl ContactSpring {
     pub fn compliance(&self, force: f64) -> Result<f64, Refusal> {
         let half_width = self.half_width(force);
         let ContactLaw { offset, slope } = self.law;
-        let compliance = if slope > 0.0 {
-            offset - slope * half_width.ln()
-        } else {
-            offset
-        };
-        if compliance > self.least {
-            Ok(compliance)
-        } else {
-            Err(self.too_wide(half_width))
-        }
+        let compliance = if slope > 0.0 { offset - slope * half_width.ln() } else { offset };
+        if compliance > self.least { Ok(compliance) } else { Err(self.too_wide(half_width)) }
     }
 
     /// The force F of an impact with `F = momentum/√q` and `q = teeth + qH(F)`, in N, and q in
@@ -221,10 +210,7 @@ impl HalfWidth {
     /// The half-width of a pair.
     #[must_use]
     pub fn of(elasticity: &Elasticity) -> HalfWidth {
-        HalfWidth {
-            give: plane_strain_compliance(elasticity),
-            width: elasticity.width,
-        }
+        HalfWidth { give: plane_strain_compliance(elasticity), width: elasticity.width }
     }
 
     /// Half-width at a place and a force, in m, by the formula of [`ContactSpring::half_width`].
@@ -237,11 +223,7 @@ impl HalfWidth {
     /// if the tooth model includes the contact, otherwise 0.
     #[must_use]
     pub fn spring(&self, place: &ContactPlace, teeth: f64, law: ContactLaw) -> ContactSpring {
-        ContactSpring {
-            law,
-            least: -teeth,
-            width_per_root_force: self.per_root_force(place),
-        }
+        ContactSpring { law, least: -teeth, width_per_root_force: self.per_root_force(place) }
     }
 
     fn per_root_force(&self, place: &ContactPlace) -> f64 {
@@ -264,19 +246,13 @@ fn give(gear: &ElasticGear) -> f64 {
 fn at_impact(context: &Context) -> Option<f64> {
     let (elasticity, geometry) = (context.inputs.elasticity(), &context.solution.geometry);
     let contact = PairContact::of(&elasticity);
-    let spring = contact
-        .spring(&elasticity, geometry, &place_at_d(context)?)
-        .ok()?;
+    let spring = contact.spring(&elasticity, geometry, &place_at_d(context)?).ok()?;
     spring.compliance(context.solution.impact?.force).ok()
 }
 
 fn place_at_d(context: &Context) -> Option<ContactPlace> {
     let tip = context.solution.position?.contact;
-    Some(ContactPlace::at_tip(
-        context.inputs.driven.tip_radius,
-        &context.solution.geometry,
-        &tip,
-    ))
+    Some(ContactPlace::at_tip(context.inputs.driven.tip_radius, &context.solution.geometry, &tip))
 }
 
 listed!(ContactCompliance, ContactModel);
@@ -324,9 +300,6 @@ mod tests {
         let elasticity = inputs.elasticity();
         let teeth = Teeth::of(&elasticity, &pair).unwrap();
         let refused = teeth.pair_at_load(&beyond, 100.0);
-        assert!(
-            matches!(refused, Err(Refusal::PointedTip { .. })),
-            "{refused:?}"
-        );
+        assert!(matches!(refused, Err(Refusal::PointedTip { .. })), "{refused:?}");
     }
 }

@@ -60,17 +60,8 @@ impl Flank {
         };
         let rest = REST * at(to)?[TOOTH];
         let series = Series::of(from.min(last), last, &|_, _| [rest; 2], &at)?;
-        let corner = if radius.is_finite() {
-            circles.sharp().tip_curvature
-        } else {
-            f64::INFINITY
-        };
-        Ok(Flank {
-            series,
-            ends: (from.min(last), last),
-            corner: corner * corner,
-            base,
-        })
+        let corner = if radius.is_finite() { circles.sharp().tip_curvature } else { f64::INFINITY };
+        Ok(Flank { series, ends: (from.min(last), last), corner: corner * corner, base })
     }
 
     /// The values for a contact at this distance. The load moves off the corner of the tip if its
@@ -93,10 +84,7 @@ impl Flank {
         let least = places.iter().copied().fold(f64::INFINITY, f64::min);
         let named = limits.into_iter().zip(places);
         let mut found = named.filter(|(_, place)| *place <= least);
-        (
-            found.next().map_or(Limit::Contact, |(limit, _)| limit),
-            places,
-        )
+        (found.next().map_or(Limit::Contact, |(limit, _)| limit), places)
     }
 
     /// Places between the ends at which another limit begins to determine the load.
@@ -137,16 +125,12 @@ impl Flanks {
         );
         let contacts = [
             driver.contact(geometry.driver.tip)?,
-            driven
-                .contact(geometry.driven.tip)
-                .map_err(Refusal::at_driven)?,
+            driven.contact(geometry.driven.tip).map_err(Refusal::at_driven)?,
         ];
         let lowest = geometry.tangent_length - geometry.end;
         let highest = |circles: &Circles| circles.sharp().tip_curvature;
-        let ends = [
-            (geometry.start, highest(&geometry.driver)),
-            (lowest, highest(&geometry.driven)),
-        ];
+        let ends =
+            [(geometry.start, highest(&geometry.driver)), (lowest, highest(&geometry.driven))];
         Ok(Flanks {
             driver: Flank::of(&driver, &geometry.driver, ends[0])?,
             driven: Flank::of(&driven, &geometry.driven, ends[1]).map_err(Refusal::at_driven)?,
@@ -176,11 +160,7 @@ impl Flanks {
     /// The flanks with the gears swapped.
     #[must_use]
     pub fn swapped(&self) -> Flanks {
-        Flanks {
-            driver: self.driven.clone(),
-            driven: self.driver.clone(),
-            slope: self.slope,
-        }
+        Flanks { driver: self.driven.clone(), driven: self.driver.clone(), slope: self.slope }
     }
 
     /// Compliance of a pair under a given force, in m²/N. The load points are at the distances
@@ -222,10 +202,7 @@ mod tests {
     #[test]
     fn the_series_agree_with_the_teeth_on_the_line_of_action() {
         for model in ToothCompliance::ALL {
-            let inputs = Inputs {
-                tooth_compliance: Some(model),
-                ..standard_pair(20, 33, 4e-3)
-            };
+            let inputs = Inputs { tooth_compliance: Some(model), ..standard_pair(20, 33, 4e-3) };
             let geometry = geometry::<f64>(&inputs.shape()).unwrap();
             let elasticity = inputs.elasticity();
             let flanks = Flanks::new(&elasticity, &geometry).unwrap();
@@ -236,9 +213,8 @@ mod tests {
                 let place = ContactPlace::on_line_of_action(&geometry, along);
                 let arms = (along, geometry.tangent_length - along);
                 for force in [1e2, 1e3, 3e4] {
-                    let found = flanks
-                        .pair_at_load(&elasticity, &geometry, &place, arms, force)
-                        .unwrap();
+                    let found =
+                        flanks.pair_at_load(&elasticity, &geometry, &place, arms, force).unwrap();
                     let expected = teeth.pair_at_load(&place, force).unwrap();
                     assert!(
                         (found / expected - 1.0).abs() < 1e-12,
@@ -265,15 +241,9 @@ mod tests {
             let moved = teeth.under(&at_tip, force);
             let off = arc(&moved) / half_width - 1.0;
             assert!(off.abs() < 1e-9, "error under {force} N: {off:e}");
-            assert_eq!(
-                moved.radius_driven.to_bits(),
-                at_tip.radius_driven.to_bits()
-            );
+            assert_eq!(moved.radius_driven.to_bits(), at_tip.radius_driven.to_bits());
         }
         let light = [1.0, 100.0].map(|force| arc(&teeth.under(&at_tip, force)) / inputs.module);
-        assert!(
-            light.iter().all(|arc| (arc - 0.02).abs() < 1e-3),
-            "{light:?}"
-        );
+        assert!(light.iter().all(|arc| (arc - 0.02).abs() < 1e-3), "{light:?}");
     }
 }

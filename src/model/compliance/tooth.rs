@@ -197,11 +197,7 @@ impl Tooth {
             Compliance::Line(of) => Serves::Line(of(gear, circles)?),
             Compliance::PerGear(build) => Serves::Built(build(gear, circles)?),
         };
-        Ok(Tooth {
-            gear: *gear,
-            circles: *circles,
-            serves,
-        })
+        Ok(Tooth { gear: *gear, circles: *circles, serves })
     }
 
     /// Compliance of the tooth loaded at a radius, in m²/N.
@@ -297,9 +293,7 @@ pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
 #[must_use]
 pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     let by_range = || {
-        let covering = preferences(inputs)
-            .into_iter()
-            .find(|model| (model.covers)(inputs));
+        let covering = preferences(inputs).into_iter().find(|model| (model.covers)(inputs));
         ToothCompliance::named(covering.unwrap_or(&beam::MODEL).name)
     };
     inputs.tooth_compliance.unwrap_or_else(by_range)
@@ -365,12 +359,7 @@ mod tests {
         for model in ToothCompliance::ALL {
             let tooth = Tooth::of(model, &gear, &geometry.driver).unwrap();
             let neighbour = tooth.neighbour(loaded, measured, 1).unwrap();
-            assert_eq!(
-                neighbour != 0.0,
-                model.model().has_coupling,
-                "{}",
-                model.name()
-            );
+            assert_eq!(neighbour != 0.0, model.model().has_coupling, "{}", model.name());
         }
     }
 

@@ -57,14 +57,8 @@ fn values_at_d_and_at_the_stations_agree_with_the_solution() {
                 close(moment.sliding_velocity, station.sliding_velocity),
                 "{moment:?} {station:?}"
             );
-            assert!(
-                close(force(&moment).unwrap(), station.impact_force),
-                "{moment:?} {station:?}"
-            );
-            assert!(
-                close(moment.radius_driver, station.radius_driver),
-                "{moment:?} {station:?}"
-            );
+            assert!(close(force(&moment).unwrap(), station.impact_force), "{moment:?} {station:?}");
+            assert!(close(moment.radius_driver, station.radius_driver), "{moment:?} {station:?}");
         }
     }
 }
@@ -78,19 +72,13 @@ fn the_opening_closes_at_d_and_stays_closed() {
         let at = |part: f64| {
             ContactState::at(&inputs, &solution, part * position.approach_angle_driver).unwrap()
         };
-        let openings: Vec<f64> = (0..=30)
-            .map(|step| at(2.0 - f64::from(step) / 10.0).opening)
-            .collect();
+        let openings: Vec<f64> =
+            (0..=30).map(|step| at(2.0 - f64::from(step) / 10.0).opening).collect();
         assert!(
-            openings[..10]
-                .windows(2)
-                .all(|pair| pair[0] > pair[1] && pair[1] > 0.0),
+            openings[..10].windows(2).all(|pair| pair[0] > pair[1] && pair[1] > 0.0),
             "{openings:?}"
         );
-        assert!(
-            openings[10..].iter().all(|opening| *opening == 0.0),
-            "{openings:?}"
-        );
+        assert!(openings[10..].iter().all(|opening| *opening == 0.0), "{openings:?}");
     }
 }
 
@@ -100,10 +88,7 @@ fn without_contact_the_flanks_keep_the_missing_gap() {
     assert_eq!(solution.position, None);
     for angle in [0.0, -0.05] {
         let moment = ContactState::at(&inputs, &solution, angle).unwrap();
-        assert!(
-            (moment.opening - 20e-6).abs() < 1e-15 && force(&moment).is_none(),
-            "{moment:?}"
-        );
+        assert!((moment.opening - 20e-6).abs() < 1e-15 && force(&moment).is_none(), "{moment:?}");
     }
 }
 
@@ -128,17 +113,13 @@ fn the_load_at_an_angle_agrees_with_the_stations() {
             before.opening > 0.0 && before.interpolated.is_none() && !before.touches(),
             "{before:?}"
         );
-        let stations = solution.dynamic.as_ref().map_or_else(
-            || &solution.static_load.as_ref().unwrap().stations,
-            |run| &run.stations,
-        );
+        let stations = solution
+            .dynamic
+            .as_ref()
+            .map_or_else(|| &solution.static_load.as_ref().unwrap().stations, |run| &run.stations);
         for station in stations {
             let moment = ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
-            let load = *moment
-                .interpolated
-                .as_ref()
-                .and_then(Interpolated::load)
-                .unwrap();
+            let load = *moment.interpolated.as_ref().and_then(Interpolated::load).unwrap();
             assert!(
                 (load.force - station.force).abs() < 1e-9 * (1.0 + station.force),
                 "{load:?} {station:?}"
@@ -147,10 +128,7 @@ fn the_load_at_an_angle_agrees_with_the_stations() {
                 (moment.sliding_velocity - station.sliding_velocity).abs() < 1e-9,
                 "{moment:?} {station:?}"
             );
-            assert!(
-                moment.opening == 0.0 && force(&moment).is_none(),
-                "{moment:?}"
-            );
+            assert!(moment.opening == 0.0 && force(&moment).is_none(), "{moment:?}");
         }
     }
 }
@@ -159,10 +137,7 @@ fn the_load_at_an_angle_agrees_with_the_stations() {
 fn assert_same_contact(inputs: &Inputs, before: &ContactState, after: &ContactState) {
     let way = (before.point - after.point).norm();
     let change = (before.sliding_velocity - after.sliding_velocity).abs();
-    assert!(
-        way < 1e-7 * inputs.module && change < 1e-6,
-        "{before:?} {after:?}"
-    );
+    assert!(way < 1e-7 * inputs.module && change < 1e-6, "{before:?} {after:?}");
 }
 
 #[test]
@@ -175,10 +150,7 @@ fn values_are_continuous_at_b_and_the_tip_leaves_the_flank_afterwards() {
         assert_eq!((before.phase, after.phase), (Phase::Line, Phase::RunOut));
         assert_same_contact(&inputs, &before, &after);
         let gaps = [0.001, 0.01, 0.05].map(|after| at(after).gap);
-        assert!(
-            gaps[0] > 0.0 && gaps.is_sorted() && at(0.01).normal_velocity < 0.0,
-            "{gaps:?}"
-        );
+        assert!(gaps[0] > 0.0 && gaps.is_sorted() && at(0.01).normal_velocity < 0.0, "{gaps:?}");
     }
 }
 

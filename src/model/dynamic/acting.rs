@@ -67,10 +67,7 @@ impl Crossing {
             return Rc::clone(&known.acting);
         }
         let acting = Rc::new(new());
-        all.push(Known {
-            stretch,
-            acting: Rc::clone(&acting),
-        });
+        all.push(Known { stretch, acting: Rc::clone(&acting) });
         acting
     }
 }
@@ -93,11 +90,8 @@ impl Crossings {
         if let Some(crossing) = all.iter().find(is_alike) {
             return Rc::clone(crossing);
         }
-        let crossing = Rc::new(Crossing {
-            zones: zones.collect(),
-            incoming,
-            known: RefCell::default(),
-        });
+        let crossing =
+            Rc::new(Crossing { zones: zones.collect(), incoming, known: RefCell::default() });
         all.push(Rc::clone(&crossing));
         crossing
     }

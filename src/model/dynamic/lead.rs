@@ -51,9 +51,9 @@ impl Lead {
     pub(super) fn over(&self, ahead: &Polynomial<TERMS>) -> Polynomial<FORCE_TERMS> {
         match self {
             Lead::Gap(gap) => Polynomial::ZERO.plus(1.0, ahead).plus(-1.0, gap),
-            Lead::Shared { slope, offset } => ahead
-                .times::<{ chebyshev::TERMS }, FORCE_TERMS>(slope)
-                .plus(-1.0, offset),
+            Lead::Shared { slope, offset } => {
+                ahead.times::<{ chebyshev::TERMS }, FORCE_TERMS>(slope).plus(-1.0, offset)
+            }
         }
     }
 
@@ -69,10 +69,7 @@ impl Lead {
                 let ends = [least * slope.0[0], most * slope.0[0]];
                 let varying = variation(slope) * least.abs().max(most.abs()) + variation(offset);
                 let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-                (
-                    low - (offset.0[0] + varying),
-                    high - (offset.0[0] - varying),
-                )
+                (low - (offset.0[0] + varying), high - (offset.0[0] - varying))
             }
         };
         if touches { low > 0.0 } else { high < 0.0 }

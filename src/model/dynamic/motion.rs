@@ -88,10 +88,7 @@ impl<'a> Motion<'a> {
 
     /// The motion with the back flanks.
     pub(super) fn with_back(self) -> Motion<'a> {
-        Motion {
-            back: Some(self.mesh.back()),
-            ..self
-        }
+        Motion { back: Some(self.mesh.back()), ..self }
     }
 
     /// Whether the case gives a backlash.
@@ -125,11 +122,7 @@ impl<'a> Motion<'a> {
         const FORGOTTEN: f64 = 42.0;
         let pitch = self.mesh.base_pitch;
         let forgets_a_pitch = self.decay * pitch / self.mesh.speed > FORGOTTEN;
-        let pitches = if forgets_a_pitch {
-            self.warmup_cycles.min(2)
-        } else {
-            self.warmup_cycles
-        };
+        let pitches = if forgets_a_pitch { self.warmup_cycles.min(2) } else { self.warmup_cycles };
         -f64::from(pitches) * pitch
     }
 
@@ -163,10 +156,7 @@ impl<'a> Motion<'a> {
     pub(super) fn check_pace(&self, way: f64) -> Result<(), Refusal> {
         let swings = self.time(way) * self.frequency / TAU;
         if swings > MOTION_OSCILLATIONS {
-            Err(Refusal::TooSlow {
-                swings,
-                limit: MOTION_OSCILLATIONS,
-            })
+            Err(Refusal::TooSlow { swings, limit: MOTION_OSCILLATIONS })
         } else {
             Ok(())
         }
@@ -187,10 +177,7 @@ impl<'a> Motion<'a> {
             pairs.extend(behind);
         }
         if pairs.len() > PAIRS {
-            return Err(Refusal::TooManyPairs {
-                pairs: pairs.len(),
-                limit: PAIRS,
-            });
+            return Err(Refusal::TooManyPairs { pairs: pairs.len(), limit: PAIRS });
         }
         // The number of working pairs, then the zones of the working pairs and of the back pairs.
         let zones = pairs.iter().map(|pair| pair.zone);
@@ -255,11 +242,8 @@ impl<'a> Motion<'a> {
         if let Some(sharing) = known {
             return Some(Rc::clone(sharing));
         }
-        let sharing = Rc::new(Sharing {
-            flank,
-            zones: zones().collect(),
-            known: RefCell::default(),
-        });
+        let sharing =
+            Rc::new(Sharing { flank, zones: zones().collect(), known: RefCell::default() });
         all.push(Rc::clone(&sharing));
         Some(sharing)
     }
@@ -278,14 +262,9 @@ impl<'a> Motion<'a> {
         if let Some((_, shares)) = known.iter().find(|(known, _)| is_same(known)) {
             return Some(Arc::clone(shares));
         }
-        let meeting = Meeting {
-            zones: sharing.zones.clone(),
-            touching,
-            deviating,
-        };
+        let meeting = Meeting { zones: sharing.zones.clone(), touching, deviating };
         let shares = mesh.shares(&meeting);
-        self.looks
-            .set(self.looks.get() + shares.evaluations() as u64);
+        self.looks.set(self.looks.get() + shares.evaluations() as u64);
         self.keep(shares.bytes());
         known.push((meeting, Arc::clone(&shares)));
         Some(shares)
@@ -311,12 +290,7 @@ impl<'a> Motion<'a> {
 fn standing(mesh: &Mesh, flank: Flank, inside: f64) -> Vec<Standing> {
     let standing = mesh.standing(inside).map(|(ahead, zone)| {
         let (_, sliding) = mesh.slide(ahead, zone, inside);
-        Standing {
-            flank,
-            ahead,
-            zone,
-            direction: sliding.signum(),
-        }
+        Standing { flank, ahead, zone, direction: sliding.signum() }
     });
     standing.collect()
 }
@@ -324,9 +298,7 @@ fn standing(mesh: &Mesh, flank: Flank, inside: f64) -> Vec<Standing> {
 impl Window {
     /// The named pairs as a set. `None` if a pair is no longer in the window.
     pub(super) fn touching(&self, names: &[PairName]) -> Option<Touching> {
-        names.iter().try_fold(Touching::NONE, |set, &name| {
-            Some(set.with(self.index_of(name)?))
-        })
+        names.iter().try_fold(Touching::NONE, |set, &name| Some(set.with(self.index_of(name)?)))
     }
 
     /// The names of the touching pairs.

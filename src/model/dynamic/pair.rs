@@ -21,18 +21,12 @@ pub(super) struct PairName {
 impl PairName {
     /// The pair of working flanks `ahead` base pitches ahead of the incoming pair.
     pub(super) fn working(ahead: i32) -> PairName {
-        PairName {
-            flank: Flank::Working,
-            ahead,
-        }
+        PairName { flank: Flank::Working, ahead }
     }
 
     /// The pair `pitches` base pitches farther ahead.
     pub(super) fn moved(self, pitches: i32) -> PairName {
-        PairName {
-            ahead: self.ahead + pitches,
-            ..self
-        }
+        PairName { ahead: self.ahead + pitches, ..self }
     }
 }
 
@@ -50,9 +44,6 @@ pub(super) struct Standing {
 
 impl Standing {
     pub(super) fn name(&self) -> PairName {
-        PairName {
-            flank: self.flank,
-            ahead: self.ahead,
-        }
+        PairName { flank: self.flank, ahead: self.ahead }
     }
 }

@@ -24,10 +24,7 @@ pub(super) struct RattleWatch {
 impl RattleWatch {
     /// An observer for a run that begins with or without touching back flanks.
     pub(super) fn from(touches: bool) -> RattleWatch {
-        RattleWatch {
-            touches,
-            ..RattleWatch::default()
-        }
+        RattleWatch { touches, ..RattleWatch::default() }
     }
 
     /// Observes a step. `counts` is false for steps of the warm-up.

@@ -59,15 +59,10 @@ impl RepeatDetector {
             let later = lap.touching.iter().map(|pair| pair.moved(-1));
             later.eq(touching.iter().copied())
         });
-        let moved = alike.map_or(f64::INFINITY, |lap| {
-            (y - lap.y).component_div(&motion.scale()).amax()
-        });
+        let moved =
+            alike.map_or(f64::INFINITY, |lap| (y - lap.y).component_div(&motion.scale()).amax());
         let draws_near = before.is_some_and(|lap| moved <= 0.5 * lap.moved);
-        self.last = Some(Lap {
-            y: *y,
-            touching,
-            moved,
-        });
+        self.last = Some(Lap { y: *y, touching, moved });
         moved <= if draws_near { self.allowed } else { ROUNDING }
     }
 }

@@ -35,37 +35,25 @@ impl MotionInputs {
     /// Selects the inputs of the method `dynamic` from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> MotionInputs {
-        MotionInputs {
-            speed: inputs.speed,
-            settings: Settings::of(inputs, 0.0),
-        }
+        MotionInputs { speed: inputs.speed, settings: Settings::of(inputs, 0.0) }
     }
 
     /// Selects the inputs of the steady motion, which has neither warm-up nor stations.
     #[must_use]
     pub fn steady(inputs: &Inputs) -> MotionInputs {
-        MotionInputs {
-            speed: inputs.speed,
-            settings: Settings::of(inputs, 0.0).without_warmup(),
-        }
+        MotionInputs { speed: inputs.speed, settings: Settings::of(inputs, 0.0).without_warmup() }
     }
 
     /// Selects the inputs of the approach, which has no stations.
     #[must_use]
     pub fn approach(inputs: &Inputs) -> MotionInputs {
-        MotionInputs {
-            speed: inputs.speed,
-            settings: Settings::of(inputs, 0.0).without_stations(),
-        }
+        MotionInputs { speed: inputs.speed, settings: Settings::of(inputs, 0.0).without_stations() }
     }
 
     /// The settings with the mass at the line of action, in kg.
     #[must_use]
     pub fn settings(&self, mass: f64) -> Settings {
-        Settings {
-            mass,
-            ..self.settings
-        }
+        Settings { mass, ..self.settings }
     }
 }
 
@@ -86,18 +74,11 @@ impl Settings {
 
     /// The settings without warm-up and stations.
     fn without_warmup(self) -> Settings {
-        Settings {
-            warmup_cycles: 0,
-            ..self.without_stations()
-        }
+        Settings { warmup_cycles: 0, ..self.without_stations() }
     }
 
     /// The settings with a single interval of stations.
     fn without_stations(self) -> Settings {
-        Settings {
-            spacing: Spacing::Even(1),
-            approach_samples: 0,
-            ..self
-        }
+        Settings { spacing: Spacing::Even(1), approach_samples: 0, ..self }
     }
 }

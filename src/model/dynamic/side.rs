@@ -40,11 +40,7 @@ impl Side<'_> {
                 let (at, least) = self.mesh.above(self.rearmost(), own);
                 own + (shares.serves_until((at, least)) - at)
             }
-            None => self
-                .pairs
-                .iter()
-                .map(zones_end)
-                .fold(f64::INFINITY, f64::min),
+            None => self.pairs.iter().map(zones_end).fold(f64::INFINITY, f64::min),
         };
         // The arms and the sliding of the touching pairs come from the zones.
         let rubbing = self.touching.pairs().filter(|_| self.mesh.friction() > 0.0);
@@ -142,20 +138,14 @@ impl Side<'_> {
         }
         let own = s + self.offset;
         let [lever, _] = self.mesh.slide_along(pair.ahead, pair.zone, own, way);
-        whole.plus(
-            -friction * pair.direction,
-            &force.times::<{ chebyshev::TERMS }, TERMS>(&lever),
-        )
+        whole.plus(-friction * pair.direction, &force.times::<{ chebyshev::TERMS }, TERMS>(&lever))
     }
 
     /// Whether a pair goes on to touch, or to be apart, wherever the displacement ahead is in a
     /// range, all the way on which what is known from `s` on is one polynomial.
     pub(super) fn is_clear(&self, pair: usize, s: f64, (least, most): (f64, f64)) -> bool {
         let displaced = [self.sign * least, self.sign * most];
-        let displaced = [
-            displaced[0].min(displaced[1]),
-            displaced[0].max(displaced[1]),
-        ];
+        let displaced = [displaced[0].min(displaced[1]), displaced[0].max(displaced[1])];
         let displaced = displaced.map(|displaced| displaced - self.backlash);
         let own = s + self.offset;
         let (low, high) = match &self.shares {
@@ -169,9 +159,7 @@ impl Side<'_> {
                 let line = shares.bounds(of, self.mesh.above(self.rearmost(), own));
                 let (low, high) = product(line.slope, displaced);
                 let error = [self.mesh.error; 2];
-                let deviated = line
-                    .deviated
-                    .map_or((0.0, 0.0), |line| product(line, error));
+                let deviated = line.deviated.map_or((0.0, 0.0), |line| product(line, error));
                 let apart = self.error_apart(of);
                 (
                     low - line.offset.1 + deviated.0 + apart,
@@ -179,11 +167,7 @@ impl Side<'_> {
                 )
             }
         };
-        if self.touching.has(pair) {
-            low > 0.0
-        } else {
-            high < 0.0
-        }
+        if self.touching.has(pair) { low > 0.0 } else { high < 0.0 }
     }
 
     /// The lead of a pair over a step.
@@ -192,10 +176,7 @@ impl Side<'_> {
             return self.lead_of_gap(self.gap_along(&self.pairs[pair], s, way));
         };
         let (slope, offset) = self.line(shares, Of::Pair(pair), (s, way));
-        Lead::Shared {
-            slope: slope.scaled(self.sign),
-            offset,
-        }
+        Lead::Shared { slope: slope.scaled(self.sign), offset }
     }
 
     /// Force of a touching pair over a step, in N.
@@ -221,9 +202,7 @@ impl Side<'_> {
         (s, way): (f64, f64),
     ) -> f64 {
         let pitches = self.pairs[pair].ahead;
-        let Standing {
-            zone, direction, ..
-        } = self.pairs[pair];
+        let Standing { zone, direction, .. } = self.pairs[pair];
         let own = s + self.offset;
         let [_, sliding] = self.mesh.slide_along(pitches, zone, own, way);
         let force = self.force_along(pair, ahead, (s, way));

@@ -41,10 +41,7 @@ impl SpeedInputs {
     /// Selects the stage inputs from the inputs of a solve.
     #[must_use]
     pub fn of(inputs: &Inputs) -> SpeedInputs {
-        SpeedInputs {
-            motion: MotionInputs::steady(inputs),
-            torque: inputs.torque(),
-        }
+        SpeedInputs { motion: MotionInputs::steady(inputs), torque: inputs.torque() }
     }
 }
 
@@ -139,10 +136,7 @@ pub(in crate::model) fn over_speed(
     solution: &Solution,
     show: &mut dyn FnMut(&SpeedCurve) -> bool,
 ) -> Result<SpeedCurve, Refusal> {
-    let inputs = Inputs {
-        drive: Drive::Torque(inputs.torque()),
-        ..inputs.clone()
-    };
+    let inputs = Inputs { drive: Drive::Torque(inputs.torque()), ..inputs.clone() };
     let mesh = Arc::new(wide_mesh(&inputs, solution)?);
     let resonance = Resonance::of(&ResonanceInputs::of(&inputs), &mesh, solution.reduced_mass);
     let at_resonance = inputs.speed / resonance.ratio();
@@ -187,13 +181,7 @@ pub(in crate::model) fn over_speed(
 fn wide_mesh(inputs: &Inputs, solution: &Solution) -> Result<Mesh, Refusal> {
     const REACH: f64 = 60.0;
     let yields = solution.deviation.loaded_deflection() + inputs.reliefs().sum();
-    Mesh::new(
-        &inputs.mesh(),
-        &solution.geometry,
-        solution.mesh_force,
-        0.0,
-        REACH * yields,
-    )
+    Mesh::new(&inputs.mesh(), &solution.geometry, solution.mesh_force, 0.0, REACH * yields)
 }
 
 struct Runs<'a> {
@@ -278,18 +266,8 @@ mod tests {
 
     #[test]
     fn the_run_down_jumps_where_its_motion_differs() {
-        let up = [
-            Some((1.2, false)),
-            Some((2.0, false)),
-            None,
-            Some((1.5, false)),
-        ];
-        let down = [
-            Some((1.2001, false)),
-            Some((1.4, true)),
-            Some((9.0, true)),
-            None,
-        ];
+        let up = [Some((1.2, false)), Some((2.0, false)), None, Some((1.5, false))];
+        let down = [Some((1.2001, false)), Some((1.4, true)), Some((9.0, true)), None];
         let curve = curve(&up, &down);
         let jumps: Vec<f64> = curve.jumps().map(|point| point.tooth_factor).collect();
         assert_eq!(jumps, [1.4]);

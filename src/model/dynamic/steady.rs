@@ -90,9 +90,7 @@ pub fn steady(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Steady, Refusal> {
     let mesh = mesh.without_error();
-    across_backlash(&mesh, settings, |motion| {
-        repeated(motion, settings, from, meter, go_on)
-    })
+    across_backlash(&mesh, settings, |motion| repeated(motion, settings, from, meter, go_on))
 }
 
 /// Like [`steady`]. `None` if the driver reaches back flanks that the motion does not include.
@@ -124,10 +122,9 @@ fn repeated(
             before.truncate(PERIODS);
         }
         round.lap(|_, _, _| ()).map_err(|refusal| match refusal {
-            Refusal::MotionTooLong { steps, .. } => Refusal::MotionTooLong {
-                steps,
-                done: f64::from(laps) / f64::from(MOST_LAPS),
-            },
+            Refusal::MotionTooLong { steps, .. } => {
+                Refusal::MotionTooLong { steps, done: f64::from(laps) / f64::from(MOST_LAPS) }
+            }
             other => other,
         })?;
         if round.run.misses_back {
@@ -148,11 +145,7 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
     let scale = motion.scale();
     let moved = |then: &Start| {
         let by = |at: usize| ((now.state[at] - then.state[at]) / scale[at]).abs();
-        if then.touching == now.touching {
-            by(0).max(by(1))
-        } else {
-            f64::INFINITY
-        }
+        if then.touching == now.touching { by(0).max(by(1)) } else { f64::INFINITY }
     };
     let moved: Vec<f64> = before.iter().map(moved).collect();
     moved.iter().position(|&moved| moved <= NONE)?;
@@ -213,10 +206,8 @@ impl<'a> Round<'a> {
         let mesh = motion.mesh;
         motion.check_pace(mesh.base_pitch)?;
         let borders = motion.borders(0.0, mesh.base_pitch);
-        let windows: Result<Vec<Window>, Refusal> = borders
-            .windows(2)
-            .map(|ends| motion.window(ends[0], ends[1]))
-            .collect();
+        let windows: Result<Vec<Window>, Refusal> =
+            borders.windows(2).map(|ends| motion.window(ends[0], ends[1])).collect();
         let start = match from {
             Some(start) => start.clone(),
             None => at_rest(mesh, &borders)?,
@@ -239,20 +230,13 @@ impl<'a> Round<'a> {
             lead: None,
             misses_back: false,
         };
-        Ok(Round {
-            motion,
-            windows: windows?,
-            run,
-        })
+        Ok(Round { motion, windows: windows?, run })
     }
 
     fn start(&self) -> Start {
         let mut touching = self.run.touching.clone();
         touching.sort_unstable();
-        Start {
-            state: [self.run.y[0], self.run.y[1]],
-            touching,
-        }
+        Start { state: [self.run.y[0], self.run.y[1]], touching }
     }
 
     /// Runs one base pitch and shows every step.
@@ -276,9 +260,7 @@ impl<'a> Round<'a> {
             run.touching = window.names(touching);
         }
         run.t = 0.0;
-        run.touching
-            .iter_mut()
-            .for_each(|pair| *pair = pair.moved(1));
+        run.touching.iter_mut().for_each(|pair| *pair = pair.moved(1));
         Ok(())
     }
 
@@ -316,9 +298,7 @@ fn at_rest(mesh: &Mesh, borders: &[f64]) -> Result<Start, Refusal> {
     let touching = carries.filter(|(_, force)| *force > 0.0);
     Ok(Start {
         state: [displacement, 0.0],
-        touching: touching
-            .map(|(pair, _)| PairName::working(pair.ahead))
-            .collect(),
+        touching: touching.map(|(pair, _)| PairName::working(pair.ahead)).collect(),
     })
 }
 

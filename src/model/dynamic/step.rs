@@ -60,11 +60,7 @@ impl Step {
 
     /// The first part of the step, as a step.
     pub(super) fn cut(&self, part: f64) -> Step {
-        Step {
-            length: part * self.length,
-            ahead: self.ahead.stretched(part),
-            ..*self
-        }
+        Step { length: part * self.length, ahead: self.ahead.stretched(part), ..*self }
     }
 }
 
@@ -117,24 +113,14 @@ impl<'a> Course<'a> {
         let step = Step { t, length, ahead };
         let part = convergent_part(&ahead, allowed);
         if part >= 1.0 {
-            return Ok(StepResult {
-                step,
-                ends_even: length >= whole,
-            });
+            return Ok(StepResult { step, ends_even: length >= whole });
         }
         // Divides the rest into steps of equal length, so that the last step is not very short.
-        let part = if length < whole {
-            part
-        } else {
-            1.0 / (1.0 / part).ceil()
-        };
+        let part = if length < whole { part } else { 1.0 / (1.0 / part).ceil() };
         if part * length <= 0.0 || !part.is_finite() {
             return Err(Refusal::NotConverged);
         }
-        Ok(StepResult {
-            step: step.cut(part),
-            ends_even: false,
-        })
+        Ok(StepResult { step: step.cut(part), ends_even: false })
     }
 
     /// The time up to which every function of the pairs is one polynomial.
@@ -160,10 +146,7 @@ impl<'a> Course<'a> {
 
     /// Stiffness and load over a time interval.
     fn acting(&self, t: f64, length: f64) -> Acting {
-        let mut acting = Acting {
-            stiffness: Polynomial::ZERO,
-            load: Polynomial::ZERO,
-        };
+        let mut acting = Acting { stiffness: Polynomial::ZERO, load: Polynomial::ZERO };
         acting.load.0[0] = self.motion.mesh.force;
         let way = (self.motion.place(t), self.motion.mesh.speed * length);
         for side in self.sides() {
@@ -175,11 +158,7 @@ impl<'a> Course<'a> {
     /// The equation of motion over a time interval, scaled to the length 1.
     fn oscillator(&self, acting: &Acting, length: f64) -> Oscillator<TERMS> {
         let Motion { mass, damping, .. } = *self.motion;
-        let damping = if self.touching.is_none() {
-            0.0
-        } else {
-            damping * length / mass
-        };
+        let damping = if self.touching.is_none() { 0.0 } else { damping * length / mass };
         let scale = length * length / mass;
         Oscillator {
             stiffness: acting.stiffness.scaled(scale),

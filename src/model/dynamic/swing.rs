@@ -65,11 +65,7 @@ impl Swing {
     /// The greatest force, in N.
     pub(super) fn peak(&self) -> f64 {
         let ends = [0.0, 1.0];
-        self.turns
-            .iter()
-            .chain(&ends)
-            .map(|&part| self.force.at(part))
-            .fold(0.0, f64::max)
+        self.turns.iter().chain(&ends).map(|&part| self.force.at(part)).fold(0.0, f64::max)
     }
 }
 

@@ -29,14 +29,8 @@ pub(super) fn at_rest(adjust: impl FnOnce(&mut Inputs)) -> (Inputs, Solution) {
 fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let (inputs, solution) = at_rest(adjust);
     let error = solution.deviation.equivalent_error;
-    let mesh = Mesh::new(
-        &inputs.mesh(),
-        &solution.geometry,
-        solution.mesh_force,
-        error,
-        1e-3,
-    )
-    .unwrap();
+    let mesh =
+        Mesh::new(&inputs.mesh(), &solution.geometry, solution.mesh_force, error, 1e-3).unwrap();
     (mesh, settings(&inputs, solution.reduced_mass))
 }
 
@@ -198,10 +192,7 @@ fn plain_peak(mesh: &Mesh, settings: &Settings, steps: u32) -> f64 {
         let pairs = mesh.pair_set(t * mesh.speed, t * mesh.speed);
         let forces = pairs.forces(x);
         let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
-        (
-            forces.iter().sum::<f64>(),
-            incoming.map_or(0.0, |incoming| forces[incoming]),
-        )
+        (forces.iter().sum::<f64>(), incoming.map_or(0.0, |incoming| forces[incoming]))
     };
     let slope = |t: f64, y: State| {
         let (total, _) = forces(t, y[0]);
@@ -232,17 +223,11 @@ fn plain_steps_with_coupled_pairs_give_the_same_peak() {
             inputs.friction_coefficient = Some(friction);
             inputs.base_pitch_deviation = deviation;
         });
-        let settings = Settings {
-            warmup_cycles: 2,
-            ..settings
-        };
+        let settings = Settings { warmup_cycles: 2, ..settings };
         let found = dynamic(&mesh, &settings, &|_| true).unwrap();
         let off = |steps| (plain_peak(&mesh, &settings, steps) / found.peak_force - 1.0).abs();
         let (coarse, fine) = (off(4_000), off(64_000));
-        assert!(
-            fine < 2e-7 && fine < 0.5 * coarse.max(4e-9),
-            "{coarse:e} and {fine:e}"
-        );
+        assert!(fine < 2e-7 && fine < 0.5 * coarse.max(4e-9), "{coarse:e} and {fine:e}");
     }
 }
 
@@ -253,22 +238,13 @@ fn slow_coupled_gears_carry_the_static_load() {
         inputs.speed /= 2000.0;
         inputs.damping_ratio = 0.5;
     });
-    let settings = Settings {
-        warmup_cycles: 1,
-        tolerance: 1e-8,
-        ..settings
-    };
+    let settings = Settings { warmup_cycles: 1, tolerance: 1e-8, ..settings };
     let moved = dynamic(&mesh, &settings, &|_| true).unwrap();
     let still = static_load::static_load(&mesh, settings.spacing).unwrap();
-    let (moving, resting) = (
-        moved.first_contact_angle.unwrap(),
-        still.first_contact_angle.unwrap(),
-    );
+    let (moving, resting) =
+        (moved.first_contact_angle.unwrap(), still.first_contact_angle.unwrap());
     assert!((moving / resting - 1.0).abs() < 1e-2, "{moving} {resting}");
-    assert!(
-        (moved.peak_force / still.peak_force - 1.0).abs() < 1e-2,
-        "{moved:?} {still:?}"
-    );
+    assert!((moved.peak_force / still.peak_force - 1.0).abs() < 1e-2, "{moved:?} {still:?}");
 }
 
 /// A motion stops at its limit of work. The refusal has the number of steps and the computed part.
@@ -327,20 +303,10 @@ impl Course<'_> {
     fn power(&self, motion: &Motion<'_>, mesh: &Mesh, step: &Step, part: f64) -> f64 {
         let rate = step.state(part)[1];
         let touching = (0..self.pairs()).filter(|&pair| self.touches(pair));
-        let moved = touching
-            .clone()
-            .map(|pair| self.mesh_power(pair, step, part))
-            .sum::<f64>();
-        let damped = if touching.clone().count() > 0 {
-            motion.damping * rate * rate
-        } else {
-            0.0
-        };
-        let rubbed = touching
-            .clone()
-            .map(|pair| self.friction(pair, step, part))
-            .sum::<f64>()
-            * rate;
+        let moved = touching.clone().map(|pair| self.mesh_power(pair, step, part)).sum::<f64>();
+        let damped = if touching.clone().count() > 0 { motion.damping * rate * rate } else { 0.0 };
+        let rubbed =
+            touching.clone().map(|pair| self.friction(pair, step, part)).sum::<f64>() * rate;
         mesh.force * rate - damped + moved + rubbed
     }
 
@@ -357,10 +323,8 @@ impl Course<'_> {
     fn mesh_power(&self, pair: usize, step: &Step, part: f64) -> f64 {
         // At a fixed displacement d(k p²/2)/dt is k p p' + k' p²/2, and the rate of the force is k
         // p' + k' p.
-        let still = Step {
-            ahead: Polynomial::ZERO.plus(step.ahead.at(part), &Polynomial([1.0])),
-            ..*step
-        };
+        let still =
+            Step { ahead: Polynomial::ZERO.plus(step.ahead.at(part), &Polynomial([1.0])), ..*step };
         let force = self.force_along(pair, &still);
         let (side, index) = self.side_of(pair);
         let (s, way) = self.way_of(step);
@@ -380,20 +344,12 @@ fn the_stations_include_every_peak() {
             ..standard_pair(20, 20, 5e-3)
         };
         let dynamic = solve(&inputs, Stages::EVERY).unwrap().dynamic.unwrap();
-        let highest = dynamic
-            .stations
-            .iter()
-            .map(|station| station.force)
-            .fold(0.0, f64::max);
+        let highest = dynamic.stations.iter().map(|station| station.force).fold(0.0, f64::max);
         assert!(
             (highest / dynamic.peak_force - 1.0).abs() < 2e-3,
             "{highest} {}",
             dynamic.peak_force
         );
-        assert!(
-            dynamic
-                .stations
-                .is_sorted_by(|one, other| one.time < other.time)
-        );
+        assert!(dynamic.stations.is_sorted_by(|one, other| one.time < other.time));
     }
 }

@@ -51,10 +51,7 @@ struct Swings {
 impl Watch {
     /// An observer that stores no steps and detects only loss of contact.
     pub(super) fn of_contact_alone() -> Watch {
-        Watch {
-            forgets: true,
-            ..Watch::default()
-        }
+        Watch { forgets: true, ..Watch::default() }
     }
 
     /// The following steps belong to this window.
@@ -63,11 +60,7 @@ impl Watch {
         if let Some(incoming) = window.incoming().filter(|_| self.is_passing) {
             self.passages.pop_if(|last| last.records.is_empty());
             self.bytes += GROWTH * size_of::<Passage>() + size_of_val(&*window.pairs);
-            self.passages.push(Passage {
-                window: window.clone(),
-                incoming,
-                records: Vec::new(),
-            });
+            self.passages.push(Passage { window: window.clone(), incoming, records: Vec::new() });
         }
     }
 
@@ -136,9 +129,8 @@ impl Watch {
         };
         let swings = self.swings(motion);
         let end = || swing::end_of_first_impact(&swings.phases, swings.peak);
-        let (stations, resolution) = first
-            .zip(last)
-            .map_or((Vec::new(), Resolution::Full), |contact| {
+        let (stations, resolution) =
+            first.zip(last).map_or((Vec::new(), Resolution::Full), |contact| {
                 self.stations(motion, &swings, contact, spacing)
             });
         Ok(Dynamic {
@@ -147,10 +139,7 @@ impl Watch {
             peak_approach_force: swings.peak_before_start,
             peak_force: swings.peak,
             impact_duration: early.and_then(|first| end().map(|end| end - first)),
-            least_gap: early
-                .is_none()
-                .then(|| -self.lead(motion))
-                .filter(|gap| gap.is_finite()),
+            least_gap: early.is_none().then(|| -self.lead(motion)).filter(|gap| gap.is_finite()),
             contact_lost: self.contact_lost,
             rattle: motion.has_backlash().then(|| self.rattle.found()),
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
@@ -159,10 +148,7 @@ impl Watch {
             }),
             stations,
             resolution,
-            effort: Effort {
-                evaluations: effort.evaluations + self.looks.get(),
-                ..effort
-            },
+            effort: Effort { evaluations: effort.evaluations + self.looks.get(), ..effort },
         })
     }
 
@@ -186,11 +172,7 @@ impl Watch {
 
     /// Every stored step with its passage, in order.
     fn records(&self) -> impl Iterator<Item = (&Passage, &Record)> + Clone {
-        let of = |passage| {
-            Passage::records(passage)
-                .iter()
-                .map(move |record| (passage, record))
-        };
+        let of = |passage| Passage::records(passage).iter().map(move |record| (passage, record));
         self.passages.iter().flat_map(of)
     }
 
@@ -208,12 +190,12 @@ impl Watch {
         &'a self,
         motion: &'a Motion<'a>,
     ) -> impl Iterator<Item = (Course<'a>, usize, &'a Step)> {
-        self.records()
-            .filter(|(passage, record)| record.touching.has(passage.incoming))
-            .map(|(passage, record)| {
+        self.records().filter(|(passage, record)| record.touching.has(passage.incoming)).map(
+            |(passage, record)| {
                 let course = passage.course(motion, record);
                 (course, passage.incoming, &record.step)
-            })
+            },
+        )
     }
 
     /// Greatest difference of the driver's lead and the gap of the incoming tooth before E, in m,
@@ -272,11 +254,7 @@ impl Watch {
         let (peak, turns) = (swings.peak, &*swings.turns);
         let is_given = spacing.count().is_some();
         let (stations, resolution) = MeshStation::through_start(first, last, |from, to| {
-            let ends = if is_given {
-                vec![from, to]
-            } else {
-                self.ends(motion, turns, (from, to))
-            };
+            let ends = if is_given { vec![from, to] } else { self.ends(motion, turns, (from, to)) };
             let (times, resolution) = spacing.stations(&ends, peak, CURVE_WORK, |t| {
                 self.looks.set(self.looks.get() + 1);
                 // Without a given number, the heights decide.
@@ -290,11 +268,8 @@ impl Watch {
         });
         if is_given {
             let most = turns.len().min(TURNS);
-            let turns_resolution = if most < turns.len() {
-                Resolution::Limited(TURNS)
-            } else {
-                Resolution::Full
-            };
+            let turns_resolution =
+                if most < turns.len() { Resolution::Limited(TURNS) } else { Resolution::Full };
             let stations = self.with_turns(motion, &turns[..most], stations);
             return (stations, resolution.and(turns_resolution));
         }
@@ -311,12 +286,8 @@ impl Watch {
                 !std::ptr::eq(*passage, *next) || record.touching != other.touching
             })
             .map(|(_, (_, other))| other.step.t);
-        let mut knots: Vec<f64> = turns
-            .iter()
-            .copied()
-            .chain(bends)
-            .filter(|&knot| from < knot && knot < to)
-            .collect();
+        let mut knots: Vec<f64> =
+            turns.iter().copied().chain(bends).filter(|&knot| from < knot && knot < to).collect();
         knots.extend([from, to]);
         knots.sort_by(f64::total_cmp);
         let between = |pair: &[f64]| {
@@ -368,10 +339,7 @@ impl Watch {
             state[0],
             Some(t),
         );
-        Some(MeshStation {
-            rate: Some(state[1]),
-            ..station
-        })
+        Some(MeshStation { rate: Some(state[1]), ..station })
     }
 
     /// The motion at a time from the stored steps.

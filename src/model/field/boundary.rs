@@ -79,9 +79,7 @@ impl Boundary {
         }
         let space = boundary.half_pitch - boundary.root_half_angle;
         if space.is_nan() || space < -LEAST_ANGLE {
-            return Err(FieldRefusal::NoSpace {
-                width: 2.0 * space * circles.root,
-            });
+            return Err(FieldRefusal::NoSpace { width: 2.0 * space * circles.root });
         }
         boundary.walk_fillet()?;
         boundary.check_tip()?;

@@ -33,10 +33,7 @@ impl FieldGear {
     pub fn field(&self) -> Result<Arc<Field>, Refusal> {
         let entry = self.entry();
         // The list is not locked while a field is built, so that other gears do not wait.
-        entry
-            .field
-            .get_or_init(|| self.build().map(Arc::new))
-            .clone()
+        entry.field.get_or_init(|| self.build().map(Arc::new)).clone()
     }
 
     /// The field of the gear, built without the cache.
@@ -75,10 +72,7 @@ impl FieldGear {
     }
 
     fn refusal(&self, reason: FieldRefusal) -> Refusal {
-        Refusal::NoField {
-            teeth: self.rack.teeth,
-            reason,
-        }
+        Refusal::NoField { teeth: self.rack.teeth, reason }
     }
 
     /// The entry of the gear. Needs no lock for the two gears that this thread used last.
@@ -105,11 +99,7 @@ impl FieldGear {
         if entries.len() == MOST {
             entries.remove(0);
         }
-        let entry = Arc::new(Entry {
-            gear: *self,
-            check: OnceLock::new(),
-            field: OnceLock::new(),
-        });
+        let entry = Arc::new(Entry { gear: *self, check: OnceLock::new(), field: OnceLock::new() });
         entries.push(Arc::clone(&entry));
         entry
     }

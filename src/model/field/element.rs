@@ -6,11 +6,8 @@ use nalgebra::{Matrix2, Vector2};
 pub(super) type Stiffness = [[f64; 18]; 18];
 
 /// Places and weights of the 3-point Gauss rule on (-1, 1).
-const GAUSS: [(f64, f64); 3] = [
-    (-0.774_596_669_241_483_4, 5.0 / 9.0),
-    (0.0, 8.0 / 9.0),
-    (0.774_596_669_241_483_4, 5.0 / 9.0),
-];
+const GAUSS: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// Lamé's constants for Young's modulus 1.
 #[derive(Debug, Clone, Copy)]
@@ -31,11 +28,7 @@ impl Material {
 
 /// The quadratic shape functions of a line from −1 to 1.
 pub(super) fn line_shapes(at: f64) -> [f64; 3] {
-    [
-        0.5 * at * (at - 1.0),
-        (1.0 - at) * (1.0 + at),
-        0.5 * at * (at + 1.0),
-    ]
+    [0.5 * at * (at - 1.0), (1.0 - at) * (1.0 + at), 0.5 * at * (at + 1.0)]
 }
 
 /// The slopes of the shape functions.
@@ -85,11 +78,9 @@ pub(super) fn take_middle_out(stiffness: &mut Stiffness) {
 /// Whether the map folds at a point of the rule.
 pub(super) fn folds(places: &[Vector2<f64>; 9]) -> bool {
     let points = GAUSS.map(|(place, _)| place);
-    points.iter().any(|&across| {
-        points
-            .iter()
-            .any(|&along| gradients(places, across, along).is_none())
-    })
+    points
+        .iter()
+        .any(|&across| points.iter().any(|&along| gradients(places, across, along).is_none()))
 }
 
 /// Gradients of the shape functions at a point of the element, and the map's determinant.
@@ -99,21 +90,15 @@ fn gradients(places: &[Vector2<f64>; 9], across: f64, along: f64) -> Option<([[f
     let slopes: [Vector2<f64>; 9] = std::array::from_fn(|node| {
         Vector2::new(da[node / 3] * b[node % 3], a[node / 3] * db[node % 3])
     });
-    let map: Matrix2<f64> = places
-        .iter()
-        .zip(&slopes)
-        .map(|(place, slope)| slope * place.transpose())
-        .sum();
+    let map: Matrix2<f64> =
+        places.iter().zip(&slopes).map(|(place, slope)| slope * place.transpose()).sum();
     let determinant = map.determinant();
     if determinant.is_nan() || determinant <= 0.0 {
         return None;
     }
     let inverse = Matrix2::new(map.m22, -map.m12, -map.m21, map.m11) / determinant;
     let gradients = slopes.map(|slope| inverse * slope);
-    Some((
-        [gradients.map(|g| g.x), gradients.map(|g| g.y)],
-        determinant,
-    ))
+    Some(([gradients.map(|g| g.x), gradients.map(|g| g.y)], determinant))
 }
 
 impl Products {

@@ -25,12 +25,7 @@ impl Envelope {
             end += columns.min(row + 1) - first;
             offset.push(end);
         }
-        Envelope {
-            values: vec![0.0; end],
-            first,
-            offset,
-            columns,
-        }
+        Envelope { values: vec![0.0; end], first, offset, columns }
     }
 
     /// Adds to an entry on or below the diagonal, within the envelope.
@@ -67,10 +62,7 @@ impl Envelope {
                 let above = &done[self.offset[column]..];
                 let start = self.first[column];
                 let removed = if from < to {
-                    dot(
-                        &current[from - first..to - first],
-                        &above[from - start..to - start],
-                    )
+                    dot(&current[from - first..to - first], &above[from - start..to - start])
                 } else {
                     0.0
                 };

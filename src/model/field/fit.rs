@@ -25,12 +25,7 @@ pub(super) struct Flank {
 impl Flank {
     /// The part of a flank between the roll angles of the outermost loads, from the junction.
     pub(super) fn of(base: f64, tip_roll: f64, rolls: [f64; 2]) -> Flank {
-        Flank {
-            base,
-            tip_roll,
-            rolls,
-            radii: rolls.map(|roll| base.hypot(base * roll)),
-        }
+        Flank { base, tip_roll, rolls, radii: rolls.map(|roll| base.hypot(base * roll)) }
     }
 
     /// Roll angle at a radius, in rad, limited to the range of the loads.
@@ -66,11 +61,7 @@ impl Abscissa {
             flank.rolls[0] - beyond[1] / slope,
         ];
         let [far, near] = flank.rolls.map(|roll| ratio(ends, roll).ln());
-        Abscissa {
-            ends,
-            middle: f64::midpoint(far, near),
-            scale: 2.0 / (far - near),
-        }
+        Abscissa { ends, middle: f64::midpoint(far, near), scale: 2.0 / (far - near) }
     }
 
     /// The abscissa at a roll angle.
@@ -112,10 +103,7 @@ impl Interpolation {
                 .sum();
             if index.is_multiple_of(2) { sum } else { -sum }
         };
-        Interpolation {
-            weights: (0..=last).map(weight).collect(),
-            places,
-        }
+        Interpolation { weights: (0..=last).map(weight).collect(), places }
     }
 
     /// The weight of each place in the value at `x`.
@@ -123,9 +111,7 @@ impl Interpolation {
         const SAME: f64 = 1e-14;
         let is_here = |place: &f64| (place - x).abs() < SAME;
         if let Some(hit) = self.places.iter().position(is_here) {
-            return (0..self.places.len())
-                .map(|index| f64::from(u8::from(index == hit)))
-                .collect();
+            return (0..self.places.len()).map(|index| f64::from(u8::from(index == hit))).collect();
         }
         let pulls = self.weights.iter().zip(&self.places);
         let pulls: Vec<_> = pulls.map(|(weight, place)| weight / (x - place)).collect();
@@ -164,11 +150,7 @@ impl Interpolation {
             .collect();
         let column = |terms: &Vec<f64>| {
             std::array::from_fn(|order| {
-                terms
-                    .iter()
-                    .zip(&halfway)
-                    .map(|(term, row)| term * row[order])
-                    .sum()
+                terms.iter().zip(&halfway).map(|(term, row)| term * row[order]).sum()
             })
         };
         CrossSeries(matrix.each_ref().map(column))
@@ -176,10 +158,7 @@ impl Interpolation {
 }
 
 fn inner(left: &[f64], right: &[f64]) -> f64 {
-    left.iter()
-        .zip(right)
-        .map(|(left, right)| left * right)
-        .sum()
+    left.iter().zip(right).map(|(left, right)| left * right).sum()
 }
 
 /// A Chebyshev series of one variable.

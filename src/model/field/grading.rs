@@ -69,11 +69,7 @@ impl Grading {
     /// Twice as many loads between the outermost loads.
     #[cfg(test)]
     pub(super) fn with_more_loads(self) -> Grading {
-        Grading {
-            growth: self.growth.sqrt(),
-            flank_limit: self.flank_limit / 2.0,
-            ..self
-        }
+        Grading { growth: self.growth.sqrt(), flank_limit: self.flank_limit / 2.0, ..self }
     }
 
     /// Twice every size.
@@ -96,9 +92,8 @@ impl Grading {
     /// Ends of the columns over the half thickness, from 0 at the centre line to 1 at the flank.
     pub(super) fn column_ends(&self) -> Vec<f64> {
         let narrower = |width: &f64| Some(width / self.column_ratio);
-        let widths: Vec<_> = std::iter::successors(Some(1.0), narrower)
-            .take(self.columns)
-            .collect();
+        let widths: Vec<_> =
+            std::iter::successors(Some(1.0), narrower).take(self.columns).collect();
         ends(&scaled(&widths, 1.0))
     }
 
@@ -177,8 +172,6 @@ pub(super) fn ends(sizes: &[f64]) -> Vec<f64> {
 
 /// The ends and their midpoints.
 pub(super) fn with_middles(ends: &[f64]) -> Vec<f64> {
-    let halves = ends
-        .windows(2)
-        .flat_map(|pair| [f64::midpoint(pair[0], pair[1]), pair[1]]);
+    let halves = ends.windows(2).flat_map(|pair| [f64::midpoint(pair[0], pair[1]), pair[1]]);
     ends.first().copied().into_iter().chain(halves).collect()
 }

@@ -79,11 +79,7 @@ fn harmonics(teeth: u32) -> Vec<(f64, f64)> {
     const FEW_TEETH: u32 = 4 * SUMMED;
     const WIDE: f64 = 8.0;
     let weight = |harmonic: u32| {
-        if harmonic == 0 || 2 * harmonic == teeth {
-            1.0
-        } else {
-            2.0
-        }
+        if harmonic == 0 || 2 * harmonic == teeth { 1.0 } else { 2.0 }
     };
     let single =
         |last: u32| (0..=last).map(move |harmonic| (f64::from(harmonic), weight(harmonic)));
@@ -91,11 +87,7 @@ fn harmonics(teeth: u32) -> Vec<(f64, f64)> {
         return single(teeth / 2).collect();
     }
     let (from, to) = (f64::from(SUMMED) + 0.5, f64::from(teeth) / 2.0);
-    let middle = if to < WIDE * from {
-        to
-    } else {
-        (from * to).sqrt()
-    };
+    let middle = if to < WIDE * from { to } else { (from * to).sqrt() };
     let smooth = [(from, middle), (middle, to)]
         .into_iter()
         .filter(|(from, to)| from < to)

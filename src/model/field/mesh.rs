@@ -102,12 +102,7 @@ impl Mesh {
             .iter()
             .map(|&row| load_place(boundary, &layout, &lines.arcs, row))
             .collect();
-        Mesh {
-            places,
-            elements: elements(&layout),
-            loads,
-            layout,
-        }
+        Mesh { places, elements: elements(&layout), loads, layout }
     }
 
     /// Load places between all rows of the involute: every second place is a load of the field.
@@ -240,10 +235,7 @@ fn load_place(boundary: &Boundary, layout: &Layout, arcs: &[f64], row: usize) ->
     let middle = 2 * row + 2;
     LoadPlace {
         roll: boundary.roll(arcs[middle]),
-        heights: [
-            arcs[middle] - arcs[middle - 2],
-            arcs[middle + 2] - arcs[middle],
-        ],
+        heights: [arcs[middle] - arcs[middle - 2], arcs[middle + 2] - arcs[middle]],
         nodes: [0, 1, 2, 3, 4]
             .map(|step| layout.tooth(layout.tooth_columns - 1, middle - 2 + step)),
     }
@@ -259,15 +251,11 @@ fn elements(layout: &Layout) -> Vec<Nodes> {
             })
             .collect::<Vec<_>>()
     };
-    let mut all = block(
-        layout.tooth_columns / 2,
-        layout.tooth_rows / 2,
-        &|column, row| layout.tooth(column, row),
-    );
-    all.extend(block(
-        layout.rim_columns / 2,
-        layout.rim_rows / 2,
-        &|column, row| layout.rim(column, row),
-    ));
+    let mut all = block(layout.tooth_columns / 2, layout.tooth_rows / 2, &|column, row| {
+        layout.tooth(column, row)
+    });
+    all.extend(block(layout.rim_columns / 2, layout.rim_rows / 2, &|column, row| {
+        layout.rim(column, row)
+    }));
     all
 }

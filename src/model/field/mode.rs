@@ -77,11 +77,7 @@ impl Unknowns {
         let inner = count;
         of_node.extend((inner..inner + cut).map(|radial| [radial, radial + cut]));
         of_node.resize(mesh.places.len(), [FIXED; 2]);
-        Unknowns {
-            of_node,
-            inner,
-            count: inner + 2 * cut,
-        }
+        Unknowns { of_node, inner, count: inner + 2 * cut }
     }
 
     /// First column of each row of the stiffness matrix.
@@ -119,13 +115,7 @@ pub(super) fn condense(
     let unknowns = Unknowns::of(mesh, mode);
     let vectors: Vec<_> = loads
         .iter()
-        .flat_map(|load| {
-            [
-                (&load.force, 0.5),
-                (&load.surface, 1.0),
-                (&load.centre, 1.0),
-            ]
-        })
+        .flat_map(|load| [(&load.force, 0.5), (&load.surface, 1.0), (&load.centre, 1.0)])
         .collect();
     let mut first = unknowns.first_columns(mesh);
     first.extend(vectors.iter().map(|(vector, _)| {
@@ -142,9 +132,7 @@ pub(super) fn condense(
             matrix.add(unknowns.count + row, unknown, scale * value);
         }
     }
-    matrix
-        .eliminate(unknowns.inner)
-        .then(|| collect(&matrix, &unknowns, loads.len()))
+    matrix.eliminate(unknowns.inner).then(|| collect(&matrix, &unknowns, loads.len()))
 }
 
 /// Adds the stiffness of an element with the given unknowns.
@@ -162,12 +150,8 @@ fn add_element(matrix: &mut Envelope, members: &[usize], stiffness: &Stiffness) 
 /// The angle between cut and centre line is in rad.
 pub(super) fn turn(stiffness: &mut Stiffness, is_on_cut: [bool; 9], angle: f64) {
     let (sine, cosine) = angle.sin_cos();
-    let polar = |across: f64, along: f64| {
-        [
-            across * sine + along * cosine,
-            across * cosine - along * sine,
-        ]
-    };
+    let polar =
+        |across: f64, along: f64| [across * sine + along * cosine, across * cosine - along * sine];
     for node in (0..9).filter(|&node| is_on_cut[node]) {
         let [across, along] = [stiffness[2 * node], stiffness[2 * node + 1]];
         let turned: [_; 18] = std::array::from_fn(|other| polar(across[other], along[other]));
@@ -198,14 +182,8 @@ fn collect(matrix: &Envelope, unknowns: &Unknowns, loads: usize) -> Condensed {
         values
     };
     let held = |left: usize, right: usize| {
-        let from = matrix
-            .row(count + left, 0)
-            .0
-            .max(matrix.row(count + right, 0).0);
-        let (left, right) = (
-            matrix.row(count + left, from).1,
-            matrix.row(count + right, from).1,
-        );
+        let from = matrix.row(count + left, 0).0.max(matrix.row(count + right, 0).0);
+        let (left, right) = (matrix.row(count + left, from).1, matrix.row(count + right, from).1);
         let inner = left.len().saturating_sub(size);
         dot(&left[..inner], &right[..inner])
     };
@@ -216,9 +194,5 @@ fn collect(matrix: &Envelope, unknowns: &Unknowns, loads: usize) -> Condensed {
         held_surface: held(3 * index, 3 * index + 1),
         held_centre: held(3 * index, 3 * index + 2),
     };
-    Condensed {
-        nodes: size / 2,
-        stiffness,
-        loads: (0..loads).map(load).collect(),
-    }
+    Condensed { nodes: size / 2, stiffness, loads: (0..loads).map(load).collect() }
 }

@@ -29,9 +29,7 @@ pub(super) fn boundary(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
         return Err(FieldRefusal::ThinRim { thickness, least });
     }
     if !(POISSON.0..=POISSON.1).contains(&input.poisson) {
-        return Err(FieldRefusal::Poisson {
-            poisson: input.poisson,
-        });
+        return Err(FieldRefusal::Poisson { poisson: input.poisson });
     }
     Ok(boundary)
 }
@@ -57,10 +55,7 @@ pub(super) fn check(input: &FieldInput, grading: &Grading) -> Result<(), FieldRe
 }
 
 fn folded(element: usize, mesh: &Mesh) -> FieldRefusal {
-    FieldRefusal::FoldedMesh {
-        element,
-        count: mesh.elements.len(),
-    }
+    FieldRefusal::FoldedMesh { element, count: mesh.elements.len() }
 }
 
 /// Two ratios r_f/r_h from which the field of a smaller bore is extrapolated.
@@ -115,9 +110,7 @@ fn add_shift(values: &mut Displacements, loads: &[Load], input: &FieldInput, log
     }
     for (pitches, cross) in (1..).zip(&mut values.cross) {
         let turn = 2.0 * PI * f64::from(pitches) / f64::from(input.teeth);
-        let pairs = loads
-            .iter()
-            .flat_map(|load| loads.iter().map(move |other| (load, other)));
+        let pairs = loads.iter().flat_map(|load| loads.iter().map(move |other| (load, other)));
         for (value, (load, measured)) in cross.iter_mut().zip(pairs) {
             *value += shift * (turn + load.angle - measured.angle).cos();
         }
@@ -133,9 +126,7 @@ fn solved(
 ) -> Result<(Vec<Load>, Displacements), FieldRefusal> {
     let mesh = Mesh::of(boundary, bore, grading);
     let places = mesh.loads.iter();
-    let loads: Vec<_> = places
-        .map(|place| Load::at(&mesh, boundary, place))
-        .collect();
+    let loads: Vec<_> = places.map(|place| Load::at(&mesh, boundary, place)).collect();
     let mut values = under_loads(input, boundary, &mesh, &loads)?;
     let twist = body::twist(boundary.base, boundary.root, bore, input.poisson);
     for value in all(&mut values) {
@@ -157,9 +148,7 @@ pub(super) fn under_loads(
         let (even, odd) = (condense(Mode::Symmetric)?, condense(Mode::Antisymmetric)?);
         harmonics::displacements(&even, &odd, loads, input.teeth)
     };
-    solve().ok_or(FieldRefusal::NotPositive {
-        unknowns: 2 * mesh.places.len(),
-    })
+    solve().ok_or(FieldRefusal::NotPositive { unknowns: 2 * mesh.places.len() })
 }
 
 /// The stiffnesses of the elements, with radial and tangential components on the cut.

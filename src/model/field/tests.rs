@@ -55,9 +55,8 @@ fn differences(left: &Field, right: &Field) -> [f64; 3] {
                 cross / right.surface(radius, 0.02),
             ]
         };
-        for (worst, (left, right)) in worst
-            .iter_mut()
-            .zip(values(left).into_iter().zip(values(right)))
+        for (worst, (left, right)) in
+            worst.iter_mut().zip(values(left).into_iter().zip(values(right)))
         {
             *worst = worst.max((left - right).abs());
         }
@@ -88,9 +87,8 @@ fn series_agree_with_loads_between_their_sampled_loads() {
         let boundary = solve::boundary(&input).unwrap();
         let grading = Grading::STANDARD.with_more_loads();
         let (loads, values) = solve::without_twist(&input, &boundary, &grading).unwrap();
-        let kept: Vec<_> = (0..loads.len())
-            .filter(|load| load % 2 == 0 || load + 1 == loads.len())
-            .collect();
+        let kept: Vec<_> =
+            (0..loads.len()).filter(|load| load % 2 == 0 || load + 1 == loads.len()).collect();
         let pick = |all: &[f64]| kept.iter().map(|&load| all[load]).collect::<Vec<_>>();
         let fewer = Displacements {
             surface: pick(&values.surface),
@@ -118,10 +116,7 @@ fn series_agree_with_loads_between_their_sampled_loads() {
         }
         let limits = [1.5e-3, 1e-3, 1e-4];
         assert!(
-            worst
-                .iter()
-                .zip(limits)
-                .all(|(&worst, limit)| worst < limit),
+            worst.iter().zip(limits).all(|(&worst, limit)| worst < limit),
             "z {}: {worst:?}",
             input.teeth
         );
@@ -134,10 +129,7 @@ fn neighbours_ahead_and_behind_agree_with_the_reference() {
         serde_json::from_str(include_str!("../../../tests/reference/field/teeth.json")).unwrap();
     for row in rows {
         let number = |key: &str| row[key].as_f64().unwrap();
-        let (teeth, heights) = (
-            number("teeth") as u32,
-            [number("addendum"), number("dedendum")],
-        );
+        let (teeth, heights) = (number("teeth") as u32, [number("addendum"), number("dedendum")]);
         let mut input = gear(
             teeth,
             number("profile_shift"),
@@ -148,17 +140,11 @@ fn neighbours_ahead_and_behind_agree_with_the_reference() {
         (input.bore_radius, input.poisson) = (number("bore_radius"), number("poisson"));
         let boundary = solve::boundary(&input).unwrap();
         let mesh = mesh::Mesh::of(&boundary, input.bore_radius, &Grading::STANDARD);
-        let mut loads: Vec<_> = mesh
-            .loads
-            .iter()
-            .map(|place| Load::at(&mesh, &boundary, place))
-            .collect();
+        let mut loads: Vec<_> =
+            mesh.loads.iter().map(|place| Load::at(&mesh, &boundary, place)).collect();
         let half = loads.len();
         for load in 0..half {
-            loads.push(Load {
-                force: loads[load].centre.clone(),
-                ..loads[load].clone()
-            });
+            loads.push(Load { force: loads[load].centre.clone(), ..loads[load].clone() });
         }
         let values = solve::under_loads(&input, &boundary, &mesh, &loads).unwrap();
         let roll = (number("radius").powi(2) / boundary.base.powi(2) - 1.0).sqrt();
@@ -190,9 +176,7 @@ fn two_bores_differ_by_twist_and_shift_in_closed_form() {
     let at = |ratio: f64| {
         let mesh = mesh::Mesh::of(&boundary, boundary.root / ratio, &Grading::STANDARD);
         let places = mesh.loads.iter();
-        let loads: Vec<_> = places
-            .map(|place| Load::at(&mesh, &boundary, place))
-            .collect();
+        let loads: Vec<_> = places.map(|place| Load::at(&mesh, &boundary, place)).collect();
         solve::under_loads(&input, &boundary, &mesh, &loads).unwrap()
     };
     let (near, far) = (at(7.0), at(5.0));
@@ -201,18 +185,13 @@ fn two_bores_differ_by_twist_and_shift_in_closed_form() {
     for (pitches, (near, far)) in (1..).zip(near.cross.iter().zip(&far.cross)) {
         let expected = twist(7.0) - twist(5.0) + shift * (PI * f64::from(pitches) / 20.0).cos();
         let rise = near[0] - far[0];
-        assert!(
-            (rise - expected).abs() < 0.02 * expected,
-            "{rise} against {expected}"
-        );
+        assert!((rise - expected).abs() < 0.02 * expected, "{rise} against {expected}");
     }
 }
 
 /// A pseudo-random number from 0 to 1.
 fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6364136223846793005)
-        .wrapping_add(1442695040888963407);
+    *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
@@ -223,11 +202,7 @@ fn random_gear(state: &mut u64) -> FieldInput {
     let heights = [between(0.5, 1.5), between(1.0, 1.7)];
     let input = gear(teeth, shift, degrees, heights, between(0.0, 0.5));
     let ratio = 1.0 + between(-7.0, 4.0).exp();
-    if between(0.0, 1.0) < 0.15 {
-        input
-    } else {
-        bored(input, ratio)
-    }
+    if between(0.0, 1.0) < 0.15 { input } else { bored(input, ratio) }
 }
 
 fn check(input: &FieldInput, field: &Field) {
@@ -236,10 +211,7 @@ fn check(input: &FieldInput, field: &Field) {
         let radius = from + (to - from) * f64::from(step) / 12.0;
         let (surface, depth) = (field.surface(radius, 0.01), field.depth(radius, 0.0));
         assert!(surface > 0.0 && surface.is_finite(), "{surface} {input:?}");
-        assert!(
-            depth > 0.0 && depth < surface + 0.5,
-            "{depth} {surface} {input:?}"
-        );
+        assert!(depth > 0.0 && depth < surface + 0.5, "{depth} {surface} {input:?}");
         for pitches in [-2, -1, 1, 2] {
             let cross = field.cross(radius, to, pitches);
             assert!(cross.is_finite(), "{cross} {surface} {input:?}");
@@ -284,21 +256,14 @@ fn twist_is_the_integral_of_the_shear_strain_over_the_ring() {
             base / (2.0 * PI * radius.powi(2)) / (shear_modulus * radius)
         });
         let found = body::twist(base, root, bore, poisson);
-        assert!(
-            (found / (base * turn) - 1.0).abs() < 1e-12,
-            "{found} {turn}"
-        );
+        assert!((found / (base * turn) - 1.0).abs() < 1e-12, "{found} {turn}");
     }
 }
 
 #[test]
 fn elimination_gives_the_schur_complement_and_the_reduced_border() {
-    let dense = [
-        [4.0, 1.0, 0.0, 0.5],
-        [1.0, 5.0, 2.0, 0.0],
-        [0.0, 2.0, 6.0, 1.0],
-        [0.5, 0.0, 1.0, 7.0],
-    ];
+    let dense =
+        [[4.0, 1.0, 0.0, 0.5], [1.0, 5.0, 2.0, 0.0], [0.0, 2.0, 6.0, 1.0], [0.5, 0.0, 1.0, 7.0]];
     let border = [1.0, -2.0, 3.0, 0.5];
     let mut matrix = envelope::Envelope::new(vec![0, 0, 1, 0, 0], 4);
     for (row, entries) in dense.iter().enumerate() {
@@ -352,10 +317,7 @@ fn the_series_of_the_surface_is_within_1e_4_of_the_loads_of_its_mesh() {
         let bore = input.bore_radius.max(boundary.root / 5.0);
         let mesh = mesh::Mesh::of(&boundary, bore, &Grading::STANDARD);
         let places = mesh.all_load_places(&boundary, bore, &Grading::STANDARD);
-        let loads: Vec<_> = places
-            .iter()
-            .map(|place| Load::at(&mesh, &boundary, place))
-            .collect();
+        let loads: Vec<_> = places.iter().map(|place| Load::at(&mesh, &boundary, place)).collect();
         let values = solve::under_loads(&input, &boundary, &mesh, &loads).unwrap();
         let even = |all: &[f64]| all.iter().copied().step_by(2).collect::<Vec<_>>();
         let own: Vec<_> = loads.iter().step_by(2).cloned().collect();
@@ -380,11 +342,7 @@ fn the_series_of_the_surface_is_within_1e_4_of_the_loads_of_its_mesh() {
             let radius = boundary.base.hypot(boundary.base * load.roll);
             let found = fitted.surface(radius, load.half_width);
             let off = found / values.surface[index] - 1.0;
-            assert!(
-                off.abs() < 1e-4,
-                "z {} at load {index}: {off:e}",
-                input.teeth
-            );
+            assert!(off.abs() < 1e-4, "z {} at load {index}: {off:e}", input.teeth);
             seen += index % 2;
         }
     }

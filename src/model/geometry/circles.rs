@@ -38,10 +38,9 @@ pub fn circles<T: Real>(
     let reference = module * T::count(gear.teeth) * half;
     let base = reference * alpha.sine_cosine().1;
     let above_reference = |diameter: f64| <T as From<f64>>::from(diameter) * half - reference;
-    let height = gear
-        .tip_diameter
-        .map_or_else(|| module * (shift + gear.addendum.into()), above_reference)
-        - gear.tip_chamfer.into();
+    let height =
+        gear.tip_diameter.map_or_else(|| module * (shift + gear.addendum.into()), above_reference)
+            - gear.tip_chamfer.into();
     let half_sine = (alpha * half).sine_cosine().0;
     let most_dedendum = std::f64::consts::FRAC_PI_4 / pressure_angle.tan();
     if gear.dedendum >= most_dedendum {
@@ -55,11 +54,7 @@ pub fn circles<T: Real>(
     if over_base <= T::zero() {
         let is_cut = over_base + gear.tip_chamfer.into() > T::zero();
         return Err(Refusal::TipInsideBase {
-            field: if is_cut {
-                "driver.tip_chamfer"
-            } else {
-                "driver.addendum"
-            },
+            field: if is_cut { "driver.tip_chamfer" } else { "driver.addendum" },
             tip: (reference + height).rounded(),
             base: base.rounded(),
         });
@@ -76,11 +71,7 @@ pub fn circles<T: Real>(
     }
     let centre_curvature = (centre_over_base * (tip - edge + base)).root();
     if edge > T::zero() {
-        check_room(
-            pressure_angle,
-            gear,
-            [base, centre_curvature, edge].map(Real::rounded),
-        )?;
+        check_room(pressure_angle, gear, [base, centre_curvature, edge].map(Real::rounded))?;
     }
     Ok(Circles {
         reference,
@@ -154,10 +145,6 @@ impl Circles {
     /// Radius at which the involute ends, in m: the tip radius for a sharp tip.
     #[must_use]
     pub fn involute_end(&self) -> f64 {
-        if self.edge <= 0.0 {
-            self.tip
-        } else {
-            self.base.hypot(self.tip_curvature)
-        }
+        if self.edge <= 0.0 { self.tip } else { self.base.hypot(self.tip_curvature) }
     }
 }

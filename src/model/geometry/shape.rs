@@ -66,18 +66,16 @@ impl Gear {
     /// given coefficient. The module is in m.
     #[must_use]
     pub fn addendum_coefficient(&self, module: f64) -> f64 {
-        self.tip_diameter.map_or(self.addendum, |diameter| {
-            self.height_of(diameter, module) - self.profile_shift
-        })
+        self.tip_diameter
+            .map_or(self.addendum, |diameter| self.height_of(diameter, module) - self.profile_shift)
     }
 
     /// Dedendum coefficient: h_fP* = z/2 + x − d_f/(2 m) if the root diameter is given, otherwise
     /// the given coefficient. The module is in m.
     #[must_use]
     pub fn dedendum_coefficient(&self, module: f64) -> f64 {
-        self.root_diameter.map_or(self.dedendum, |diameter| {
-            self.profile_shift - self.height_of(diameter, module)
-        })
+        self.root_diameter
+            .map_or(self.dedendum, |diameter| self.profile_shift - self.height_of(diameter, module))
     }
 
     /// Height of a circle above the reference circle, times the module.
@@ -108,10 +106,7 @@ impl Inputs {
         let shape = |gear: &Gear| {
             let shape = gear.shape(self.module);
             let tip_radius = shape.tip_radius.filter(|_| self.method != Method::Paper);
-            GearShape {
-                tip_radius,
-                ..shape
-            }
+            GearShape { tip_radius, ..shape }
         };
         PairShape {
             module: self.module,

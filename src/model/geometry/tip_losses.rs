@@ -27,9 +27,7 @@ pub(super) fn tip_losses(shape: &PairShape, driver: &Circles, driven: &Circles) 
     let greatest = all.iter().max_by(|one, other| one.0.total_cmp(&other.0));
     TipLosses {
         total: all.iter().map(|(loss, _)| loss).sum(),
-        greatest: greatest
-            .filter(|(loss, _)| *loss > 0.0)
-            .map(|(_, key)| *key),
+        greatest: greatest.filter(|(loss, _)| *loss > 0.0).map(|(_, key)| *key),
     }
 }
 
@@ -37,9 +35,6 @@ pub(super) fn tip_losses(shape: &PairShape, driver: &Circles, driven: &Circles) 
 fn losses(gear: &GearShape, circles: &Circles) -> [f64; 2] {
     let curvature = |radius: f64| ((radius - circles.base) * (radius + circles.base)).sqrt();
     let chamfered = curvature(circles.tip);
-    [
-        curvature(circles.tip + gear.tip_chamfer) - chamfered,
-        chamfered - circles.tip_curvature,
-    ]
-    .map(|loss| loss.max(0.0))
+    [curvature(circles.tip + gear.tip_chamfer) - chamfered, chamfered - circles.tip_curvature]
+        .map(|loss| loss.max(0.0))
 }

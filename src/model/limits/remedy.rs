@@ -36,56 +36,37 @@ impl Refusal {
                 "driven.addendum",
                 "shorten the driven addendum, or give the driver more teeth or more profile shift",
             ),
-            Refusal::NoPath {
-                cut: Some(field), ..
-            } => (
+            Refusal::NoPath { cut: Some(field), .. } => (
                 "no-path",
                 *field,
                 "give smaller tip chamfers or tip radii, or bring the gears closer",
             ),
-            Refusal::NoPath {
-                is_distance_given: true,
-                ..
-            } => (
+            Refusal::NoPath { is_distance_given: true, .. } => (
                 "no-path",
                 "pair.centre_distance",
                 "give a smaller centre distance, or leave it out",
             ),
-            Refusal::NoPath { .. } => (
-                "no-path",
-                "driven.addendum",
-                "lengthen the addenda, or bring the gears closer",
-            ),
-            Refusal::TipInsideBase { field, .. } => (
-                "tip-inside-base",
-                *field,
-                "give a higher addendum or a smaller tip chamfer",
-            ),
-            Refusal::ReliefTooLarge { field, .. } => (
-                "relief-too-large",
-                *field,
-                "give a smaller relief, usually below 0.02 modules",
-            ),
-            Refusal::PointedRack { field, .. } => (
-                "pointed-rack",
-                *field,
-                "give a smaller dedendum or pressure angle",
-            ),
+            Refusal::NoPath { .. } => {
+                ("no-path", "driven.addendum", "lengthen the addenda, or bring the gears closer")
+            }
+            Refusal::TipInsideBase { field, .. } => {
+                ("tip-inside-base", *field, "give a higher addendum or a smaller tip chamfer")
+            }
+            Refusal::ReliefTooLarge { field, .. } => {
+                ("relief-too-large", *field, "give a smaller relief, usually below 0.02 modules")
+            }
+            Refusal::PointedRack { field, .. } => {
+                ("pointed-rack", *field, "give a smaller dedendum or pressure angle")
+            }
             Refusal::CentreDistanceJams { .. } => (
                 "centre-distance-jams",
                 "pair.centre_distance",
                 "give a greater centre distance, or leave it out",
             ),
-            Refusal::ShiftsLeaveNoMesh { .. } => (
-                "no-mesh",
-                "driver.profile_shift",
-                "give a greater sum of profile shifts",
-            ),
-            Refusal::ContactRatioBelowOne {
-                is_deflection_taken,
-                cut: Some(field),
-                ..
-            } => (
+            Refusal::ShiftsLeaveNoMesh { .. } => {
+                ("no-mesh", "driver.profile_shift", "give a greater sum of profile shifts")
+            }
+            Refusal::ContactRatioBelowOne { is_deflection_taken, cut: Some(field), .. } => (
                 "contact-ratio-below-1",
                 *field,
                 if *is_deflection_taken {
@@ -95,10 +76,7 @@ impl Refusal {
                         deflection"
                 },
             ),
-            Refusal::ContactRatioBelowOne {
-                is_deflection_taken,
-                ..
-            } => (
+            Refusal::ContactRatioBelowOne { is_deflection_taken, .. } => (
                 "contact-ratio-below-1",
                 "driven.addendum",
                 if *is_deflection_taken {
@@ -154,16 +132,12 @@ impl Refusal {
                 "model.tooth_compliance",
                 "choose another tooth compliance, or a shorter addendum",
             ),
-            Refusal::PointedTip { field, .. } => (
-                "pointed-tip",
-                *field,
-                "give a shorter addendum, less profile shift or more teeth",
-            ),
-            Refusal::CutThrough { field, .. } => (
-                "cut-through",
-                *field,
-                "give more profile shift or more teeth",
-            ),
+            Refusal::PointedTip { field, .. } => {
+                ("pointed-tip", *field, "give a shorter addendum, less profile shift or more teeth")
+            }
+            Refusal::CutThrough { field, .. } => {
+                ("cut-through", *field, "give more profile shift or more teeth")
+            }
             Refusal::BelowFormCircle { field, .. } => (
                 "below-form-circle",
                 *field,
@@ -232,11 +206,9 @@ impl Refusal {
                 "model.warmup_cycles",
                 "give fewer warm-up cycles, a greater damping ratio or a looser tolerance",
             ),
-            Refusal::CurveTooRough { .. } => (
-                "curve-too-rough",
-                "model.station_tolerance",
-                "give a greater station tolerance",
-            ),
+            Refusal::CurveTooRough { .. } => {
+                ("curve-too-rough", "model.station_tolerance", "give a greater station tolerance")
+            }
             Refusal::NoClearing { .. } => (
                 "no-clearing-relief",
                 "model.damping_ratio",

@@ -22,11 +22,7 @@ impl Mesh {
     #[must_use]
     pub fn back(&self) -> Mesh {
         let back = self.back.0.get_or_init(|| self.reversed());
-        Mesh {
-            speed: self.speed,
-            driver_speed: self.driver_speed,
-            ..back.clone()
-        }
+        Mesh { speed: self.speed, driver_speed: self.driver_speed, ..back.clone() }
     }
 
     /// The path s' of a back pair with the incoming pair at E, from 0 to a base pitch, in m.
@@ -98,10 +94,8 @@ mod tests {
             inputs.method = Method::Static;
             inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
             (inputs.driver.profile_shift, inputs.driven.profile_shift) = shifts;
-            let wide = solve(&inputs, Stages::of(Stage::Geometry))
-                .unwrap()
-                .geometry
-                .centre_distance;
+            let wide =
+                solve(&inputs, Stages::of(Stage::Geometry)).unwrap().geometry.centre_distance;
             inputs.centre_distance = more.map(|more| wide + more);
             let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
             let (geometry, mesh) = (&solution.geometry, solution.mesh.as_ref().unwrap());
@@ -130,10 +124,7 @@ mod tests {
             let way = along - geometry.start + 0.5 * geometry.backlash(&inputs.shape());
             let expected = mesh.length - way - s;
             let pitches = (mesh.back_place() - expected) / mesh.base_pitch;
-            assert!(
-                (pitches - pitches.round()).abs() < 1e-9,
-                "{teeth:?}: {pitches}"
-            );
+            assert!((pitches - pitches.round()).abs() < 1e-9, "{teeth:?}: {pitches}");
         }
     }
 }

@@ -98,10 +98,7 @@ impl Mesh {
         let has_same_load = earlier.force.to_bits() == force.to_bits()
             && earlier.reach.to_bits() == reach.to_bits();
         if has_same_load && *last == inputs.at_speed(last.speed) {
-            return Ok(Mesh {
-                error,
-                ..Mesh::clone(&earlier.turning_at(inputs.speed))
-            });
+            return Ok(Mesh { error, ..Mesh::clone(&earlier.turning_at(inputs.speed)) });
         }
         let is_alike =
             has_same_load && last.shape == inputs.shape && last.tip_radii == inputs.tip_radii;
@@ -125,10 +122,8 @@ impl Mesh {
             if let Some(known) = couplings {
                 return Ok(known.clone());
             }
-            let neighbours = UnderLoad {
-                teeth: Teeth::of(&inputs.elasticity, geometry)?,
-                force: load.0,
-            };
+            let neighbours =
+                UnderLoad { teeth: Teeth::of(&inputs.elasticity, geometry)?, force: load.0 };
             Couplings::of(way, (own, inputs.elasticity.width), &neighbours, place)
         };
         Mesh::with_couplings(inputs, geometry, flanks, load, reach, &new)
@@ -166,12 +161,8 @@ impl Mesh {
         let relief = Relief::of(&inputs.reliefs, geometry);
         let pace = inputs.speed;
         let inputs = &inputs.at_speed(1.0);
-        let run_in = End {
-            inputs: *inputs,
-            geometry: *geometry,
-            flanks: Flanks::clone(flanks),
-            side: -1.0,
-        };
+        let run_in =
+            End { inputs: *inputs, geometry: *geometry, flanks: Flanks::clone(flanks), side: -1.0 };
         let run_out = run_in.swapped()?;
         let length = geometry.end - geometry.start;
         let (before, is_whole_before) = run_in.angle_of_reach(reach);
@@ -183,9 +174,8 @@ impl Mesh {
         bends.extend(run_out.zones(&relief, force, after, length, &mut zones)?);
         zones.sort_by(|one, other| one.from.total_cmp(&other.from));
         check_pairs(length_of(&zones) / geometry.base_pitch)?;
-        let levers = zones
-            .iter()
-            .flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
+        let levers =
+            zones.iter().flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
         let friction = inputs.friction;
         let limit = 1.0 / levers.fold(0.0, f64::max);
         if friction >= limit {
@@ -223,10 +213,7 @@ impl Mesh {
             friction,
             pitch_point: geometry.approach_length,
             work: coupling_work
-                + zones
-                    .iter()
-                    .map(|zone| zone.series.evaluations() as u64)
-                    .sum::<u64>(),
+                + zones.iter().map(|zone| zone.series.evaluations() as u64).sum::<u64>(),
             flanks: Arc::clone(flanks),
             zones: Arc::new(zones),
             couplings,
@@ -280,10 +267,7 @@ fn length_of(zones: &[Zone]) -> f64 {
 fn check_pairs(pitches: f64) -> Result<(), Refusal> {
     let pairs = 1 + pitches as usize;
     if pairs > PAIRS {
-        return Err(Refusal::TooManyPairs {
-            pairs,
-            limit: PAIRS,
-        });
+        return Err(Refusal::TooManyPairs { pairs, limit: PAIRS });
     }
     Ok(())
 }
@@ -307,31 +291,10 @@ mod tests {
         let faster = inputs.mesh().at_speed(2.0 * inputs.speed);
         for (name, inputs, force, error, reach, same) in [
             ("speed", faster, force, error, reach, [true, true, true]),
-            (
-                "deviation",
-                inputs.mesh(),
-                force,
-                error + 2e-6,
-                reach,
-                [true, true, true],
-            ),
+            ("deviation", inputs.mesh(), force, error + 2e-6, reach, [true, true, true]),
             ("relief", eased, force, error, reach, [true, true, false]),
-            (
-                "load",
-                inputs.mesh(),
-                1.5 * force,
-                error,
-                reach,
-                [true, false, false],
-            ),
-            (
-                "reach",
-                inputs.mesh(),
-                force,
-                error,
-                2.0 * reach,
-                [true, false, false],
-            ),
+            ("load", inputs.mesh(), 1.5 * force, error, reach, [true, false, false]),
+            ("reach", inputs.mesh(), force, error, 2.0 * reach, [true, false, false]),
         ] {
             let mesh = Mesh::after(&first, &inputs, geometry, (force, error), reach).unwrap();
             let parts = [
@@ -352,9 +315,6 @@ mod tests {
         assert_eq!(check_pairs(63.9), Ok(()));
         let refusal = check_pairs(64.0).unwrap_err();
         assert_eq!(refusal.code(), "too-many-pairs");
-        assert_eq!(
-            refusal.to_string(),
-            "65 tooth pairs may touch at a time, and the limit is 64"
-        );
+        assert_eq!(refusal.to_string(), "65 tooth pairs may touch at a time, and the limit is 64");
     }
 }

@@ -67,18 +67,14 @@ impl Abscissas {
             let series = Series::of(ends[0], ends[1], &|_, _| rest, &at)?;
             Ok((ends[1], series))
         });
-        Ok(Abscissas {
-            stretches: stretches.collect::<Result<_, Refusal>>()?,
-        })
+        Ok(Abscissas { stretches: stretches.collect::<Result<_, Refusal>>()? })
     }
 
     /// At several places, smoothly on from `inside`.
     fn many(&self, places: &Places, inside: f64) -> [Lanes<TERMS>; 2] {
         let index = self.stretches.partition_point(|(to, _)| *to < inside);
         let stretch = self.stretches.get(index).or_else(|| self.stretches.last());
-        stretch.map_or([Lanes::all(f64::NAN); 2], |(_, series)| {
-            series.many(0, places)
-        })
+        stretch.map_or([Lanes::all(f64::NAN); 2], |(_, series)| series.many(0, places))
     }
 }
 
@@ -114,10 +110,7 @@ impl Couplings {
                     values[0] = found.0.map(|found| [found / width]);
                 };
                 let series = Series::groups(ends[0], ends[1], &[[REST * own]], &fill);
-                stretches.extend(series.into_iter().map(|series| Stretch {
-                    to: ends[1],
-                    series,
-                }));
+                stretches.extend(series.into_iter().map(|series| Stretch { to: ends[1], series }));
             }
         }
         let is_empty = stretches.iter().all(Vec::is_empty);
@@ -127,17 +120,15 @@ impl Couplings {
     /// The displacement in m/N of two pairs with `between` pairs between them and the rear pair at
     /// `s`. On a border, `inside` selects the side.
     pub(super) fn at(&self, between: usize, s: f64, inside: f64) -> f64 {
-        self.stretch(between, inside)
-            .map_or(0.0, |stretch| stretch.series.one(0, s))
+        self.stretch(between, inside).map_or(0.0, |stretch| stretch.series.one(0, s))
     }
 
     /// The same at several places of the rear pair.
     pub(super) fn many(&self, between: usize, places: &Places, inside: f64) -> Lanes<TERMS> {
-        self.stretch(between, inside)
-            .map_or(Lanes::all(0.0), |stretch| {
-                let [found] = stretch.series.many(0, places);
-                found
-            })
+        self.stretch(between, inside).map_or(Lanes::all(0.0), |stretch| {
+            let [found] = stretch.series.many(0, places);
+            found
+        })
     }
 
     fn stretch(&self, between: usize, inside: f64) -> Option<&Stretch> {
@@ -211,8 +202,6 @@ impl<F: Fn([f64; 2], [f64; 2], i32) -> f64> Neighbours for ByRadii<F> {
         pitches: i32,
     ) -> Lanes<TERMS> {
         let at = |pair: [Lanes<TERMS>; 2], lane: usize| pair.map(|radii| radii.0[lane]);
-        Lanes(std::array::from_fn(|lane| {
-            (self.0)(at(rear, lane), at(front, lane), pitches)
-        }))
+        Lanes(std::array::from_fn(|lane| (self.0)(at(rear, lane), at(front, lane), pitches)))
     }
 }

@@ -56,29 +56,16 @@ impl MeshInputs {
 
     /// The inputs with the gears swapped.
     pub(super) fn swapped(&self) -> MeshInputs {
-        let MeshInputs {
-            shape,
-            elasticity,
-            reliefs,
-            tip_radii: [driver_tip, driven_tip],
-            ..
-        } = *self;
+        let MeshInputs { shape, elasticity, reliefs, tip_radii: [driver_tip, driven_tip], .. } =
+            *self;
         MeshInputs {
-            shape: PairShape {
-                driver: shape.driven,
-                driven: shape.driver,
-                ..shape
-            },
+            shape: PairShape { driver: shape.driven, driven: shape.driver, ..shape },
             elasticity: Elasticity {
                 driver: elasticity.driven,
                 driven: elasticity.driver,
                 ..elasticity
             },
-            reliefs: Reliefs {
-                driver: reliefs.driven,
-                driven: reliefs.driver,
-                ..reliefs
-            },
+            reliefs: Reliefs { driver: reliefs.driven, driven: reliefs.driver, ..reliefs },
             tip_radii: [driven_tip, driver_tip],
             speed: self.driven_speed(),
             friction: self.friction,

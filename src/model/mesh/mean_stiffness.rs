@@ -23,10 +23,7 @@ impl Mesh {
         if self.couplings.is_none() {
             return zones.map(|zone| zone.series.integral(STIFFNESS)).sum();
         }
-        let line = Mesh {
-            zones: Arc::new(zones.cloned().collect()),
-            ..self.clone()
-        };
+        let line = Mesh { zones: Arc::new(zones.cloned().collect()), ..self.clone() };
         let stiffness = |s: f64, inside: f64| {
             let pairs = line.pair_set(s, inside).of_no_gap();
             pairs.forces(1.0).iter().sum::<f64>()

@@ -31,9 +31,7 @@ impl Mesh {
         length: f64,
     ) -> [Polynomial<TERMS>; 2] {
         let [stiffness, mut gap] =
-            self.zones[zone]
-                .series
-                .local(STIFFNESS, self.above(ahead, s), length);
+            self.zones[zone].series.local(STIFFNESS, self.above(ahead, s), length);
         gap.0[0] -= self.error_of(ahead);
         [stiffness, gap]
     }
@@ -46,9 +44,7 @@ impl Mesh {
         s: f64,
         length: f64,
     ) -> Polynomial<TERMS> {
-        let [mut gap] = self.zones[zone]
-            .series
-            .local(GAP, self.above(ahead, s), length);
+        let [mut gap] = self.zones[zone].series.local(GAP, self.above(ahead, s), length);
         gap.0[0] -= self.error_of(ahead);
         gap
     }
@@ -69,9 +65,7 @@ impl Mesh {
         s: f64,
         length: f64,
     ) -> [Polynomial<TERMS>; 2] {
-        let [lever, sliding] = self.zones[zone]
-            .series
-            .local(LEVER, self.above(ahead, s), length);
+        let [lever, sliding] = self.zones[zone].series.local(LEVER, self.above(ahead, s), length);
         [lever, sliding.scaled(self.driver_speed)]
     }
 
@@ -83,10 +77,7 @@ impl Mesh {
 
     /// The place of a pair, and the distance below which two places are equal.
     pub(in crate::model) fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
-        (
-            s + f64::from(ahead) * self.base_pitch,
-            16.0 * f64::EPSILON * s.abs(),
-        )
+        (s + f64::from(ahead) * self.base_pitch, 16.0 * f64::EPSILON * s.abs())
     }
 
     /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.

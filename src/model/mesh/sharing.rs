@@ -141,9 +141,7 @@ impl Shares {
         Line {
             slope,
             offset,
-            deviated: self
-                .column(of)
-                .map(|(functions, function)| functions.one(function, at)),
+            deviated: self.column(of).map(|(functions, function)| functions.one(function, at)),
         }
     }
 
@@ -162,26 +160,20 @@ impl Shares {
 
     fn column(&self, of: Of) -> Option<(&Series<SIDE_BY_SIDE>, usize)> {
         let index = of.index();
-        self.deviates
-            .then(|| (&self.functions[1 + self.pairs + index / 2], index % 2))
+        self.deviates.then(|| (&self.functions[1 + self.pairs + index / 2], index % 2))
     }
 }
 
 impl Mesh {
     /// The lines of the pairs of a meeting.
     pub(in crate::model) fn shares(&self, meeting: &Meeting) -> Arc<Shares> {
-        self.sharing
-            .0
-            .of(meeting, || Meet::of(self, meeting).shares())
+        self.sharing.0.of(meeting, || Meet::of(self, meeting).shares())
     }
 
     /// First and last place of the rearmost pair with exactly these pairs in these zones, in m.
     fn way_of(&self, zones: &[usize]) -> (f64, f64) {
         let (from, to) = self.ends();
-        let none = (
-            to - zones.len() as f64 * self.base_pitch,
-            from + self.base_pitch,
-        );
+        let none = (to - zones.len() as f64 * self.base_pitch, from + self.base_pitch);
         let pairs = (0..).zip(zones);
         pairs.fold(none, |(from, to), (pair, &zone)| {
             let (zone, ahead) = (&self.zones[zone], f64::from(pair) * self.base_pitch);
@@ -249,9 +241,7 @@ impl<'a> Meet<'a> {
     fn rest(&self) -> Vec<[f64; SIDE_BY_SIDE]> {
         /// Of the size of a function.
         const REST: f64 = 1e-13;
-        let Meeting {
-            zones, deviating, ..
-        } = self.meeting;
+        let Meeting { zones, deviating, .. } = self.meeting;
         let (mesh, inside) = (self.mesh, self.inside());
         let deflection = mesh.force / mesh.mean_stiffness();
         let zone = |pair: usize| &mesh.zones[zones[pair]];
@@ -262,17 +252,11 @@ impl<'a> Meet<'a> {
             (REST * size).max(zone(pair).gap_rest)
         };
         let touching = || self.touching.iter().copied();
-        let stiffness = touching()
-            .map(|pair| at(pair, STIFFNESS))
-            .fold(0.0, f64::max);
+        let stiffness = touching().map(|pair| at(pair, STIFFNESS)).fold(0.0, f64::max);
         let gap = touching().map(gap_rest).fold(0.0, f64::max);
         let force = [REST * stiffness, stiffness * gap];
         let pairs = (0..zones.len()).map(|pair| {
-            if self.meeting.touching.has(pair) {
-                force
-            } else {
-                [REST, gap.max(gap_rest(pair))]
-            }
+            if self.meeting.touching.has(pair) { force } else { [REST, gap.max(gap_rest(pair))] }
         });
         let mut rest: Vec<_> = std::iter::once(force).chain(pairs).collect();
         if deviating.is_some() {
@@ -298,11 +282,7 @@ impl<'a> Meet<'a> {
             }
             rows.push(row);
             let deviates = self.meeting.deviating == Some(pair);
-            forces.push([
-                Lanes::all(1.0),
-                gap,
-                Lanes::all(f64::from(u8::from(deviates))),
-            ]);
+            forces.push([Lanes::all(1.0), gap, Lanes::all(f64::from(u8::from(deviates)))]);
         }
         let factored = Banded::factored(rows)?;
         factored.solve(&mut forces);

@@ -18,10 +18,7 @@ impl Mesh {
         for zone in after.rev() {
             to = zone.border(gap, (zone.to, zone.from)).unwrap_or(to);
         }
-        let kept = self
-            .zones
-            .iter()
-            .filter(|zone| zone.to > from && zone.from < to);
+        let kept = self.zones.iter().filter(|zone| zone.to > from && zone.from < to);
         let zones = kept.map(|zone| Zone {
             from: zone.from.max(from),
             to: zone.to.min(to),

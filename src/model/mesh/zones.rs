@@ -103,13 +103,8 @@ pub(super) fn line_zones(
     let at = |s: f64| {
         let along = geometry.start + s;
         let place = ContactPlace::on_line_of_action(geometry, along);
-        let compliance = flanks.pair_at_load(
-            &inputs.elasticity,
-            geometry,
-            &place,
-            (along, rest - s),
-            force,
-        )?;
+        let compliance =
+            flanks.pair_at_load(&inputs.elasticity, geometry, &place, (along, rest - s), force)?;
         Ok([
             inputs.elasticity.width / compliance,
             relief.at(along, rest - s),
@@ -118,9 +113,7 @@ pub(super) fn line_zones(
         ])
     };
     let pitch_point = [geometry.approach_length];
-    let driver_ends = relief
-        .ends_on_driver()
-        .map(|curvature| curvature - geometry.start);
+    let driver_ends = relief.ends_on_driver().map(|curvature| curvature - geometry.start);
     let driven_ends = relief.ends_on_driven().map(|curvature| rest - curvature);
     let bends = flanks.bends((0.0, length), |s| {
         let along = geometry.start + s;
@@ -135,11 +128,7 @@ pub(super) fn line_zones(
     let stiffness = at(0.5 * length)?[STIFFNESS];
     push_zones(
         &mut borders,
-        (
-            [stiffness, relief.most(), 1.0, speeds * length],
-            0.0,
-            relief,
-        ),
+        ([stiffness, relief.most(), 1.0, speeds * length], 0.0, relief),
         &at,
         zones,
     )?;
@@ -154,22 +143,13 @@ impl End {
             Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
             other => other,
         })?;
-        Ok(End {
-            inputs,
-            geometry,
-            flanks: self.flanks.swapped(),
-            side: 1.0,
-        })
+        Ok(End { inputs, geometry, flanks: self.flanks.swapped(), side: 1.0 })
     }
 
     /// The angle up to which gaps are below `reach`, and whether the circle of the tip ends there.
     pub(super) fn angle_of_reach(&self, reach: f64) -> (f64, bool) {
         let circle = angle_at_curvature(&self.geometry, self.geometry.end);
-        let whole = if circle.is_finite() {
-            circle.min(LARGEST_ANGLE)
-        } else {
-            LARGEST_ANGLE
-        };
+        let whole = if circle.is_finite() { circle.min(LARGEST_ANGLE) } else { LARGEST_ANGLE };
         let whole = self.end_of_rounding(whole);
         let series = GapSeries::of(&self.geometry);
         match first_contact(&self.geometry, &series, reach) {
@@ -196,9 +176,7 @@ impl End {
             .angles_of_relief_ends(relief)
             .chain(self.angle_of_rolling(reach))
             .chain(bends.iter().copied());
-        let mut borders: Vec<f64> = turns
-            .filter(|&angle| angle > 0.0 && angle < reach)
-            .collect();
+        let mut borders: Vec<f64> = turns.filter(|&angle| angle > 0.0 && angle < reach).collect();
         borders.extend([0.0, reach]);
         let place_of = |angle: f64| edge + self.side * base * angle;
         for border in &mut borders {
@@ -208,11 +186,7 @@ impl End {
         let size = |function: usize| start[function].abs().max(end[function].abs());
         push_zones(
             &mut borders,
-            (
-                [start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)],
-                edge,
-                relief,
-            ),
+            ([start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)], edge, relief),
             &at,
             zones,
         )?;

@@ -12,10 +12,7 @@ pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.withheld?;
     Some(Note::new(
         refusal.code(),
-        format!(
-            "{refusal}; force, energy and duration are not computed; {}",
-            refusal.fix()
-        ),
+        format!("{refusal}; force, energy and duration are not computed; {}", refusal.fix()),
     ))
 }
 
@@ -52,12 +49,8 @@ pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note>
         .filter(|part| is_of_load && *part < CLOSE);
     let message = || {
         let (clear, now, enough) = (four(clear * MICRO), four(now * MICRO), four(enough * MICRO));
-        let load = more_load.map(|part| {
-            format!(
-                " or the load rises by about {} %",
-                significant(100.0 * part, 2)
-            )
-        });
+        let load = more_load
+            .map(|part| format!(" or the load rises by about {} %", significant(100.0 * part, 2)));
         let load = load.unwrap_or_default();
         format!(
             "the tooth clears by only {clear} um: it strikes once f_pb exceeds {enough} um (now \
@@ -95,11 +88,7 @@ pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The impact lasts longer than the time from D to E.
 pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
-    let duration = solution
-        .impact
-        .filter(|_| !solution.method.shares_load())?
-        .duration()
-        * MICRO;
+    let duration = solution.impact.filter(|_| !solution.method.shares_load())?.duration() * MICRO;
     let transit = solution.velocity?.transit_time * MICRO;
     let message = || {
         let (lasts, way) = (four(duration), four(transit));
@@ -126,10 +115,7 @@ pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     (!possible.contains(&ratio)).then(|| {
         Note::new(
             "impulse-ratio",
-            format!(
-                "the impulse ratio is {}, outside 1..2: {cause}",
-                four(ratio)
-            ),
+            format!("the impulse ratio is {}, outside 1..2: {cause}", four(ratio)),
         )
     })
 }
@@ -141,10 +127,8 @@ pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
         return None;
     }
     let deviation = solution.deviation;
-    let (deflection, error) = (
-        deviation.combined_deflection * MICRO,
-        deviation.equivalent_error * MICRO,
-    );
+    let (deflection, error) =
+        (deviation.combined_deflection * MICRO, deviation.equivalent_error * MICRO);
     let message = || {
         let (deflects, error) = (four(deflection), four(error));
         format!(
@@ -183,15 +167,9 @@ pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
             ),
         )
     } else {
-        (
-            "sticking",
-            format!("not below the stick limit {limit}: sliding stops during the impact"),
-        )
+        ("sticking", format!("not below the stick limit {limit}: sliding stops during the impact"))
     };
-    Some(Note::new(
-        code,
-        format!("the friction coefficient is {friction}, {does}"),
-    ))
+    Some(Note::new(code, format!("the friction coefficient is {friction}, {does}")))
 }
 
 #[cfg(test)]
@@ -212,9 +190,7 @@ mod tests {
 
     fn clears_barely(inputs: &Inputs) -> bool {
         let solution = solve(inputs, Stages::EVERY).unwrap();
-        notes::notes(inputs, &solution)
-            .iter()
-            .any(|note| note.code == "barely-clear")
+        notes::notes(inputs, &solution).iter().any(|note| note.code == "barely-clear")
     }
 
     /// The pair m 2, z 23/71 with a power in W and a tip relief in m.
@@ -230,12 +206,7 @@ mod tests {
     fn every_method_reports_a_small_clearance_and_the_changes_that_close_it() {
         for method in [Method::Exact, Method::Static, Method::Dynamic] {
             let mut inputs = of_two_modules(method, 4e3);
-            let least = solve(&inputs, Stages::EVERY)
-                .unwrap()
-                .clearing
-                .unwrap()
-                .relief
-                .unwrap();
+            let least = solve(&inputs, Stages::EVERY).unwrap().clearing.unwrap().relief.unwrap();
             inputs.driven.tip_relief = 1.002 * least;
             let solution = solve(&inputs, Stages::EVERY).unwrap();
             let clear = solution.margin().unwrap();
@@ -251,23 +222,14 @@ mod tests {
             );
             let outcome = |part: f64| {
                 let base_pitch_deviation = 9e-6 + part * clear / std::f64::consts::SQRT_2;
-                solve(
-                    &Inputs {
-                        base_pitch_deviation,
-                        ..inputs.clone()
-                    },
-                    Stages::EVERY,
-                )
-                .unwrap()
-                .outcome
+                solve(&Inputs { base_pitch_deviation, ..inputs.clone() }, Stages::EVERY)
+                    .unwrap()
+                    .outcome
             };
             assert_eq!(outcome(1.01), Outcome::CornerContact, "{method:?}");
             assert_eq!(outcome(0.99), Outcome::NoCornerContact, "{method:?}");
             inputs.driven.tip_relief = 1.5 * least;
-            assert!(
-                !clears_barely(&inputs),
-                "{method:?}: the clearance is large"
-            );
+            assert!(!clears_barely(&inputs), "{method:?}: the clearance is large");
         }
     }
 
@@ -275,25 +237,15 @@ mod tests {
     fn a_small_clearance_is_reported_with_the_deviation_that_causes_contact() {
         assert!(clears_barely(&relieved(48e-6, 16e-6)));
         assert!(!clears_barely(&relieved(47e-6, 16e-6)), "it strikes");
-        assert!(
-            !clears_barely(&relieved(60e-6, 16e-6)),
-            "the clearance is large"
-        );
-        let clear = -solve(&relieved(48e-6, 16e-6), Stages::EVERY)
-            .unwrap()
-            .deviation
-            .total;
+        assert!(!clears_barely(&relieved(60e-6, 16e-6)), "the clearance is large");
+        let clear = -solve(&relieved(48e-6, 16e-6), Stages::EVERY).unwrap().deviation.total;
         let enough = 16e-6 + clear / std::f64::consts::SQRT_2;
         assert_eq!(
-            solve(&relieved(48e-6, enough * 1.0001), Stages::EVERY)
-                .unwrap()
-                .outcome,
+            solve(&relieved(48e-6, enough * 1.0001), Stages::EVERY).unwrap().outcome,
             Outcome::CornerContact
         );
         assert_eq!(
-            solve(&relieved(48e-6, enough * 0.9999), Stages::EVERY)
-                .unwrap()
-                .outcome,
+            solve(&relieved(48e-6, enough * 0.9999), Stages::EVERY).unwrap().outcome,
             Outcome::NoCornerContact
         );
     }

@@ -19,13 +19,8 @@ pub(super) fn method_taken(inputs: &Inputs, solution: &Solution) -> Option<Note>
 
 /// The case gives a deflection that this method computes itself.
 pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let given = inputs
-        .deflection
-        .filter(|_| solution.method.shares_load())?;
-    let (given, found) = (
-        four(given * 1e6),
-        four(solution.deviation.combined_deflection * 1e6),
-    );
+    let given = inputs.deflection.filter(|_| solution.method.shares_load())?;
+    let (given, found) = (four(given * 1e6), four(solution.deviation.combined_deflection * 1e6));
     let method = solution.method.name();
     let message = format!(
         "method {method} ignores the given deflection of {given} um and uses its own, {found} um"
@@ -35,12 +30,7 @@ pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option
 
 /// The case gives the deflection, so that the load does not affect the impact.
 pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let given = four(
-        inputs
-            .deflection
-            .filter(|_| !solution.method.shares_load())?
-            * 1e6,
-    );
+    let given = four(inputs.deflection.filter(|_| !solution.method.shares_load())? * 1e6);
     let message = format!(
         "the deflection of {given} um is given: power and torque change only F_0, not D or the \
             impact"
@@ -102,10 +92,7 @@ pub(super) fn stiffness_step(_: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The back flanks strike.
 pub(super) fn back_strikes(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let steady = solution
-        .steady
-        .as_ref()
-        .and_then(|found| found.as_ref().ok());
+    let steady = solution.steady.as_ref().and_then(|found| found.as_ref().ok());
     let in_steady = steady.and_then(|steady| steady.rattle);
     let in_motion = solution.dynamic.as_ref().and_then(|found| found.rattle);
     let (rattle, when) = match (in_motion, in_steady) {
@@ -149,8 +136,5 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
 /// The search found no relief without contact before E.
 pub(super) fn not_cleared(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.clearing?.withheld?;
-    Some(Note::new(
-        refusal.code(),
-        format!("the required tip relief is unknown: {refusal}"),
-    ))
+    Some(Note::new(refusal.code(), format!("the required tip relief is unknown: {refusal}")))
 }

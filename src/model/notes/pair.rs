@@ -121,12 +121,7 @@ pub(super) fn tip_driver(inputs: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The driven gear's tip is pointed or thin.
 pub(super) fn tip_driven(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    tip(
-        "driven gear",
-        inputs,
-        &inputs.driven,
-        &solution.geometry.driven,
-    )
+    tip("driven gear", inputs, &inputs.driven, &solution.geometry.driven)
 }
 
 fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<Note> {
@@ -156,14 +151,9 @@ fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<No
 pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let geometry = &solution.geometry;
     let form = Profile::of(&Rack::of(inputs, &inputs.driver), &geometry.driver).form_radius();
-    let contact = solution
-        .position
-        .map(|position| ("D", position.contact.radius_driver));
+    let contact = solution.position.map(|position| ("D", position.contact.radius_driver));
     let start = ("E", geometry.driver.base.hypot(geometry.start));
-    let (point, radius) = contact
-        .into_iter()
-        .chain([start])
-        .find(|(_, radius)| *radius < form)?;
+    let (point, radius) = contact.into_iter().chain([start]).find(|(_, radius)| *radius < form)?;
     let (radius, form) = (distinct_digits(radius, form), distinct_digits(form, radius));
     let message = format!(
         "{point} is below the driver's form circle: O1{point} is {radius} mm and the involute \
@@ -175,9 +165,5 @@ pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> 
 /// A length in mm with enough digits to distinguish it from another length.
 fn distinct_digits(length: f64, other: f64) -> String {
     let digits = 4.0 - ((length - other) * MILLI).abs().log10().floor();
-    format!(
-        "{:.*}",
-        digits.clamp(4.0, 12.0) as usize - 1,
-        length * MILLI
-    )
+    format!("{:.*}", digits.clamp(4.0, 12.0) as usize - 1, length * MILLI)
 }

@@ -26,9 +26,7 @@ pub(super) fn widest_edge(profile: &Profile, flank_end: f64, radius: f64) -> Opt
     edge(
         profile,
         flank_end,
-        last_where(0.0, radius, |radius| {
-            edge(profile, flank_end, radius).is_some()
-        }),
+        last_where(0.0, radius, |radius| edge(profile, flank_end, radius).is_some()),
     )
 }
 
@@ -65,8 +63,5 @@ pub(super) fn bevel(corner: Point2<f64>, tip: f64) -> Bevel {
     let rise = (tip - corner.coords.norm()) * (tip + corner.coords.norm());
     let way = rise / (skew + (skew * skew + 2.0 * rise).sqrt());
     let way = way.min(corner.y);
-    Bevel {
-        from: corner,
-        to: corner + Vector2::new(way, -way),
-    }
+    Bevel { from: corner, to: corner + Vector2::new(way, -way) }
 }

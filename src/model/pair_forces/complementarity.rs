@@ -25,8 +25,7 @@ impl PairSet {
     /// Displacement and forces at the end condition.
     pub(super) fn solved(&self, until: Until) -> (f64, OfPairs<f64>) {
         let own = self.own();
-        self.guessed(&own, until)
-            .unwrap_or_else(|| self.followed(&own, until))
+        self.guessed(&own, until).unwrap_or_else(|| self.followed(&own, until))
     }
 
     /// Guesses the touching pairs from independent springs and corrects the guess until no force
@@ -102,11 +101,7 @@ impl PairSet {
                     let weight = self.pairs[index].weight;
                     sums = [sums[0] + weight * force[0], sums[1] + weight * force[1]];
                 }
-                if sums[0] > 0.0 {
-                    (total + sums[1]) / sums[0]
-                } else {
-                    f64::INFINITY
-                }
+                if sums[0] > 0.0 { (total + sums[1]) / sums[0] } else { f64::INFINITY }
             }
         }
     }
@@ -137,19 +132,15 @@ impl PairSet {
     pub(super) fn lines(&self, own: &[f64], touching: Touching) -> Option<Lines> {
         let touching: OfPairs<usize> = touching.pairs().collect();
         let factored = self.compliances(own).among(&touching)?;
-        let mut forces: OfPairs<[f64; 2]> = touching
-            .iter()
-            .map(|&index| [1.0, self.pairs[index].gap])
-            .collect();
+        let mut forces: OfPairs<[f64; 2]> =
+            touching.iter().map(|&index| [1.0, self.pairs[index].gap]).collect();
         factored.solve(&mut forces);
         Some(Lines { touching, forces })
     }
 
     /// The overlap x − gap − Σ Q_kj F_j of a pair without contact, as slope and offset over x.
     pub(super) fn apart(&self, own: &[f64], lines: &Lines, index: usize) -> [f64; 2] {
-        let [slope, offset] = self
-            .compliances(own)
-            .pushed(index, &lines.touching, &lines.forces);
+        let [slope, offset] = self.compliances(own).pushed(index, &lines.touching, &lines.forces);
         [1.0 - slope, self.pairs[index].gap - offset]
     }
 }

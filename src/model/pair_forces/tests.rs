@@ -4,19 +4,12 @@ use super::complementarity::Until;
 use super::*;
 
 fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*state >> 11) as f64 / (1u64 << 53) as f64
 }
 
 fn pair(ahead: i32, stiffness: f64, gap: f64) -> Pair {
-    Pair {
-        ahead,
-        stiffness,
-        gap,
-        weight: 1.0,
-    }
+    Pair { ahead, stiffness, gap, weight: 1.0 }
 }
 
 /// Up to six random pairs with strong coupling over three pitches. The gaps are as large as the
@@ -30,9 +23,7 @@ fn random_pairs(state: &mut u64) -> PairSet {
         });
         let pairs: Vec<Pair> = pairs.collect();
         let couplings = (0..count).map(|_| {
-            [0.7, 0.4, 0.3]
-                .map(|most| most * random(state))
-                .map(|coupling| coupling - 0.05)
+            [0.7, 0.4, 0.3].map(|most| most * random(state)).map(|coupling| coupling - 0.05)
         });
         let set = PairSet::new(pairs, couplings);
         if set.is_definite() {
@@ -46,11 +37,7 @@ fn violation(set: &PairSet, displacement: f64, forces: &[f64]) -> f64 {
     let rest = |(index, pair): (usize, &Pair)| {
         let own = forces[index] / pair.stiffness;
         let overlap = displacement - pair.gap - own - set.pushed(index, forces);
-        let wrong = if forces[index] > 0.0 {
-            overlap.abs()
-        } else {
-            overlap
-        };
+        let wrong = if forces[index] > 0.0 { overlap.abs() } else { overlap };
         wrong.max(-forces[index])
     };
     set.pairs().iter().enumerate().map(rest).fold(0.0, f64::max)
@@ -64,17 +51,11 @@ fn each_pair_has_either_a_force_or_a_gap() {
         let total = 3.0 * random(&mut state) + 1e-6;
         let (displacement, forces) = set.shared(total);
         let sum: f64 = forces.iter().sum();
-        assert!(
-            (sum / total - 1.0).abs() < 1e-9,
-            "{round}: {sum} of {total}"
-        );
+        assert!((sum / total - 1.0).abs() < 1e-9, "{round}: {sum} of {total}");
         let off = violation(&set, displacement, &forces);
         assert!(off < 1e-9, "{round}: error {off:e}, {set:?}");
         for (force, expected) in set.forces(displacement).iter().zip(&forces) {
-            assert!(
-                (force - expected).abs() < 1e-8,
-                "{round}: {force} {expected}"
-            );
+            assert!((force - expected).abs() < 1e-8, "{round}: {force} {expected}");
         }
     }
 }
@@ -88,10 +69,7 @@ fn the_lead_of_a_loaded_pair_is_positive() {
         let lead = set.clone().lead(0, total);
         let force = set.balance(total).force;
         let is_close = lead.abs() < 1e-9;
-        assert!(
-            is_close || (lead > 0.0) == (force > 0.0),
-            "{lead} {force} {set:?}"
-        );
+        assert!(is_close || (lead > 0.0) == (force > 0.0), "{lead} {force} {set:?}");
     }
 }
 
@@ -148,10 +126,9 @@ fn a_guess_of_the_touching_pairs_finds_the_forces_that_the_growing_displacement_
     for round in 0..5_000 {
         let set = random_pairs(&mut state);
         let own = set.own();
-        for until in [
-            Until::Total(random(&mut state) + 1e-3),
-            Until::Displacement(2.0 * random(&mut state)),
-        ] {
+        for until in
+            [Until::Total(random(&mut state) + 1e-3), Until::Displacement(2.0 * random(&mut state))]
+        {
             let (expected_x, expected) = set.followed(&own, until);
             if let Some((x, forces)) = set.guessed(&own, until) {
                 guessed += 1;

@@ -96,18 +96,11 @@ impl GapSeries {
         let s5 = bases * (3.0 * x2 * x2 + 4.0 * x1 * x3 - x1 * x1 * x1 * x1)
             + tangent * (x4 - 6.0 * x1 * x1 * x2);
         let per_curve = s2.recip();
-        let (a, b, c) = (
-            s3 * per_curve / 3.0,
-            s4 * per_curve / 12.0,
-            s5 * per_curve / 60.0,
-        );
+        let (a, b, c) = (s3 * per_curve / 3.0, s4 * per_curve / 12.0, s5 * per_curve / 60.0);
         // The root of the bracket, as 1 + a1 u + a2 u² + a3 u³.
         let (a1, a2) = (0.5 * a, 0.5 * b - 0.125 * a * a);
         let a3 = 0.5 * c - 0.25 * a * b + 0.0625 * a * a * a;
-        GapSeries {
-            per_curve,
-            terms: [-a1, 2.0 * a1 * a1 - a2, 5.0 * a1 * (a2 - a1 * a1) - a3],
-        }
+        GapSeries { per_curve, terms: [-a1, 2.0 * a1 * a1 - a2, 5.0 * a1 * (a2 - a1 * a1) - a3] }
     }
 
     /// An angle u near `S(u) = deviation`, in rad. Uses the series, or its first term if the series
@@ -123,9 +116,7 @@ impl GapSeries {
         if first.abs() < 0.2 && rest.abs() < first.abs() {
             return (parabola * (1.0 + first + rest)).min(LARGEST_ANGLE);
         }
-        parabola
-            .min(angle_at_curvature(geometry, geometry.end))
-            .min(LARGEST_ANGLE)
+        parabola.min(angle_at_curvature(geometry, geometry.end)).min(LARGEST_ANGLE)
     }
 }
 

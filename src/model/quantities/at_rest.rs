@@ -231,10 +231,7 @@ fn gap_at_first(k: &Context) -> Option<f64> {
 }
 
 fn lead_at_first(k: &Context) -> Option<f64> {
-    lead(
-        k,
-        -first_contact(k)?.angle * k.solution.geometry.driven.base,
-    )
+    lead(k, -first_contact(k)?.angle * k.solution.geometry.driven.base)
 }
 
 /// Displacement of the driver ahead with the incoming pair at `s`, minus the displacement of the
@@ -263,11 +260,7 @@ fn compliance_at_start(k: &Context) -> Option<f64> {
 }
 
 fn mean_of_pairs(k: &Context) -> String {
-    let is_coupled = k
-        .solution
-        .mesh
-        .as_ref()
-        .is_some_and(|mesh| mesh.is_coupled());
+    let is_coupled = k.solution.mesh.as_ref().is_some_and(|mesh| mesh.is_coupled());
     let formula = if is_coupled {
         "the forces of all pairs from E to B per displacement, averaged over a base pitch"
     } else {
@@ -299,13 +292,9 @@ pub(super) const STEPS: &[Step] = &[
         Words("by quadrature"),
         mean_stiffness,
     ),
-    step(
-        "k_E",
-        "stiffness of the incoming pair at E",
-        "N/m",
-        Text("b/q_E"),
-        |k| Some(k.inputs.common_width() / compliance_at_start(k)?),
-    ),
+    step("k_E", "stiffness of the incoming pair at E", "N/m", Text("b/q_E"), |k| {
+        Some(k.inputs.common_width() / compliance_at_start(k)?)
+    }),
     step(
         "q_E",
         "compliance of the incoming pair at E, contact under F_0",

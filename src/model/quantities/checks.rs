@@ -58,11 +58,7 @@ pub(super) fn bodies(k: &Context) -> Option<Finding> {
     let parts = [driver / geometry.driver.root, driven / geometry.driven.root];
     Finding::new(
         "the bores leave a body, r_h < r_f",
-        format!(
-            "rh1/r_f1 = {}, rh2/r_f2 = {}",
-            four(parts[0]),
-            four(parts[1])
-        ),
+        format!("rh1/r_f1 = {}, rh2/r_f2 = {}", four(parts[0]), four(parts[1])),
         parts.iter().all(|&part| part < 1.0),
     )
 }
@@ -101,11 +97,7 @@ pub(super) fn edge(k: &Context) -> Option<Finding> {
         Some(radius) => format!("re2 = {}", mm(radius)),
         None => "not given, the flank's curvature is used".to_owned(),
     };
-    Finding::new(
-        "the case gives the edge radius of the driven tip",
-        here,
-        given.is_some(),
-    )
+    Finding::new("the case gives the edge radius of the driven tip", here, given.is_some())
 }
 
 /// Sliding does not reverse between D and E.
@@ -129,28 +121,17 @@ pub(super) fn pair_ahead(k: &Context) -> Option<Finding> {
     let (deflection, error) = (deviation.combined_deflection, deviation.equivalent_error);
     Finding::new(
         "δ >= Δf: the load keeps the pair ahead in contact",
-        format!(
-            "δ = {}, Δf = {}",
-            micro(deflection, "um"),
-            micro(error, "um")
-        ),
+        format!("δ = {}, Δf = {}", micro(deflection, "um"), micro(error, "um")),
         deflection >= error,
     )
 }
 
 /// The impact ends before E.
 pub(super) fn within_approach(k: &Context) -> Option<Finding> {
-    let (duration, transit) = (
-        k.solution.impact?.duration(),
-        k.solution.velocity?.transit_time,
-    );
+    let (duration, transit) = (k.solution.impact?.duration(), k.solution.velocity?.transit_time);
     Finding::new(
         "T_S <= t_DE: the impact ends before the normal mesh begins",
-        format!(
-            "T_S = {}, t_DE = {}",
-            micro(duration, "us"),
-            micro(transit, "us")
-        ),
+        format!("T_S = {}, t_DE = {}", micro(duration, "us"), micro(transit, "us")),
         duration <= transit,
     )
 }
@@ -173,11 +154,7 @@ pub(super) fn printed_shorter(k: &Context) -> Option<Finding> {
     let (printed, hertz) = (impact.duration_printed(), impact.duration_hertz());
     Finding::new(
         "T_S,32 equals the duration after Hertz",
-        format!(
-            "T_S,32 = {}, T_S,H = {}",
-            micro(printed, "us"),
-            micro(hertz, "us")
-        ),
+        format!("T_S,32 = {}, T_S,H = {}", micro(printed, "us"), micro(hertz, "us")),
         false,
     )
 }
@@ -202,11 +179,7 @@ pub(super) fn before_start(k: &Context) -> Option<Finding> {
     let transit = k.solution.velocity?.transit_time;
     Finding::new(
         "T_S,32 <= t_DE: D' is before E",
-        format!(
-            "T_S,32 = {}, t_DE = {}",
-            micro(printed, "us"),
-            micro(transit, "us")
-        ),
+        format!("T_S,32 = {}, t_DE = {}", micro(printed, "us"), micro(transit, "us")),
         printed <= transit,
     )
 }
@@ -267,11 +240,7 @@ pub(super) fn forgotten(k: &Context) -> Option<Finding> {
 
 pub(super) fn contact_kept(k: &Context) -> Option<Finding> {
     let lost = k.solution.dynamic.as_ref()?.contact_lost;
-    let here = if lost {
-        "contact is lost at times"
-    } else {
-        "the teeth stay in contact"
-    };
+    let here = if lost { "contact is lost at times" } else { "the teeth stay in contact" };
     Finding::new(
         "the teeth keep contact; if they lose contact, a small change of the case can change the \
             value strongly",

@@ -7,11 +7,7 @@ use crate::model::explanation::{Step, step};
 
 /// The deflection, in two parts if the pairs ahead displace the incoming pair.
 pub(super) fn deflection(k: &Context) -> String {
-    if is_coupled(k) {
-        "δ_F - δ_E".to_owned()
-    } else {
-        shared(k)
-    }
+    if is_coupled(k) { "δ_F - δ_E".to_owned() } else { shared(k) }
 }
 
 fn is_coupled(k: &Context) -> bool {
@@ -72,9 +68,7 @@ fn ahead(k: &Context, pitches: u32) -> Option<f64> {
     let solution = k.solution;
     let elasticity = k.inputs.elasticity();
     let teeth = Teeth::of(&elasticity, &solution.geometry).ok()?;
-    teeth
-        .pair_at_load(&place(k, pitches)?, solution.mesh_force)
-        .ok()
+    teeth.pair_at_load(&place(k, pitches)?, solution.mesh_force).ok()
 }
 
 fn teeth_ahead(k: &Context) -> Option<[f64; 2]> {
@@ -94,13 +88,9 @@ fn contact_ahead(k: &Context) -> Option<f64> {
 }
 
 pub(super) const STEPS: &[Step] = &[
-    step(
-        "δ_F",
-        "deflection of the pairs ahead under F_0",
-        "um",
-        Made(ahead_alone),
-        |k| is_coupled(k).then(|| k.solution.deviation.loaded_deflection()),
-    ),
+    step("δ_F", "deflection of the pairs ahead under F_0", "um", Made(ahead_alone), |k| {
+        is_coupled(k).then(|| k.solution.deviation.loaded_deflection())
+    }),
     step(
         "δ_E",
         "displacement of the incoming pair at E by the force on the pairs ahead",

@@ -111,10 +111,7 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| Some(s.deviation.combined_deflection),
         meaning: "The deflection along the line of action of the pairs that carry the load when \
             the incoming pair is at E.",
-        formula: Cases(&[
-            (deflection_used, Given("model.deflection")),
-            (always, Made(deflection)),
-        ]),
+        formula: Cases(&[(deflection_used, Given("model.deflection")), (always, Made(deflection))]),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of \
             the curve in Fig. 3. Table 1 uses 24.7 um from reference 20 of the paper.",
         corrections: &["Eq. 55", "Eq. 56"],

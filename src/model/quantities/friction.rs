@@ -149,13 +149,9 @@ impl End {
 }
 
 pub(super) const STEPS: &[Step] = &[
-    step(
-        "Δθ",
-        "turn of the driver during the impact, Eq. 35",
-        "deg",
-        Text("ω_1 T_S,32"),
-        |k| Some(End::of(k)?.turn),
-    ),
+    step("Δθ", "turn of the driver during the impact, Eq. 35", "deg", Text("ω_1 T_S,32"), |k| {
+        Some(End::of(k)?.turn)
+    }),
     step(
         "DD'",
         "chord of the path of the driven tip during the impact, Eqs. 36 and 37",
@@ -167,10 +163,7 @@ pub(super) const STEPS: &[Step] = &[
         "u'",
         "driven angle before E at D'",
         "deg",
-        Cases(&[
-            (paper, Difference("η' - γ_2")),
-            (always, Difference("max(u - ω_2 T_S,32, 0)")),
-        ]),
+        Cases(&[(paper, Difference("η' - γ_2")), (always, Difference("max(u - ω_2 T_S,32, 0)"))]),
         |k| Some(End::of(k)?.approach_angle),
     ),
     step(
@@ -188,10 +181,7 @@ pub(super) const STEPS: &[Step] = &[
         "driver radius at D', or of the centre of the rounding there",
         "mm",
         Cases(&[
-            (
-                paper,
-                Difference("O1D cos Δθ - √((O1D cos Δθ)² - O1D² + DD'²)"),
-            ),
+            (paper, Difference("O1D cos Δθ - √((O1D cos Δθ)² - O1D² + DD'²)")),
             (driven_rounded, Text("√(r_C2² + a² - 2 a r_C2 cos η')")),
             (always, Text("√(r_a2² + a² - 2 a r_a2 cos η')")),
         ]),
@@ -212,14 +202,8 @@ pub(super) const STEPS: &[Step] = &[
         "angle of the contact normal at D'",
         "deg",
         Cases(&[
-            (
-                driven_rounded,
-                Text("atan2(r_C2 sin η', a - r_C2 cos η') + atan2(ρ_1' + re2, r_b1)"),
-            ),
-            (
-                always,
-                Text("atan2(r_a2 sin η', a - r_a2 cos η') + atan2(ρ_1', r_b1)"),
-            ),
+            (driven_rounded, Text("atan2(r_C2 sin η', a - r_C2 cos η') + atan2(ρ_1' + re2, r_b1)")),
+            (always, Text("atan2(r_a2 sin η', a - r_a2 cos η') + atan2(ρ_1', r_b1)")),
         ]),
         |k| Some(End::of(k)?.normal_angle),
     ),

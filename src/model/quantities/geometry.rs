@@ -129,10 +129,7 @@ const INVOLUTE: Equation = Equation {
         let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
         let teeth = f64::from(inputs.driver.teeth + inputs.driven.teeth);
         let alpha = inputs.pressure_angle;
-        Some([
-            inv(working),
-            inv(alpha) + 2.0 * shifts * alpha.tan() / teeth,
-        ])
+        Some([inv(working), inv(alpha) + 2.0 * shifts * alpha.tan() / teeth])
     },
 };
 
@@ -142,41 +139,21 @@ fn masses(k: &Context) -> [f64; 2] {
 }
 
 pub(super) const STEPS: &[Step] = &[
-    step(
-        "i",
-        "ratio of the tooth numbers, ω_1/ω_2",
-        "1",
-        Text("z2/z1"),
-        |k| Some(k.inputs.ratio()),
-    ),
-    step(
-        "r_1",
-        "reference radius of the driver",
-        "mm",
-        Text("m z1/2"),
-        |k| Some(k.solution.geometry.driver.reference),
-    ),
-    step(
-        "r_2",
-        "reference radius of the driven gear",
-        "mm",
-        Text("m z2/2"),
-        |k| Some(k.solution.geometry.driven.reference),
-    ),
-    step(
-        "r_b1",
-        "base radius of the driver",
-        "mm",
-        Text("r_1 cos α"),
-        |k| Some(k.solution.geometry.driver.base),
-    ),
-    step(
-        "r_b2",
-        "base radius of the driven gear",
-        "mm",
-        Text("r_2 cos α"),
-        |k| Some(k.solution.geometry.driven.base),
-    ),
+    step("i", "ratio of the tooth numbers, ω_1/ω_2", "1", Text("z2/z1"), |k| {
+        Some(k.inputs.ratio())
+    }),
+    step("r_1", "reference radius of the driver", "mm", Text("m z1/2"), |k| {
+        Some(k.solution.geometry.driver.reference)
+    }),
+    step("r_2", "reference radius of the driven gear", "mm", Text("m z2/2"), |k| {
+        Some(k.solution.geometry.driven.reference)
+    }),
+    step("r_b1", "base radius of the driver", "mm", Text("r_1 cos α"), |k| {
+        Some(k.solution.geometry.driver.base)
+    }),
+    step("r_b2", "base radius of the driven gear", "mm", Text("r_2 cos α"), |k| {
+        Some(k.solution.geometry.driven.base)
+    }),
     step(
         "r_a1",
         "tip radius of the driver without the chamfer",
@@ -255,29 +232,18 @@ pub(super) const STEPS: &[Step] = &[
         ]),
         |k| Some(k.solution.geometry.start_angle_driven),
     ),
-    step("ω_1", "speed of the driver", "rad/s", Text("n1"), |k| {
-        Some(k.inputs.speed)
+    step("ω_1", "speed of the driver", "rad/s", Text("n1"), |k| Some(k.inputs.speed)),
+    step("ω_2", "speed of the driven gear", "rad/s", Text("ω_1/i"), |k| {
+        Some(k.inputs.driven_speed())
     }),
-    step(
-        "ω_2",
-        "speed of the driven gear",
-        "rad/s",
-        Text("ω_1/i"),
-        |k| Some(k.inputs.driven_speed()),
-    ),
     step(
         "T1",
         "torque on the driver",
         "N m",
-        Cases(&[
-            (power_given, Text("P/ω_1")),
-            (always, Given("operation.torque")),
-        ]),
+        Cases(&[(power_given, Text("P/ω_1")), (always, Given("operation.torque"))]),
         |k| Some(k.inputs.torque()),
     ),
-    step("b", "common face width", "mm", Text("min(b1, b2)"), |k| {
-        Some(k.inputs.common_width())
-    }),
+    step("b", "common face width", "mm", Text("min(b1, b2)"), |k| Some(k.inputs.common_width())),
     step(
         "m_1",
         "mass of the driver at its base circle, Eq. 46 in kg",

@@ -104,10 +104,7 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| Some(s.position?.contact.radius_driven),
         meaning: "The radius of D on the driven gear, where the tooth takes the load: its tip \
             radius, or a point on the rounding of its tip.",
-        formula: Cases(&[
-            (driven_rounded, Text("√(r_b2'² + N2'D²)")),
-            (always, Text("r_a2")),
-        ]),
+        formula: Cases(&[(driven_rounded, Text("√(r_b2'² + N2'D²)")), (always, Text("r_a2"))]),
         source: "The geometry of the rounding, an arc tangent to the tip circle and to the flank.",
         assumptions: TIP,
         checks: &[checks::gap_closed],
@@ -238,10 +235,7 @@ const CONTACT: Equation = Equation {
     unit: "um",
     sides: |k| {
         let contact = k.solution.position?.contact;
-        Some([
-            gap(&k.solution.geometry, &contact),
-            k.solution.deviation.total,
-        ])
+        Some([gap(&k.solution.geometry, &contact), k.solution.deviation.total])
     },
 };
 
@@ -296,13 +290,9 @@ pub(super) const STEPS: &[Step] = &[
         Difference("√(r_C2² + a² - 2 a r_C2 cos η - r_b1²)"),
         centre_curvature,
     ),
-    step(
-        "Δρ_1",
-        "growth of ρ_1 since E",
-        "mm",
-        Difference("ρ_1 - N1E"),
-        |k| Some(k.solution.position?.contact.curvature_growth),
-    ),
+    step("Δρ_1", "growth of ρ_1 since E", "mm", Difference("ρ_1 - N1E"), |k| {
+        Some(k.solution.position?.contact.curvature_growth)
+    }),
     step(
         "ψ",
         "angle D O1 P",
@@ -317,31 +307,15 @@ pub(super) const STEPS: &[Step] = &[
         "β_1",
         "angle D O1 N1'",
         "deg",
-        Cases(&[
-            (driven_rounded, Text("atan2(ρ_1C, r_b1)")),
-            (always, Text("atan2(ρ_1, r_b1)")),
-        ]),
+        Cases(&[(driven_rounded, Text("atan2(ρ_1C, r_b1)")), (always, Text("atan2(ρ_1, r_b1)"))]),
         |k| Some(centre_curvature(k)?.atan2(k.solution.geometry.driver.base)),
     ),
-    step(
-        "χ",
-        "angle of the contact normal at D, α_w at E",
-        "deg",
-        Text("ψ + β_1"),
-        |k| {
-            Some(
-                k.solution.geometry.working_pressure_angle
-                    + k.solution.position?.contact.normal_turn,
-            )
-        },
-    ),
-    step(
-        "Δχ",
-        "turn of the contact normal since E",
-        "deg",
-        Difference("χ - α_w"),
-        |k| Some(k.solution.position?.contact.normal_turn),
-    ),
+    step("χ", "angle of the contact normal at D, α_w at E", "deg", Text("ψ + β_1"), |k| {
+        Some(k.solution.geometry.working_pressure_angle + k.solution.position?.contact.normal_turn)
+    }),
+    step("Δχ", "turn of the contact normal since E", "deg", Difference("χ - α_w"), |k| {
+        Some(k.solution.position?.contact.normal_turn)
+    }),
     step(
         "N2'D",
         "from the driven gear's foot on the contact normal to D",
@@ -354,13 +328,6 @@ pub(super) const STEPS: &[Step] = &[
         "radius of curvature of the driven flank at its tip",
         "mm",
         Cases(&[(edge_given, Text("re2")), (always, Text("N2E"))]),
-        |k| {
-            Some(
-                k.inputs
-                    .driven
-                    .tip_radius
-                    .unwrap_or(k.solution.geometry.driven.tip_curvature),
-            )
-        },
+        |k| Some(k.inputs.driven.tip_radius.unwrap_or(k.solution.geometry.driven.tip_curvature)),
     ),
 ];

@@ -70,14 +70,8 @@ macro_rules! peak {
     };
 }
 
-const RISING: [Quantity; 2] = peak!(
-    "resonance_peak_speed",
-    "n_pk",
-    "resonance_peak_factor",
-    "K_pk",
-    "rising",
-    peak_rising
-);
+const RISING: [Quantity; 2] =
+    peak!("resonance_peak_speed", "n_pk", "resonance_peak_factor", "K_pk", "rising", peak_rising);
 const FALLING: [Quantity; 2] = peak!(
     "resonance_peak_speed_falling",
     "n_pk,f",

@@ -23,14 +23,10 @@ const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Hou
     |c_n|, max x − min x, max ΣF.";
 const STEADY: &[&str] = &["m_red", "f_n", "f_z", "F_0"];
 const CHECKS: &[Check] = &[checks::teeth, contact_kept];
-const PERIODIC_AT_REST: Formula = Found(
-    "max x - min x over a base pitch, x by Σ w_k F_k = F_0",
-    &["F_0", "k_m"],
-);
-const PERIODIC: Formula = Found(
-    "max x - min x over the base pitches after which the motion repeats",
-    STEADY,
-);
+const PERIODIC_AT_REST: Formula =
+    Found("max x - min x over a base pitch, x by Σ w_k F_k = F_0", &["F_0", "k_m"]);
+const PERIODIC: Formula =
+    Found("max x - min x over the base pitches after which the motion repeats", STEADY);
 
 /// The row of a harmonic of the static transmission error: its order, the order in words, and its
 /// frequency.
@@ -227,10 +223,7 @@ pub(super) const TABLE: &[Quantity] = &[
         meaning: "The strikes of back flanks across the backlash per base pitch, in the steady motion \
             of a pair without deviations: rattle. Without a backlash in the case the back flanks \
             are far away, and this result does not exist.",
-        formula: Found(
-            "counted over the base pitches after which the motion repeats",
-            STEADY,
-        ),
+        formula: Found("counted over the base pitches after which the motion repeats", STEADY),
         source: MOTION,
         assumptions: AT_BACK,
         checks: CHECKS,
@@ -249,10 +242,7 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| Some(steady(s)?.rattle?.force),
         meaning: "The greatest force max B on a pair of back flanks in the steady motion of a pair \
             without deviations.",
-        formula: Found(
-            "max B over the base pitches after which the motion repeats",
-            STEADY,
-        ),
+        formula: Found("max B over the base pitches after which the motion repeats", STEADY),
         source: MOTION,
         assumptions: AT_BACK,
         checks: CHECKS,

@@ -19,10 +19,7 @@ pub(super) fn solve_by_choice(
     let before =
         earlier.filter(|earlier| earlier.inputs == inputs && earlier.solution.choice.is_some());
     let chosen = match before {
-        Some(earlier) => Solution {
-            ran: Stages::NONE,
-            ..earlier.solution.clone()
-        },
+        Some(earlier) => Solution { ran: Stages::NONE, ..earlier.solution.clone() },
         None => {
             let chosen = chosen(inputs, wanted.except(Stages::LATE), go_on)?;
             with_beside(inputs, chosen, go_on)?
@@ -32,15 +29,8 @@ pub(super) fn solve_by_choice(
         return Ok(chosen);
     }
     let taken = auto::taken(inputs, chosen.method);
-    let wanted = if chosen.method == Method::Static {
-        at_rest(wanted)
-    } else {
-        wanted
-    };
-    let earlier = Earlier {
-        inputs: &taken,
-        solution: &chosen,
-    };
+    let wanted = if chosen.method == Method::Static { at_rest(wanted) } else { wanted };
+    let earlier = Earlier { inputs: &taken, solution: &chosen };
     let whole = solve_by_method(&taken, wanted, Some(earlier), go_on)?;
     Ok(Solution {
         ran: whole.ran.and(chosen.ran),
@@ -57,35 +47,20 @@ fn with_beside(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
     let Some(method) = auto::beside(inputs, solution.method) else {
-        return Ok(Solution {
-            beside: None,
-            ..solution
-        });
+        return Ok(Solution { beside: None, ..solution });
     };
     let missing = inputs.needs.except(solution.method.stages());
-    let wanted = missing
-        .iter()
-        .fold(Stages::NONE, |wanted, stage| wanted.and(Stages::of(stage)));
+    let wanted = missing.iter().fold(Stages::NONE, |wanted, stage| wanted.and(Stages::of(stage)));
     let taken = auto::taken(inputs, method);
     // A trial motion, or the motion of an earlier solve.
-    let known = solution
-        .beside
-        .as_ref()
-        .and_then(|known| known.as_ref().ok());
-    let earlier = known.map(|solution| Earlier {
-        inputs: &taken,
-        solution,
-    });
+    let known = solution.beside.as_ref().and_then(|known| known.as_ref().ok());
+    let earlier = known.map(|solution| Earlier { inputs: &taken, solution });
     let beside = match solve_by_method(&taken, wanted, earlier, go_on) {
         Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         found => found.map(Box::new),
     };
     let ran = beside.as_ref().map_or(Stages::NONE, |beside| beside.ran);
-    Ok(Solution {
-        ran: solution.ran.and(ran),
-        beside: Some(beside),
-        ..solution
-    })
+    Ok(Solution { ran: solution.ran.and(ran), beside: Some(beside), ..solution })
 }
 
 /// Solves by the chosen method. If `static` is chosen, its results replace the wanted results of
@@ -98,29 +73,14 @@ fn chosen(
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
     let closed_form = solve_by_method(&auto::taken(inputs, Method::Exact), read, None, &|_| true);
     let choice = auto::choose(inputs, &closed_form);
-    let still = || {
-        solve_by_method(
-            &auto::taken(inputs, Method::Static),
-            at_rest(wanted),
-            None,
-            go_on,
-        )
-    };
+    let still =
+        || solve_by_method(&auto::taken(inputs, Method::Static), at_rest(wanted), None, go_on);
     let (solved, choice) = match (choice.method, &closed_form) {
         (Method::Exact, Ok(known)) => {
             let taken = auto::taken(inputs, Method::Exact);
-            let earlier = Earlier {
-                inputs: &taken,
-                solution: known,
-            };
+            let earlier = Earlier { inputs: &taken, solution: known };
             let found = solve_by_method(&taken, wanted, Some(earlier), go_on)?;
-            (
-                Ok(Solution {
-                    ran: found.ran.and(known.ran),
-                    ..found
-                }),
-                choice,
-            )
+            (Ok(Solution { ran: found.ran.and(known.ran), ..found }), choice)
         }
         (Method::Static, _) => (still(), choice),
         _ => match solve_by_method(&auto::taken(inputs, Method::Dynamic), wanted, None, go_on) {
@@ -136,13 +96,7 @@ fn chosen(
         },
     };
     let solution = solved?;
-    Ok(Solution {
-        choice: Some(Choice {
-            method: solution.method,
-            ..choice
-        }),
-        ..solution
-    })
+    Ok(Solution { choice: Some(Choice { method: solution.method, ..choice }), ..solution })
 }
 
 /// The motion, or the static balance on the same mesh if the effect of inertia is small.
@@ -157,15 +111,9 @@ fn decided(
     if choice.method == Method::Dynamic {
         return (Ok(moved), choice);
     }
-    let known = Solution {
-        method: Method::Static,
-        ..moved.clone()
-    };
+    let known = Solution { method: Method::Static, ..moved.clone() };
     let taken = auto::taken(inputs, Method::Static);
-    let earlier = Earlier {
-        inputs: &taken,
-        solution: &known,
-    };
+    let earlier = Earlier { inputs: &taken, solution: &known };
     let found = solve_by_method(&taken, at_rest(wanted), Some(earlier), go_on);
     (
         found.map(|found| Solution {
@@ -179,9 +127,5 @@ fn decided(
 
 /// The wanted stages with `static` instead of `dynamic`.
 fn at_rest(wanted: Stages) -> Stages {
-    if wanted.has(Stage::Dynamic) {
-        wanted.and(Stages::of(Stage::Static))
-    } else {
-        wanted
-    }
+    if wanted.has(Stage::Dynamic) { wanted.and(Stages::of(Stage::Static)) } else { wanted }
 }

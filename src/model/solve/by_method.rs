@@ -40,11 +40,7 @@ pub(super) fn solve_by_method(
         earlier,
         changed: Cell::default(),
     };
-    Solving {
-        asked,
-        setup: &Setup::of(inputs),
-    }
-    .run(go_on)
+    Solving { asked, setup: &Setup::of(inputs) }.run(go_on)
 }
 
 /// The stages of every solve.
@@ -100,11 +96,7 @@ impl<'a> Solving<'a> {
 
 /// Whether the deviation makes the tooth early.
 fn outcome(deviation: &Deviation<TwoFloat>) -> Outcome {
-    if deviation.total.rounded() > 0.0 {
-        Outcome::CornerContact
-    } else {
-        Outcome::NoCornerContact
-    }
+    if deviation.total.rounded() > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact }
 }
 
 impl Solving<'_> {
@@ -134,10 +126,7 @@ impl Solving<'_> {
 
     /// The required relief, after the outcome is known.
     fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
-        let held = self
-            .asked
-            .kept(Stage::Clearing)
-            .and_then(|earlier| earlier.clearing);
+        let held = self.asked.kept(Stage::Clearing).and_then(|earlier| earlier.clearing);
         if held.is_none() {
             solution.ran = solution.ran.with(Stage::Clearing);
         }
@@ -163,8 +152,7 @@ impl Solving<'_> {
         } else {
             ran = ran.with(Stage::Load);
             let force = mesh_force(&LoadInputs::of(inputs), &geometry);
-            self.asked
-                .note(Stage::Load, |s| s.mesh_force.to_bits() == force.to_bits());
+            self.asked.note(Stage::Load, |s| s.mesh_force.to_bits() == force.to_bits());
             force
         };
         let masses = if let Some(earlier) = self.asked.kept(Stage::Masses) {
@@ -172,10 +160,9 @@ impl Solving<'_> {
         } else {
             ran = ran.with(Stage::Masses);
             let bodies = MassInputs::of(inputs);
-            let masses = self.precise(&geometry)?.map_or_else(
-                || Masses::of(&bodies, &geometry),
-                |pair| Masses::of(&bodies, pair),
-            )?;
+            let masses = self
+                .precise(&geometry)?
+                .map_or_else(|| Masses::of(&bodies, &geometry), |pair| Masses::of(&bodies, pair))?;
             self.asked.note(Stage::Masses, |s| s.kept.masses == masses);
             masses
         };
@@ -184,8 +171,7 @@ impl Solving<'_> {
         } else {
             ran = ran.with(Stage::Deviation);
             let deviation = self.deviation(&geometry, mesh_force)?;
-            self.asked
-                .note(Stage::Deviation, |s| s.kept.deviation == deviation);
+            self.asked.note(Stage::Deviation, |s| s.kept.deviation == deviation);
             deviation
         };
         Ok(Solution {
@@ -256,9 +242,8 @@ impl Solving<'_> {
                 self.setup.series(&solution.geometry),
                 &solution.kept.deviation,
             );
-            self.asked.note(Stage::Position, |s| {
-                s.position == found.as_ref().ok().copied().flatten()
-            });
+            self.asked
+                .note(Stage::Position, |s| s.position == found.as_ref().ok().copied().flatten());
             found
         };
         solution.stages = solution.stages.with(Stage::Position);
@@ -282,13 +267,7 @@ impl Solving<'_> {
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
         let (inputs, tip) = (self.asked.inputs, &position.contact);
         let setup = self.setup;
-        let Solution {
-            geometry,
-            kept: Kept { masses, .. },
-            stages,
-            ran,
-            ..
-        } = solution;
+        let Solution { geometry, kept: Kept { masses, .. }, stages, ran, .. } = solution;
         let mut done = Done { stages, ran };
         solution.velocity = self.stage(
             &mut done,
@@ -313,14 +292,7 @@ impl Solving<'_> {
         };
         let rubbed = || {
             let reduced = masses.reduced();
-            Ok(friction::friction(
-                &setup.friction,
-                geometry,
-                tip,
-                &velocity,
-                impact,
-                reduced,
-            ))
+            Ok(friction::friction(&setup.friction, geometry, tip, &velocity, impact, reduced))
         };
         solution.friction = self.stage(&mut done, Stage::Friction, |s| s.friction, rubbed)?;
         solution.band = self.stage(
@@ -358,8 +330,7 @@ impl Solving<'_> {
             return Ok(Some(held));
         }
         let found = new()?;
-        self.asked
-            .note(stage, |s| earlier(s).as_ref() == Some(&found));
+        self.asked.note(stage, |s| earlier(s).as_ref() == Some(&found));
         *done.stages = done.stages.with(stage);
         *done.ran = done.ran.with(stage);
         Ok(Some(found))

@@ -118,10 +118,7 @@ mod tests {
     }
 
     fn pair() -> Inputs {
-        Inputs {
-            base_pitch_deviation: 16e-6,
-            ..standard_pair(20, 31, 5e-3)
-        }
+        Inputs { base_pitch_deviation: 16e-6, ..standard_pair(20, 31, 5e-3) }
     }
 
     #[test]
@@ -149,11 +146,9 @@ mod tests {
             let (mut inputs, mut setup) = (before.clone(), None);
             for edit in edits() {
                 edit(&mut inputs);
-                let cases = [Stages::of(Stage::Impact), Stages::CLOSED_FORM]
-                    .into_iter()
-                    .flat_map(|wanted| {
-                        [Change::Unknown, Change::LoadAlone].map(|change| (wanted, change))
-                    });
+                let cases = [Stages::of(Stage::Impact), Stages::CLOSED_FORM].into_iter().flat_map(
+                    |wanted| [Change::Unknown, Change::LoadAlone].map(|change| (wanted, change)),
+                );
                 for (wanted, change) in cases {
                     let before = (&mut before, change);
                     let repeated =
@@ -172,10 +167,7 @@ mod tests {
         let mut before = pair();
         let mut solution = solve(&before, Stages::CLOSED_FORM).unwrap();
         let (inputs, kept) = (before.clone(), solution.clone());
-        let mut other = Inputs {
-            backlash: 1e-6,
-            ..inputs.clone()
-        };
+        let mut other = Inputs { backlash: 1e-6, ..inputs.clone() };
         other.driven.density *= 1.1;
         let wanted = Stages::CLOSED_FORM;
         let repeated = solve_repeated(

@@ -41,11 +41,7 @@ impl<T> Look<T> {
         at: impl FnMut(f64) -> (f64, T),
     ) -> Look<T> {
         // Begins with two halves, because a symmetric part could hide its bends.
-        let halves = [
-            ends[0],
-            f64::midpoint(ends[0], ends[ends.len() - 1]),
-            ends[ends.len() - 1],
-        ];
+        let halves = [ends[0], f64::midpoint(ends[0], ends[ends.len() - 1]), ends[ends.len() - 1]];
         let ends = if ends.len() == 2 { &halves } else { ends };
         let limited = Resolution::Limited(most);
         let fewer = fewer(ends, most / PLACES - 1);
@@ -55,11 +51,7 @@ impl<T> Look<T> {
             samples: Vec::new(),
             allowed,
             rest: most.saturating_sub(1 + PLACES * (ends.len() - 1)),
-            resolution: if fewer.is_some() {
-                limited
-            } else {
-                Resolution::Full
-            },
+            resolution: if fewer.is_some() { limited } else { Resolution::Full },
             limited,
         };
         let mut height = looking.sample(ends[0]);
@@ -70,18 +62,10 @@ impl<T> Look<T> {
         let mut samples = looking.samples;
         let is_forward = ends[0] <= ends[ends.len() - 1];
         samples.sort_unstable_by(|one, other| {
-            let (one, other) = if is_forward {
-                (one, other)
-            } else {
-                (other, one)
-            };
+            let (one, other) = if is_forward { (one, other) } else { (other, one) };
             one.place.total_cmp(&other.place)
         });
-        Look {
-            samples,
-            allowed: LEFT_OUT * allowed,
-            resolution,
-        }
+        Look { samples, allowed: LEFT_OUT * allowed, resolution }
     }
 
     /// Whether the samples are dense enough everywhere.
@@ -108,9 +92,8 @@ impl<T> Look<T> {
     fn kept(&self) -> Vec<usize> {
         let last = self.samples.len() - 1;
         let height = |at: &usize| self.samples[*at].height;
-        let highest = (0..=last)
-            .max_by(|one, other| height(one).total_cmp(&height(other)))
-            .unwrap_or(last);
+        let highest =
+            (0..=last).max_by(|one, other| height(one).total_cmp(&height(other))).unwrap_or(last);
         let (mut kept, mut at) = (vec![0], 0);
         while at < last {
             at = self.furthest(at, if at < highest { highest } else { last });
@@ -165,11 +148,7 @@ impl<T, F: FnMut(f64) -> (f64, T)> Sampler<T, F> {
     /// Samples a place and returns its height.
     fn sample(&mut self, place: f64) -> f64 {
         let (height, value) = (self.at)(place);
-        self.samples.push(Sample {
-            place,
-            height,
-            value,
-        });
+        self.samples.push(Sample { place, height, value });
         height
     }
 
@@ -178,11 +157,7 @@ impl<T, F: FnMut(f64) -> (f64, T)> Sampler<T, F> {
         let inner = [0.25, 0.5, 0.75].map(|part| self.sample(from + (to - from) * part));
         let last = self.sample(to);
         self.closer(
-            Part {
-                from,
-                to,
-                heights: [height, inner[0], inner[1], inner[2], last],
-            },
+            Part { from, to, heights: [height, inner[0], inner[1], inner[2], last] },
             MOST_HALVINGS,
         );
         last
@@ -200,28 +175,16 @@ impl<T, F: FnMut(f64) -> (f64, T)> Sampler<T, F> {
             return;
         }
         self.rest -= PLACES;
-        let Part {
-            from,
-            to,
-            heights: [first, before, middle, after, last],
-        } = part;
+        let Part { from, to, heights: [first, before, middle, after, last] } = part;
         let place = |eighths: f64| from + (to - from) * eighths / 8.0;
         let [one, three, five, seven] =
             [1.0, 3.0, 5.0, 7.0].map(|eighths| self.sample(place(eighths)));
         self.closer(
-            Part {
-                from,
-                to: place(4.0),
-                heights: [first, one, before, three, middle],
-            },
+            Part { from, to: place(4.0), heights: [first, one, before, three, middle] },
             halvings - 1,
         );
         self.closer(
-            Part {
-                from: place(4.0),
-                to,
-                heights: [middle, five, after, seven, last],
-            },
+            Part { from: place(4.0), to, heights: [middle, five, after, seven, last] },
             halvings - 1,
         );
     }
@@ -234,12 +197,8 @@ impl Part {
         let bends = [1, 2, 3]
             .map(|at| self.heights[at - 1] - 2.0 * self.heights[at] + self.heights[at + 1]);
         let most = bends.iter().map(|bend| bend.abs()).fold(0.0, f64::max);
-        let spread = bends
-            .iter()
-            .fold(f64::NEG_INFINITY, |most, &bend| most.max(bend))
-            - bends
-                .iter()
-                .fold(f64::INFINITY, |least, &bend| least.min(bend));
+        let spread = bends.iter().fold(f64::NEG_INFINITY, |most, &bend| most.max(bend))
+            - bends.iter().fold(f64::INFINITY, |least, &bend| least.min(bend));
         0.125 * most + 0.375 * spread.min(most)
     }
 }

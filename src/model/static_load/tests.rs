@@ -35,12 +35,9 @@ fn mesh_of(inputs: &Inputs) -> Arc<Mesh> {
 
 #[test]
 fn pairs_far_from_contact_change_no_result() {
-    for (teeth, deviation, friction) in [
-        (20, 0.0, None),
-        (60, 12e-6, Some(0.1)),
-        (200, -8e-6, None),
-        (500, 0.0, None),
-    ] {
+    for (teeth, deviation, friction) in
+        [(20, 0.0, None), (60, 12e-6, Some(0.1)), (200, -8e-6, None), (500, 0.0, None)]
+    {
         let mesh = mesh(teeth, deviation, friction);
         let gap = near_gap(&mesh);
         let near = mesh.within(gap);
@@ -58,10 +55,7 @@ fn pairs_far_from_contact_change_no_result() {
         let (found, expected) = (of(&near, gap), of(&mesh, f64::INFINITY));
         for (found, expected) in found.into_iter().zip(expected) {
             let off = (found - expected).abs();
-            assert!(
-                off <= 1e-10 * expected.abs(),
-                "z {teeth}: {found} {expected}"
-            );
+            assert!(off <= 1e-10 * expected.abs(), "z {teeth}: {found} {expected}");
         }
     }
 }
@@ -90,10 +84,7 @@ fn no_station_exceeds_the_peaks() {
         let force = load.stations.iter().map(|station| station.force);
         let found = load.peak_force / force.fold(0.0, f64::max) - 1.0;
         assert!((-1e-12..1e-3).contains(&found), "{name}: {found:e}");
-        let displacements = load
-            .stations
-            .iter()
-            .map(|station| station.transmission_error);
+        let displacements = load.stations.iter().map(|station| station.transmission_error);
         let nothing = (f64::INFINITY, f64::NEG_INFINITY);
         let (least, most) =
             displacements.fold(nothing, |(least, most), x| (x.min(least), x.max(most)));
@@ -105,9 +96,7 @@ fn no_station_exceeds_the_peaks() {
 /// Ordinary pairs with friction, of which some deflect much more than others.
 fn rubbing_meshes() -> Vec<Arc<Mesh>> {
     let mut meshes = Vec::new();
-    for (index, (teeth, other)) in [(20, 20), (31, 44), (58, 64), (80, 23)]
-        .into_iter()
-        .enumerate()
+    for (index, (teeth, other)) in [(20, 20), (31, 44), (58, 64), (80, 23)].into_iter().enumerate()
     {
         for (step, friction) in [0.05, 0.1, 0.2].into_iter().enumerate() {
             for torque in [100.0, 270.0, 640.0, 1500.0, 2900.0] {
@@ -123,9 +112,8 @@ fn rubbing_meshes() -> Vec<Arc<Mesh>> {
                 if index == 2 {
                     inputs.driver.tip_radius = Some(0.1e-3);
                 }
-                if let Ok(Solution {
-                    mesh: Some(mesh), ..
-                }) = solve(&inputs, Stages::of(Stage::Static))
+                if let Ok(Solution { mesh: Some(mesh), .. }) =
+                    solve(&inputs, Stages::of(Stage::Static))
                 {
                     meshes.push(mesh);
                 }
@@ -165,26 +153,17 @@ fn the_tooth_carries_nowhere_before_its_first_and_after_its_last_contact() {
         before.extend(dense(&mesh, last + aside, to));
         for place in before {
             let lead = lead_of(&mesh, 0, place);
-            assert!(
-                lead <= 1e-15,
-                "{lead:e} at {place:?} of {first:e} to {last:e}"
-            );
+            assert!(lead <= 1e-15, "{lead:e} at {place:?} of {first:e} to {last:e}");
         }
         for inside in [first + aside, last - aside] {
             let lead = lead_of(&mesh, 0, (inside, inside));
-            assert!(
-                lead > 0.0,
-                "{lead:e} beside {inside:e} of {first:e} to {last:e}"
-            );
+            assert!(lead > 0.0, "{lead:e} beside {inside:e} of {first:e} to {last:e}");
         }
         let is_border = |border: &f64| (border - first).abs() <= aside;
         jumps += usize::from(mesh.borders(from, 0.0).iter().any(is_border));
         looked_at += 1;
     }
-    assert!(
-        looked_at >= 40,
-        "{looked_at} with {jumps} first contacts by a jump of friction"
-    );
+    assert!(looked_at >= 40, "{looked_at} with {jumps} first contacts by a jump of friction");
 }
 
 /// The first contact passes over a jump of friction at the pitch point of another pair.
@@ -206,16 +185,11 @@ fn the_first_contact_follows_the_torque_over_a_jump_of_friction() {
     inputs.driven.tip_relief = 34.5e-6;
     (inputs.driver.face_width, inputs.driven.face_width) = (70.56e-3, 70.56e-3);
     let angle = |torque: f64| {
-        let mesh = mesh_of(&Inputs {
-            drive: Drive::Torque(torque),
-            ..inputs.clone()
-        });
+        let mesh = mesh_of(&Inputs { drive: Drive::Torque(torque), ..inputs.clone() });
         let load = static_load(&mesh, Spacing::Even(8)).unwrap();
         load.first_contact_angle.unwrap()
     };
-    let angles: Vec<f64> = (0..=60)
-        .map(|step| angle(2600.0 + 5.0 * f64::from(step)))
-        .collect();
+    let angles: Vec<f64> = (0..=60).map(|step| angle(2600.0 + 5.0 * f64::from(step))).collect();
     for pair in angles.windows(2) {
         let rise = pair[1] - pair[0];
         assert!((0.0..1e-4).contains(&rise), "{pair:?}");

@@ -24,9 +24,7 @@ static POLYNOMIALS: LazyLock<[[f64; TERMS]; TERMS]> = LazyLock::new(|| {
         // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
         let scale = if order == 0 { 1.0 } else { 2.0 };
         polynomial = from_fn(|power: usize| {
-            let lower = power
-                .checked_sub(1)
-                .map_or(0.0, |lower| scale * found[lower]);
+            let lower = power.checked_sub(1).map_or(0.0, |lower| scale * found[lower]);
             lower - before[power]
         });
         before = found;
@@ -74,9 +72,7 @@ pub(super) fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
         ];
         for (order, sums) in terms.iter_mut().enumerate() {
             let weight = cosines[order * (2 * point + 1) % cosines.len()];
-            sums.iter_mut()
-                .zip(&parts[order % 2])
-                .for_each(|(sum, part)| *sum += part * weight);
+            sums.iter_mut().zip(&parts[order % 2]).for_each(|(sum, part)| *sum += part * weight);
         }
     }
     for (order, sums) in terms.iter_mut().enumerate() {
@@ -104,10 +100,7 @@ pub(super) fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
         // T_n is even or odd.
         for power in (order % 2..=order).step_by(2) {
             let coefficient = polynomial[power];
-            powers[power]
-                .iter_mut()
-                .zip(terms)
-                .for_each(|(sum, term)| *sum += coefficient * term);
+            powers[power].iter_mut().zip(terms).for_each(|(sum, term)| *sum += coefficient * term);
         }
     }
     powers
@@ -166,9 +159,7 @@ pub(super) fn about<const N: usize, const M: usize>(
     }
     let mut all = [Polynomial::ZERO; M];
     for (power, values) in rest.iter().enumerate() {
-        all.iter_mut()
-            .zip(values)
-            .for_each(|(function, value)| function.0[power] = *value);
+        all.iter_mut().zip(values).for_each(|(function, value)| function.0[power] = *value);
     }
     all
 }
@@ -176,6 +167,5 @@ pub(super) fn about<const N: usize, const M: usize>(
 /// ∫ of a function from −1 to 1.
 pub(super) fn integral<const N: usize>(powers: &Terms<N>, function: usize) -> f64 {
     let even = powers.iter().enumerate().step_by(2);
-    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64)
-        .sum()
+    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64).sum()
 }

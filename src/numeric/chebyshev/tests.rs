@@ -38,10 +38,7 @@ fn groups_on_the_same_pieces_are_the_series_of_their_functions() {
         for (group, expected) in found.iter().zip(functions(x)) {
             let values: [f64; 2] = group.at(x);
             for (value, expected) in values.iter().zip(expected) {
-                assert!(
-                    (value - expected).abs() < 3e-14 * expected.abs().max(1.0),
-                    "{x}"
-                );
+                assert!((value - expected).abs() < 3e-14 * expected.abs().max(1.0), "{x}");
             }
         }
     }
@@ -83,10 +80,7 @@ fn reversed_pieces_are_the_functions_from_the_other_end() {
         let [sine, growth] = turned.at(5.0 - x);
         let [expected_sine, expected_growth] = found.at(x);
         assert!((sine - expected_sine).abs() < 1e-14, "{x}");
-        assert!(
-            (growth + expected_growth).abs() < 1e-14 * expected_growth,
-            "{x}"
-        );
+        assert!((growth + expected_growth).abs() < 1e-14 * expected_growth, "{x}");
     }
 }
 
@@ -110,10 +104,7 @@ fn about_another_place_the_pieces_are_the_same_functions() {
         let [growth, distance] = found.local(1, (x, 1e-12), length);
         for part in [0.0, 0.3, 1.0] {
             let at = x + part * length;
-            assert!(
-                (growth.at(part) / (0.3 * at).exp() - 1.0).abs() < 1e-13,
-                "{at}"
-            );
+            assert!((growth.at(part) / (0.3 * at).exp() - 1.0).abs() < 1e-13, "{at}");
             assert!((distance.at(part) - at.abs()).abs() < 1e-6, "{at}");
         }
         x += length;
@@ -127,10 +118,7 @@ fn a_place_beside_a_piece_as_narrow_as_rounding_has_the_value_of_its_end() {
     let found = series(from, to, |x| [x, (1e20 * x).sin()]);
     for beside in [from - 100.0 * f64::EPSILON, to + 100.0 * f64::EPSILON] {
         let [line, rough] = found.at(beside);
-        assert!(
-            (line - 1.0).abs() < 1e-13 && rough.abs() < 2.0,
-            "{line} {rough}"
-        );
+        assert!((line - 1.0).abs() < 1e-13 && rough.abs() < 2.0, "{line} {rough}");
         let [rough] = found.local(1, (beside, 0.0), f64::EPSILON);
         assert!(rough.at(0.0).abs() < 2.0, "{rough:?}");
     }

@@ -22,10 +22,7 @@ impl Comparison {
     /// Errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let names = self.columns.iter().map(|column| sanitize(&column.name));
-        let differences = names
-            .clone()
-            .skip(1)
-            .map(|name| format!("{name} - reference"));
+        let differences = names.clone().skip(1).map(|name| format!("{name} - reference"));
         let head = ["quantity", "unit"].map(str::to_owned).into_iter();
         let words = |name: &str, of: &dyn Fn(&Column) -> &'static str| {
             let head = [name.to_owned(), String::new()].into_iter();
@@ -38,17 +35,11 @@ impl Comparison {
             words("method", &method),
             words("outcome", &outcome),
         ];
-        write_rows(
-            rows.into_iter()
-                .chain(self.quantities().map(|known| self.csv_row(known))),
-            out,
-        )
+        write_rows(rows.into_iter().chain(self.quantities().map(|known| self.csv_row(known))), out)
     }
 
     fn csv_row(&self, quantity: &Quantity) -> Vec<String> {
-        let values: Vec<_> = (0..self.columns.len())
-            .map(|at| self.own(quantity, at))
-            .collect();
+        let values: Vec<_> = (0..self.columns.len()).map(|at| self.own(quantity, at)).collect();
         let cells = values.iter().map(|value| cell(*value));
         let difference = |at: usize| {
             let base = self.base(quantity, at);
@@ -129,15 +120,9 @@ impl Comparison {
 
     /// The inputs that differ from those of the first column, as written.
     fn json_inputs(&self, column: &Column) -> Value {
-        let changes = self
-            .columns
-            .first()
-            .map(|first| between(&first.case, &column.case));
+        let changes = self.columns.first().map(|first| between(&first.case, &column.case));
         let is_input = |key: &str| !key.starts_with("variants.");
-        let texts = changes
-            .into_iter()
-            .flatten()
-            .filter(|change| is_input(&change.key));
+        let texts = changes.into_iter().flatten().filter(|change| is_input(&change.key));
         let texts = texts.map(|change| (change.key, json!(change.to.unwrap_or_default())));
         Value::Object(texts.collect())
     }
@@ -170,13 +155,9 @@ impl Comparison {
 }
 
 fn method(column: &Column) -> &'static str {
-    column
-        .solution()
-        .map_or("", |solution| solution.method.name())
+    column.solution().map_or("", |solution| solution.method.name())
 }
 
 fn outcome(column: &Column) -> &'static str {
-    column
-        .solution()
-        .map_or(REFUSED, |solution| solution.outcome.name())
+    column.solution().map_or(REFUSED, |solution| solution.outcome.name())
 }

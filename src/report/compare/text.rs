@@ -28,9 +28,7 @@ impl Comparison {
         for others in others.chunks(layout.others.max(1)) {
             let is_refused = |at: &&usize| self.columns[**at].found.is_err();
             let inputs_alone = others.iter().filter(is_refused).count() == others.len();
-            let shown = groups
-                .iter()
-                .take(if inputs_alone { 1 } else { groups.len() });
+            let shown = groups.iter().take(if inputs_alone { 1 } else { groups.len() });
             for group in shown {
                 writeln!(out, "\n{}", layout.title(group, others))?;
                 for row in &group.rows {
@@ -59,9 +57,8 @@ impl Comparison {
 
     fn table(&self, group: &Group) -> Vec<String> {
         let others = (1..self.columns.len()).map(letter);
-        let others: Vec<String> = others
-            .map(|letter| format!(" {letter} | {letter} - A |"))
-            .collect();
+        let others: Vec<String> =
+            others.map(|letter| format!(" {letter} | {letter} - A |")).collect();
         let head = format!("| {} | | A |{}", group.title, others.concat());
         let rule = format!("|---|---|--:|{}", "--:|--:|".repeat(others.len()));
         let cells = |row: &Row| {
@@ -172,10 +169,7 @@ impl Layout {
                 ..wide
             };
         }
-        Layout {
-            others: with_labels,
-            ..wide
-        }
+        Layout { others: with_labels, ..wide }
     }
 
     fn title(&self, group: &Group, others: &[usize]) -> String {
@@ -219,11 +213,7 @@ impl Layout {
 
 /// The symbol of a row, or its label if it has none.
 fn short_name(row: &Row) -> &str {
-    if row.symbol.is_empty() {
-        &row.label
-    } else {
-        &row.symbol
-    }
+    if row.symbol.is_empty() { &row.label } else { &row.symbol }
 }
 
 #[cfg(test)]

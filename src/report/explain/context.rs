@@ -14,13 +14,8 @@ use crate::model::{QUANTITIES, Quantity};
 use crate::report::value;
 
 /// Units of steps that no field or quantity has, with their factors to SI.
-pub const STEP_UNITS: [(&str, f64); 5] = [
-    ("mm4", 1e-12),
-    ("N/(um mm)", 1e9),
-    ("N/m", 1.0),
-    ("Hz", 1.0),
-    ("N s/m", 1.0),
-];
+pub const STEP_UNITS: [(&str, f64); 5] =
+    [("mm4", 1e-12), ("N/(um mm)", 1e9), ("N/m", 1.0), ("Hz", 1.0), ("N s/m", 1.0)];
 
 /// Digits of a field value that is derived from other fields.
 const DERIVED_DIGITS: usize = 6;
@@ -73,18 +68,8 @@ impl Known<'_> {
             .find(|quantity| quantity.symbol_in(method) == symbol && !quantity.is_flag())
             .map(Source::Quantity);
         let step = || self.step(symbol).map(Source::Step);
-        let force = || {
-            FORCES
-                .iter()
-                .find(|force| force.symbol == symbol)
-                .map(Source::Force)
-        };
-        let field = || {
-            FIELDS
-                .iter()
-                .position(|field| field.symbol == symbol)
-                .map(Source::Field)
-        };
+        let force = || FORCES.iter().find(|force| force.symbol == symbol).map(Source::Force);
+        let field = || FIELDS.iter().position(|field| field.symbol == symbol).map(Source::Field);
         quantity.or_else(step).or_else(force).or_else(field)
     }
 
@@ -94,9 +79,7 @@ impl Known<'_> {
         let contact = contact_of(inputs).map_or(&[][..], |contact| contact.model().steps);
         let models = model_of(inputs).model().steps.iter().chain(contact);
         let is_given = |step: &Step| matches!(step.formula.resolved(inputs), Formula::Given(_));
-        steps()
-            .chain(models)
-            .find(|step| step.symbol == symbol && !is_given(step))
+        steps().chain(models).find(|step| step.symbol == symbol && !is_given(step))
     }
 
     /// The value of a source in SI.
@@ -107,15 +90,11 @@ impl Known<'_> {
             Source::Force(force) => {
                 let inputs = self.context.inputs;
                 let covers = (force.models.tooth.covers)(inputs);
-                covers
-                    .then(|| spread_force(inputs, &force.models))
-                    .flatten()
+                covers.then(|| spread_force(inputs, &force.models)).flatten()
             }
             Source::Field(field) => self.field_value(field),
         };
-        found
-            .filter(|value| value.is_finite())
-            .map(|value| value + 0.0)
+        found.filter(|value| value.is_finite()).map(|value| value + 0.0)
     }
 
     /// The value of a symbol as text of a formula.
@@ -150,10 +129,7 @@ impl Known<'_> {
             if is_written {
                 units::text(value, usual)
             } else {
-                with_unit(
-                    &tidy(value / factor(usual).unwrap_or(1.0), DERIVED_DIGITS),
-                    usual,
-                )
+                with_unit(&tidy(value / factor(usual).unwrap_or(1.0), DERIVED_DIGITS), usual)
             }
         })
     }
@@ -161,25 +137,16 @@ impl Known<'_> {
 
 /// The factor of a unit to SI; `None` for an unknown unit.
 pub(super) fn factor(unit: &str) -> Option<f64> {
-    let of_step = || {
-        STEP_UNITS
-            .iter()
-            .find(|(name, _)| *name == unit)
-            .map(|&(_, factor)| factor)
-    };
+    let of_step = || STEP_UNITS.iter().find(|(name, _)| *name == unit).map(|&(_, factor)| factor);
     units::factor(unit).or_else(of_step)
 }
 
 /// A number with a unit of letters and slashes, separated by one space.
 fn plainly_written(text: &str) -> Option<String> {
     let (number, unit) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
-    let is_number = number
-        .bytes()
-        .all(|byte| byte.is_ascii_digit() || b".-".contains(&byte))
+    let is_number = number.bytes().all(|byte| byte.is_ascii_digit() || b".-".contains(&byte))
         && number.parse::<f64>().is_ok();
-    let is_unit = unit
-        .bytes()
-        .all(|byte| byte.is_ascii_alphanumeric() || b" /".contains(&byte))
+    let is_unit = unit.bytes().all(|byte| byte.is_ascii_alphanumeric() || b" /".contains(&byte))
         && units::factor(unit).is_some();
     (is_number && is_unit).then(|| with_unit(number, unit))
 }

@@ -12,11 +12,7 @@ pub struct Correction {
 }
 
 const fn row(equation: &'static str, error: &'static str, used: &'static str) -> Correction {
-    Correction {
-        equation,
-        error,
-        used,
-    }
+    Correction { equation, error, used }
 }
 
 /// Every misprint that affects a quantity.
@@ -87,16 +83,8 @@ pub static CORRECTIONS: &[Correction] = &[
         width",
     ),
     row("Eq. 47", "divides by 2 g", "J = π ρ b/2 (r_b⁴ - r_h⁴)"),
-    row(
-        "Eq. 53",
-        "δ_s = F_S/(b q_s) is inverted",
-        "δ_s = F_S q_s/b, which agrees with Eq. 57",
-    ),
-    row(
-        "Eq. 54",
-        "names the teeth 1-2",
-        "the pair in contact at D, 3-4",
-    ),
+    row("Eq. 53", "δ_s = F_S/(b q_s) is inverted", "δ_s = F_S q_s/b, which agrees with Eq. 57"),
+    row("Eq. 54", "names the teeth 1-2", "the pair in contact at D, 3-4"),
     row(
         "Eq. 55",
         "does not define a",
@@ -130,7 +118,5 @@ pub static CORRECTIONS: &[Correction] = &[
 
 /// The correction of an equation.
 pub(super) fn find(equation: &str) -> Option<&'static Correction> {
-    CORRECTIONS
-        .iter()
-        .find(|correction| correction.equation == equation)
+    CORRECTIONS.iter().find(|correction| correction.equation == equation)
 }

@@ -80,9 +80,8 @@ pub(super) fn of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<
     let mut next = 0;
     while let Some(symbol) = open.get(next).cloned() {
         next += 1;
-        let Some(source) = known
-            .source(&symbol)
-            .filter(|source| !seen.contains(&source.symbol(known)))
+        let Some(source) =
+            known.source(&symbol).filter(|source| !seen.contains(&source.symbol(known)))
         else {
             continue;
         };
@@ -135,13 +134,7 @@ impl Target {
             number: tidy(value / factor(unit).unwrap_or(1.0), STEP_DIGITS),
             unit: if unit == "1" { "" } else { unit },
         });
-        Target {
-            symbol,
-            meaning,
-            value,
-            digits: STEP_DIGITS,
-            shown,
-        }
+        Target { symbol, meaning, value, digits: STEP_DIGITS, shown }
     }
 
     fn work(&self, how: How, formula: String) -> Work {
@@ -183,10 +176,7 @@ fn derived(target: &Target, formula: Formula, known: &Known) -> Vec<Work> {
             };
             let term = |symbol: &str| known.term(symbol);
             let numbers = target.value.and_then(|_| substituted(&text, digits, &term));
-            vec![Work {
-                numbers,
-                ..target.work(How::Equals, text)
-            }]
+            vec![Work { numbers, ..target.work(How::Equals, text) }]
         }
     }
 }
@@ -220,10 +210,7 @@ fn symbols_of(formula: Formula, known: &Known) -> Vec<String> {
             .flat_map(|side| symbols_of(side, known))
             .collect(),
         Formula::Found(_, with) => with.iter().map(|&symbol| symbol.to_owned()).collect(),
-        other => other
-            .explicit(&known.context)
-            .map(|text| symbols(&text))
-            .unwrap_or_default(),
+        other => other.explicit(&known.context).map(|text| symbols(&text)).unwrap_or_default(),
     }
 }
 

@@ -49,11 +49,7 @@ pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
     };
     let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.context.inputs.tolerance;
     let own = value(quantity, known.context.solution);
-    let own = if is_coarse {
-        value_of(quantity, &fixed)
-    } else {
-        own
-    };
+    let own = if is_coarse { value_of(quantity, &fixed) } else { own };
     let [within, tolerance] = ["model.within", "model.tolerance"].map(index_of);
     let by_auto = |dependence: Dependence| {
         if known.context.given.method == Method::Auto && Some(dependence.field) == tolerance {
@@ -82,9 +78,7 @@ fn effect(
     let text = case.effective(dependence.field).map(sanitize);
     let text = text.unwrap_or_default();
     let step = dependence.step.as_ref();
-    let change = own
-        .zip(step)
-        .map(|(own, step)| change(quantity, own, step.value, noise));
+    let change = own.zip(step).map(|(own, step)| change(quantity, own, step.value, noise));
     Effect {
         key: field.key,
         symbol: field.symbol,
@@ -115,8 +109,5 @@ fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> Stri
         let in_unit = change.abs() / factor(quantity.shown).unwrap_or(1.0);
         return format!("{sign}{} {}", significant(in_unit, 3), quantity.shown);
     }
-    format!(
-        "{sign}{} %",
-        significant(100.0 * change.abs() / own.abs(), 3)
-    )
+    format!("{sign}{} %", significant(100.0 * change.abs() / own.abs(), 3))
 }

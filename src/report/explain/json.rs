@@ -132,10 +132,7 @@ impl WorkLine<'_> {
                 How::Described => "described",
             },
             formula: &work.formula,
-            numbers: work
-                .numbers
-                .as_ref()
-                .map(|numbers| numbers.replace(GLUE, " ")),
+            numbers: work.numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")),
             shown: work.shown.as_ref().map(Shown::to_string),
             residual: work.residual.as_deref(),
         }
@@ -154,22 +151,13 @@ impl CorrectionLine {
 
 impl LeafLine<'_> {
     fn of(leaf: &Leaf) -> LeafLine<'_> {
-        LeafLine {
-            symbol: leaf.symbol,
-            key: leaf.key,
-            shown: &leaf.shown,
-            meaning: leaf.meaning,
-        }
+        LeafLine { symbol: leaf.symbol, key: leaf.key, shown: &leaf.shown, meaning: leaf.meaning }
     }
 }
 
 impl FindingLine<'_> {
     fn of(finding: &Finding) -> FindingLine<'_> {
-        FindingLine {
-            range: &finding.range,
-            here: &finding.here,
-            inside: finding.inside,
-        }
+        FindingLine { range: &finding.range, here: &finding.here, inside: finding.inside }
     }
 }
 

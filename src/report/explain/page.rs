@@ -65,16 +65,8 @@ pub fn explain(
 ) -> Page {
     let solution = solution.having(quantity.stage);
     let is_by_auto = inputs.method == Method::Auto;
-    let used = if is_by_auto {
-        auto::taken(inputs, solution.method)
-    } else {
-        inputs.clone()
-    };
-    let context = Context {
-        inputs: &used,
-        given: inputs,
-        solution,
-    };
+    let used = if is_by_auto { auto::taken(inputs, solution.method) } else { inputs.clone() };
+    let context = Context { inputs: &used, given: inputs, solution };
     let known = Known { case, context };
     let value = value(quantity, solution);
     let (derivation, leaves) = derivation::of(quantity, &known);
@@ -86,9 +78,7 @@ pub fn explain(
         is_by_auto,
         value,
         shown: value.map(|value| shown(quantity, value)),
-        missing: value
-            .is_none()
-            .then(|| format!("No value: {}", Absence::of(quantity, solution))),
+        missing: value.is_none().then(|| format!("No value: {}", Absence::of(quantity, solution))),
         meaning: quantity.meaning_in(&used),
         beside: Beside::of(quantity, solution)
             .map(|beside| format!("This is {}.", beside.sentence(System::Metric))),
@@ -101,11 +91,7 @@ pub fn explain(
             .filter_map(|equation| corrections::find(equation))
             .collect(),
         assumptions: quantity.assumptions_in(&used),
-        validity: quantity
-            .checks
-            .iter()
-            .filter_map(|check| check(&known.context))
-            .collect(),
+        validity: quantity.checks.iter().filter_map(|check| check(&known.context)).collect(),
         accuracy: uncertainty::of(quantity, &known),
         effects: effects::of(quantity, &known),
     }

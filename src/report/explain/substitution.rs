@@ -6,9 +6,7 @@ use crate::model::explanation::tidy;
 pub(super) const GLUE: &str = "\u{a0}";
 
 /// Names of functions; √ has no name.
-const FUNCTIONS: [&str; 9] = [
-    "sin", "cos", "tan", "acos", "atan2", "ln", "inv", "min", "max",
-];
+const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "acos", "atan2", "ln", "inv", "min", "max"];
 
 const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
 
@@ -33,11 +31,7 @@ impl Term {
 
 /// A number and its unit, if it has one.
 pub(super) fn with_unit(number: &str, unit: &str) -> String {
-    if matches!(unit, "" | "1") {
-        number.to_owned()
-    } else {
-        format!("{number} {unit}")
-    }
+    if matches!(unit, "" | "1") { number.to_owned() } else { format!("{number} {unit}") }
 }
 
 /// A part of a formula, as written.
@@ -94,9 +88,7 @@ fn is_letter(c: char) -> bool {
 /// Length in bytes of the first token of the text.
 fn length(text: &str, belongs: impl Fn(char, char) -> bool) -> usize {
     let next = |at: usize, c: char| text[at + c.len_utf8()..].chars().next().unwrap_or(' ');
-    text.char_indices()
-        .find(|&(at, c)| !belongs(c, next(at, c)))
-        .map_or(text.len(), |(at, _)| at)
+    text.char_indices().find(|&(at, c)| !belongs(c, next(at, c))).map_or(text.len(), |(at, _)| at)
 }
 
 /// Every symbol of a formula, in reading order.
@@ -141,9 +133,8 @@ pub(super) fn substituted(
                 None
             }
             Token::Mark(mark) => {
-                let has_numbers = [before, after]
-                    .iter()
-                    .all(|token| matches!(token, Some(Token::Number(_))));
+                let has_numbers =
+                    [before, after].iter().all(|token| matches!(token, Some(Token::Number(_))));
                 written += &marked(mark, is_operand, has_numbers);
                 None
             }
@@ -210,17 +201,11 @@ mod tests {
     #[test]
     fn values_replace_symbols_and_the_formula_keeps_its_meaning() {
         for (formula, expected) in [
-            (
-                "v √(b M/q)",
-                "0.82106 m/s · √(8 mm · 0.11373 kg / (0.12777 um mm/N))",
-            ),
+            ("v √(b M/q)", "0.82106 m/s · √(8 mm · 0.11373 kg / (0.12777 um mm/N))"),
             ("b/2 (x + 1)", "8 mm / 2 · (-0.3 + 1)"),
             ("1 - x", "1 - (-0.3)"),
             ("|x - 1|/|v|", "|-0.3 - 1| / |0.82106 m/s|"),
-            (
-                "b² - b (M v)/q",
-                "(8 mm)² - 8 mm · (0.11373 kg · 0.82106 m/s) / (0.12777 um mm/N)",
-            ),
+            ("b² - b (M v)/q", "(8 mm)² - 8 mm · (0.11373 kg · 0.82106 m/s) / (0.12777 um mm/N)"),
             ("-(b + b) x", "-(8 mm + 8 mm) · (-0.3)"),
             ("(b M)^(1/5)", "(8 mm · 0.11373 kg)^(1/5)"),
             ("atan2(b, -x)", "atan2(8 mm, -(-0.3))"),
@@ -238,9 +223,6 @@ mod tests {
         for formula in ["b unknown", "b ? 2"] {
             assert_eq!(substituted(formula, 5, &term), None, "{formula}");
         }
-        assert_eq!(
-            symbols("ha*1 + r_b2' cos T_S,32"),
-            ["ha*1", "r_b2'", "T_S,32"]
-        );
+        assert_eq!(symbols("ha*1 + r_b2' cos T_S,32"), ["ha*1", "r_b2'", "T_S,32"]);
     }
 }

@@ -36,10 +36,7 @@ pub struct Line {
 
 impl Line {
     fn new(kind: Kind, text: impl Into<String>) -> Line {
-        Line {
-            kind,
-            text: text.into(),
-        }
+        Line { kind, text: text.into() }
     }
 }
 
@@ -58,23 +55,14 @@ pub fn lines(page: &Page, name: &str, width: usize) -> Vec<Line> {
     let width = width.max(20);
     let sections = [
         head(page, name, width),
-        titled(
-            "Formula",
-            page.derivation
-                .iter()
-                .flat_map(|work| worked(work, width))
-                .collect(),
-        ),
+        titled("Formula", page.derivation.iter().flat_map(|work| worked(work, width)).collect()),
         titled("Values used", leaves(&page.leaves, width)),
         titled("Source", paragraph(page.source, 2, width)),
         titled("Corrections to the paper", corrections(page, width)),
         titled("Validity", validity(page, width)),
         titled(
             "Accuracy",
-            page.accuracy
-                .iter()
-                .flat_map(|line| paragraph(line, 2, width))
-                .collect(),
+            page.accuracy.iter().flat_map(|line| paragraph(line, 2, width)).collect(),
         ),
         titled("Sensitivity", effects(&page.effects, width)),
     ];
@@ -100,33 +88,16 @@ fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
         (Some(shown), _) => format!("{} = {shown}", page.symbol),
         (None, reason) => reason.clone().unwrap_or_default(),
     };
-    let symbol = if page.symbol.is_empty() {
-        String::new()
-    } else {
-        format!(", {}", page.symbol)
-    };
+    let symbol = if page.symbol.is_empty() { String::new() } else { format!(", {}", page.symbol) };
     let title = format!("{}{symbol} ({})", page.label, quantity.equation);
-    let by = if page.is_by_auto {
-        ", chosen by auto"
-    } else {
-        ""
-    };
-    let of = format!(
-        "{} · {} · method {}{by}",
-        quantity.key,
-        sanitize(name),
-        page.method
-    );
+    let by = if page.is_by_auto { ", chosen by auto" } else { "" };
+    let of = format!("{} · {} · method {}{by}", quantity.key, sanitize(name), page.method);
     let mut lines = block(Kind::Title, &title, "", "", width);
     lines.extend(block(Kind::Title, &value, "", "  ", width));
     lines.extend(block(Kind::Text, &of, "", "", width));
     lines.push(Line::new(Kind::Text, ""));
     lines.extend(paragraph(page.meaning, 0, width));
-    lines.extend(
-        page.beside
-            .iter()
-            .flat_map(|beside| paragraph(beside, 0, width)),
-    );
+    lines.extend(page.beside.iter().flat_map(|beside| paragraph(beside, 0, width)));
     lines
 }
 
@@ -151,14 +122,8 @@ fn worked(work: &Work, width: usize) -> Vec<Line> {
             width,
         ),
     };
-    let shown = work
-        .shown
-        .as_ref()
-        .map(|shown| shown.to_string().replace(' ', GLUE));
-    let numbers = work
-        .numbers
-        .clone()
-        .filter(|numbers| Some(numbers) != shown.as_ref());
+    let shown = work.shown.as_ref().map(|shown| shown.to_string().replace(' ', GLUE));
+    let numbers = work.numbers.clone().filter(|numbers| Some(numbers) != shown.as_ref());
     let parts: Vec<String> = numbers.into_iter().chain(shown).collect();
     if !parts.is_empty() {
         lines.extend(block(
@@ -170,9 +135,7 @@ fn worked(work: &Work, width: usize) -> Vec<Line> {
         ));
     }
     lines.extend(
-        work.residual
-            .iter()
-            .flat_map(|residual| block(Kind::Text, residual, &more, &more, width)),
+        work.residual.iter().flat_map(|residual| block(Kind::Text, residual, &more, &more, width)),
     );
     lines
 }
@@ -188,10 +151,7 @@ fn sign(how: How) -> &'static str {
 /// Adds the meaning of a step to the right of its formula, or below it if it does not fit.
 fn with_meaning(mut lines: Vec<Line>, meaning: &str, more: &str, width: usize) -> Vec<Line> {
     const COLUMN: usize = 38;
-    let room = lines
-        .last()
-        .map_or(0, |line| count(&line.text) + 2)
-        .max(COLUMN);
+    let room = lines.last().map_or(0, |line| count(&line.text) + 2).max(COLUMN);
     match lines.last_mut() {
         _ if meaning.is_empty() => {}
         Some(line) if room + count(meaning) <= width => {
@@ -208,24 +168,14 @@ fn leaves(leaves: &[Leaf], width: usize) -> Vec<Line> {
     let line = |leaf: &Leaf| {
         let lead = format!("  {:symbols$}  {:values$}  ", leaf.symbol, leaf.shown);
         let more = " ".repeat(lead.chars().count());
-        block(
-            Kind::Text,
-            &format!("{} ({})", leaf.meaning, leaf.key),
-            &lead,
-            &more,
-            width,
-        )
+        block(Kind::Text, &format!("{} ({})", leaf.meaning, leaf.key), &lead, &more, width)
     };
     leaves.iter().flat_map(line).collect()
 }
 
 fn corrections(page: &Page, width: usize) -> Vec<Line> {
     let lines = |correction: &&Correction| {
-        let Correction {
-            equation,
-            error,
-            used,
-        } = correction;
+        let Correction { equation, error, used } = correction;
         let text = format!("{equation}: {error}. Used: {used}.");
         block(Kind::Text, &text, "  ", "    ", width)
     };
@@ -238,11 +188,8 @@ fn corrections(page: &Page, width: usize) -> Vec<Line> {
 fn validity(page: &Page, width: usize) -> Vec<Line> {
     let mut lines = paragraph(page.assumptions, 2, width);
     for finding in &page.validity {
-        let (kind, mark) = if finding.inside {
-            (Kind::Text, "  ok   ")
-        } else {
-            (Kind::Outside, "  NOT  ")
-        };
+        let (kind, mark) =
+            if finding.inside { (Kind::Text, "  ok   ") } else { (Kind::Outside, "  NOT  ") };
         lines.extend(block(
             kind,
             &format!("{}. Here: {}.", finding.range, finding.here),
@@ -264,24 +211,15 @@ fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
     let full = symbol + key + text + step + change + 10;
     let mut lines = Vec::new();
     for effect in acting {
-        let Effect {
-            symbol: symbols,
-            key: keys,
-            text: texts,
-            step: steps,
-            change: changes,
-        } = effect;
+        let Effect { symbol: symbols, key: keys, text: texts, step: steps, change: changes } =
+            effect;
         let row = format!("{keys:key$}  {texts:text$}  {steps:>step$}  {changes:>change$}");
         lines.extend(match full {
             _ if full <= width => {
                 vec![Line::new(Kind::Text, format!("  {symbols:symbol$}  {row}"))]
             }
             _ if full - symbol - 2 <= width => vec![Line::new(Kind::Text, format!("  {row}"))],
-            _ => paragraph(
-                &format!("{keys} = {texts}: {steps} gives {changes}"),
-                2,
-                width,
-            ),
+            _ => paragraph(&format!("{keys} = {texts}: {steps} gives {changes}"), 2, width),
         });
     }
     let field = |effect: &&Effect| format!("{} = {}", effect.key, effect.text).replace(' ', GLUE);
@@ -292,11 +230,7 @@ fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
             "Other inputs (choices, defaults, or fields without effect in this case):"
         };
         lines.extend(paragraph(lead, 2, width));
-        lines.extend(paragraph(
-            &idle.iter().map(field).collect::<Vec<_>>().join(", "),
-            4,
-            width,
-        ));
+        lines.extend(paragraph(&idle.iter().map(field).collect::<Vec<_>>().join(", "), 4, width));
     }
     lines
 }
@@ -309,10 +243,8 @@ fn paragraph(text: &str, indent: usize, width: usize) -> Vec<Line> {
 /// Wraps words into lines: the first starts with `lead`, the others with `more`.
 fn block(kind: Kind, text: &str, lead: &str, more: &str, width: usize) -> Vec<Line> {
     let indent = count(lead).max(count(more));
-    let rows = flow(
-        text.split(' ').filter(|word| !word.is_empty()),
-        width.saturating_sub(indent).max(8),
-    );
+    let rows =
+        flow(text.split(' ').filter(|word| !word.is_empty()), width.saturating_sub(indent).max(8));
     let start = |index| if index == 0 { lead } else { more };
     rows.iter()
         .enumerate()

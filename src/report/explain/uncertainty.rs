@@ -28,17 +28,11 @@ pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<String> {
     let Some(own) = value(quantity, known.context.solution) else {
         return Vec::new();
     };
-    let spread = (!quantity.is_flag())
-        .then(|| over_models(quantity, own, known))
-        .flatten();
-    [
-        numerical(quantity, known),
-        spread,
-        over_methods(quantity, known),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let spread = (!quantity.is_flag()).then(|| over_models(quantity, own, known)).flatten();
+    [numerical(quantity, known), spread, over_methods(quantity, known)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
@@ -79,9 +73,8 @@ fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
     let found = StiffnessModels::covering(inputs)
         .filter_map(|models| value_of(quantity, &models.in_place_of(inputs)));
-    let (least, most) = found.fold((own, own), |(least, most), value| {
-        (least.min(value), most.max(value))
-    });
+    let (least, most) =
+        found.fold((own, own), |(least, most), value| (least.min(value), most.max(value)));
     let share = |value: f64| format!("{:+.1} %", 100.0 * (value - own) / own.abs());
     (most - least > noise(quantity, inputs) * own.abs()).then(|| {
         format!(
@@ -99,20 +92,14 @@ fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
 fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
     let by = |method: Method| {
-        let inputs = Inputs {
-            method,
-            ..inputs.clone()
-        };
+        let inputs = Inputs { method, ..inputs.clone() };
         let solution = model::solve(&inputs, Stages::of(quantity.stage)).ok()?;
         let own = known.context.solution.method;
         Some((method, value_as_in(quantity, &solution, own)?))
     };
     let own = Some(inputs.method).filter(|method| !Method::CLOSED_FORM.contains(method));
-    let found: Vec<(Method, f64)> = Method::CLOSED_FORM
-        .into_iter()
-        .chain(own)
-        .filter_map(by)
-        .collect();
+    let found: Vec<(Method, f64)> =
+        Method::CLOSED_FORM.into_iter().chain(own).filter_map(by).collect();
     let (&(_, first), others) = found.split_first()?;
     let differs =
         |(_, value): &(Method, f64)| (value - first).abs() > noise(quantity, inputs) * first.abs();
@@ -120,10 +107,7 @@ fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
         .iter()
         .map(|&(method, value)| format!("{} {}", name(quantity, method), shown(quantity, value)))
         .collect();
-    others
-        .iter()
-        .any(differs)
-        .then(|| format!("Methods: {}.", listed.join(", ")))
+    others.iter().any(differs).then(|| format!("Methods: {}.", listed.join(", ")))
 }
 
 /// The name of the method. A free impact in a method that resolves the impact is the closed form

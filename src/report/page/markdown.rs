@@ -26,10 +26,7 @@ fn heading(page: &Page<'_>) -> Vec<String> {
     vec![
         format!("# {}", plain(&page.title)),
         String::new(),
-        format!(
-            "Corner contact of spur gear pairs, computed by tipstrike {}.",
-            page.version
-        ),
+        format!("Corner contact of spur gear pairs, computed by tipstrike {}.", page.version),
     ]
 }
 
@@ -55,9 +52,7 @@ fn verdicts(page: &Page<'_>) -> Vec<String> {
 fn limits(page: &Page<'_>) -> Vec<String> {
     list(page, "## Limits", |column| {
         let lines = column.limits.iter();
-        lines
-            .map(|limit| format!("{}: {}", limit.word, limit.words))
-            .collect()
+        lines.map(|limit| format!("{}: {}", limit.word, limit.words)).collect()
     })
 }
 
@@ -85,10 +80,7 @@ fn list(page: &Page<'_>, title: &str, of: impl Fn(&Column) -> Vec<String>) -> Ve
 }
 
 fn inputs(page: &Page<'_>) -> Vec<String> {
-    let mut lines = vec![
-        "## Inputs that differ from their defaults".to_owned(),
-        String::new(),
-    ];
+    let mut lines = vec!["## Inputs that differ from their defaults".to_owned(), String::new()];
     lines.extend(header(page, &["input", ""], &[]));
     for row in &page.inputs {
         let values = row.values.iter().map(|(text, _)| text.as_str());

@@ -22,12 +22,8 @@ const FEW_SAMPLES: usize = 1000;
 /// Seed of the command `tolerance`.
 const SEED: u64 = 1;
 /// Quantities of variants in addition to the headline quantities.
-const OF_VARIANTS: [&str; 4] = [
-    "total_deviation",
-    "static_te_peak_to_peak",
-    "mesh_force_factor",
-    "steady_back_strikes",
-];
+const OF_VARIANTS: [&str; 4] =
+    ["total_deviation", "static_te_peak_to_peak", "mesh_force_factor", "steady_back_strikes"];
 
 /// The studies of a case.
 #[derive(Debug, Default)]
@@ -66,20 +62,13 @@ impl Studies {
         } else {
             SAMPLES
         };
-        let size = Size {
-            samples,
-            seed: SEED,
-            ranked: Some(0),
-        };
+        let size = Size { samples, seed: SEED, ranked: Some(0) };
         let study = Tolerance::of(case, inputs, &[], size).ok();
         let sampled = study.map(|study| {
             let samples = study.run(inputs, &control)?;
             Ok((study, samples))
         });
-        Ok(Studies {
-            variants,
-            tolerance: sampled.transpose()?,
-        })
+        Ok(Studies { variants, tolerance: sampled.transpose()? })
     }
 
     pub(super) fn tables(&self, case: &Case) -> Vec<StudyTable> {
@@ -100,15 +89,9 @@ fn variants(
         return Ok(None);
     }
     let cases: Vec<(&str, Case)> = std::iter::once(("case", case.clone()))
-        .chain(
-            case.variants
-                .iter()
-                .map(|one| (one.name.as_str(), case.with(one))),
-        )
+        .chain(case.variants.iter().map(|one| (one.name.as_str(), case.with(one))))
         .collect();
-    let methods = cases
-        .iter()
-        .filter_map(|(_, case)| Some(case.inputs().ok()?.method));
+    let methods = cases.iter().filter_map(|(_, case)| Some(case.inputs().ok()?.method));
     let methods: Vec<Method> = methods.chain([inputs.method]).collect();
     let others = OF_VARIANTS.iter().filter_map(|key| Quantity::find(key));
     let selection = Selection {
@@ -137,10 +120,7 @@ fn variants(
 }
 
 fn refused(problem: Problem) -> Refused {
-    Refused {
-        line: format!("{}: {}: {}", problem.field, problem.cause, problem.fix),
-        problem,
-    }
+    Refused { line: format!("{}: {}: {}", problem.field, problem.cause, problem.fix), problem }
 }
 
 fn of_variants(comparison: &Comparison) -> StudyTable {
@@ -188,41 +168,25 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> StudyTable
         let values = found.percentiles.iter().map(|one| one.value);
         let values = values.chain([found.mean.value, found.deviation]);
         let label = [quantity.label, quantity.symbol].map(str::to_owned);
-        let cells = label
-            .into_iter()
-            .chain(values.map(|value| shown(value).number));
+        let cells = label.into_iter().chain(values.map(|value| shown(value).number));
         let unit = shown(found.mean.value).unit.to_owned();
         Some(cells.chain([unit]).collect())
     });
     let refused = design.samples - summary.solved;
-    let refused = if refused == 0 {
-        String::new()
-    } else {
-        format!(", {refused} refused")
-    };
+    let refused = if refused == 0 { String::new() } else { format!(", {refused} refused") };
     let spread = case.spread.iter().map(|spread| {
         let field = FIELDS.iter().position(|field| field.key == spread.field);
         let value = field.and_then(|field| case.effective(field));
-        format!(
-            "{} {}, {}",
-            spread.field,
-            value.unwrap_or_default(),
-            spread.in_words()
-        )
+        format!("{} {}, {}", spread.field, value.unwrap_or_default(), spread.in_words())
     });
     let spread: Vec<String> = spread.map(|words| sanitize(&words)).collect();
-    let contact = summary
-        .contact
-        .map(|found| chance("corner contact", &found));
+    let contact = summary.contact.map(|found| chance("corner contact", &found));
     let limits = summary.limits.iter().filter_map(|limit| {
         let name = format!("{} > {}", limit.quantity.key, sanitize(&limit.limit.text));
         Some(chance(&name, limit.probability.as_ref()?))
     });
     StudyTable {
-        title: format!(
-            "Tolerance, {} samples{refused}, seed {SEED}",
-            design.samples
-        ),
+        title: format!("Tolerance, {} samples{refused}, seed {SEED}", design.samples),
         names,
         rows: rows.collect(),
         sentences: [format!("Spread: {}.", spread.join("; "))]

@@ -77,11 +77,7 @@ impl Reliefs {
             tip_relief: reliefs.amounts[at],
             tip_relief_length: reliefs.lengths[at],
         };
-        Reliefs {
-            shape: shape(reliefs.shape),
-            driver: one(0),
-            driven: one(1),
-        }
+        Reliefs { shape: shape(reliefs.shape), driver: one(0), driven: one(1) }
     }
 }
 

@@ -7,18 +7,12 @@ use crate::study::relief::{Choice, MapPoint, Specification};
 
 /// One row per choice.
 pub(super) fn choices(found: &Specification) -> Vec<String> {
-    let head = [
-        "  choice", "C_a1", "L_1", "C_a2", "L_2", "max TE", "mean TE", "gap",
-    ];
+    let head = ["  choice", "C_a1", "L_1", "C_a2", "L_2", "max TE", "mean TE", "gap"];
     let rows = found.choices.iter().enumerate().map(|(at, choice)| {
         let Choice { reliefs, .. } = choice;
         let mark = if at == found.best { "* " } else { "  " };
         let length = |at: usize| {
-            if reliefs.amounts[at] > 0.0 {
-                mm(reliefs.lengths[at])
-            } else {
-                "-".to_owned()
-            }
+            if reliefs.amounts[at] > 0.0 { mm(reliefs.lengths[at]) } else { "-".to_owned() }
         };
         [
             format!("{mark}{}", choice.name),
@@ -32,29 +26,20 @@ pub(super) fn choices(found: &Specification) -> Vec<String> {
         ]
     });
     let head = head.map(str::to_owned);
-    table(
-        &std::iter::once(head.to_vec())
-            .chain(rows.map(|row| row.to_vec()))
-            .collect::<Vec<_>>(),
-    )
+    table(&std::iter::once(head.to_vec()).chain(rows.map(|row| row.to_vec())).collect::<Vec<_>>())
 }
 
 /// One row per load: the relief of the case and the relief to specify.
 pub(super) fn harris(found: &Specification) -> Vec<String> {
     let chosen = found.chosen();
     let cells = |name: &str, values: Vec<String>| {
-        std::iter::once(format!("  {name}"))
-            .chain(values)
-            .collect::<Vec<_>>()
+        std::iter::once(format!("  {name}")).chain(values).collect::<Vec<_>>()
     };
     let errors = |choice: &Choice| {
         let errors = choice.errors.iter();
         errors.map(|error| tidy(error * 1e6, 3)).collect::<Vec<_>>()
     };
-    let loads = found
-        .loads
-        .iter()
-        .map(|&load| format!("{} %", percent(load)));
+    let loads = found.loads.iter().map(|&load| format!("{} %", percent(load)));
     table(&[
         cells("load", loads.collect()),
         cells("relief of the case", errors(&found.choices[0])),
@@ -71,23 +56,13 @@ pub(super) fn map(found: &Specification) -> Vec<String> {
             && same(point.reliefs.lengths[0], chosen.lengths[0])
     };
     let cell = |point: &MapPoint| {
-        let error = if point.margin < 0.0 {
-            "-".to_owned()
-        } else {
-            tidy(point.error * 1e6, 2)
-        };
-        if is_chosen(point) {
-            format!("*{error}")
-        } else {
-            error
-        }
+        let error = if point.margin < 0.0 { "-".to_owned() } else { tidy(point.error * 1e6, 2) };
+        if is_chosen(point) { format!("*{error}") } else { error }
     };
     let mut rows = amounts(found.map.first().map_or(&[], Vec::as_slice));
     rows.extend(found.map.iter().map(|row| {
         let length = row.first().map(|point| length(point.reliefs.lengths));
-        std::iter::once(length.unwrap_or_default())
-            .chain(row.iter().map(cell))
-            .collect()
+        std::iter::once(length.unwrap_or_default()).chain(row.iter().map(cell)).collect()
     }));
     table(&rows)
 }
@@ -96,9 +71,7 @@ pub(super) fn map(found: &Specification) -> Vec<String> {
 fn amounts(points: &[MapPoint]) -> Vec<Vec<String>> {
     let row = |name: &str, at: usize| {
         let amounts = points.iter().map(|point| um(point.reliefs.amounts[at]));
-        std::iter::once(format!("  amount{name}, um"))
-            .chain(amounts)
-            .collect::<Vec<_>>()
+        std::iter::once(format!("  amount{name}, um")).chain(amounts).collect::<Vec<_>>()
     };
     let alike = |point: &MapPoint| um(point.reliefs.amounts[0]) == um(point.reliefs.amounts[1]);
     if points.iter().all(alike) {
@@ -130,11 +103,7 @@ fn table(rows: &[Vec<String>]) -> Vec<String> {
     let line = |row: &Vec<String>| {
         let cells = (0..columns).map(|at| {
             let (text, width) = (cell(row, at), widths[at]);
-            if at == 0 {
-                format!("{text:width$}")
-            } else {
-                format!(" {text:>width$}")
-            }
+            if at == 0 { format!("{text:width$}") } else { format!(" {text:>width$}") }
         });
         cells.collect::<String>().trim_end().to_owned()
     };

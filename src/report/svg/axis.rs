@@ -38,22 +38,17 @@ impl Axis {
             Scale::Linear => value.clamp(-GREATEST, GREATEST),
             Scale::Logarithmic => value.log10(),
         });
-        let (least, most) = on_axis.filter(|value| value.is_finite()).fold(
-            (f64::INFINITY, f64::NEG_INFINITY),
-            |(least, most), value| (least.min(value), most.max(value)),
-        );
+        let (least, most) = on_axis
+            .filter(|value| value.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
+                (least.min(value), most.max(value))
+            });
         let (from, to) = match scale {
             _ if least > most => (0.0, 1.0),
             Scale::Linear => linear_ends(least, most, with_room),
             Scale::Logarithmic => (least.floor(), most.ceil().max(least.floor() + 1.0)),
         };
-        Axis {
-            scale,
-            from,
-            to,
-            start,
-            end,
-        }
+        Axis { scale, from, to, start, end }
     }
 
     /// The position of a value; the nearer end if the value is outside.
@@ -64,11 +59,7 @@ impl Axis {
             Scale::Logarithmic => value.log10(),
         };
         let part = (value - self.from) / (self.to - self.from);
-        let part = if part.is_finite() {
-            part.clamp(-0.1, 1.1)
-        } else {
-            0.0
-        };
+        let part = if part.is_finite() { part.clamp(-0.1, 1.1) } else { 0.0 };
         self.start + part * (self.end - self.start)
     }
 
@@ -85,10 +76,7 @@ impl Axis {
             Scale::Logarithmic => {
                 let decades = (self.to - self.from) as usize;
                 let every = 1 + decades / most.max(2);
-                (0..=decades)
-                    .step_by(every)
-                    .map(|at| 10f64.powf(self.from + at as f64))
-                    .collect()
+                (0..=decades).step_by(every).map(|at| 10f64.powf(self.from + at as f64)).collect()
             }
         }
     }
@@ -114,9 +102,7 @@ impl Axis {
     fn step(&self, most: usize) -> f64 {
         let raw = (self.to - self.from) / most.max(2) as f64;
         let power = 10f64.powf(raw.log10().floor());
-        let times = [1.0, 2.0, 5.0, 10.0]
-            .into_iter()
-            .find(|times| times * power >= raw * 0.999);
+        let times = [1.0, 2.0, 5.0, 10.0].into_iter().find(|times| times * power >= raw * 0.999);
         times.unwrap_or(10.0) * power
     }
 }
@@ -136,16 +122,8 @@ fn linear_ends(least: f64, most: f64, with_room: bool) -> (f64, f64) {
     }
     let room = ROOM * (most - least);
     let near_zero = 0.5 * (most - least);
-    let from = if (0.0..=near_zero).contains(&least) {
-        0.0
-    } else {
-        least - room
-    };
-    let to = if (-near_zero..=0.0).contains(&most) {
-        0.0
-    } else {
-        most + room
-    };
+    let from = if (0.0..=near_zero).contains(&least) { 0.0 } else { least - room };
+    let to = if (-near_zero..=0.0).contains(&most) { 0.0 } else { most + room };
     (from, to)
 }
 
@@ -159,23 +137,13 @@ mod tests {
 
     #[test]
     fn ticks_are_round_inside_the_axis_and_distinct() {
-        for values in [
-            [0.0, 2191.0],
-            [-1.4, 0.0],
-            [3.0, 3.01],
-            [1e-7, 9e-7],
-            [2e8, 9e9],
-        ] {
+        for values in [[0.0, 2191.0], [-1.4, 0.0], [3.0, 3.01], [1e-7, 9e-7], [2e8, 9e9]] {
             let axis = axis(&values);
             let ticks = axis.ticks(7);
             assert!((3..=9).contains(&ticks.len()), "{ticks:?}");
             let texts: Vec<String> = ticks.iter().map(|tick| axis.number(*tick)).collect();
             assert!(texts.windows(2).all(|pair| pair[0] != pair[1]), "{texts:?}");
-            assert!(
-                ticks
-                    .iter()
-                    .all(|tick| (-0.1..=100.1).contains(&axis.at(*tick)))
-            );
+            assert!(ticks.iter().all(|tick| (-0.1..=100.1).contains(&axis.at(*tick))));
         }
         assert_eq!(axis(&[0.0, 2191.0]).number(500.0), "500");
         assert_eq!(axis(&[-1.4, 0.0]).number(-0.5), "-0.5");

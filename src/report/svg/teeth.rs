@@ -35,10 +35,7 @@ impl View {
         let most = high.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let span = (most - least) * (1.0 + MARGIN) + geometry.base_pitch * 0.4;
         View {
-            centre: Point2::new(
-                f64::midpoint(ends[0].x, ends[1].x),
-                f64::midpoint(least, most),
-            ),
+            centre: Point2::new(f64::midpoint(ends[0].x, ends[1].x), f64::midpoint(least, most)),
             scale: WINDOW.3 / span,
         }
     }
@@ -61,11 +58,8 @@ impl View {
 #[must_use]
 pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
     let contact = first_contact(solution);
-    let pose = GearPose::nominal(
-        inputs,
-        &solution.geometry,
-        contact.unwrap_or(0.0) * inputs.ratio(),
-    );
+    let pose =
+        GearPose::nominal(inputs, &solution.geometry, contact.unwrap_or(0.0) * inputs.ratio());
     let view = View::of(solution);
     let title = if contact.is_some() {
         "Teeth at the first contact D"
@@ -118,11 +112,7 @@ fn gear(text: &mut String, gear: &Placed, view: &View, class: &str) {
         .map(|point| view.at(point))
         .map(|(x, y)| format!("{x:.2},{y:.2}"))
         .collect();
-    let _ = writeln!(
-        text,
-        "<polygon points=\"{}\" class=\"{class}\"/>",
-        points.join(" ")
-    );
+    let _ = writeln!(text, "<polygon points=\"{}\" class=\"{class}\"/>", points.join(" "));
 }
 
 /// Base circles, line of action and path of contact.
@@ -130,10 +120,7 @@ fn construction(text: &mut String, solution: &Solution, view: &View) {
     let geometry = &solution.geometry;
     let centres = [
         (Point2::origin(), geometry.driver.base),
-        (
-            Point2::new(geometry.centre_distance, 0.0),
-            geometry.driven.base,
-        ),
+        (Point2::new(geometry.centre_distance, 0.0), geometry.driven.base),
     ];
     for (centre, radius) in centres {
         let ((x, y), radius) = (view.at(centre), radius * view.scale);
@@ -145,10 +132,8 @@ fn construction(text: &mut String, solution: &Solution, view: &View) {
     let mut line = |from: f64, to: f64, class: &str| {
         let ends = [from, to].map(|length| view.at(on_line_of_action(geometry, length)));
         let [(x, y), (to_x, to_y)] = ends;
-        let _ = writeln!(
-            text,
-            "<path d=\"M{x:.2} {y:.2}L{to_x:.2} {to_y:.2}\" class=\"{class}\"/>"
-        );
+        let _ =
+            writeln!(text, "<path d=\"M{x:.2} {y:.2}L{to_x:.2} {to_y:.2}\" class=\"{class}\"/>");
     };
     line(0.0, geometry.tangent_length, "mark");
     line(geometry.start, geometry.end, "path");
@@ -160,11 +145,7 @@ fn points(text: &mut String, solution: &Solution, view: &View) {
     let on_line = |length| view.at(on_line_of_action(geometry, length));
     let mut named = vec![
         ("E", on_line(geometry.start), "start"),
-        (
-            "P",
-            on_line(geometry.start + geometry.approach_length),
-            "start",
-        ),
+        ("P", on_line(geometry.start + geometry.approach_length), "start"),
         ("B", on_line(geometry.end), "start"),
     ];
     if let Some(contact) = first_contact_point(solution) {
@@ -202,9 +183,7 @@ fn caption(text: &mut String, view: &View) {
 /// The greatest length of 1, 2 or 5 times a power of ten not above `length`, in m.
 fn round_below(length: f64) -> f64 {
     let power = 10f64.powf(length.log10().floor());
-    let times = [5.0, 2.0, 1.0]
-        .into_iter()
-        .find(|times| times * power <= length);
+    let times = [5.0, 2.0, 1.0].into_iter().find(|times| times * power <= length);
     times.unwrap_or(1.0) * power
 }
 

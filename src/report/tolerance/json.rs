@@ -66,11 +66,7 @@ struct Interval {
 
 impl Interval {
     fn of(estimate: &Estimate) -> Interval {
-        Interval {
-            value: estimate.value,
-            from: Some(estimate.from),
-            to: Some(estimate.to),
-        }
+        Interval { value: estimate.value, from: Some(estimate.from), to: Some(estimate.to) }
     }
 
     /// The ends are absent if the sample is too small for an interval.

@@ -49,16 +49,9 @@ fn figures(
 fn samples(report: &ToleranceReport, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     let design = &report.study.design;
     let refused = design.samples - summary.solved;
-    let refused = if refused == 0 {
-        String::new()
-    } else {
-        format!(", {refused} refused")
-    };
+    let refused = if refused == 0 { String::new() } else { format!(", {refused} refused") };
     let (samples, seed, method) = (design.samples, design.seed, report.method);
-    writeln!(
-        out,
-        "{samples} samples{refused}, seed {seed}, method {method}"
-    )
+    writeln!(out, "{samples} samples{refused}, seed {seed}, method {method}")
 }
 
 fn spread(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
@@ -67,18 +60,10 @@ fn spread(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
     for held in &report.case.spread {
         let field = crate::case::fields::index_of(held.field);
         let value = field.and_then(|field| report.case.effective(field));
-        let (value, words) = (
-            sanitize(value.unwrap_or_default()),
-            sanitize(&held.in_words()),
-        );
+        let (value, words) = (sanitize(value.unwrap_or_default()), sanitize(&held.in_words()));
         writeln!(out, "  {:width$}  {value}, {words}", held.field)?;
     }
-    if report
-        .case
-        .spread
-        .iter()
-        .any(|held| held.field.ends_with(".base_pitch"))
-    {
+    if report.case.spread.iter().any(|held| held.field.ends_with(".base_pitch")) {
         let rule = match report.combination() {
             "sum" => "with their signs: known",
             _ => "as squares: independent",
@@ -98,16 +83,9 @@ fn probabilities(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     let named =
         |limit: &Exceedance| format!("{} > {}", limit.quantity.key, sanitize(&limit.limit.text));
     let contact = ("corner contact".to_owned(), summary.contact);
-    let limits = summary
-        .limits
-        .iter()
-        .map(|limit| (named(limit), limit.probability));
+    let limits = summary.limits.iter().map(|limit| (named(limit), limit.probability));
     let rows: Vec<(String, Option<Estimate>)> = std::iter::once(contact).chain(limits).collect();
-    let width = rows
-        .iter()
-        .map(|(name, _)| name.chars().count())
-        .max()
-        .unwrap_or(0);
+    let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     writeln!(out, "\nProbability (95 % interval)")?;
     for (name, probability) in rows {
         match probability {
@@ -123,18 +101,9 @@ fn probabilities(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
 fn in_percent(estimate: &Estimate) -> String {
     let Estimate { value, from, to } = estimate;
     let width = 100.0 * (to - from);
-    let decimals = if width > 0.0 {
-        (-width.log10()).ceil().clamp(0.0, 6.0) as usize
-    } else {
-        0
-    };
+    let decimals = if width > 0.0 { (-width.log10()).ceil().clamp(0.0, 6.0) as usize } else { 0 };
     let percent = |part: f64| format!("{:.decimals$} %", 100.0 * part);
-    format!(
-        "{} ({} to {})",
-        percent(*value),
-        percent(*from),
-        percent(*to)
-    )
+    format!("{} ({} to {})", percent(*value), percent(*from), percent(*to))
 }
 
 fn quantity(
@@ -182,14 +151,9 @@ fn histogram(
     let most = figures.histogram.iter().copied().max().unwrap_or(0).max(1);
     let (from, to) = figures.range;
     let step = (to - from) / figures.histogram.len() as f64;
-    let lower: Vec<String> = (0..figures.histogram.len())
-        .map(|bin| printed(from + step * bin as f64))
-        .collect();
-    let width = lower
-        .iter()
-        .map(|text| text.chars().count())
-        .max()
-        .unwrap_or(0);
+    let lower: Vec<String> =
+        (0..figures.histogram.len()).map(|bin| printed(from + step * bin as f64)).collect();
+    let width = lower.iter().map(|text| text.chars().count()).max().unwrap_or(0);
     for (count, lower) in figures.histogram.iter().zip(lower) {
         let length = (count * LONGEST_BAR).div_ceil(most);
         let bar = bar.repeat(length);
@@ -214,11 +178,7 @@ fn ranking(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> io
     };
     let heading = "part of the variance";
     let width = key_width(report).max(heading.len());
-    writeln!(
-        out,
-        "  {heading:width$}  {:>18}{:>18}",
-        "first-order", "total"
-    )?;
+    writeln!(out, "  {heading:width$}  {:>18}{:>18}", "first-order", "total")?;
     let mut rows: Vec<(&str, &Indices)> = design
         .distributions
         .iter()

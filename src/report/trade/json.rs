@@ -65,10 +65,7 @@ struct ReferenceLine {
 }
 
 #[derive(Serialize)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is a name that scripts read"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a name that scripts read")]
 struct SettingLine {
     method: &'static str,
     /// The method that `auto` chose.
@@ -122,32 +119,18 @@ pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<(
         reference: reference_line(trade),
         field_seconds: trade.build.ok().map(|build| [build.driver, build.driven]),
         no_reference: trade.reference.as_ref().err().map(ToString::to_string),
-        settings: trade
-            .settings
-            .iter()
-            .map(|measured| setting_line(trade, measured))
-            .collect(),
-        recommended: trade
-            .recommended()
-            .map(|measured| setting_line(trade, measured)),
+        settings: trade.settings.iter().map(|measured| setting_line(trade, measured)).collect(),
+        recommended: trade.recommended().map(|measured| setting_line(trade, measured)),
     };
     write_line(&line, out)
 }
 
 fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
     let reference = trade.reference.as_ref().ok()?;
-    let Setting {
-        method,
-        stations,
-        tolerance,
-        ..
-    } = reference.setting;
+    let Setting { method, stations, tolerance, .. } = reference.setting;
     let quantities = Subject::ALL.into_iter().filter_map(|subject| {
         let quantity = subject.quantity(method)?;
-        Some((
-            quantity.key.to_owned(),
-            reference.values[subject as usize]?.into(),
-        ))
+        Some((quantity.key.to_owned(), reference.values[subject as usize]?.into()))
     });
     Some(ReferenceLine {
         method: method.name(),
@@ -160,22 +143,12 @@ fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
             .as_ref()
             .ok()
             .map(|off| by_subject(|subject| off[subject as usize].map(Into::into))),
-        unchecked: reference
-            .disagreement
-            .as_ref()
-            .err()
-            .map(ToString::to_string),
+        unchecked: reference.disagreement.as_ref().err().map(ToString::to_string),
     })
 }
 
 fn setting_line(trade: &Trade, measured: &MeasuredSetting) -> SettingLine {
-    let Setting {
-        method,
-        stations,
-        tolerance,
-        accurate,
-        models: _,
-    } = measured.setting;
+    let Setting { method, stations, tolerance, accurate, models: _ } = measured.setting;
     let figures = measured.found.as_ref().ok();
     SettingLine {
         method: method.name(),

@@ -58,20 +58,10 @@ impl Axis {
             (least.min(log), most.max(log))
         });
         if least > most {
-            return Axis {
-                from: 0,
-                to: 1,
-                start,
-                end,
-            };
+            return Axis { from: 0, to: 1, start, end };
         }
         let from = least.floor() as i32;
-        Axis {
-            from,
-            to: (most.ceil() as i32).max(from + 1),
-            start,
-            end,
-        }
+        Axis { from, to: (most.ceil() as i32).max(from + 1), start, end }
     }
 
     /// The position of a value.
@@ -100,11 +90,7 @@ pub fn svg(plot: &Plot<'_>) -> String {
         let points = series.points.iter();
         svg::Series {
             name: series.name.clone(),
-            pieces: vec![
-                points
-                    .map(|point| (point.seconds, shown(point.error)))
-                    .collect(),
-            ],
+            pieces: vec![points.map(|point| (point.seconds, shown(point.error))).collect()],
             kind: Kind::Marks(series.points.iter().position(|point| point.is_usual)),
         }
     });
@@ -140,25 +126,13 @@ mod tests {
     use super::*;
 
     fn plot(points: Vec<Point>) -> String {
-        let series = [Series {
-            name: "exact & <co>".to_owned(),
-            points,
-        }];
-        svg(&Plot {
-            title: "Error against time",
-            across: "time",
-            up: "error",
-            series: &series,
-        })
+        let series = [Series { name: "exact & <co>".to_owned(), points }];
+        svg(&Plot { title: "Error against time", across: "time", up: "error", series: &series })
     }
 
     #[test]
     fn every_setting_has_a_mark_and_the_default_one_has_a_ring() {
-        let point = |seconds, error, is_usual| Point {
-            seconds,
-            error,
-            is_usual,
-        };
+        let point = |seconds, error, is_usual| Point { seconds, error, is_usual };
         let drawn = plot(vec![point(1e-6, 1e-3, false), point(2e-5, 0.0, true)]);
         // The label of the upward axis, two marks and the legend.
         assert_eq!(drawn.matches("translate(").count(), 1 + 2 + 1, "{drawn}");

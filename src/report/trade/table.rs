@@ -36,9 +36,7 @@ pub fn compliances(trade: &Trade) -> Vec<(StiffnessModels, [Option<Cell>; METHOD
     let cell = |measured: &MeasuredSetting| {
         let figures = measured.found.as_ref();
         Cell {
-            time: figures.map_or("refused".to_owned(), |figures| {
-                duration(figures.time.seconds)
-            }),
+            time: figures.map_or("refused".to_owned(), |figures| duration(figures.time.seconds)),
             total: measured.total().map_or("-".to_owned(), percent),
             setting: measured.setting,
         }
@@ -96,10 +94,7 @@ pub(super) fn models(trade: &Trade) -> Vec<String> {
     };
     let lines = Subject::ALL.into_iter().filter_map(|subject| {
         let cells = METHODS.map(|method| of(method)?.off[subject as usize]);
-        cells
-            .iter()
-            .any(Option::is_some)
-            .then(|| row(subject.label(), cells.map(cell)))
+        cells.iter().any(Option::is_some).then(|| row(subject.label(), cells.map(cell)))
     });
     let title = flow(title.split(' '), WIDTH);
     title.into_iter().chain([head]).chain(lines).collect()
@@ -124,19 +119,10 @@ pub(super) fn settings(trade: &Trade) -> Vec<String> {
     );
     let lines = by_models(trade).into_iter().flat_map(|(models, settings)| {
         let names = models.map_or("chosen by auto".to_owned(), |models| models.names());
-        let settings = settings
-            .into_iter()
-            .flat_map(|measured| lines(trade, measured));
-        [format!("  {names}")]
-            .into_iter()
-            .chain(settings)
-            .collect::<Vec<_>>()
+        let settings = settings.into_iter().flat_map(|measured| lines(trade, measured));
+        [format!("  {names}")].into_iter().chain(settings).collect::<Vec<_>>()
     });
-    flow(title.split(' '), WIDTH)
-        .into_iter()
-        .chain([head])
-        .chain(lines)
-        .collect()
+    flow(title.split(' '), WIDTH).into_iter().chain([head]).chain(lines).collect()
 }
 
 /// The settings of each compliance.
@@ -156,14 +142,9 @@ fn lines(trade: &Trade, measured: &MeasuredSetting) -> Vec<String> {
     let setting = &measured.setting;
     let own = if measured.is_current { '>' } else { ' ' };
     let front = if measured.is_on_front { '*' } else { ' ' };
-    let tolerance = setting
-        .tolerance
-        .map_or("-".to_owned(), |tolerance| format!("{tolerance:e}"));
-    let before = format!(
-        "{own}{front}{:<16}{:>5}{tolerance:>7}",
-        name(measured),
-        setting.stations_text()
-    );
+    let tolerance = setting.tolerance.map_or("-".to_owned(), |tolerance| format!("{tolerance:e}"));
+    let before =
+        format!("{own}{front}{:<16}{:>5}{tolerance:>7}", name(measured), setting.stations_text());
     match &measured.found {
         Err(refusal) => item(&(before + "  "), &refusal.to_string()),
         Ok(figures) => {
@@ -184,11 +165,7 @@ fn lines(trade: &Trade, measured: &MeasuredSetting) -> Vec<String> {
 /// The method, the method that `auto` chose, and whether the arithmetic is accurate.
 fn name(measured: &MeasuredSetting) -> String {
     let (method, took) = (measured.setting.method, taken(measured).method);
-    let accurate = if measured.setting.accurate {
-        ", accurate"
-    } else {
-        ""
-    };
+    let accurate = if measured.setting.accurate { ", accurate" } else { "" };
     if method == took {
         format!("{}{accurate}", method.name())
     } else {

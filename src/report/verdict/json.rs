@@ -41,11 +41,7 @@ struct Own {
 impl Own {
     fn of(beside: &Beside) -> Option<Own> {
         let (quantity, value) = beside.own?;
-        Some(Own {
-            quantity,
-            value,
-            unit: Quantity::find(quantity).map(|own| own.unit),
-        })
+        Some(Own { quantity, value, unit: Quantity::find(quantity).map(|own| own.unit) })
     }
 }
 
@@ -65,18 +61,7 @@ pub fn write(
         let method = method.name();
         let (quantity, value, limit, unit, of, own) = (None, None, None, None, None, None);
         return write_line(
-            &Line {
-                case,
-                method,
-                standing,
-                quantity,
-                value,
-                limit,
-                unit,
-                of,
-                own,
-                message,
-            },
+            &Line { case, method, standing, quantity, value, limit, unit, of, own, message },
             out,
         );
     }
@@ -92,7 +77,5 @@ pub fn write(
         own: verdict.beside.as_ref().and_then(Own::of),
         message: verdict.to_string(),
     };
-    verdicts
-        .iter()
-        .try_for_each(|verdict| write_line(&line(verdict), out))
+    verdicts.iter().try_for_each(|verdict| write_line(&line(verdict), out))
 }

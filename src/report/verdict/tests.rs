@@ -29,14 +29,9 @@ fn a_limit_on_the_free_impact_is_followed_by_the_counterpart_in_the_method() {
     };
     assert_eq!(
         verdicts("exact", "2500 N"),
-        [(
-            Standing::Within,
-            "impact_force 2191.0 N <= 2500 N (88 %)".to_owned()
-        )]
+        [(Standing::Within, "impact_force 2191.0 N <= 2500 N (88 %)".to_owned())]
     );
-    let [(standing, sentence)] = &verdicts("dynamic", "2100 N")[..] else {
-        panic!("one limit")
-    };
+    let [(standing, sentence)] = &verdicts("dynamic", "2100 N")[..] else { panic!("one limit") };
     assert_eq!(*standing, Standing::Within);
     assert!(
         sentence.ends_with(
@@ -45,9 +40,7 @@ fn a_limit_on_the_free_impact_is_followed_by_the_counterpart_in_the_method() {
         ),
         "{sentence}"
     );
-    let [(standing, sentence)] = &verdicts("static", "1 kN")[..] else {
-        panic!("one limit")
-    };
+    let [(standing, sentence)] = &verdicts("static", "1 kN")[..] else { panic!("one limit") };
     assert_eq!(*standing, Standing::Exceeded);
     assert!(
         sentence.ends_with(
@@ -78,27 +71,15 @@ fn a_limit_without_a_value_gives_the_reason_and_passes_only_without_contact() {
             quantity; dynamic and auto do"
     );
     // The closed form has no result for the motion.
-    assert_eq!(
-        stands("exact", "80 um", "dynamic_peak_force", "2 kN").0,
-        Standing::Unknown
-    );
-    assert_eq!(
-        stands("exact", "80 um", "impact_force", "2 kN").0,
-        Standing::NotApplicable
-    );
+    assert_eq!(stands("exact", "80 um", "dynamic_peak_force", "2 kN").0, Standing::Unknown);
+    assert_eq!(stands("exact", "80 um", "impact_force", "2 kN").0, Standing::NotApplicable);
     let (standing, sentence) = stands("static", "80 um", "pitch_contact_jump", "2 kN");
     assert_eq!(standing, Standing::Unknown);
-    assert!(
-        sentence.ends_with("the case has no operation.friction_coefficient"),
-        "{sentence}"
-    );
+    assert!(sentence.ends_with("the case has no operation.friction_coefficient"), "{sentence}");
     for key in ["steady_back_force", "dynamic_back_strikes"] {
         let limit = if key.ends_with("force") { "1 N" } else { "1" };
         let (_, sentence) = stands("dynamic", "0 um", key, limit);
-        assert!(
-            sentence.contains("the case has no deviations.backlash"),
-            "{sentence}"
-        );
+        assert!(sentence.contains("the case has no deviations.backlash"), "{sentence}");
     }
     assert_eq!(
         stands("static", "80 um", "static_first_contact_angle", "1 deg").0,
@@ -113,10 +94,7 @@ fn a_counterpart_with_a_limit_of_its_own_needs_no_hint() {
     case.set_limit("static_force_at_start", "1 kN").unwrap();
     let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
     let sentence = verdicts(&case, &solution)[0].to_string();
-    assert!(
-        sentence.ends_with("Method static: static_force_at_start 1466.2 N"),
-        "{sentence}"
-    );
+    assert!(sentence.ends_with("Method static: static_force_at_start 1466.2 N"), "{sentence}");
 }
 
 #[test]
@@ -129,10 +107,7 @@ fn a_verdict_prints_the_limit_as_written_in_both_systems() {
             "EXCEEDED contact_ratio 1.5568 > 1.5 (104 %)"
         ]
     );
-    assert_eq!(
-        sentences(&limits, System::Inch)[0],
-        "ok impact_force 492.56 lbf <= 500 lbf (99 %)"
-    );
+    assert_eq!(sentences(&limits, System::Inch)[0], "ok impact_force 492.56 lbf <= 500 lbf (99 %)");
 }
 
 #[test]
@@ -140,11 +115,7 @@ fn a_refused_case_gives_the_reason_for_every_limit() {
     let case = Case::table_1();
     let verdicts = refused(
         &case,
-        &Refusal::ContactRatioBelowOne {
-            ratio: 0.9,
-            is_deflection_taken: true,
-            cut: None,
-        },
+        &Refusal::ContactRatioBelowOne { ratio: 0.9, is_deflection_taken: true, cut: None },
     );
     assert!(!verdicts[0].standing.holds());
     assert!(

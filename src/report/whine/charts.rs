@@ -37,11 +37,7 @@ pub fn spectrum_chart(all: NamedSpectra) -> Option<Chart> {
     let bars = all.into_iter().enumerate().map(|(slot, (name, spectrum))| {
         let amplitudes = (1..).zip(spectrum.amplitudes);
         let points = amplitudes.map(|(order, amplitude)| (f64::from(order), amplitude * 1e6));
-        Series {
-            name,
-            pieces: vec![points.collect()],
-            kind: Kind::Bars(slot, slots),
-        }
+        Series { name, pieces: vec![points.collect()], kind: Kind::Bars(slot, slots) }
     });
     (slots > 0).then(|| Chart {
         title: "Harmonics of the transmission error".to_owned(),
@@ -62,20 +58,15 @@ fn of_case(case: &SolvedCase) -> NamedSpectra {
 /// the last of them.
 #[must_use]
 pub fn spectra(case: &str, solution: &Solution) -> NamedSpectra {
-    let at_rest = solution
-        .static_spectrum
-        .and_then(Result::ok)
-        .map(|found| ("at rest", found.spectrum));
+    let at_rest =
+        solution.static_spectrum.and_then(Result::ok).map(|found| ("at rest", found.spectrum));
     let moving = in_motion(solution).map(|spectrum| ("in steady motion", spectrum));
     if case.is_empty() {
         let both = at_rest.into_iter().chain(moving);
-        return both
-            .map(|(name, spectrum)| (name.to_owned(), spectrum))
-            .collect();
+        return both.map(|(name, spectrum)| (name.to_owned(), spectrum)).collect();
     }
     let one = moving.or(at_rest).into_iter();
-    one.map(|(name, spectrum)| (format!("{case}, {name}"), spectrum))
-        .collect()
+    one.map(|(name, spectrum)| (format!("{case}, {name}"), spectrum)).collect()
 }
 
 fn in_motion(solution: &Solution) -> Option<Spectrum> {
@@ -110,9 +101,7 @@ pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
 /// The resonance with its fractions, and the speed of the case.
 fn marks(curve: &SpeedCurve) -> Vec<(f64, &'static str)> {
     let ratios = [(1.0, "N=1"), (1.0 / 2.0, "N=1/2"), (1.0 / 3.0, "N=1/3")];
-    let mut marks = ratios
-        .map(|(ratio, name)| (rpm(ratio * curve.resonance), name))
-        .to_vec();
+    let mut marks = ratios.map(|(ratio, name)| (rpm(ratio * curve.resonance), name)).to_vec();
     marks.push((rpm(curve.present), "present"));
     marks.sort_by(|one, other| one.0.total_cmp(&other.0));
     marks
@@ -125,11 +114,7 @@ fn rpm(speed: f64) -> f64 {
 /// The run-up, the run-down if its motion differs, and the points with loss of contact.
 fn runs((name, curve): NamedCurve) -> Vec<Series> {
     let called = |run: &str, peak: Option<&AtSpeed>| {
-        let case = if name.is_empty() {
-            String::new()
-        } else {
-            format!("{name}, ")
-        };
+        let case = if name.is_empty() { String::new() } else { format!("{name}, ") };
         let peak = peak.map(|peak| {
             let factor = significant(peak.tooth_factor, 3);
             format!(": peak {factor} at {} rpm", rounded(rpm(peak.speed)))
@@ -138,21 +123,11 @@ fn runs((name, curve): NamedCurve) -> Vec<Series> {
     };
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
-    let way = if jumps.is_empty() {
-        "speed rising or falling"
-    } else {
-        "speed rising"
-    };
+    let way = if jumps.is_empty() { "speed rising or falling" } else { "speed rising" };
     let up = called(way, curve.peak_rising());
-    let up = Series {
-        name: up,
-        pieces: pieces(curve.up.iter().map(Option::as_ref)),
-        kind: Kind::Curve,
-    };
-    let down = curve
-        .down
-        .iter()
-        .map(|point| point.as_ref().filter(|point| is_jump(point)));
+    let up =
+        Series { name: up, pieces: pieces(curve.up.iter().map(Option::as_ref)), kind: Kind::Curve };
+    let down = curve.down.iter().map(|point| point.as_ref().filter(|point| is_jump(point)));
     let down = Series {
         name: called("speed falling", curve.peak_falling()),
         pieces: pieces(down),
@@ -164,9 +139,7 @@ fn runs((name, curve): NamedCurve) -> Vec<Series> {
         kind: Kind::Marks(None),
     };
     let all = [up, down, lost];
-    all.into_iter()
-        .filter(|series| !series.pieces.is_empty())
-        .collect()
+    all.into_iter().filter(|series| !series.pieces.is_empty()).collect()
 }
 
 /// The points with loss of contact: of neighbouring points the first and every fifth, so that the
@@ -176,9 +149,7 @@ fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<(f64, f64)>> {
     let of_run = |run: &[Option<AtSpeed>], counts: &dyn Fn(&AtSpeed) -> bool| {
         let is_lost = |point: &&AtSpeed| point.contact_lost && counts(point);
         let points = pieces(run.iter().map(|point| point.as_ref().filter(is_lost)));
-        let kept = points
-            .into_iter()
-            .flat_map(|run| run.into_iter().step_by(STRIDE));
+        let kept = points.into_iter().flat_map(|run| run.into_iter().step_by(STRIDE));
         kept.map(|point| vec![point]).collect::<Vec<_>>()
     };
     let mut found = of_run(&curve.up, &|_| true);

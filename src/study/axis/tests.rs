@@ -3,24 +3,16 @@
 use super::*;
 
 fn texts(axis: &Axis) -> Vec<&str> {
-    axis.points
-        .iter()
-        .map(|point| point.text.as_str())
-        .collect()
+    axis.points.iter().map(|point| point.text.as_str()).collect()
 }
 
 fn parsed(text: &str, points: usize) -> Axis {
-    let sampling = Sampling {
-        points: Some(points),
-        is_log: false,
-    };
+    let sampling = Sampling { points: Some(points), is_log: false };
     Axis::parse(text, sampling).unwrap()
 }
 
 fn refused(text: &str, points: Option<usize>, is_log: bool) -> String {
-    Axis::parse(text, Sampling { points, is_log })
-        .unwrap_err()
-        .to_string()
+    Axis::parse(text, Sampling { points, is_log }).unwrap_err().to_string()
 }
 
 #[test]
@@ -35,20 +27,12 @@ fn a_range_keeps_the_unit_that_was_given_first() {
         assert_eq!(texts(&axis), ["500", "750", "1000", "1250", "1500"]);
     }
     let mixed = parsed("deviations.base_pitch=0 um..0.04 mm", 3);
-    assert_eq!(
-        (mixed.unit.as_str(), texts(&mixed)),
-        ("um", vec!["0", "20", "40"])
-    );
+    assert_eq!((mixed.unit.as_str(), texts(&mixed)), ("um", vec!["0", "20", "40"]));
 }
 
 #[test]
 fn every_point_has_the_value_of_its_text() {
-    let axis = parsed(
-        "operation.speed=1/3..1000 rpm"
-            .replace("1/3", "0.3")
-            .as_str(),
-        37,
-    );
+    let axis = parsed("operation.speed=1/3..1000 rpm".replace("1/3", "0.3").as_str(), 37);
     for at in 0..axis.points.len() {
         let value = field_value(axis.field, &axis.with_unit(at)).unwrap();
         assert_eq!(value, axis.points[at].value);
@@ -60,14 +44,9 @@ fn steps_read_as_a_person_writes_them() {
     let axis = parsed("model.damping_ratio=0..1", 11);
     assert_eq!(
         texts(&axis),
-        [
-            "0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1"
-        ]
+        ["0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1"]
     );
-    let sampling = Sampling {
-        points: Some(4),
-        is_log: true,
-    };
+    let sampling = Sampling { points: Some(4), is_log: true };
     let axis = Axis::parse("operation.torque=0.1..100 N m", sampling).unwrap();
     assert_eq!(texts(&axis), ["0.1", "1", "10", "100"]);
 }
@@ -75,19 +54,10 @@ fn steps_read_as_a_person_writes_them() {
 #[test]
 fn lists_take_units_counts_and_choices() {
     let speeds = parsed("operation.speed=500,1000,2000 rpm", 0);
-    assert_eq!(
-        (speeds.unit.as_str(), texts(&speeds)),
-        ("rpm", vec!["500", "1000", "2000"])
-    );
+    assert_eq!((speeds.unit.as_str(), texts(&speeds)), ("rpm", vec!["500", "1000", "2000"]));
     assert_eq!(texts(&parsed("driven.teeth=20, 35", 0)), ["20", "35"]);
-    assert_eq!(
-        texts(&parsed("model.method=exact,static", 0)),
-        ["exact", "static"]
-    );
-    assert_eq!(
-        texts(&parsed("driven.tip_relief=16 um,0.02 mm", 0)),
-        ["16", "20"]
-    );
+    assert_eq!(texts(&parsed("model.method=exact,static", 0)), ["exact", "static"]);
+    assert_eq!(texts(&parsed("driven.tip_relief=16 um,0.02 mm", 0)), ["16", "20"]);
 }
 
 #[test]
@@ -136,73 +106,28 @@ fn a_bad_axis_gets_place_cause_and_fix() {
             "operation.speed: the range is reversed: 3000 rpm is above 500 rpm: write \
                 operation.speed=500 rpm..3000 rpm",
         ),
-        (
-            "operation.speed=500..500 rpm",
-            None,
-            false,
-            "operation.speed: the range is empty",
-        ),
+        ("operation.speed=500..500 rpm", None, false, "operation.speed: the range is empty"),
         (
             "operation.speed=500..3000 rpm",
             Some(0),
             false,
             "operation.speed: a range has 2 to 1000000 points, and not 0: write --points with a number from 2",
         ),
-        (
-            "operation.speed=500..3000 rpm",
-            Some(1),
-            false,
-            "1000000 points, and not 1",
-        ),
-        (
-            "operation.speed=500..3000",
-            None,
-            false,
-            "write \"500 rpm\"",
-        ),
-        (
-            "operation.speed=500..3000 mm",
-            None,
-            false,
-            "unit of length",
-        ),
+        ("operation.speed=500..3000 rpm", Some(1), false, "1000000 points, and not 1"),
+        ("operation.speed=500..3000", None, false, "write \"500 rpm\""),
+        ("operation.speed=500..3000 mm", None, false, "unit of length"),
         ("title=1..2", None, false, "title: title is a text"),
-        (
-            "=1..2",
-            None,
-            false,
-            "=1..2: the key is missing: write KEY=FROM..TO",
-        ),
+        ("=1..2", None, false, "=1..2: the key is missing: write KEY=FROM..TO"),
         (
             "model.method=paper..exact",
             None,
             false,
             "model.method: a choice has no range: write a list, such as model.method=paper,exact",
         ),
-        (
-            "model.method=exact,dinamic",
-            None,
-            false,
-            "did you mean dynamic?",
-        ),
-        (
-            "driven.tip_relief=-10..40 um",
-            None,
-            false,
-            "below the limit of 0 um",
-        ),
-        (
-            "driven.tip_relief=0..40 um",
-            None,
-            true,
-            "--log needs a start above 0, and 0 um is not",
-        ),
-        (
-            "operation.speed",
-            None,
-            false,
-            "no values are given: write KEY=FROM..TO",
-        ),
+        ("model.method=exact,dinamic", None, false, "did you mean dynamic?"),
+        ("driven.tip_relief=-10..40 um", None, false, "below the limit of 0 um"),
+        ("driven.tip_relief=0..40 um", None, true, "--log needs a start above 0, and 0 um is not"),
+        ("operation.speed", None, false, "no values are given: write KEY=FROM..TO"),
         ("driver.teeth=18.5..30", None, false, "whole number"),
     ] {
         let message = refused(text, points, is_log);

@@ -72,10 +72,7 @@ impl PreparedMesh {
         let survey = Survey::new(&bare, solution, most)?;
         let unit = solution.mesh_force / demand.loads.1;
         let over_pitch = |load: &f64| survey.over_pitch(load * unit);
-        let loads = loads
-            .iter()
-            .map(over_pitch)
-            .collect::<Result<Vec<_>, _>>()?;
+        let loads = loads.iter().map(over_pitch).collect::<Result<Vec<_>, _>>()?;
         let corners = survey.corners(solution.mesh_force)?;
         let pairs = corners.places.iter().map(|place| place.radii.len() as u64);
         let corner_cost: u64 = pairs.sum();
@@ -141,18 +138,13 @@ impl PreparedMesh {
 pub(super) fn tolerances(tolerance: f64) -> Vec<[f64; 2]> {
     let both = [-tolerance, tolerance];
     let ends = &both[..if tolerance > 0.0 { 2 } else { 1 }];
-    let pairs = ends
-        .iter()
-        .flat_map(|&one| ends.iter().map(move |&other| [one, other]));
+    let pairs = ends.iter().flat_map(|&one| ends.iter().map(move |&other| [one, other]));
     pairs.collect()
 }
 
 /// The reliefs with other tip reliefs and their deviations.
 fn with(reliefs: Reliefs, tips: &TipReliefs, off: [f64; 2]) -> Reliefs {
-    let mut all = Reliefs {
-        shape: tips.shape,
-        ..reliefs
-    };
+    let mut all = Reliefs { shape: tips.shape, ..reliefs };
     for (at, gear) in [&mut all.driver, &mut all.driven].into_iter().enumerate() {
         gear.tip = (tips.amounts[at] + off[at]).max(0.0);
         gear.tip_length = Some(tips.lengths[at]);
@@ -162,15 +154,8 @@ fn with(reliefs: Reliefs, tips: &TipReliefs, off: [f64; 2]) -> Reliefs {
 
 /// The pair without tip reliefs.
 fn bare(inputs: &Inputs) -> Inputs {
-    let bare = |gear: &Gear| Gear {
-        tip_relief: 0.0,
-        ..gear.clone()
-    };
-    Inputs {
-        driver: bare(&inputs.driver),
-        driven: bare(&inputs.driven),
-        ..inputs.clone()
-    }
+    let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..gear.clone() };
+    Inputs { driver: bare(&inputs.driver), driven: bare(&inputs.driven), ..inputs.clone() }
 }
 
 impl Pitch {
@@ -185,8 +170,7 @@ impl Pitch {
         let count = self.places.len();
         self.places[at % count].get_or_init(|| {
             let part = ((at % count) as f64 + 0.5) / count as f64;
-            self.curvatures
-                .place(&self.mesh, part * self.mesh.base_pitch)
+            self.curvatures.place(&self.mesh, part * self.mesh.base_pitch)
         })
     }
 
@@ -231,10 +215,7 @@ fn greatest(even: &[f64], value: &dyn Fn(usize) -> f64) -> f64 {
 
 impl Corners {
     fn overlap(&self, relief: &Relief) -> f64 {
-        let leads = self
-            .places
-            .iter()
-            .map(|place| place.eased(relief).lead(0, self.force));
+        let leads = self.places.iter().map(|place| place.eased(relief).lead(0, self.force));
         leads.fold(f64::NEG_INFINITY, f64::max)
     }
 }
@@ -308,10 +289,7 @@ impl<'a> Survey<'a> {
         let before = (0..=BEYOND).map(|at| part(at) * from);
         let after = (0..=BEYOND).map(|at| mesh.length + part(at) * (to - mesh.length));
         let places = before.chain(after);
-        Ok(Corners {
-            force,
-            places: places.map(|s| self.curvatures.place(&mesh, s)).collect(),
-        })
+        Ok(Corners { force, places: places.map(|s| self.curvatures.place(&mesh, s)).collect() })
     }
 }
 

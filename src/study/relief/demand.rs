@@ -74,13 +74,7 @@ mod tests {
         assert_eq!(Demand::parse(&Demand::USUAL.text()), Ok(Demand::USUAL));
         let own = Demand::parse("50..100%").expect("a range");
         assert_eq!((own.loads, own.tolerance), ((0.5, 1.0), 5e-6));
-        for wrong in [
-            "",
-            "110..25 %",
-            "25..110 %, 5",
-            "0..110 %, 5 um",
-            "25..110 %, 2 mm",
-        ] {
+        for wrong in ["", "110..25 %", "25..110 %, 5", "0..110 %, 5 um", "25..110 %, 2 mm"] {
             assert!(Demand::parse(wrong).is_err(), "{wrong}");
         }
     }

@@ -15,10 +15,7 @@ const GROWTHS: [i32; 12] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48];
 
 /// The case with a fraction of its load.
 pub(super) fn loaded(inputs: &Inputs, part: f64) -> Inputs {
-    Inputs {
-        drive: Drive::Torque(part * inputs.torque()),
-        ..inputs.clone()
-    }
+    Inputs { drive: Drive::Torque(part * inputs.torque()), ..inputs.clone() }
 }
 
 /// The case with other tip reliefs and their deviations.
@@ -138,9 +135,7 @@ impl Figures<'_> {
     }
 
     fn solve(&self, inputs: &Inputs, stage: Stage) -> Result<Solution, NoRelief> {
-        Ok(solve_while(inputs, Stages::of(stage), &|_| {
-            (self.go_on)(self.part.get())
-        })?)
+        Ok(solve_while(inputs, Stages::of(stage), &|_| (self.go_on)(self.part.get()))?)
     }
 
     /// The greatest load without overlap at rest, relative to the load of the case. `None` if even

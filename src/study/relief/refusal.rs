@@ -53,11 +53,7 @@ impl fmt::Display for NoRelief {
         let mm = |length: &f64| format!("{:.2} mm", length * 1e3);
         match self {
             NoRelief::Refused(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
-            NoRelief::ThinTip {
-                gear,
-                most,
-                overlap,
-            } => write!(
+            NoRelief::ThinTip { gear, most, overlap } => write!(
                 f,
                 "no tip relief prevents corner contact: the {gear} tip is thin, its relief is \
                     limited to {}, and the teeth still overlap by {}; lower the greatest load or \
@@ -65,11 +61,7 @@ impl fmt::Display for NoRelief {
                 um(most),
                 um(overlap)
             ),
-            NoRelief::ShortPath {
-                length,
-                least,
-                ratio,
-            } => write!(
+            NoRelief::ShortPath { length, least, ratio } => write!(
                 f,
                 "no tip relief prevents corner contact: for this load its length is at least {} (20 times \
                  its amount), and beyond {} {} (contact ratio {ratio:.4}); raise the addendum or the \

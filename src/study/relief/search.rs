@@ -61,10 +61,7 @@ impl Grid {
             let amount = (reliefs.amounts[at] / AMOUNT_STEP).round() as i32 + steps;
             (amount <= self.most_amounts[at]).then(|| decimal(AMOUNT_STEP * f64::from(amount)))
         };
-        Some(TipReliefs {
-            amounts: [more(0)?, more(1)?],
-            ..*reliefs
-        })
+        Some(TipReliefs { amounts: [more(0)?, more(1)?], ..*reliefs })
     }
 
     fn reliefs(&self, shape: ReliefShape, [one, other, from, to]: Steps) -> TipReliefs {
@@ -108,14 +105,7 @@ impl<'a> Search<'a> {
         meter: &'a Meter,
         go_on: &'a dyn Fn(f64) -> bool,
     ) -> Search<'a> {
-        Search {
-            bench,
-            grid,
-            meter,
-            go_on,
-            known: RefCell::default(),
-            tries: Cell::default(),
-        }
+        Search { bench, grid, meter, go_on, known: RefCell::default(), tries: Cell::default() }
     }
 
     /// The number of evaluated reliefs.
@@ -153,15 +143,10 @@ impl<'a> Search<'a> {
         let overlap = self.bench.overlap(&grid.reliefs(ReliefShape::Linear, most));
         let thin = (0..2).find(|&at| grid.tips[at] < grid.most_amount() + AMOUNT_STEP);
         match thin {
-            Some(at) => NoRelief::ThinTip {
-                gear: ["driver", "driven"][at],
-                most: grid.tips[at],
-                overlap,
-            },
-            None => NoRelief::Beyond {
-                most: grid.most_amount(),
-                overlap,
-            },
+            Some(at) => {
+                NoRelief::ThinTip { gear: ["driver", "driven"][at], most: grid.tips[at], overlap }
+            }
+            None => NoRelief::Beyond { most: grid.most_amount(), overlap },
         }
     }
 
@@ -173,11 +158,8 @@ impl<'a> Search<'a> {
         start: Option<(Steps, Cost)>,
     ) -> Result<Option<(Steps, Cost)>, NoRelief> {
         let mut starts = self.starts(shape, is_alike)?;
-        starts.sort_by(|one, other| {
-            one.1
-                .partial_cmp(&other.1)
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
+        starts
+            .sort_by(|one, other| one.1.partial_cmp(&other.1).unwrap_or(std::cmp::Ordering::Equal));
         starts.truncate(FOLLOWED[usize::from(is_alike)]);
         let mut best: Option<(Steps, Cost)> = None;
         for start in starts.into_iter().chain(start) {
@@ -233,12 +215,7 @@ impl<'a> Search<'a> {
         const STRIDES: i32 = 24;
         let most = self.grid.most_amounts;
         let clears = |amount: i32| {
-            let steps = [
-                amount.min(most[0]),
-                amount.min(most[1]),
-                lengths[0],
-                lengths[1],
-            ];
+            let steps = [amount.min(most[0]), amount.min(most[1]), lengths[0], lengths[1]];
             Ok::<bool, NoRelief>(matches!(self.cost(shape, steps)?, Cost::Error(_)))
         };
         let greatest = most[0].max(most[1]);

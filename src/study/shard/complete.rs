@@ -44,9 +44,7 @@ impl Complete {
     pub fn read(path: &Path) -> Result<Complete, ShardError> {
         let name = path.display();
         let no_shard = || {
-            ShardError::Wrong(format!(
-                "{name}: this is not a shard: name files that --shard wrote"
-            ))
+            ShardError::Wrong(format!("{name}: this is not a shard: name files that --shard wrote"))
         };
         let unreadable = |error: io::Error| match error.kind() {
             ErrorKind::InvalidData => no_shard(),
@@ -76,11 +74,7 @@ impl Complete {
                 header.shard
             ))
         })?;
-        Ok(Complete {
-            path: path.to_owned(),
-            header,
-            rows,
-        })
+        Ok(Complete { path: path.to_owned(), header, rows })
     }
 
     /// Passes the rows to `take`; the first row has index `first`.
@@ -192,14 +186,9 @@ pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, ShardError> 
     if let Some(twice) = shards.windows(2).find(same) {
         let (file, other) = (name(&twice[1]), name(&twice[0]));
         let shard = twice[0].header.shard;
-        return wrong(format!(
-            "{file}: shard {shard} is in {other}, too: leave one of them out"
-        ));
+        return wrong(format!("{file}: shard {shard} is in {other}, too: leave one of them out"));
     }
-    let known: BTreeSet<usize> = shards
-        .iter()
-        .map(|shard| shard.header.shard.number)
-        .collect();
+    let known: BTreeSet<usize> = shards.iter().map(|shard| shard.header.shard.number).collect();
     let missing: Vec<String> = (1..=of)
         .filter(|number| !known.contains(number))
         .map(|number| format!("{number}/{of}"))
@@ -210,7 +199,5 @@ pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, ShardError> 
     let count = missing.len();
     let shown = missing[..count.min(10)].join(", ");
     let more = if count > 10 { ", ..." } else { "" };
-    wrong(format!(
-        "{count} of {of} shards are missing: run --shard {shown}{more}"
-    ))
+    wrong(format!("{count} of {of} shards are missing: run --shard {shown}{more}"))
 }

@@ -37,10 +37,7 @@ impl Shard {
             Some((_, of)) if of > 0 => {
                 Err(format!("there is no such shard: write 1/{of} to {of}/{of}"))
             }
-            _ => Err(format!(
-                "{} is not a shard: write I/N, such as 3/8",
-                quoted(text)
-            )),
+            _ => Err(format!("{} is not a shard: write I/N, such as 3/8", quoted(text))),
         }
     }
 

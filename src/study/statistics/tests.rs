@@ -6,12 +6,7 @@ use super::*;
 fn figures_of_a_known_sample() {
     let found = figures(&(0..=100).rev().map(f64::from).collect::<Vec<_>>(), 10).unwrap();
     let percentiles = found.percentiles.map(|estimate| estimate.value);
-    assert!(
-        percentiles
-            .iter()
-            .zip([5.0, 50.0, 95.0])
-            .all(|(a, b)| (a - b).abs() < 1e-12)
-    );
+    assert!(percentiles.iter().zip([5.0, 50.0, 95.0]).all(|(a, b)| (a - b).abs() < 1e-12));
     assert!((found.mean.value - 50.0).abs() < 1e-12);
     assert!((found.deviation - 29.300_170_647_967_224).abs() < 1e-12);
     assert_eq!(found.range, (0.0, 100.0));
@@ -71,11 +66,7 @@ fn the_interval_of_a_percentile_has_at_least_95_percent_and_hardly_more() {
     let covered = |part: f64, count: usize| {
         let [from, to] = interval(part, count)?;
         let binomial = Binomial::new(part, count as u64).unwrap();
-        Some(
-            (from as u64 + 1..=to as u64)
-                .map(|k| binomial.pmf(k))
-                .sum::<f64>(),
-        )
+        Some((from as u64 + 1..=to as u64).map(|k| binomial.pmf(k)).sum::<f64>())
     };
     assert_eq!(PERCENTILES.map(least_count), [59, 6, 59]);
     for percent in PERCENTILES {
@@ -87,10 +78,7 @@ fn the_interval_of_a_percentile_has_at_least_95_percent_and_hardly_more() {
             // The mass of one rank is all that an interval can have too much.
             let mode = ((count + 1) as f64 * part).floor() as u64;
             let rank = Binomial::new(part, count as u64).unwrap().pmf(mode);
-            assert!(
-                (0.95..0.95 + rank).contains(&found),
-                "P{percent} of {count}: {found}"
-            );
+            assert!((0.95..0.95 + rank).contains(&found), "P{percent} of {count}: {found}");
         }
     }
     // The ranks of the normal approximation differ by few ranks of many.
@@ -146,9 +134,6 @@ fn a_probability_has_wilsons_interval() {
     assert!((found.from - 0.055_229_137).abs() < 1e-8, "{found:?}");
     assert!((found.to - 0.174_365_661).abs() < 1e-8, "{found:?}");
     let none = probability(0, 100).unwrap();
-    assert!(
-        none.from.abs() < 1e-15 && (none.to - 0.036_993_5).abs() < 1e-6,
-        "{none:?}"
-    );
+    assert!(none.from.abs() < 1e-15 && (none.to - 0.036_993_5).abs() < 1e-6, "{none:?}");
     assert_eq!(probability(0, 0), None);
 }

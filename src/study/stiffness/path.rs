@@ -44,10 +44,7 @@ pub(super) fn compare(
     let elasticities: Vec<_> = models
         .iter()
         .map(|&tooth| {
-            let inputs = Inputs {
-                tooth_compliance: Some(tooth),
-                ..inputs.clone()
-            };
+            let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
             (tooth.model().covers)(&inputs).then(|| inputs.elasticity())
         })
         .collect();
@@ -59,18 +56,11 @@ pub(super) fn compare(
     let last = points.max(super::LEAST_POINTS) - 1;
     let at = |step: usize| {
         // The last place is B itself, so that rounding does not lose the pair.
-        let way = if step == last {
-            length
-        } else {
-            length * step as f64 / last as f64
-        };
+        let way = if step == last { length } else { length * step as f64 / last as f64 };
         PathPoint {
             way,
             pair: meshes.iter().map(|mesh| mesh.as_ref()?.pair(way)).collect(),
-            mesh: meshes
-                .iter()
-                .map(|mesh| mesh.as_ref()?.whole(way))
-                .collect(),
+            mesh: meshes.iter().map(|mesh| mesh.as_ref()?.whole(way)).collect(),
         }
     };
     PathComparison {
@@ -87,10 +77,7 @@ impl PathComparison {
     pub fn mesh_curve(&self, model: usize) -> impl Iterator<Item = (f64, f64)> {
         let points = self.points.iter();
         points.filter_map(move |point| {
-            Some((
-                point.way / self.base_radius,
-                point.mesh[model]? * self.width,
-            ))
+            Some((point.way / self.base_radius, point.mesh[model]? * self.width))
         })
     }
 }
@@ -113,12 +100,7 @@ impl<'a> Mesh<'a> {
             Tooth::of(elasticity.tooth, &elasticity.driver, &geometry.driver)?,
             Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)?,
         ];
-        Ok(Mesh {
-            teeth: Teeth::of(elasticity, geometry)?,
-            gears,
-            geometry,
-            force,
-        })
+        Ok(Mesh { teeth: Teeth::of(elasticity, geometry)?, gears, geometry, force })
     }
 
     fn place(&self, way: f64) -> ContactPlace {
@@ -133,10 +115,7 @@ impl<'a> Mesh<'a> {
 
     /// 1ᵀ Q⁻¹ 1, where Q is the compliance matrix of all pairs on the line of action.
     fn whole(&self, way: f64) -> Option<f64> {
-        let (pitch, length) = (
-            self.geometry.base_pitch,
-            self.geometry.end - self.geometry.start,
-        );
+        let (pitch, length) = (self.geometry.base_pitch, self.geometry.end - self.geometry.start);
         let first = (-way / pitch).ceil() as i32;
         let last = ((length - way) / pitch).floor() as i32;
         let pairs: Vec<(i32, ContactPlace)> = (first..=last)
@@ -212,10 +191,7 @@ mod tests {
     /// Stiffness of the pair at one place by each model.
     fn compare_at(inputs: &Inputs, geometry: &Geometry, way: f64) -> Vec<Option<f64>> {
         let by = |tooth: ToothCompliance| {
-            let inputs = Inputs {
-                tooth_compliance: Some(tooth),
-                ..inputs.clone()
-            };
+            let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
             let elasticity = inputs.elasticity();
             let mesh = Mesh::of(&elasticity, geometry, 2e3).ok()?;
             mesh.pair(way)

@@ -108,9 +108,7 @@ pub fn stages(method: Method) -> Stages {
         Method::Static => Stages::of(Stage::Static),
         Method::Dynamic => Stages::of(Stage::Dynamic),
         // `static` replaces `dynamic` if `auto` chooses it.
-        Method::Auto => Stages::CLOSED_FORM
-            .with(Stage::Stations)
-            .and(Stages::of(Stage::Dynamic)),
+        Method::Auto => Stages::CLOSED_FORM.with(Stage::Stations).and(Stages::of(Stage::Dynamic)),
     }
 }
 
@@ -132,19 +130,14 @@ impl Answer {
     #[must_use]
     pub fn of(solution: &Solution) -> Answer {
         let value = |subject: Subject| {
-            subject
-                .quantity(solution.method)
-                .and_then(|quantity| (quantity.value)(solution))
+            subject.quantity(solution.method).and_then(|quantity| (quantity.value)(solution))
         };
         Answer {
             method: solution.method,
             outcome: solution.outcome,
             values: Subject::ALL.map(value),
             curve: curve(solution),
-            evaluations: solution
-                .dynamic
-                .as_ref()
-                .map(|dynamic| dynamic.effort.evaluations),
+            evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.effort.evaluations),
         }
     }
 
@@ -178,11 +171,7 @@ impl Answer {
     /// contact to E, over the true peak. With linear interpolation the greatest difference is at a
     /// station of one of the curves.
     fn curve_error(&self, truth: &Answer) -> f64 {
-        let angles = self
-            .curve
-            .iter()
-            .chain(&truth.curve)
-            .map(|&(angle, _)| angle);
+        let angles = self.curve.iter().chain(&truth.curve).map(|&(angle, _)| angle);
         let apart = angles
             .map(|angle| (self.force_at(angle) - truth.force_at(angle)).abs())
             .fold(0.0, f64::max);
@@ -202,10 +191,7 @@ impl Answer {
         /// First contacts that differ by no more than rounding are equal.
         const ROUNDING: f64 = 1e-9;
         let next = self.curve.partition_point(|station| station.0 > angle);
-        match (
-            next.checked_sub(1).map(|before| self.curve[before]),
-            self.curve.get(next),
-        ) {
+        match (next.checked_sub(1).map(|before| self.curve[before]), self.curve.get(next)) {
             (Some(before), Some(&after)) => {
                 before.1 + (after.1 - before.1) * (before.0 - angle) / (before.0 - after.0)
             }
@@ -229,13 +215,9 @@ fn curve(solution: &Solution) -> Vec<(f64, f64)> {
         Method::Static => solution.static_load.as_ref().map(|load| &load.stations),
         Method::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
     };
-    let before_end = shared
-        .into_iter()
-        .flatten()
-        .filter(|station| station.roll_angle_driver >= 0.0);
-    before_end
-        .map(|station| (station.roll_angle_driver, station.force))
-        .collect()
+    let before_end =
+        shared.into_iter().flatten().filter(|station| station.roll_angle_driver >= 0.0);
+    before_end.map(|station| (station.roll_angle_driver, station.force)).collect()
 }
 
 /// A difference over a size; 1 if the size is 0.
@@ -253,11 +235,8 @@ mod tests {
     use crate::case::Case;
 
     fn answer(method: Method, stations: usize) -> Answer {
-        let inputs = Inputs {
-            method,
-            stations: Some(stations),
-            ..Case::table_1().inputs().unwrap()
-        };
+        let inputs =
+            Inputs { method, stations: Some(stations), ..Case::table_1().inputs().unwrap() };
         Answer::of(&solve(&inputs, &|| true).unwrap())
     }
 
@@ -286,10 +265,7 @@ mod tests {
     fn an_answer_differs_from_others_and_not_from_itself() {
         let (shared, impact) = (answer(Method::Static, 16), answer(Method::Exact, 16));
         for subject in Subject::ALL {
-            assert_eq!(
-                shared.off(&shared, subject),
-                subject.is_of(Method::Static).then_some(0.0)
-            );
+            assert_eq!(shared.off(&shared, subject), subject.is_of(Method::Static).then_some(0.0));
         }
         assert_eq!(impact.off(&shared, Subject::Duration), None);
         assert!(impact.off(&shared, Subject::Curve).unwrap() > 0.5);
@@ -301,14 +277,7 @@ mod tests {
         };
         assert_eq!(on_time.off(&shared, Subject::FirstContact), Some(1.0));
         assert_eq!(on_time.off(&shared, Subject::Curve), Some(1.0));
-        let also = Answer {
-            outcome: Outcome::NoCornerContact,
-            ..shared
-        };
-        assert!(
-            Subject::NEEDED
-                .iter()
-                .all(|&subject| on_time.off(&also, subject) == Some(0.0))
-        );
+        let also = Answer { outcome: Outcome::NoCornerContact, ..shared };
+        assert!(Subject::NEEDED.iter().all(|&subject| on_time.off(&also, subject) == Some(0.0)));
     }
 }

@@ -26,20 +26,13 @@ impl Build {
     /// The refusal of a gear without a field.
     pub(super) fn measure(inputs: &Inputs, patience: Patience) -> Result<Build, Refusal> {
         let of = |gear: &Gear| seconds(&ElasticGear::of(inputs, gear), patience);
-        Ok(Build {
-            driver: of(&inputs.driver)?,
-            driven: of(&inputs.driven)?,
-        })
+        Ok(Build { driver: of(&inputs.driver)?, driven: of(&inputs.driven)? })
     }
 }
 
 fn seconds(gear: &ElasticGear, patience: Patience) -> Result<f64, Refusal> {
     const REPEATS: usize = 3;
-    let repeats = if patience.most == Duration::ZERO {
-        1
-    } else {
-        REPEATS
-    };
+    let repeats = if patience.most == Duration::ZERO { 1 } else { REPEATS };
     let mut least = f64::INFINITY;
     for _ in 0..repeats {
         let begun = Instant::now();

@@ -14,15 +14,10 @@ pub struct Patience {
 
 impl Patience {
     /// Enough time for a reliable figure.
-    pub const STEADY: Patience = Patience {
-        batch: Duration::from_micros(300),
-        most: Duration::from_millis(2500),
-    };
+    pub const STEADY: Patience =
+        Patience { batch: Duration::from_micros(300), most: Duration::from_millis(2500) };
     /// A single run, if only the errors matter.
-    pub const ONCE: Patience = Patience {
-        batch: Duration::ZERO,
-        most: Duration::ZERO,
-    };
+    pub const ONCE: Patience = Patience { batch: Duration::ZERO, most: Duration::ZERO };
 }
 
 /// The run time of a solve.
@@ -51,9 +46,7 @@ impl Batches {
     /// all runs returned true.
     pub(super) fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
         let solves = self.seconds.last().map_or(1, |&last| {
-            (batch.as_secs_f64() / last.max(1e-9))
-                .ceil()
-                .clamp(1.0, 1e6) as u64
+            (batch.as_secs_f64() / last.max(1e-9)).ceil().clamp(1.0, 1e6) as u64
         });
         let begin = Instant::now();
         let done = (0..solves).all(|_| once());
@@ -62,8 +55,7 @@ impl Batches {
             if self.runs == 1 {
                 self.seconds.clear();
             }
-            self.seconds
-                .push(begin.elapsed().as_secs_f64() / solves as f64);
+            self.seconds.push(begin.elapsed().as_secs_f64() / solves as f64);
             self.runs += solves;
         }
         done
@@ -88,12 +80,7 @@ impl Batches {
         let seconds = quarter(2);
         let aside = outside(times.len());
         let between = (times[aside] / seconds, times[last - aside] / seconds);
-        Some(Time {
-            seconds,
-            spread: 0.5 * (quarter(3) - quarter(1)),
-            between,
-            runs: self.runs,
-        })
+        Some(Time { seconds, spread: 0.5 * (quarter(3) - quarter(1)), between, runs: self.runs })
     }
 }
 
@@ -127,10 +114,7 @@ mod tests {
     use super::*;
 
     fn batches(seconds: &[f64]) -> Batches {
-        Batches {
-            seconds: seconds.to_vec(),
-            runs: 100,
-        }
+        Batches { seconds: seconds.to_vec(), runs: 100 }
     }
 
     fn of(seconds: &[f64]) -> Time {
@@ -141,10 +125,7 @@ mod tests {
     fn ranks_of_the_interval_are_those_of_the_tables() {
         // Binomial distribution with probability one half: the 95 % interval of the median of 6, 9,
         // 12, 20, 40 values.
-        assert_eq!(
-            [1, 5, 6, 8, 9, 12, 20, 40].map(outside),
-            [0, 0, 0, 0, 1, 2, 5, 13]
-        );
+        assert_eq!([1, 5, 6, 8, 9, 12, 20, 40].map(outside), [0, 0, 0, 0, 1, 2, 5, 13]);
     }
 
     #[test]
@@ -171,9 +152,8 @@ mod tests {
 
     #[test]
     fn a_median_is_steady_if_most_batches_agree() {
-        let disturbed = batches(&[
-            1.0, 1.001, 1.002, 1.0, 1.003, 1.001, 1.002, 1.0, 9.0, 1.001, 5.0, 1.002,
-        ]);
+        let disturbed =
+            batches(&[1.0, 1.001, 1.002, 1.0, 1.003, 1.001, 1.002, 1.0, 9.0, 1.001, 5.0, 1.002]);
         assert!(
             disturbed.are_steady() && disturbed.time().unwrap().seconds < 1.01,
             "{disturbed:?}"
@@ -184,10 +164,8 @@ mod tests {
 
     #[test]
     fn indistinguishable_times_tie() {
-        let (quick, slow) = (
-            of(&[1.0, 1.1, 1.2, 1.1, 1.0, 1.2]),
-            of(&[1.3, 1.4, 1.5, 1.4, 1.3, 1.5]),
-        );
+        let (quick, slow) =
+            (of(&[1.0, 1.1, 1.2, 1.1, 1.0, 1.2]), of(&[1.3, 1.4, 1.5, 1.4, 1.3, 1.5]));
         let between = of(&[1.15, 1.25, 1.35, 1.25, 1.2, 1.3]);
         assert!(!quick.ties(&slow) && !slow.ties(&quick));
         assert!(between.ties(&quick) && slow.ties(&between));

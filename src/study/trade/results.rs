@@ -98,9 +98,7 @@ impl Trade {
     /// The model error of the method and compliance of a setting.
     #[must_use]
     pub fn model(&self, setting: &Setting) -> Option<&Model> {
-        self.models
-            .iter()
-            .find(|model| model.setting.is_finer_or_coarser(setting))
+        self.models.iter().find(|model| model.setting.is_finer_or_coarser(setting))
     }
 
     /// The compared compliances, first that of the reference.
@@ -144,11 +142,7 @@ impl Trade {
     /// Whether every method that solves the case finds no corner contact.
     #[must_use]
     pub fn is_without_contact(&self) -> bool {
-        let mut outcomes = self
-            .models
-            .iter()
-            .filter_map(|model| model.outcome)
-            .peekable();
+        let mut outcomes = self.models.iter().filter_map(|model| model.outcome).peekable();
         outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
     }
 
@@ -160,10 +154,7 @@ impl Trade {
         for (measured, point) in self.settings.iter_mut().zip(&points) {
             measured.qualifies = measured.is_within(self.within);
             measured.is_on_front = point.is_some_and(|point| {
-                !points
-                    .iter()
-                    .flatten()
-                    .any(|other| dominates(other, &point))
+                !points.iter().flatten().any(|other| dominates(other, &point))
             });
         }
         self.cheapest = self.find_cheapest();
@@ -174,9 +165,7 @@ impl Trade {
     /// most accurate.
     fn find_cheapest(&self) -> Option<usize> {
         let best = self.cheapest_where(|_| true)?;
-        self.settings
-            .iter()
-            .position(|measured| std::ptr::eq(measured, best))
+        self.settings.iter().position(|measured| std::ptr::eq(measured, best))
     }
 
     /// The fastest of the admitted settings that qualifies, see [`Trade::cheapest`].
@@ -200,18 +189,15 @@ impl MeasuredSetting {
     /// Time of a solve in s; infinite without a solve.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        self.found
-            .as_ref()
-            .map_or(f64::INFINITY, |figures| figures.time.seconds)
+        self.found.as_ref().map_or(f64::INFINITY, |figures| figures.time.seconds)
     }
 
     /// The greatest total error, if the setting answers all needed subjects.
     #[must_use]
     pub fn total(&self) -> Option<f64> {
         let figures = self.found.as_ref().ok()?;
-        let answers = Subject::NEEDED
-            .iter()
-            .all(|&subject| figures.total[subject as usize].is_some());
+        let answers =
+            Subject::NEEDED.iter().all(|&subject| figures.total[subject as usize].is_some());
         greatest(&figures.total).filter(|_| answers)
     }
 
@@ -219,9 +205,7 @@ impl MeasuredSetting {
     fn ties(&self, other: &MeasuredSetting) -> bool {
         let time =
             |measured: &MeasuredSetting| measured.found.as_ref().ok().map(|figures| figures.time);
-        time(self)
-            .zip(time(other))
-            .is_some_and(|(one, other)| one.ties(&other))
+        time(self).zip(time(other)).is_some_and(|(one, other)| one.ties(&other))
     }
 
     /// Error and time as coordinates.

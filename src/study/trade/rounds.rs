@@ -58,15 +58,11 @@ impl<'a> Rounds<'a> {
         }
         let inputs = setting.inputs(self.inputs);
         let (mut batches, mut found) = (Batches::default(), None);
-        batches.add(Duration::ZERO, || {
-            found.insert(answer::solve(&inputs, self.is_wanted)).is_ok()
-        });
+        batches
+            .add(Duration::ZERO, || found.insert(answer::solve(&inputs, self.is_wanted)).is_ok());
         let found = stopped(found.unwrap_or(Err(Refusal::Stopped)))?;
         let time = batches.time();
-        self.timed.push(Timed {
-            inputs,
-            batches: time.is_some().then_some(batches),
-        });
+        self.timed.push(Timed { inputs, batches: time.is_some().then_some(batches) });
         self.first_look = self.begun.elapsed();
         Ok(found.and_then(|solution| Ok((Answer::of(&solution), time.ok_or(Refusal::Stopped)?))))
     }
@@ -75,17 +71,9 @@ impl<'a> Rounds<'a> {
     /// time limit.
     pub(super) fn go_on(&self) -> bool {
         let gone = self.begun.elapsed().saturating_sub(self.first_look);
-        let round = if self.done == 0 {
-            self.first_look
-        } else {
-            gone / self.done
-        };
-        let is_unsteady = |timed: &Timed| {
-            timed
-                .batches
-                .as_ref()
-                .is_some_and(|batches| !batches.are_steady())
-        };
+        let round = if self.done == 0 { self.first_look } else { gone / self.done };
+        let is_unsteady =
+            |timed: &Timed| timed.batches.as_ref().is_some_and(|batches| !batches.are_steady());
         gone + round <= self.patience.most && self.timed.iter().any(is_unsteady)
     }
 
@@ -97,18 +85,11 @@ impl<'a> Rounds<'a> {
                 (self.is_wanted)()
                     && black_box(answer::solve(black_box(inputs), self.is_wanted)).is_ok()
             };
-            if batches
-                .as_mut()
-                .is_some_and(|batches| !batches.add(self.patience.batch, once))
-            {
+            if batches.as_mut().is_some_and(|batches| !batches.add(self.patience.batch, once)) {
                 return Err(Refusal::Stopped);
             }
         }
-        Ok(self
-            .timed
-            .iter()
-            .map(|timed| timed.batches.as_ref()?.time())
-            .collect())
+        Ok(self.timed.iter().map(|timed| timed.batches.as_ref()?.time()).collect())
     }
 
     /// The progress, from 0 to 1, for a number of settings.

@@ -49,13 +49,8 @@ pub(super) fn independent_solution(
     let error = solution.deviation.equivalent_error;
     let mut reach = error.abs() + 4.0 * solution.deviation.loaded_deflection();
     loop {
-        let mesh = Mesh::new(
-            &inputs.mesh(),
-            &solution.geometry,
-            solution.mesh_force,
-            error,
-            reach,
-        )?;
+        let mesh =
+            Mesh::new(&inputs.mesh(), &solution.geometry, solution.mesh_force, error, reach)?;
         let mut run = Run::begin(&mesh, inputs, solution.reduced_mass)?;
         run.go(go_on)?;
         if run.most_ahead + error.max(0.0) < reach || mesh.is_whole() {
@@ -89,11 +84,7 @@ impl PairState {
     /// separated pair.
     fn margins(&self) -> impl Iterator<Item = f64> {
         let of = |(index, lead): (usize, &f64)| {
-            if self.touching.has(index) {
-                *lead
-            } else {
-                -lead
-            }
+            if self.touching.has(index) { *lead } else { -lead }
         };
         self.leads.iter().enumerate().map(of)
     }
@@ -114,33 +105,21 @@ impl Oscillator<'_> {
     fn pair_state(&self, t: f64, displacement: f64) -> PairState {
         let pairs = self.mesh.pair_set(self.place(t), self.inside);
         let touches = |pair: &Pair| self.touching.contains(&pair.ahead);
-        let touching = pairs
-            .pairs()
-            .iter()
-            .enumerate()
-            .filter(|(_, pair)| touches(pair));
+        let touching = pairs.pairs().iter().enumerate().filter(|(_, pair)| touches(pair));
         let touching = touching.fold(Touching::NONE, |set, (index, _)| set.with(index));
-        PairState {
-            leads: pairs.leads(touching, displacement),
-            pairs,
-            touching,
-        }
+        PairState { leads: pairs.leads(touching, displacement), pairs, touching }
     }
 
     /// The least margin of all pairs, in m.
     fn least_margin(&self, t: f64, y: &State) -> f64 {
-        self.pair_state(t, y[0])
-            .margins()
-            .fold(f64::INFINITY, f64::min)
+        self.pair_state(t, y[0]).margins().fold(f64::INFINITY, f64::min)
     }
 
     /// Changes the contact of the pair with the least margin.
     fn change_contact(&mut self, t: f64, y: &State) -> Option<i32> {
         let state = self.pair_state(t, y[0]);
-        let (index, _) = state
-            .margins()
-            .enumerate()
-            .min_by(|one, other| one.1.total_cmp(&other.1))?;
+        let (index, _) =
+            state.margins().enumerate().min_by(|one, other| one.1.total_cmp(&other.1))?;
         let changed = state.pairs.pairs()[index].ahead;
         match self.touching.iter().position(|&ahead| ahead == changed) {
             Some(at) => drop(self.touching.swap_remove(at)),
@@ -160,15 +139,8 @@ impl Oscillator<'_> {
 impl Equation<2> for Oscillator<'_> {
     fn slope(&self, t: f64, y: &State) -> State {
         let state = self.pair_state(t, y[0]);
-        let carried: f64 = state
-            .forces()
-            .map(|(pair, force)| pair.weight * force)
-            .sum();
-        let damping = if self.touching.is_empty() {
-            0.0
-        } else {
-            self.damping * y[1]
-        };
+        let carried: f64 = state.forces().map(|(pair, force)| pair.weight * force).sum();
+        let damping = if self.touching.is_empty() { 0.0 } else { self.damping * y[1] };
         State::new(y[1], (self.mesh.force - carried - damping) / self.mass)
     }
 }
@@ -203,20 +175,13 @@ impl<'a> Run<'a> {
         let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
         let swings = (mesh.length - start) / mesh.speed * frequency / TAU;
         if swings > MOST_SWINGS {
-            return Err(Refusal::TooSlow {
-                swings,
-                limit: MOST_SWINGS,
-            });
+            return Err(Refusal::TooSlow { swings, limit: MOST_SWINGS });
         }
         let borders = mesh.borders(start, mesh.ends().1.min(mesh.length + mesh.base_pitch));
         let inside = f64::midpoint(borders[0], borders[1]);
         let pairs = mesh.pair_set(start, inside);
         let (displacement, forces) = pairs.shared(mesh.force);
-        let carries = pairs
-            .pairs()
-            .iter()
-            .zip(forces)
-            .filter(|(_, force)| *force > 0.0);
+        let carries = pairs.pairs().iter().zip(forces).filter(|(_, force)| *force > 0.0);
         let touching = carries.map(|(pair, _)| pair.ahead);
         Ok(Run {
             oscillator: Oscillator {
@@ -257,24 +222,13 @@ impl<'a> Run<'a> {
     /// Integrates one interval, at most to `end` and to the next change of a contact.
     fn advance(&mut self, end: f64) {
         let intervals = ((end - self.t) / self.longest).ceil().max(1.0);
-        let whole = Interval {
-            t: self.t,
-            y: self.y,
-            length: (end - self.t) / intervals,
-        };
+        let whole = Interval { t: self.t, y: self.y, length: (end - self.t) / intervals };
         let change = self.next_contact_change(&whole);
-        let interval = Interval {
-            length: change.unwrap_or(whole.length),
-            ..whole
-        };
+        let interval = Interval { length: change.unwrap_or(whole.length), ..whole };
         self.watch(&interval);
         self.y = self.after(&interval, interval.length);
         self.most_ahead = self.most_ahead.max(self.y[0]);
-        self.t = if change.is_none() && intervals < 1.5 {
-            end
-        } else {
-            self.t + interval.length
-        };
+        self.t = if change.is_none() && intervals < 1.5 { end } else { self.t + interval.length };
         if change.is_some() {
             let changed = self.oscillator.change_contact(self.t, &self.y);
             if changed == Some(0) && self.first_touch.is_none() {
@@ -289,20 +243,11 @@ impl<'a> Run<'a> {
         /// The margin of a pair that has just changed contact is 0 within rounding.
         const SHORTEST: f64 = 1e-9;
         let margin = |after: f64| {
-            self.oscillator
-                .least_margin(interval.t + after, &self.after(interval, after))
+            self.oscillator.least_margin(interval.t + after, &self.after(interval, after))
         };
-        let checks = [
-            SHORTEST * interval.length,
-            0.5 * interval.length,
-            interval.length,
-        ];
+        let checks = [SHORTEST * interval.length, 0.5 * interval.length, interval.length];
         let at = (0..checks.len()).find(|&at| margin(checks[at]) < 0.0)?;
-        Some(if at == 0 {
-            checks[0]
-        } else {
-            root::between(checks[at - 1], checks[at], margin)
-        })
+        Some(if at == 0 { checks[0] } else { root::between(checks[at - 1], checks[at], margin) })
     }
 
     fn after(&self, interval: &Interval, length: f64) -> State {
@@ -328,10 +273,8 @@ impl<'a> Run<'a> {
         /// Half the step of the difference quotient, relative to the interval. A peak closer to an
         /// end of the interval is missed; its error is of second order.
         const STEP: f64 = 1e-5;
-        let force = |after: f64| {
-            self.oscillator
-                .force(interval.t + after, &self.after(interval, after))
-        };
+        let force =
+            |after: f64| self.oscillator.force(interval.t + after, &self.after(interval, after));
         let slope = |after: f64| {
             let half_step = STEP * interval.length;
             force((after + half_step).min(interval.length)) - force((after - half_step).max(0.0))
@@ -346,9 +289,7 @@ impl<'a> Run<'a> {
 
     fn found(&self) -> Second {
         let mesh = self.oscillator.mesh;
-        let angle = self
-            .first_touch
-            .map(|t| -self.oscillator.place(t) / mesh.base_radii.1);
+        let angle = self.first_touch.map(|t| -self.oscillator.place(t) / mesh.base_radii.1);
         Second {
             first_contact_angle: angle.filter(|&angle| angle > 0.0),
             peak_force: self.peak_force,

@@ -10,12 +10,7 @@ use crate::model::inputs::Method;
 use crate::model::stiffness_spread::StiffnessModels;
 
 /// The compared methods, fastest first.
-pub const METHODS: [Method; 4] = [
-    Method::Paper,
-    Method::Exact,
-    Method::Static,
-    Method::Dynamic,
-];
+pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
 /// The compared numbers of intervals between stations.
 pub const STATIONS: [usize; 8] = [8, 16, 32, 64, 128, 256, 512, 1024];
 /// Exponents of the compared tolerances: 1e-3, 1e-4 and so on.
@@ -47,10 +42,8 @@ impl Setting {
     pub fn all(inputs: &Inputs) -> Vec<Setting> {
         let mut settings = Setting::fineness(inputs);
         for models in StiffnessModels::covering(inputs) {
-            let others = METHODS.map(|method| Setting {
-                models: Some(models),
-                ..Setting::usual(method, inputs)
-            });
+            let others = METHODS
+                .map(|method| Setting { models: Some(models), ..Setting::usual(method, inputs) });
             for other in others {
                 if !settings.contains(&other) {
                     settings.push(other);
@@ -64,36 +57,20 @@ impl Setting {
     fn fineness(inputs: &Inputs) -> Vec<Setting> {
         let closed_form = Method::CLOSED_FORM.into_iter().flat_map(|method| {
             let plain = Setting::usual(method, inputs);
-            [
-                plain,
-                Setting {
-                    accurate: true,
-                    ..plain
-                },
-            ]
-            .into_iter()
-            .flat_map(Setting::with_stations)
+            [plain, Setting { accurate: true, ..plain }]
+                .into_iter()
+                .flat_map(Setting::with_stations)
         });
         let shared = Setting::usual(Method::Static, inputs).with_stations();
         let inertia = Setting::usual(Method::Dynamic, inputs);
         let tolerances = TOLERANCE_EXPONENTS
-            .map(move |exponent| Setting {
-                tolerance: Some(power_of_ten(-exponent)),
-                ..inertia
-            })
+            .map(move |exponent| Setting { tolerance: Some(power_of_ten(-exponent)), ..inertia })
             .filter(move |setting| *setting != inertia);
-        let choice = Setting {
-            stations: None,
-            models: None,
-            ..Setting::usual(Method::Auto, inputs)
-        };
-        let coarse = Setting {
-            tolerance: Some(power_of_ten(-TOLERANCE_EXPONENTS.start())),
-            ..inertia
-        };
-        let corner = coarse
-            .with_stations()
-            .filter(move |setting| *setting != coarse);
+        let choice =
+            Setting { stations: None, models: None, ..Setting::usual(Method::Auto, inputs) };
+        let coarse =
+            Setting { tolerance: Some(power_of_ten(-TOLERANCE_EXPONENTS.start())), ..inertia };
+        let corner = coarse.with_stations().filter(move |setting| *setting != coarse);
         closed_form
             .chain(shared)
             .chain(tolerances)
@@ -106,10 +83,7 @@ impl Setting {
     /// The setting of a case that sets only the method.
     #[must_use]
     pub fn usual(method: Method, inputs: &Inputs) -> Setting {
-        let inputs = Inputs {
-            method,
-            ..inputs.clone()
-        };
+        let inputs = Inputs { method, ..inputs.clone() };
         Setting {
             method,
             models: Some(StiffnessModels::by_default(&inputs)),
@@ -174,10 +148,7 @@ impl Setting {
     #[must_use]
     pub fn inputs(&self, inputs: &Inputs) -> Inputs {
         let inputs = self.models.map_or_else(
-            || Inputs {
-                tooth_compliance: None,
-                ..inputs.clone()
-            },
+            || Inputs { tooth_compliance: None, ..inputs.clone() },
             |models| models.in_place_of(inputs),
         );
         Inputs {
@@ -192,22 +163,14 @@ impl Setting {
     /// The setting that the solve used: another one if method `auto` chose it.
     #[must_use]
     pub fn taken(&self, inputs: &Inputs, method: Method) -> Setting {
-        let inputs = Inputs {
-            method,
-            ..self.inputs(inputs)
-        };
-        Setting {
-            method,
-            models: Some(StiffnessModels::of(&inputs)),
-            ..*self
-        }
+        let inputs = Inputs { method, ..self.inputs(inputs) };
+        Setting { method, models: Some(StiffnessModels::of(&inputs)), ..*self }
     }
 
     /// The number of stations in the syntax of a case file.
     #[must_use]
     pub fn stations_text(&self) -> String {
-        self.stations
-            .map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
+        self.stations.map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
     }
 
     /// Writes the setting into a case. If the case names no compliance and the setting has the
@@ -215,26 +178,15 @@ impl Setting {
     pub fn apply(&self, case: &mut Case) {
         write(case, "model.method", self.method.name());
         write(case, "model.stations", &self.stations_text());
-        write(
-            case,
-            "model.accurate",
-            if self.accurate { "true" } else { "false" },
-        );
+        write(case, "model.accurate", if self.accurate { "true" } else { "false" });
         if let Some(tolerance) = self.tolerance {
             write(case, "model.tolerance", &format!("{tolerance:e}"));
         }
-        let own = case
-            .inputs()
-            .ok()
-            .and_then(|inputs| Setting::of(&inputs).models);
+        let own = case.inputs().ok().and_then(|inputs| Setting::of(&inputs).models);
         if own == self.models {
             return;
         }
-        write(
-            case,
-            "model.tooth_compliance",
-            self.models.map_or("", |models| models.tooth.name),
-        );
+        write(case, "model.tooth_compliance", self.models.map_or("", |models| models.tooth.name));
         if let Some(contact) = self.models.and_then(|models| models.contact) {
             write(case, "model.contact_compliance", contact.name);
         }
@@ -257,11 +209,7 @@ impl fmt::Display for Setting {
         if let Some(tolerance) = self.tolerance {
             write!(f, " and tolerance {tolerance:e}")?;
         }
-        if self.accurate {
-            f.write_str(", accurate")
-        } else {
-            Ok(())
-        }
+        if self.accurate { f.write_str(", accurate") } else { Ok(()) }
     }
 }
 
@@ -289,10 +237,7 @@ mod tests {
         for models in StiffnessModels::covering(&table_1()) {
             for method in METHODS {
                 let is_it = |one: &&Setting| one.method == method && one.models == Some(models);
-                assert!(
-                    settings.iter().any(|one| is_it(&one)),
-                    "{method:?} {models:?}"
-                );
+                assert!(settings.iter().any(|one| is_it(&one)), "{method:?} {models:?}");
             }
         }
         for (at, setting) in settings.iter().enumerate() {

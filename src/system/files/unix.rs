@@ -106,35 +106,17 @@ fn keep_attributes(path: &Path, new: &File) -> io::Result<()> {
 // On a file system without attributes the list is empty.
 fn names(list: io::Result<xattr::XAttrs>) -> io::Result<BTreeSet<OsString>> {
     match list {
-        Ok(list) => Ok(list
-            .filter(|name| !name.as_bytes().starts_with(OF_THE_SYSTEM))
-            .collect()),
+        Ok(list) => Ok(list.filter(|name| !name.as_bytes().starts_with(OF_THE_SYSTEM)).collect()),
         Err(error) if error.kind() == ErrorKind::Unsupported => Ok(BTreeSet::new()),
         Err(error) => Err(error),
     }
 }
 
 fn lost(error: &io::Error, name: &OsStr) -> io::Error {
-    refused(
-        error,
-        format!(
-            "the attribute {} of the file would be lost ({error})",
-            name.display()
-        ),
-    )
+    refused(error, format!("the attribute {} of the file would be lost ({error})", name.display()))
 }
 
 fn refused(error: &io::Error, words: String) -> io::Error {
-    let is_full = matches!(
-        error.kind(),
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded
-    );
-    io::Error::new(
-        if is_full {
-            error.kind()
-        } else {
-            ErrorKind::Unsupported
-        },
-        words,
-    )
+    let is_full = matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded);
+    io::Error::new(if is_full { error.kind() } else { ErrorKind::Unsupported }, words)
 }

@@ -18,15 +18,10 @@ impl App {
             return Stages::EVERY;
         }
         let plan = self.layout.plan();
-        let seen = Pane::ALL
-            .into_iter()
-            .filter(|&pane| !plan.area(pane).is_empty());
+        let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
         // The verdict with its notes is visible even if only the chart is: it needs all stages
         // except the stiffness spread and the late stages.
-        let verdict = Pane::Results
-            .needs()
-            .without(Stage::Band)
-            .except(Stages::LATE);
+        let verdict = Pane::Results.needs().without(Stage::Band).except(Stages::LATE);
         seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
     }
 
@@ -67,10 +62,8 @@ impl App {
         self.tab.refusal = None;
         let (case, focus) = (&self.tab.case, self.tab.form.focus);
         let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
-        self.tab.problems = problems
-            .into_iter()
-            .map(|problem| (place_of(&problem), problem.for_form()))
-            .collect();
+        self.tab.problems =
+            problems.into_iter().map(|problem| (place_of(&problem), problem.for_form())).collect();
         None
     }
 
@@ -87,16 +80,9 @@ impl App {
 
     /// A request for the stages that became visible after the last request.
     pub(in crate::tui) fn catch_up(&mut self) -> Option<Request> {
-        let lacks = !self
-            .wanted()
-            .iter()
-            .all(|stage| self.tab.requested.has(stage));
+        let lacks = !self.wanted().iter().all(|stage| self.tab.requested.has(stage));
         let lacks = lacks || (self.wants_stiffness() && !self.tab.requested_stiffness);
-        if lacks && self.tab.problems.is_empty() {
-            self.request()
-        } else {
-            None
-        }
+        if lacks && self.tab.problems.is_empty() { self.request() } else { None }
     }
 
     /// Shows an answer in its tab, unless a later request is running.
@@ -110,15 +96,12 @@ impl App {
     /// The benchmark with this serial.
     pub(in crate::tui) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
         let all = std::iter::once(&mut self.tab).chain(&mut self.others);
-        all.filter_map(|tab| tab.traded.as_mut())
-            .find(|traded| traded.serial == serial)
+        all.filter_map(|tab| tab.traded.as_mut()).find(|traded| traded.serial == serial)
     }
 
     /// The tab that waits for the answer with this serial.
     pub(in crate::tui) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
-        std::iter::once(&mut self.tab)
-            .chain(&mut self.others)
-            .find(|tab| tab.serial == serial)
+        std::iter::once(&mut self.tab).chain(&mut self.others).find(|tab| tab.serial == serial)
     }
 }
 
@@ -136,12 +119,7 @@ mod tests {
         let mut case = Case::table_1();
         case.set("model.method", "dynamic").expect("a method");
         document.case = case;
-        App::answered(
-            document,
-            None,
-            (Look::FULL, Size::new(140, 45)),
-            first_frame,
-        )
+        App::answered(document, None, (Look::FULL, Size::new(140, 45)), first_frame)
     }
 
     #[test]

@@ -21,11 +21,8 @@ impl App {
     #[must_use]
     pub(crate) fn title(&self, pane: Pane) -> Title {
         let plan = self.layout.plan();
-        let hidden = if plan.names_hidden() == Some(pane) {
-            plan.hidden().collect()
-        } else {
-            Vec::new()
-        };
+        let hidden =
+            if plan.names_hidden() == Some(pane) { plan.hidden().collect() } else { Vec::new() };
         Title {
             pane,
             has_focus: self.layout.focus() == pane && self.prompts.is_empty(),
@@ -47,11 +44,7 @@ impl App {
 
     /// The context of a dialog.
     pub(crate) fn surroundings(&self) -> Surroundings<'_> {
-        Surroundings {
-            screen: self.layout.size(),
-            look: self.look,
-            cursor: self.cursor_scope(),
-        }
+        Surroundings { screen: self.layout.size(), look: self.look, cursor: self.cursor_scope() }
     }
 
     /// The form with its case.
@@ -85,10 +78,7 @@ impl App {
             state: tab.results,
             answer: tab.answer.as_ref(),
             baseline: self.baseline.as_ref(),
-            variants: tab
-                .variants
-                .as_ref()
-                .filter(|_| self.first_variant.is_some()),
+            variants: tab.variants.as_ref().filter(|_| self.first_variant.is_some()),
             first_variant: self.first_variant.unwrap_or(0),
             earlier: tab.earlier.as_ref(),
             refusal: tab.refusal.as_ref(),

@@ -33,14 +33,7 @@ const fn shown_in(
     name: &'static str,
     sentence: &'static str,
 ) -> Binding {
-    Binding {
-        chords,
-        command,
-        places,
-        name,
-        sentence,
-        footer,
-    }
+    Binding { chords, command, places, name, sentence, footer }
 }
 
 // For the palette and the help.

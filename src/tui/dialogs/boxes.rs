@@ -47,10 +47,7 @@ pub(super) fn frame(
     let area = outside(wanted, screen);
     Clear.render(area, buffer);
     let title = Line::styled(
-        format!(
-            " {} ",
-            text::cut(title, usize::from(area.width).saturating_sub(6))
-        ),
+        format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))),
         theme.title,
     );
     Block::bordered().title(title).render(area, buffer);
@@ -71,10 +68,7 @@ pub(super) fn path_box(
     for (line, y) in how.iter().zip(inner.top() + 1..inner.bottom()) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), theme.faint);
     }
-    let line = Rect {
-        height: inner.height.min(1),
-        ..inner
-    };
+    let line = Rect { height: inner.height.min(1), ..inner };
     text::edited(input, line, theme.focus, buffer)
 }
 
@@ -82,33 +76,21 @@ fn outside(wanted: Size, screen: Rect) -> Rect {
     let room = room(screen.as_size());
     let height = wanted.height.clamp(1, room.height.max(1)) + 2;
     let width = wanted.width.max(NARROWEST).min(room.width) + 4;
-    screen
-        .centered(Constraint::Length(width), Constraint::Length(height))
-        .intersection(screen)
+    screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen)
 }
 
 /// The area inside a box.
 #[must_use]
 pub(super) fn inside(wanted: Size, screen: Rect) -> Rect {
     let inner = Block::bordered().inner(outside(wanted, screen));
-    Rect {
-        x: inner.x + 1,
-        width: inner.width.saturating_sub(2),
-        ..inner
-    }
+    Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner }
 }
 
 /// Splits an area into a list on the left and its details on the right, with a rule between them.
 pub(super) fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
     for y in area.top()..area.bottom() {
-        buffer.set_stringn(
-            area.x + left,
-            y,
-            "│",
-            usize::from(area.width > left),
-            Style::new(),
-        );
+        buffer.set_stringn(area.x + left, y, "│", usize::from(area.width > left), Style::new());
     }
     parted(area)
 }
@@ -119,15 +101,8 @@ pub(super) fn parted(area: Rect) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
     let right = area.width.saturating_sub(left + 2);
     (
-        Rect {
-            width: left.saturating_sub(1),
-            ..area
-        },
-        Rect {
-            x: area.right() - right,
-            width: right,
-            ..area
-        },
+        Rect { width: left.saturating_sub(1), ..area },
+        Rect { x: area.right() - right, width: right, ..area },
     )
 }
 
@@ -162,9 +137,7 @@ pub(super) fn line_at(
     area: Rect,
     at: Position,
 ) -> Option<usize> {
-    let line = area
-        .contains(at)
-        .then(|| top_of(marked, area) + usize::from(at.y - area.y));
+    let line = area.contains(at).then(|| top_of(marked, area) + usize::from(at.y - area.y));
     line.filter(|&line| line < count)
 }
 
@@ -176,8 +149,5 @@ fn top_of(marked: Option<usize>, area: Rect) -> usize {
 pub(super) fn extent(lines: &[String], more: usize) -> Size {
     let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
     let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
-    Size {
-        width: size(width),
-        height: size(lines.len() + more),
-    }
+    Size { width: size(width), height: size(lines.len() + more) }
 }

@@ -24,10 +24,7 @@ pub(crate) use state::Browser;
 use state::Line;
 
 /// The full width, and a limited number of lines.
-const SIZE: Size = Size {
-    width: u16::MAX,
-    height: 34,
-};
+const SIZE: Size = Size { width: u16::MAX, height: 34 };
 /// Number of visible recent cases.
 const RECENTS: usize = 6;
 
@@ -119,22 +116,12 @@ fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> 
         .as_ref()
         .map_or_else(String::new, |listing| listing.folder.display().to_string());
     let width = usize::from(inner.width);
-    buffer.set_stringn(
-        inner.x,
-        inner.y,
-        text::cut_front(&folder, width),
-        width,
-        theme.title,
-    );
+    buffer.set_stringn(inner.x, inner.y, text::cut_front(&folder, width), width, theme.title);
     let body = below_line(inner);
     let (left, right) = boxes::halves(body, buffer);
     draw_lists(browser, left, theme, buffer);
     draw_preview(browser, right, theme, buffer);
-    let line = Rect {
-        y: inner.y + 1,
-        height: inner.height.saturating_sub(1).min(1),
-        ..inner
-    };
+    let line = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1).min(1), ..inner };
     if browser.input.value().is_empty() {
         buffer.set_stringn(
             line.x + 1,
@@ -152,55 +139,25 @@ fn line_at(browser: &Browser, screen: Size, at: Position) -> Option<usize> {
     let inner = boxes::inside(SIZE, Rect::from((Position::ORIGIN, screen)));
     let (above, below) = stacked(browser, boxes::parted(below_line(inner)).0);
     let first = browser.count_of_folder();
-    let in_folder = boxes::line_at(
-        first,
-        Some(browser.marked).filter(|&marked| marked < first),
-        above,
-        at,
-    );
-    let recents = Rect {
-        y: below.y + 1,
-        height: below.height.saturating_sub(1),
-        ..below
-    };
+    let in_folder =
+        boxes::line_at(first, Some(browser.marked).filter(|&marked| marked < first), above, at);
+    let recents = Rect { y: below.y + 1, height: below.height.saturating_sub(1), ..below };
     let recent = || {
-        boxes::line_at(
-            browser.count_of_recents(),
-            browser.marked.checked_sub(first),
-            recents,
-            at,
-        )
+        boxes::line_at(browser.count_of_recents(), browser.marked.checked_sub(first), recents, at)
     };
     in_folder.or_else(|| recent().map(|line| first + line))
 }
 
 fn below_line(inner: Rect) -> Rect {
-    Rect {
-        y: inner.y + 2,
-        height: inner.height.saturating_sub(2),
-        ..inner
-    }
+    Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner }
 }
 
 // Splits an area into the folder and, below it, the recent cases with their title, if any.
 fn stacked(browser: &Browser, area: Rect) -> (Rect, Rect) {
-    let recents = browser
-        .count_of_recents()
-        .min(RECENTS)
-        .min(usize::from(area.height) / 3);
+    let recents = browser.count_of_recents().min(RECENTS).min(usize::from(area.height) / 3);
     let height = if recents == 0 { 0 } else { recents as u16 + 1 };
-    let above = Rect {
-        height: area.height - height,
-        ..area
-    };
-    (
-        above,
-        Rect {
-            y: above.bottom(),
-            height,
-            ..area
-        },
-    )
+    let above = Rect { height: area.height - height, ..area };
+    (above, Rect { y: above.bottom(), height, ..area })
 }
 
 fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
@@ -211,14 +168,7 @@ fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer)
         let first = browser.count_of_folder();
         let name = |at: usize| line_of(browser, first + at);
         let marked = browser.marked.checked_sub(first);
-        boxes::draw_window(
-            browser.count_of_recents(),
-            name,
-            marked,
-            area,
-            theme,
-            buffer,
-        );
+        boxes::draw_window(browser.count_of_recents(), name, marked, area, theme, buffer);
     }
 }
 
@@ -242,14 +192,8 @@ fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer
             Ok(_) => return,
         },
     };
-    let from = area.y
-        + u16::try_from(count)
-            .unwrap_or(u16::MAX)
-            .min(area.height.saturating_sub(3));
-    for (line, y) in text::wrap(said, area.width.into())
-        .iter()
-        .zip(from..area.bottom())
-    {
+    let from = area.y + u16::try_from(count).unwrap_or(u16::MAX).min(area.height.saturating_sub(3));
+    for (line, y) in text::wrap(said, area.width.into()).iter().zip(from..area.bottom()) {
         buffer.set_stringn(
             area.x,
             y,
@@ -292,24 +236,15 @@ fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffe
     };
     let is_missing =
         matches!(browser.line(browser.marked), Some(Line::Recent(recent)) if recent.is_missing);
-    let preview = browser
-        .preview
-        .as_ref()
-        .filter(|(own, _)| *own == sight)
-        .map(|(_, preview)| preview);
+    let preview =
+        browser.preview.as_ref().filter(|(own, _)| *own == sight).map(|(_, preview)| preview);
     let mut lines = Vec::new();
     if let (Viewport::File(path), true) = (&sight, browser.marks_recent()) {
-        lines.push((
-            text::cut_front(&path.display().to_string(), area.width.into()),
-            theme.faint,
-        ));
+        lines.push((text::cut_front(&path.display().to_string(), area.width.into()), theme.faint));
     }
     match preview {
         _ if is_missing => {
-            lines.push((
-                "The file does not exist any more.".to_owned(),
-                theme.problem,
-            ));
+            lines.push(("The file does not exist any more.".to_owned(), theme.problem));
         }
         None => lines.push(("reading ...".to_owned(), theme.faint)),
         Some(preview) => lines.extend(lines_of(preview, area.width.into(), theme)),
@@ -324,18 +259,11 @@ fn lines_of(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Styl
         Preview::Case(case, is_newer) => {
             let newer =
                 is_newer.then(|| ("Newer format: opens read-only.".to_owned(), theme.problem));
-            newer
-                .into_iter()
-                .chain(digest::lines(case, width, theme))
-                .collect()
+            newer.into_iter().chain(digest::lines(case, width, theme)).collect()
         }
         Preview::Folder(cases, folders) => {
             let counted = |count: usize, one: &str| {
-                if count == 1 {
-                    format!("1 {one}")
-                } else {
-                    format!("{count} {one}s")
-                }
+                if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
             };
             vec![(
                 format!(
@@ -350,9 +278,7 @@ fn lines_of(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Styl
             let head = text::wrap("Required values are missing:", width)
                 .into_iter()
                 .map(|line| (line, theme.note));
-            let fields = fields
-                .iter()
-                .map(|field| (text::cut(field, width), Style::new()));
+            let fields = fields.iter().map(|field| (text::cut(field, width), Style::new()));
             head.chain(fields).collect()
         }
         Preview::Faults(faults, more) => {

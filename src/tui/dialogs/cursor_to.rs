@@ -47,10 +47,7 @@ impl Dialog for CursorTo {
     ) -> Option<Position> {
         let (input, scope) = (&self.input, &around.cursor);
         let theme = around.look.theme;
-        let how = text::wrap(
-            HOW,
-            usize::from(WIDTH.min(boxes::room(screen.as_size()).width)),
-        );
+        let how = text::wrap(HOW, usize::from(WIDTH.min(boxes::room(screen.as_size()).width)));
         let inner = boxes::frame(
             "Cursor to",
             Size::new(WIDTH, how.len() as u16 + 2),
@@ -74,10 +71,7 @@ impl Dialog for CursorTo {
                 style,
             );
         }
-        let line = Rect {
-            height: inner.height.min(1),
-            ..inner
-        };
+        let line = Rect { height: inner.height.min(1), ..inner };
         let cursor = text::edited(input, line, theme.focus, buffer);
         text::ending(
             ending(scope, input.value()).as_deref(),

@@ -10,34 +10,20 @@ use crate::tui::theme::Theme;
 #[must_use]
 pub(super) fn lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style)> {
     let plain = Style::new();
-    let title = if digest.title.is_empty() {
-        "without a title"
-    } else {
-        &digest.title
-    };
+    let title = if digest.title.is_empty() { "without a title" } else { &digest.title };
     let said = |text: &str, style: Style| {
-        text::wrap(text, width)
-            .into_iter()
-            .map(move |line| (line, style))
+        text::wrap(text, width).into_iter().map(move |line| (line, style))
     };
     let empty = || std::iter::once((String::new(), plain));
     let mut lines: Vec<_> = said(title, theme.title).collect();
     lines.extend(
-        [
-            &digest.pair,
-            &digest.load,
-            &format!("method {}", digest.method),
-        ]
-        .into_iter()
-        .flat_map(|text| said(text, plain)),
+        [&digest.pair, &digest.load, &format!("method {}", digest.method)]
+            .into_iter()
+            .flat_map(|text| said(text, plain)),
     );
     lines.extend(empty().chain(said(&digest.outcome, theme.focus)));
     for (standing, text) in &digest.limits {
-        let style = if standing.holds() {
-            plain
-        } else {
-            theme.problem
-        };
+        let style = if standing.holds() { plain } else { theme.problem };
         lines.extend(said(&format!("{} {text}", standing.word()), style));
     }
     if digest.limits.is_empty() {

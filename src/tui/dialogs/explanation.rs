@@ -42,14 +42,7 @@ impl Explanation {
         case: String,
         value: Option<Shown>,
     ) -> Explanation {
-        Explanation {
-            quantity,
-            case,
-            value,
-            page: None,
-            top: 0,
-            marked: None,
-        }
+        Explanation { quantity, case, value, page: None, top: 0, marked: None }
     }
 
     /// Shows the page if it belongs to this explanation.
@@ -65,15 +58,9 @@ impl Explanation {
         let Some(Ok(page)) = &self.page else {
             return Vec::new();
         };
-        let (acting, idle): (Vec<_>, Vec<_>) = page
-            .effects
-            .iter()
-            .partition(|effect| !effect.change.is_empty());
-        acting
-            .into_iter()
-            .chain(idle)
-            .map(|effect| effect.key)
-            .collect()
+        let (acting, idle): (Vec<_>, Vec<_>) =
+            page.effects.iter().partition(|effect| !effect.change.is_empty());
+        acting.into_iter().chain(idle).map(|effect| effect.key).collect()
     }
 
     /// The selected field.
@@ -85,19 +72,15 @@ impl Explanation {
     /// Selects the next or previous field, wrapping around.
     pub(crate) fn mark(&mut self, by: isize) {
         let count = self.fields().len();
-        let from = self
-            .marked
-            .map_or(if by > 0 { count.saturating_sub(1) } else { 0 }, |marked| {
-                marked
-            });
+        let from =
+            self.marked.map_or(if by > 0 { count.saturating_sub(1) } else { 0 }, |marked| marked);
         self.marked = (count > 0).then(|| (from + count).saturating_add_signed(by) % count);
     }
 
     /// Scrolls by `by` lines, within the page.
     pub fn scroll(&mut self, by: isize, screen: Size, ascii: bool) {
-        let last = text(self, screen, ascii)
-            .len()
-            .saturating_sub(boxes::room(screen).height.into());
+        let last =
+            text(self, screen, ascii).len().saturating_sub(boxes::room(screen).height.into());
         self.top = self.top.saturating_add_signed(by).min(last);
     }
 
@@ -154,25 +137,14 @@ impl Dialog for Explanation {
         let look = around.look;
         let theme = look.theme;
         let lines = text(self, screen.as_size(), look.ascii);
-        let wanted = Size {
-            width: u16::MAX,
-            height: u16::try_from(lines.len()).unwrap_or(u16::MAX),
-        };
+        let wanted =
+            Size { width: u16::MAX, height: u16::try_from(lines.len()).unwrap_or(u16::MAX) };
         let inner = boxes::frame(self.quantity.label.trim(), wanted, screen, theme, buffer);
         let marked = place_of_field(self, &lines);
-        for ((at, line), y) in lines
-            .iter()
-            .enumerate()
-            .skip(self.top)
-            .zip(inner.top()..inner.bottom())
+        for ((at, line), y) in
+            lines.iter().enumerate().skip(self.top).zip(inner.top()..inner.bottom())
         {
-            buffer.set_stringn(
-                inner.x,
-                y,
-                &line.text,
-                inner.width.into(),
-                style(line.kind, theme),
-            );
+            buffer.set_stringn(inner.x, y, &line.text, inner.width.into(), style(line.kind, theme));
             if let Some((_, column, key)) = marked.filter(|(row, ..)| *row == at) {
                 let x = inner.x + column;
                 buffer.set_stringn(x.saturating_sub(1), y, "▸", 1, theme.focus);
@@ -192,28 +164,18 @@ impl Dialog for Explanation {
 
 fn text(explanation: &Explanation, screen: Size, ascii: bool) -> Vec<Line> {
     let width = boxes::room(screen).width.into();
-    let said = |text: &str| {
-        vec![Line {
-            kind: Kind::Text,
-            text: text.to_owned(),
-        }]
-    };
+    let said = |text: &str| vec![Line { kind: Kind::Text, text: text.to_owned() }];
     let page = match &explanation.page {
         None => said("computing: each field is changed by a small step"),
         Some(Err(reason)) => said(reason),
         Some(Ok(page)) => lines(page, &explanation.case, width),
     };
-    let other_units = explanation.value.iter().flat_map(|value| {
-        said(&format!(
-            "{value} in inch units; this page is in metric ones."
-        ))
-    });
+    let other_units = explanation
+        .value
+        .iter()
+        .flat_map(|value| said(&format!("{value} in inch units; this page is in metric ones.")));
     let lines = other_units.chain(page);
-    if ascii {
-        lines.flat_map(|line| in_ascii(&line, width)).collect()
-    } else {
-        lines.collect()
-    }
+    if ascii { lines.flat_map(|line| in_ascii(&line, width)).collect() } else { lines.collect() }
 }
 
 // Symbols spelled in ASCII may need another line.
@@ -222,19 +184,13 @@ fn in_ascii(line: &Line, width: usize) -> Vec<Line> {
     let indent = written.len() - written.trim_start().len();
     let pieces = words::wrap(&written[indent..], width.saturating_sub(indent + 2));
     if written.len() <= width {
-        return vec![Line {
-            kind: line.kind,
-            text: written.into_owned(),
-        }];
+        return vec![Line { kind: line.kind, text: written.into_owned() }];
     }
     let lead = |at: usize| " ".repeat(indent + if at == 0 { 0 } else { 2 });
     pieces
         .iter()
         .enumerate()
-        .map(|(at, piece)| Line {
-            kind: line.kind,
-            text: lead(at) + piece,
-        })
+        .map(|(at, piece)| Line { kind: line.kind, text: lead(at) + piece })
         .collect()
 }
 
@@ -254,11 +210,7 @@ fn place_of_field(explanation: &Explanation, lines: &[Line]) -> Option<(usize, u
         .skip(list + 1)
         .find_map(|(row, line)| Some((row, whole(&line.text)?)));
     let (row, at) = found?;
-    Some((
-        row,
-        u16::try_from(lines[row].text[..at].chars().count()).ok()?,
-        key,
-    ))
+    Some((row, u16::try_from(lines[row].text[..at].chars().count()).ok()?, key))
 }
 
 fn style(kind: Kind, theme: &Theme) -> Style {

@@ -34,12 +34,6 @@ impl Dialog for ExportTo {
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        path_box(
-            "Export",
-            NAMING,
-            &self.input,
-            around.look.theme,
-            (area, buffer),
-        )
+        path_box("Export", NAMING, &self.input, around.look.theme, (area, buffer))
     }
 }

@@ -26,18 +26,11 @@ impl Page {
     /// A page that shows its first line.
     #[must_use]
     pub(crate) fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
-        Page {
-            title: title.into(),
-            lines,
-            top: 0,
-            is_of_results: false,
-        }
+        Page { title: title.into(), lines, top: 0, is_of_results: false }
     }
 
     fn scroll(&mut self, by: isize, screen: Size) {
-        let last = wrapped(self, screen)
-            .len()
-            .saturating_sub(room(screen).height.into());
+        let last = wrapped(self, screen).len().saturating_sub(room(screen).height.into());
         self.top = self.top.saturating_add_signed(by).min(last);
     }
 }
@@ -74,11 +67,7 @@ fn wrapped(page: &Page, screen: Size) -> Vec<String> {
         let pieces = text::wrap(text, width.saturating_sub(indent));
         let head = head.to_owned();
         pieces.into_iter().enumerate().map(move |(index, piece)| {
-            if index == 0 {
-                head.clone() + &piece
-            } else {
-                " ".repeat(indent) + &piece
-            }
+            if index == 0 { head.clone() + &piece } else { " ".repeat(indent) + &piece }
         })
     };
     page.lines.iter().flat_map(wrap).collect()

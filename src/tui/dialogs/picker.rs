@@ -23,10 +23,7 @@ pub(crate) use item::{Pick, VARIANT};
 pub(crate) use state::{Context, List, Picker};
 
 /// Preferred size of a list.
-const SIZE: Size = Size {
-    width: 100,
-    height: 20,
-};
+const SIZE: Size = Size { width: 100, height: 20 };
 /// Width of the keys of a command.
 const KEYS: usize = 14;
 
@@ -81,22 +78,10 @@ fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Op
     } else {
         let above = above_detail(&items, list);
         draw_items(&items, picker.marked, above, theme, buffer);
-        let below = Rect {
-            y: above.bottom(),
-            height: list.height - above.height,
-            ..list
-        };
+        let below = Rect { y: above.bottom(), height: list.height - above.height, ..list };
         draw_detail(items.get(picker.marked), below, theme, buffer);
     }
-    text::edited(
-        &picker.input,
-        Rect {
-            height: inner.height.min(1),
-            ..inner
-        },
-        theme.focus,
-        buffer,
-    )
+    text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
 }
 
 // The index of the line at a cell, if any.
@@ -112,49 +97,26 @@ fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
 }
 
 fn below_line(inner: Rect) -> Rect {
-    Rect {
-        y: inner.y + 1,
-        height: inner.height.saturating_sub(1),
-        ..inner
-    }
+    Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner }
 }
 
 fn above_detail(items: &[Item], list: Rect) -> Rect {
-    Rect {
-        height: list.height - detail_lines(items, list),
-        ..list
-    }
+    Rect { height: list.height - detail_lines(items, list), ..list }
 }
 
 // Name, keys, and as much of the description as fits.
 fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
     let widest = |text: fn(&Item) -> &str, most: usize| {
-        items
-            .iter()
-            .map(|item| text(item).width().min(most))
-            .max()
-            .unwrap_or(0)
+        items.iter().map(|item| text(item).width().min(most)).max().unwrap_or(0)
     };
     let keys = widest(|item| &item.keys, KEYS);
     let name = widest(|item| &item.name, usize::from(area.width) * 2 / 5);
     let line = |item: &Item| {
-        let keys = if keys == 0 {
-            String::new()
-        } else {
-            format!("  {}", text::padded(&item.keys, keys))
-        };
-        format!("{}{keys}  {}", text::padded(&item.name, name), item.about)
-            .trim_end()
-            .to_owned()
+        let keys =
+            if keys == 0 { String::new() } else { format!("  {}", text::padded(&item.keys, keys)) };
+        format!("{}{keys}  {}", text::padded(&item.name, name), item.about).trim_end().to_owned()
     };
-    draw_window(
-        items.len(),
-        |at| line(&items[at]),
-        Some(marked),
-        area,
-        theme,
-        buffer,
-    );
+    draw_window(items.len(), |at| line(&items[at]), Some(marked), area, theme, buffer);
     say_if_none(items, area, theme, buffer);
 }
 
@@ -167,11 +129,7 @@ fn detail_lines(items: &[Item], list: Rect) -> u16 {
 }
 
 fn detail(item: &Item) -> String {
-    let keys = if item.keys.is_empty() {
-        String::new()
-    } else {
-        format!(" ({})", item.keys)
-    };
+    let keys = if item.keys.is_empty() { String::new() } else { format!(" ({})", item.keys) };
     format!("{}{keys}: {}", item.name, item.about)
 }
 
@@ -186,9 +144,8 @@ fn draw_detail(item: Option<&Item>, area: Rect, theme: &Theme, buffer: &mut Buff
         area.width.into(),
         theme.rule,
     );
-    for (line, y) in text::wrap(&detail(item), area.width.into())
-        .iter()
-        .zip(area.y + 1..area.bottom())
+    for (line, y) in
+        text::wrap(&detail(item), area.width.into()).iter().zip(area.y + 1..area.bottom())
     {
         buffer.set_stringn(area.x, y, line, area.width.into(), Style::new());
     }
@@ -204,28 +161,15 @@ fn draw_examples(
     buffer: &mut Buffer,
 ) {
     let (left, right) = halves(area, buffer);
-    draw_window(
-        items.len(),
-        |at| items[at].name.clone(),
-        Some(marked),
-        left,
-        theme,
-        buffer,
-    );
+    draw_window(items.len(), |at| items[at].name.clone(), Some(marked), left, theme, buffer);
     say_if_none(items, left, theme, buffer);
-    let at = items.get(marked).and_then(|item| {
-        EXAMPLES
-            .iter()
-            .position(|example| example.name == item.name)
-    });
+    let at = items
+        .get(marked)
+        .and_then(|item| EXAMPLES.iter().position(|example| example.name == item.name));
     let lines = at
         .and_then(|at| digests.get(at))
         .map(|digest| digest::lines(digest, right.width.into(), theme));
-    for ((line, style), y) in lines
-        .unwrap_or_default()
-        .iter()
-        .zip(right.top()..right.bottom())
-    {
+    for ((line, style), y) in lines.unwrap_or_default().iter().zip(right.top()..right.bottom()) {
         buffer.set_stringn(right.x, y, line, right.width.into(), *style);
     }
 }

@@ -87,11 +87,7 @@ impl Question {
     pub(crate) fn all_unsaved(names: &[String]) -> Question {
         Question {
             title: "Unsaved edits",
-            text: format!(
-                "{} cases have unsaved edits: {}.",
-                names.len(),
-                names.join(", ")
-            ),
+            text: format!("{} cases have unsaved edits: {}.", names.len(), names.join(", ")),
             details: Vec::new(),
             buttons: vec![
                 ("Save all", Choice::Proceed(Next::SaveRest)),
@@ -107,16 +103,10 @@ impl Question {
     pub(crate) fn exists(path: &Path, found: Found, next: &Next) -> Question {
         Question {
             title: "The file exists",
-            text: format!(
-                "{} exists. Overwrite replaces it with the form.",
-                path.display()
-            ),
+            text: format!("{} exists. Overwrite replaces it with the form.", path.display()),
             details: found.lines,
             buttons: vec![
-                (
-                    "Overwrite",
-                    Choice::Overwrite(path.to_owned(), found.stamp, next.clone()),
-                ),
+                ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
                 ("Save as", Choice::SaveAs(next.clone())),
                 ("Cancel", Choice::Cancel),
             ],
@@ -130,10 +120,7 @@ impl Question {
             title: EXPORT_RUNS,
             text: format!("The export to {} still runs.", path.display()),
             details: Vec::new(),
-            buttons: vec![
-                ("Wait", Choice::Cancel),
-                ("Quit without the export", Choice::Leave),
-            ],
+            buttons: vec![("Wait", Choice::Cancel), ("Quit without the export", Choice::Leave)],
             marked: 0,
         }
     }
@@ -147,10 +134,7 @@ impl Question {
     pub(crate) fn export_exists(path: &Path) -> Question {
         Question {
             title: "The file exists",
-            text: format!(
-                "{} exists. Overwrite replaces it with the export.",
-                path.display()
-            ),
+            text: format!("{} exists. Overwrite replaces it with the export.", path.display()),
             details: Vec::new(),
             buttons: vec![
                 ("Overwrite", Choice::ExportOver(path.to_owned())),
@@ -173,10 +157,7 @@ impl Question {
             buttons: vec![
                 ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
                 ("Save as", Choice::SaveAs(next.clone())),
-                (
-                    "Overwrite",
-                    Choice::Overwrite(path.to_owned(), found.stamp, next.clone()),
-                ),
+                ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
                 ("Cancel", Choice::Cancel),
             ],
             marked: 3,
@@ -193,10 +174,7 @@ impl Question {
                 path.display()
             ),
             details: Vec::new(),
-            buttons: vec![
-                ("Save as", Choice::SaveAs(next.clone())),
-                ("Cancel", Choice::Cancel),
-            ],
+            buttons: vec![("Save as", Choice::SaveAs(next.clone())), ("Cancel", Choice::Cancel)],
             marked: 0,
         }
     }
@@ -204,11 +182,7 @@ impl Question {
     /// Offers edits that an earlier session could not save.
     #[must_use]
     pub fn recover(name: &str, offer: Offer) -> Question {
-        let changed = if offer.is_file_changed {
-            " The file has changed since."
-        } else {
-            ""
-        };
+        let changed = if offer.is_file_changed { " The file has changed since." } else { "" };
         Question {
             title: "Unsaved edits found",
             text: format!(
@@ -234,10 +208,7 @@ impl Question {
                 opened."
                 .to_owned(),
             details,
-            buttons: vec![
-                ("Delete all", Choice::Forget(places)),
-                ("Close", Choice::Cancel),
-            ],
+            buttons: vec![("Delete all", Choice::Forget(places)), ("Close", Choice::Cancel)],
             marked: 1,
         }
     }
@@ -251,14 +222,9 @@ impl Question {
     /// The answer whose name begins with the letter.
     pub(crate) fn by_letter(&self, letter: char) -> Option<Choice> {
         let fits = |name: &str| {
-            name.chars()
-                .next()
-                .is_some_and(|first| first.eq_ignore_ascii_case(&letter))
+            name.chars().next().is_some_and(|first| first.eq_ignore_ascii_case(&letter))
         };
-        self.buttons
-            .iter()
-            .find(|(name, _)| fits(name))
-            .map(|(_, choice)| choice.clone())
+        self.buttons.iter().find(|(name, _)| fits(name)).map(|(_, choice)| choice.clone())
     }
 }
 
@@ -268,10 +234,7 @@ impl Dialog for Question {
     }
 
     fn letter(&mut self, letter: char) -> Option<Outcome> {
-        Some(
-            self.by_letter(letter)
-                .map_or_else(Outcome::none, Outcome::Choose),
-        )
+        Some(self.by_letter(letter).map_or_else(Outcome::none, Outcome::Choose))
     }
 
     fn step(&mut self, by: isize, _: &Surroundings<'_>) {
@@ -304,29 +267,22 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
     let row = button_row(&lines, inner);
-    let buttons = question
-        .buttons
-        .iter()
-        .enumerate()
-        .flat_map(|(index, (name, _))| {
-            let marked = index == question.marked;
-            let (text, style) = if marked {
-                (format!("[> {name} <]"), theme.key)
-            } else {
-                (format!("[  {name}  ]"), Style::new())
-            };
-            [Span::styled(text, style), Span::raw(" ")]
-        });
+    let buttons = question.buttons.iter().enumerate().flat_map(|(index, (name, _))| {
+        let marked = index == question.marked;
+        let (text, style) = if marked {
+            (format!("[> {name} <]"), theme.key)
+        } else {
+            (format!("[  {name}  ]"), Style::new())
+        };
+        [Span::styled(text, style), Span::raw(" ")]
+    });
     buttons.collect::<Line<'_>>().render(row, buffer);
 }
 
 // The index of the button at a cell, if any.
 fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
     let lines = question_lines(question, room(screen));
-    let row = button_row(
-        &lines,
-        inside(extent(&lines, 2), Rect::from((Position::ORIGIN, screen))),
-    );
+    let row = button_row(&lines, inside(extent(&lines, 2), Rect::from((Position::ORIGIN, screen))));
     let mut right = row.x;
     let ends = question.buttons.iter().map(|(name, _)| {
         right += name.width() as u16 + BESIDE_NAME;
@@ -334,25 +290,13 @@ fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
     });
     let ends: Vec<_> = ends.collect();
     // The gap before the next button is not part of a button.
-    ends.iter()
-        .position(|&end| at.x + 1 < end)
-        .filter(|_| row.contains(at))
+    ends.iter().position(|&end| at.x + 1 < end).filter(|_| row.contains(at))
 }
 
 // The row below the lines and an empty line; empty if there is no room.
 fn button_row(lines: &[String], inner: Rect) -> Rect {
-    let below = u16::try_from(lines.len())
-        .unwrap_or(u16::MAX)
-        .saturating_add(1);
-    if below < inner.height {
-        Rect {
-            y: inner.y + below,
-            height: 1,
-            ..inner
-        }
-    } else {
-        Rect::ZERO
-    }
+    let below = u16::try_from(lines.len()).unwrap_or(u16::MAX).saturating_add(1);
+    if below < inner.height { Rect { y: inner.y + below, height: 1, ..inner } } else { Rect::ZERO }
 }
 
 // The lines above the buttons. The buttons must be visible: details that do not fit are omitted,
@@ -362,16 +306,8 @@ fn question_lines(question: &Question, room: Size) -> Vec<String> {
     let mut lines = text::wrap(&question.text, width);
     let left = usize::from(room.height).saturating_sub(lines.len() + 2);
     let details = &question.details;
-    let shown = if details.len() <= left {
-        details.len()
-    } else {
-        left.saturating_sub(1)
-    };
-    lines.extend(
-        details[..shown]
-            .iter()
-            .map(|line| text::cut(&format!("  {line}"), width)),
-    );
+    let shown = if details.len() <= left { details.len() } else { left.saturating_sub(1) };
+    lines.extend(details[..shown].iter().map(|line| text::cut(&format!("  {line}"), width)));
     if shown < details.len() && left > 0 {
         lines.push(format!("  and {} more", details.len() - shown));
     }

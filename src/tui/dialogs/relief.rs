@@ -63,10 +63,7 @@ impl ReliefDialog {
                 (self.searched, self.answer, self.problem) = (Some(demand), None, None);
                 self.lines.clear();
                 let inputs = self.inputs.clone();
-                vec![Effect::Job(Job::Relief(Box::new(ReliefRequest {
-                    demand,
-                    inputs,
-                })))]
+                vec![Effect::Job(Job::Relief(Box::new(ReliefRequest { demand, inputs })))]
             }
             Err(problem) => {
                 self.problem = Some(problem);
@@ -111,10 +108,7 @@ impl ReliefDialog {
     fn scroll(&mut self, by: isize, around: &Surroundings<'_>) {
         let room = room(around.screen);
         let shown = usize::from(room.height.saturating_sub(HEAD));
-        let last = self
-            .wrapped(room.width.into())
-            .count()
-            .saturating_sub(shown);
+        let last = self.wrapped(room.width.into()).count().saturating_sub(shown);
         self.top = self.top.saturating_add_signed(by).min(last);
     }
 }
@@ -135,10 +129,7 @@ impl Dialog for ReliefDialog {
 
     fn close(&mut self) -> Vec<Effect> {
         let is_searching = self.searched.is_some() && self.answer.is_none();
-        is_searching
-            .then_some(Effect::CancelRelief)
-            .into_iter()
-            .collect()
+        is_searching.then_some(Effect::CancelRelief).into_iter().collect()
     }
 
     fn step(&mut self, by: isize, around: &Surroundings<'_>) {

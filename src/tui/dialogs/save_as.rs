@@ -36,12 +36,6 @@ impl Dialog for SaveAs {
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        path_box(
-            "Save as",
-            NAMING,
-            &self.input,
-            around.look.theme,
-            (area, buffer),
-        )
+        path_box("Save as", NAMING, &self.input, around.look.theme, (area, buffer))
     }
 }

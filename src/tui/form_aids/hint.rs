@@ -66,10 +66,7 @@ impl Field {
         }
         let factor = units::factor(range.unit).unwrap_or(1.0);
         let end = |value: f64| {
-            significant(
-                value * factor / units::factor(unit).unwrap_or(1.0),
-                RANGE_DIGITS,
-            )
+            significant(value * factor / units::factor(unit).unwrap_or(1.0), RANGE_DIGITS)
         };
         format!("about {} to {} {unit}", end(range.from), end(range.to))
     }
@@ -92,44 +89,22 @@ mod tests {
             };
             let unit = field.usual_unit();
             assert_eq!(unit.is_empty(), range.unit.is_empty(), "{}", field.key);
-            assert_eq!(
-                units::Dimension::of_unit(unit),
-                Some(dimension),
-                "{}",
-                field.key
-            );
+            assert_eq!(units::Dimension::of_unit(unit), Some(dimension), "{}", field.key);
         }
     }
 
     #[test]
     fn a_hint_shows_the_value_in_the_usual_unit_and_the_range_in_both_systems() {
         assert_eq!(
-            field("operation.power")
-                .converted("20 hp", System::Metric)
-                .as_deref(),
+            field("operation.power").converted("20 hp", System::Metric).as_deref(),
             Some("= 14.914 kW")
         );
         assert_eq!(field("driver.teeth").converted("20", System::Metric), None);
-        assert_eq!(
-            field("pair.module").range_in(System::Metric),
-            "0.05 to 50 mm"
-        );
-        assert_eq!(
-            field("pair.module").range_in(System::Inch),
-            "about 0.00197 to 1.97 in"
-        );
-        assert_eq!(
-            field("driven.tip_relief").default_in(System::Metric),
-            "0 um"
-        );
-        assert_eq!(
-            field("driven.tip_relief").default_in(System::Inch),
-            "0 thou"
-        );
+        assert_eq!(field("pair.module").range_in(System::Metric), "0.05 to 50 mm");
+        assert_eq!(field("pair.module").range_in(System::Inch), "about 0.00197 to 1.97 in");
+        assert_eq!(field("driven.tip_relief").default_in(System::Metric), "0 um");
+        assert_eq!(field("driven.tip_relief").default_in(System::Inch), "0 thou");
         assert_eq!(field("driver.teeth").range_in(System::Inch), "5 to 1000");
-        assert_eq!(
-            field("operation.speed").range_in(System::Inch),
-            "0.001 to 1000000 rpm"
-        );
+        assert_eq!(field("operation.speed").range_in(System::Inch), "0.001 to 1000000 rpm");
     }
 }

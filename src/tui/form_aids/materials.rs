@@ -37,18 +37,14 @@ struct Catalogue {
 const TEXT: &str = include_str!("../../../assets/materials.toml");
 
 static ALL: LazyLock<Vec<Material>> = LazyLock::new(|| {
-    toml::from_str::<Catalogue>(TEXT)
-        .map(|catalogue| catalogue.material)
-        .unwrap_or_default()
+    toml::from_str::<Catalogue>(TEXT).map(|catalogue| catalogue.material).unwrap_or_default()
 });
 
 /// The three values of each material in SI.
 static CONSTANTS: LazyLock<Vec<Option<[f64; 3]>>> = LazyLock::new(|| {
     let of = |material| {
         let mut made = Case::empty();
-        apply(&mut made, "driver", material)
-            .ok()
-            .and_then(|()| constants(&made, "driver"))
+        apply(&mut made, "driver", material).ok().and_then(|()| constants(&made, "driver"))
     };
     all().iter().map(of).collect()
 });
@@ -66,11 +62,7 @@ impl Material {
     /// The fields of a gear that the material fills, with their values.
     #[must_use]
     pub(crate) fn texts(&self) -> [(&'static str, &str); 3] {
-        [
-            ("young", &self.young),
-            ("poisson", &self.poisson),
-            ("density", &self.density),
-        ]
+        [("young", &self.young), ("poisson", &self.poisson), ("density", &self.density)]
     }
 }
 
@@ -112,10 +104,7 @@ pub(crate) fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
 pub(crate) fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
     let found = of_gear(case, gear);
     let (last, others) = found.split_last()?;
-    let others: Vec<&str> = others
-        .iter()
-        .map(|material| material.name.as_str())
-        .collect();
+    let others: Vec<&str> = others.iter().map(|material| material.name.as_str()).collect();
     Some(if others.is_empty() {
         last.name.clone()
     } else {
@@ -129,16 +118,8 @@ fn constants(case: &Case, gear: &str) -> Option<[f64; 3]> {
     for name in ["young", "poisson", "density"] {
         put_field(case, index_of(&format!("{gear}.{name}"))?, &mut inputs).ok()?;
     }
-    let Gear {
-        young,
-        poisson,
-        density,
-        ..
-    } = if gear == "driver" {
-        inputs.driver
-    } else {
-        inputs.driven
-    };
+    let Gear { young, poisson, density, .. } =
+        if gear == "driver" { inputs.driver } else { inputs.driven };
     Some([young, poisson, density])
 }
 
@@ -158,24 +139,12 @@ mod tests {
         for material in all() {
             for gear in ["driver", "driven"] {
                 let mut case = Case::table_1();
-                assert_eq!(
-                    apply(&mut case, gear, material),
-                    Ok(()),
-                    "{}",
-                    material.name
-                );
+                assert_eq!(apply(&mut case, gear, material), Ok(()), "{}", material.name);
                 assert!(case.inputs().is_ok(), "{}", material.name);
             }
-            let texts = [
-                &material.name,
-                &material.group,
-                &material.source,
-                &material.note,
-            ];
+            let texts = [&material.name, &material.group, &material.source, &material.note];
             assert!(
-                texts
-                    .iter()
-                    .all(|text| !text.trim().is_empty() && text.is_ascii()),
+                texts.iter().all(|text| !text.trim().is_empty() && text.is_ascii()),
                 "{material:?}"
             );
             assert!(
@@ -188,21 +157,12 @@ mod tests {
 
     #[test]
     fn material_names_are_unique_and_sorted_by_group() {
-        let names: BTreeSet<String> = all()
-            .iter()
-            .map(|material| material.name.to_lowercase())
-            .collect();
+        let names: BTreeSet<String> =
+            all().iter().map(|material| material.name.to_lowercase()).collect();
         assert_eq!(names.len(), all().len());
-        let mut groups: Vec<&str> = all()
-            .iter()
-            .map(|material| material.group.as_str())
-            .collect();
+        let mut groups: Vec<&str> = all().iter().map(|material| material.group.as_str()).collect();
         groups.dedup();
-        assert_eq!(
-            groups.iter().collect::<BTreeSet<_>>().len(),
-            groups.len(),
-            "{groups:?}"
-        );
+        assert_eq!(groups.iter().collect::<BTreeSet<_>>().len(), groups.len(), "{groups:?}");
     }
 
     #[test]
@@ -219,10 +179,7 @@ mod tests {
                 "plastic" => (1e9..5e9, 1000.0..1500.0),
                 other => panic!("{other} is a new group"),
             };
-            assert!(
-                moduli.contains(&young) && densities.contains(&density),
-                "{material:?}"
-            );
+            assert!(moduli.contains(&young) && densities.contains(&density), "{material:?}");
             assert!((0.25..=0.4).contains(&poisson), "{material:?}");
         }
     }

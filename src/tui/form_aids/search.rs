@@ -61,38 +61,22 @@ fn search_in(entries: &[Entry], query: &str) -> Vec<(usize, u32)> {
         .map(plain)
         .filter(|word| !word.is_empty())
         .collect();
-    let score = |entry: &Entry| {
-        sought
-            .iter()
-            .map(|word| entry.score(word))
-            .sum::<Option<u32>>()
-    };
-    let mut found: Vec<(usize, u32)> = entries
-        .iter()
-        .enumerate()
-        .filter_map(|(at, entry)| Some((at, score(entry)?)))
-        .collect();
+    let score = |entry: &Entry| sought.iter().map(|word| entry.score(word)).sum::<Option<u32>>();
+    let mut found: Vec<(usize, u32)> =
+        entries.iter().enumerate().filter_map(|(at, entry)| Some((at, score(entry)?))).collect();
     found.sort_by_key(|&(at, score)| (std::cmp::Reverse(score), at));
     found
 }
 
 impl Entry {
     fn of_field(field: &Field) -> Entry {
-        let group = GROUPS
-            .iter()
-            .find(|(table, _)| *table == field.table())
-            .map_or("", |(_, title)| title);
+        let group =
+            GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
         Entry::new(field.symbol, field.label, field.name(), group, field.help)
     }
 
     fn of_result(quantity: &Quantity) -> Entry {
-        Entry::new(
-            quantity.symbol,
-            quantity.label,
-            quantity.key,
-            "result",
-            quantity.equation,
-        )
+        Entry::new(quantity.symbol, quantity.label, quantity.key, "result", quantity.equation)
     }
 
     fn new(symbol: &str, label: &str, name: &str, group: &str, help: &str) -> Entry {
@@ -113,11 +97,7 @@ impl Entry {
     /// The score of the entry for one word of the query; `None` without a match.
     fn score(&self, sought: &str) -> Option<u32> {
         let [whole, stem] = &self.symbols;
-        let symbol = if whole == sought {
-            Some(101)
-        } else {
-            (stem == sought).then_some(100)
-        };
+        let symbol = if whole == sought { Some(101) } else { (stem == sought).then_some(100) };
         let begun = self.symbols[0].starts_with(sought).then_some(60);
         let word = self.words.iter().filter_map(|(weight, words)| {
             let best = words.iter().filter_map(|word| fit(sought, word)).max()?;
@@ -149,9 +129,7 @@ fn fit(sought: &str, word: &str) -> Option<u32> {
 fn is_shortened(sought: &str, word: &str) -> bool {
     let mut rest = word.chars();
     word.chars().next() == sought.chars().next()
-        && sought
-            .chars()
-            .all(|letter| rest.any(|other| other == letter))
+        && sought.chars().all(|letter| rest.any(|other| other == letter))
 }
 
 /// The words of a text in plain letters.
@@ -163,10 +141,8 @@ fn words(text: &str) -> Vec<String> {
 /// Lower-case letters and digits of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is ha1.
 fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
-    for letter in text
-        .chars()
-        .flat_map(char::to_lowercase)
-        .filter(|letter| letter.is_alphanumeric())
+    for letter in
+        text.chars().flat_map(char::to_lowercase).filter(|letter| letter.is_alphanumeric())
     {
         let letter = if letter == 'µ' { 'μ' } else { letter };
         match GREEK.iter().find(|(greek, _)| *greek == letter) {
@@ -183,10 +159,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn keys(query: &str) -> Vec<&'static str> {
-        search(query)
-            .into_iter()
-            .map(|(field, _)| FIELDS[field].key)
-            .collect()
+        search(query).into_iter().map(|(field, _)| FIELDS[field].key).collect()
     }
 
     #[test]
@@ -227,12 +200,7 @@ mod tests {
             ("base_pitch", "deviations.base_pitch"),
             ("driven.tip_radius", "driven.tip_radius"),
         ] {
-            assert_eq!(
-                keys(query).first(),
-                Some(&key),
-                "{query}: {:?}",
-                keys(query)
-            );
+            assert_eq!(keys(query).first(), Some(&key), "{query}: {:?}", keys(query));
         }
     }
 
@@ -247,9 +215,7 @@ mod tests {
             ("contact ratio", "contact_ratio"),
             ("epsilon", "contact_ratio"),
         ] {
-            let found = search_results(query)
-                .first()
-                .map(|&(at, _)| QUANTITIES[at].key);
+            let found = search_results(query).first().map(|&(at, _)| QUANTITIES[at].key);
             assert_eq!(found, Some(key), "{query}");
         }
         assert!(search_results("xyzzy").is_empty());
@@ -271,15 +237,9 @@ mod tests {
     #[test]
     fn every_field_is_found_first_by_its_key_and_by_label_and_gear() {
         for field in &FIELDS {
-            assert_eq!(
-                keys(&field.key.replace(['.', '_'], " ")).first(),
-                Some(&field.key)
-            );
-            let gear = if matches!(field.table(), "driver" | "driven") {
-                field.table()
-            } else {
-                ""
-            };
+            assert_eq!(keys(&field.key.replace(['.', '_'], " ")).first(), Some(&field.key));
+            let gear =
+                if matches!(field.table(), "driver" | "driven") { field.table() } else { "" };
             assert_eq!(
                 keys(&format!("{gear} {}", field.label)).first(),
                 Some(&field.key),

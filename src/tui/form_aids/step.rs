@@ -19,9 +19,7 @@ pub(crate) fn step(text: &str, field: usize, by: i32) -> Option<String> {
 /// The text of a limit after steps of its last digit, not below zero.
 #[must_use]
 pub(crate) fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> {
-    moved(text, by, |text| {
-        Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0)
-    })
+    moved(text, by, |text| Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0))
 }
 
 impl Case {
@@ -29,11 +27,8 @@ impl Case {
     /// alternative replaces has no step.
     #[must_use]
     pub fn stepped(&self, field: usize, by: i32) -> Option<String> {
-        let default = if let Absent::Default(text) = FIELDS[field].absent {
-            Some(text)
-        } else {
-            None
-        };
+        let default =
+            if let Absent::Default(text) = FIELDS[field].absent { Some(text) } else { None };
         let default = default.filter(|_| !self.is_replaced(field));
         step(self.text(field).or(default)?, field, by)
     }
@@ -49,9 +44,7 @@ fn is_taken(field: usize, text: &str) -> bool {
 /// The name `by` places further in the list, or the last name in that direction.
 fn named(text: &str, names: &[&str], by: i32) -> Option<String> {
     let at = names.iter().position(|name| *name == text.trim())?;
-    let to = at
-        .saturating_add_signed(isize::try_from(by).ok()?)
-        .min(names.len().saturating_sub(1));
+    let to = at.saturating_add_signed(isize::try_from(by).ok()?).min(names.len().saturating_sub(1));
     (to != at).then(|| names[to].to_owned())
 }
 
@@ -65,9 +58,7 @@ fn moved(text: &str, by: i32, is_taken: impl Fn(&str) -> bool) -> Option<String>
     let (mut within, mut beyond) = (0, by.unsigned_abs() + 1);
     while beyond - within > 1 {
         let middle = within + (beyond - within) / 2;
-        let is_within = number
-            .moved(middle, by < 0)
-            .is_some_and(|text| is_taken(&text));
+        let is_within = number.moved(middle, by < 0).is_some_and(|text| is_taken(&text));
         *(if is_within { &mut within } else { &mut beyond }) = middle;
     }
     (within > 0).then(|| number.moved(within, by < 0)).flatten()
@@ -102,11 +93,7 @@ impl<'t> Decimal<'t> {
         Some(Decimal {
             lead: &text[..text.len() - number.len()],
             is_marked: number.starts_with('+'),
-            digits: if number.starts_with('-') {
-                -digits
-            } else {
-                digits
-            },
+            digits: if number.starts_with('-') { -digits } else { digits },
             whole: whole.len(),
             fraction: fraction.len(),
             has_point: after.starts_with('.'),
@@ -118,34 +105,18 @@ impl<'t> Decimal<'t> {
     fn moved(&self, by: u32, down: bool) -> Option<String> {
         let by = i128::from(by);
         let digits = self.digits.checked_add(if down { -by } else { by })?;
-        let sign = if digits < 0 {
-            "-"
-        } else {
-            ["", "+"][usize::from(self.is_marked)]
-        };
+        let sign = if digits < 0 { "-" } else { ["", "+"][usize::from(self.is_marked)] };
         let width = self.fraction + self.least_whole();
         let plain = format!("{:0width$}", digits.unsigned_abs());
         let (whole, fraction) = plain.split_at(plain.len() - self.fraction);
         let point = if self.has_point { "." } else { "" };
-        Some(format!(
-            "{}{sign}{whole}{point}{fraction}{}",
-            self.lead, self.rest
-        ))
+        Some(format!("{}{sign}{whole}{point}{fraction}{}", self.lead, self.rest))
     }
 
     /// Least number of digits before the point: those of "007", none of ".5".
     fn least_whole(&self) -> usize {
-        let digits = self
-            .digits
-            .unsigned_abs()
-            .to_string()
-            .len()
-            .saturating_sub(self.fraction);
-        if self.whole > digits {
-            self.whole
-        } else {
-            self.whole.min(1)
-        }
+        let digits = self.digits.unsigned_abs().to_string().len().saturating_sub(self.fraction);
+        if self.whole > digits { self.whole } else { self.whole.min(1) }
     }
 }
 
@@ -168,11 +139,7 @@ mod tests {
 
     #[track_caller]
     fn steps(key: &str, text: &str, by: i32, to: Option<&str>) {
-        assert_eq!(
-            step(text, field(key), by).as_deref(),
-            to,
-            "{key} = {text} by {by}"
-        );
+        assert_eq!(step(text, field(key), by).as_deref(), to, "{key} = {text} by {by}");
     }
 
     #[test]
@@ -228,10 +195,7 @@ mod tests {
             ("model.method", "exat"),
             ("title", "Table 1"),
             ("operation.power", "1e400 W"),
-            (
-                "operation.power",
-                "9999999999999999999999999999999999999999999999999 W",
-            ),
+            ("operation.power", "9999999999999999999999999999999999999999999999999 W"),
         ] {
             steps(key, text, 1, None);
         }
@@ -240,32 +204,17 @@ mod tests {
     #[test]
     fn an_empty_field_steps_from_its_default() {
         let case = Case::empty();
-        assert_eq!(
-            case.stepped(field("driver.young"), 1).as_deref(),
-            Some("207 GPa")
-        );
-        assert_eq!(
-            case.stepped(field("driver.tip_relief"), 10).as_deref(),
-            Some("10 um")
-        );
+        assert_eq!(case.stepped(field("driver.young"), 1).as_deref(), Some("207 GPa"));
+        assert_eq!(case.stepped(field("driver.tip_relief"), 10).as_deref(), Some("10 um"));
         assert_eq!(case.stepped(field("model.deflection"), 1), None);
         assert_eq!(case.stepped(field("pair.module"), 1), None);
     }
 
     #[test]
     fn a_limit_steps_and_stays_above_zero() {
-        assert_eq!(
-            step_limit("2500 N", "impact_force", 10).as_deref(),
-            Some("2510 N")
-        );
-        assert_eq!(
-            step_limit("2.5 kN", "impact_force", -1).as_deref(),
-            Some("2.4 kN")
-        );
-        assert_eq!(
-            step_limit("0.01", "dynamic_factor", -10).as_deref(),
-            Some("0.00")
-        );
+        assert_eq!(step_limit("2500 N", "impact_force", 10).as_deref(), Some("2510 N"));
+        assert_eq!(step_limit("2.5 kN", "impact_force", -1).as_deref(), Some("2.4 kN"));
+        assert_eq!(step_limit("0.01", "dynamic_factor", -10).as_deref(), Some("0.00"));
         assert_eq!(step_limit("2500", "impact_force", 1), None);
     }
 
@@ -275,13 +224,7 @@ mod tests {
             .filter(|&field| matches!(FIELDS[field].kind, Kind::Number(..) | Kind::Count(..)))
             .collect();
         let exponent = prop_oneof![6 => Just(String::new()), 1 => (-3..4).prop_map(|power| format!("e{power}"))];
-        (
-            select(measures),
-            -10_000..10_000i32,
-            0..5u32,
-            exponent,
-            any::<prop::sample::Index>(),
-        )
+        (select(measures), -10_000..10_000i32, 0..5u32, exponent, any::<prop::sample::Index>())
             .prop_map(|(field, digits, decimals, exponent, unit)| {
                 let number = format!(
                     "{:.*}",

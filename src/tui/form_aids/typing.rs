@@ -26,11 +26,9 @@ impl Field {
                 unit: system.unit(self.usual_unit()),
                 least: least(range.from, range.unit),
             }),
-            Kind::Count(from, ..) => Some(Measure {
-                dimension: Dimension::Number,
-                unit: "",
-                least: f64::from(from),
-            }),
+            Kind::Count(from, ..) => {
+                Some(Measure { dimension: Dimension::Number, unit: "", least: f64::from(from) })
+            }
             Kind::Text | Kind::Choice(..) => None,
         }
     }
@@ -40,9 +38,7 @@ impl Field {
     pub(crate) fn is_unfinished(&self, typed: &str) -> bool {
         let is_auto_begun = self.takes_auto() && AUTO.starts_with(typed.trim());
         is_auto_begun
-            || self
-                .measure(System::Metric)
-                .is_some_and(|measure| measure.is_unfinished(typed))
+            || self.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
     }
 }
 
@@ -51,11 +47,7 @@ impl Limit {
     #[must_use]
     pub(crate) fn measure(&self, system: System) -> Option<Measure> {
         let quantity = Quantity::find(self.quantity)?;
-        let unit = if quantity.shown == "1" {
-            ""
-        } else {
-            system.unit(quantity.shown)
-        };
+        let unit = if quantity.shown == "1" { "" } else { system.unit(quantity.shown) };
         Some(Measure {
             dimension: Dimension::of_unit(quantity.unit)?,
             unit,

@@ -18,11 +18,8 @@ const TYPED: char = '`';
 
 /// Every key inside a table, the longest first, so that no key matches the start of another.
 static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
-    let mut keys: Vec<&'static str> = FIELDS
-        .iter()
-        .map(|field| field.key)
-        .filter(|key| key.contains('.'))
-        .collect();
+    let mut keys: Vec<&'static str> =
+        FIELDS.iter().map(|field| field.key).filter(|key| key.contains('.')).collect();
     keys.sort_by_key(|key| std::cmp::Reverse(key.len()));
     keys
 });
@@ -81,11 +78,7 @@ fn name(field: &Field) -> String {
 
 fn with_labels(sentence: String) -> String {
     KEYS.iter().fold(sentence, |text, key| {
-        if text.contains(key) {
-            text.replace(key, &called(key))
-        } else {
-            text
-        }
+        if text.contains(key) { text.replace(key, &called(key)) } else { text }
     })
 }
 
@@ -124,36 +117,16 @@ mod tests {
                 "",
                 "neither module nor diametral pitch is given: write 5 mm, for example",
             ),
-            (
-                "driver.teeth",
-                "",
-                "a required value is missing: write 20, for example",
-            ),
-            (
-                "pair.module",
-                "5",
-                "5 has no unit, and a length needs one: write 5 mm",
-            ),
+            ("driver.teeth", "", "a required value is missing: write 20, for example"),
+            ("pair.module", "5", "5 has no unit, and a length needs one: write 5 mm"),
             (
                 "pair.module",
                 "60 mm",
                 "60 mm is above the limit of 50 mm: write a value from 0.05 to 50 mm",
             ),
-            (
-                "operation.power",
-                "",
-                "neither power nor torque is given: write 15 kW, for example",
-            ),
-            (
-                "operation.torque",
-                "70 N m",
-                "power and torque are both given: remove one of them",
-            ),
-            (
-                "model.method",
-                "exat",
-                "unknown choice exat: did you mean exact?",
-            ),
+            ("operation.power", "", "neither power nor torque is given: write 15 kW, for example"),
+            ("operation.torque", "70 N m", "power and torque are both given: remove one of them"),
+            ("model.method", "exat", "unknown choice exat: did you mean exact?"),
             (
                 "pair.module",
                 "driver.teeth",
@@ -167,10 +140,7 @@ mod tests {
     #[test]
     fn a_field_is_named_by_its_label_and_its_gear() {
         assert_eq!(called("pair.module"), "module");
-        assert_eq!(
-            called("driven.tip_relief_length"),
-            "the driven gear's tip relief length"
-        );
+        assert_eq!(called("driven.tip_relief_length"), "the driven gear's tip relief length");
         assert_eq!(called("limits.impact_force"), "limit of impact force");
         assert_eq!(called("pair.modul"), "pair.modul");
         assert_eq!(
@@ -195,20 +165,14 @@ mod tests {
             "−5 mm",
             "5 mmm",
         ];
-        for (index, field) in FIELDS
-            .iter()
-            .enumerate()
-            .filter(|(_, field)| !matches!(field.kind, Kind::Text))
+        for (index, field) in
+            FIELDS.iter().enumerate().filter(|(_, field)| !matches!(field.kind, Kind::Text))
         {
             for text in wrong {
                 let mut case = Case::table_1();
                 case.write(index, text);
-                for problem in case
-                    .inputs()
-                    .err()
-                    .into_iter()
-                    .flatten()
-                    .map(|problem| problem.for_form())
+                for problem in
+                    case.inputs().err().into_iter().flatten().map(|problem| problem.for_form())
                 {
                     let said = problem.to_string();
                     let key = FIELDS

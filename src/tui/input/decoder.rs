@@ -107,10 +107,9 @@ impl Decoder {
     fn take(&mut self, byte: u8, inputs: &mut Vec<Event>) {
         match self.state {
             State::Ground => self.begin(byte, KeyModifiers::NONE, inputs),
-            State::Escape {
-                is_apart,
-                ends_text,
-            } => self.after_escape(byte, is_apart, ends_text, inputs),
+            State::Escape { is_apart, ends_text } => {
+                self.after_escape(byte, is_apart, ends_text, inputs)
+            }
             State::Letter { modifiers } => self.in_letter(byte, modifiers, inputs),
             State::Csi => self.in_csi(byte, inputs),
             State::Ss3 => self.in_ss3(byte, inputs),
@@ -142,10 +141,7 @@ impl Decoder {
     fn begin(&mut self, byte: u8, modifiers: KeyModifiers, inputs: &mut Vec<Event>) {
         match byte {
             ESC => {
-                let state = State::Escape {
-                    is_apart: false,
-                    ends_text: false,
-                };
+                let state = State::Escape { is_apart: false, ends_text: false };
                 self.enter(state, ESCAPE);
             }
             0x80.. => {
@@ -231,10 +227,7 @@ impl Decoder {
         match byte {
             BELL => self.enter(State::Ground, Duration::ZERO),
             ESC => {
-                let state = State::Escape {
-                    is_apart: false,
-                    ends_text: true,
-                };
+                let state = State::Escape { is_apart: false, ends_text: true };
                 self.enter(state, ESCAPE);
             }
             0..b' ' if self.bytes.is_empty() => {
@@ -300,11 +293,7 @@ fn of_byte(byte: u8, modifiers: KeyModifiers) -> Event {
 }
 
 fn of_letter(letter: char, modifiers: KeyModifiers) -> Event {
-    let shift = if letter.is_uppercase() {
-        KeyModifiers::SHIFT
-    } else {
-        KeyModifiers::NONE
-    };
+    let shift = if letter.is_uppercase() { KeyModifiers::SHIFT } else { KeyModifiers::NONE };
     Event::Key(KeyEvent::new(KeyCode::Char(letter), modifiers | shift))
 }
 

@@ -26,10 +26,7 @@ pub(super) fn csi(parameters: &[u8], last: u8) -> Option<Event> {
             key(code_of(parts.get(2)?, held(parts.get(1))?.0)?, parts.get(1))
         }
         b'~' => key((numbered(parts[0])?, KeyModifiers::NONE), parts.get(1)),
-        b'Z' => Some(Event::Key(KeyEvent::new(
-            KeyCode::BackTab,
-            KeyModifiers::SHIFT,
-        ))),
+        b'Z' => Some(Event::Key(KeyEvent::new(KeyCode::BackTab, KeyModifiers::SHIFT))),
         // The position of the cursor.
         b'R' => None,
         _ => lettered(&parts, last),
@@ -60,9 +57,7 @@ fn lettered(parts: &[&str], last: u8) -> Option<Event> {
         _ => return None,
     };
     // Old terminals omit the first parameter, which is 1.
-    let held = parts
-        .get(1)
-        .or(parts.first().filter(|part| !part.is_empty()));
+    let held = parts.get(1).or(parts.first().filter(|part| !part.is_empty()));
     key((code, KeyModifiers::NONE), held)
 }
 
@@ -109,9 +104,8 @@ fn code_of(number: &str, held: KeyModifiers) -> Option<(KeyCode, KeyModifiers)> 
 
 fn keypad(number: u32) -> Option<KeyCode> {
     use KeyCode::{Delete, Down, End, Enter, Home, Insert, Left, PageDown, PageUp, Right, Up};
-    const MOVES: [KeyCode; 10] = [
-        Left, Right, Up, Down, PageUp, PageDown, Home, End, Insert, Delete,
-    ];
+    const MOVES: [KeyCode; 10] =
+        [Left, Right, Up, Down, PageUp, PageDown, Home, End, Insert, Delete];
     let number = usize::try_from(number).ok()?;
     match number {
         15 => Some(Enter),
@@ -184,11 +178,8 @@ fn report(parts: &[&str]) -> Option<(u8, u16, u16)> {
 
 /// Bits of `button` from the lowest: button (2), Shift, Alt, Ctrl, motion, button (2).
 fn at(button: u8, column: u16, row: u16) -> Option<Event> {
-    const BITS: [(u8, KeyModifiers); 3] = [
-        (4, KeyModifiers::SHIFT),
-        (8, KeyModifiers::ALT),
-        (16, KeyModifiers::CONTROL),
-    ];
+    const BITS: [(u8, KeyModifiers); 3] =
+        [(4, KeyModifiers::SHIFT), (8, KeyModifiers::ALT), (16, KeyModifiers::CONTROL)];
     let number = (button & 0b11) | ((button & 0b1100_0000) >> 4);
     let moves = button & 0b10_0000 != 0;
     let of = [MouseButton::Left, MouseButton::Middle, MouseButton::Right];

@@ -5,22 +5,13 @@ use ratatui::layout::{Rect, Size};
 use crate::tui::pane::Pane;
 
 /// The smallest useful terminal.
-pub(crate) const SMALLEST: Size = Size {
-    width: 60,
-    height: 16,
-};
+pub(crate) const SMALLEST: Size = Size { width: 60, height: 16 };
 /// Least height of a terminal with a lower area in addition to form and results.
 const LOWER_FROM: u16 = 20;
 /// Least size with the teeth beside the chart.
-const BESIDE_FROM: Size = Size {
-    width: 120,
-    height: 36,
-};
+const BESIDE_FROM: Size = Size { width: 120, height: 36 };
 /// Least size with form, results and the lower panes side by side.
-const THREE_FROM: Size = Size {
-    width: 200,
-    height: 50,
-};
+const THREE_FROM: Size = Size { width: 200, height: 50 };
 /// Greatest useful width of the form, and of the results beside other panes.
 const WIDEST: u16 = 66;
 const WIDEST_RESULTS: u16 = 90;
@@ -62,11 +53,7 @@ pub(super) struct Panes {
 
 impl Default for Panes {
     fn default() -> Panes {
-        Panes {
-            focus: Pane::Form,
-            lower: Pane::Chart,
-            is_zoomed: false,
-        }
+        Panes { focus: Pane::Form, lower: Pane::Chart, is_zoomed: false }
     }
 }
 
@@ -130,22 +117,14 @@ impl Plan {
     /// The hidden panes.
     pub(crate) fn hidden(&self) -> impl Iterator<Item = Pane> {
         let plan = *self;
-        Pane::ALL
-            .into_iter()
-            .filter(move |&pane| plan.area(pane).is_empty())
+        Pane::ALL.into_iter().filter(move |&pane| plan.area(pane).is_empty())
     }
 
     /// The pane whose title lists the hidden panes: the lowest visible pane whose area they can
     /// use.
     pub(crate) fn names_hidden(&self) -> Option<Pane> {
-        let lowest = [
-            Pane::Study,
-            Pane::Trade,
-            Pane::Chart,
-            Pane::Teeth,
-            Pane::Results,
-            Pane::Form,
-        ];
+        let lowest =
+            [Pane::Study, Pane::Trade, Pane::Chart, Pane::Teeth, Pane::Results, Pane::Form];
         lowest.into_iter().find(|&pane| !self.area(pane).is_empty())
     }
 
@@ -168,15 +147,8 @@ impl Plan {
     fn two_rows(&mut self, body: Rect, panes: Panes, has_teeth_beside: bool) {
         let lower = (body.height.saturating_add(4) / 3).clamp(7, 20);
         let upper = body.height - lower;
-        self.split_upper(Rect {
-            height: upper,
-            ..body
-        });
-        let area = Rect {
-            y: body.y + upper,
-            height: lower,
-            ..body
-        };
+        self.split_upper(Rect { height: upper, ..body });
+        let area = Rect { y: body.y + upper, height: lower, ..body };
         if !has_teeth_beside {
             *self.area_mut(panes.lower) = area;
             return;
@@ -189,41 +161,20 @@ impl Plan {
     fn three_columns(&mut self, body: Rect, panes: Panes) {
         let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
         let right = FORM_OF_THREE + results;
-        self.form = Rect {
-            width: FORM_OF_THREE,
-            ..body
-        };
-        self.results = Rect {
-            x: FORM_OF_THREE,
-            width: results,
-            ..body
-        };
-        let area = Rect {
-            x: right,
-            width: body.width - right,
-            ..body
-        };
+        self.form = Rect { width: FORM_OF_THREE, ..body };
+        self.results = Rect { x: FORM_OF_THREE, width: results, ..body };
+        let area = Rect { x: right, width: body.width - right, ..body };
         let upper = area.height / 2;
-        self.teeth = Rect {
-            height: upper,
-            ..area
-        };
-        *self.area_mut(beside_teeth(panes)) = Rect {
-            y: area.y + upper,
-            height: area.height - upper,
-            ..area
-        };
+        self.teeth = Rect { height: upper, ..area };
+        *self.area_mut(beside_teeth(panes)) =
+            Rect { y: area.y + upper, height: area.height - upper, ..area };
     }
 }
 
 /// The left part of an area with a width, and the rest.
 fn side_by_side(area: Rect, width: u16) -> [Rect; 2] {
     let left = Rect { width, ..area };
-    let right = Rect {
-        x: area.x + width,
-        width: area.width - width,
-        ..area
-    };
+    let right = Rect { x: area.x + width, width: area.width - width, ..area };
     [left, right]
 }
 
@@ -233,10 +184,7 @@ mod tests {
 
     fn seen(width: u16, height: u16, panes: Panes) -> Vec<Pane> {
         let plan = plan(Size { width, height }, panes);
-        Pane::ALL
-            .into_iter()
-            .filter(|&pane| !plan.area(pane).is_empty())
-            .collect()
+        Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty()).collect()
     }
 
     #[test]
@@ -245,77 +193,15 @@ mod tests {
         let usual = Panes::default();
         assert_eq!(seen(59, 16, usual), []);
         assert_eq!(seen(60, 16, usual), [Form, Results]);
-        assert_eq!(
-            seen(
-                60,
-                16,
-                Panes {
-                    focus: Teeth,
-                    ..usual
-                }
-            ),
-            [Teeth]
-        );
+        assert_eq!(seen(60, 16, Panes { focus: Teeth, ..usual }), [Teeth]);
         assert_eq!(seen(80, 24, usual), [Form, Results, Chart]);
-        assert_eq!(
-            seen(
-                80,
-                24,
-                Panes {
-                    lower: Teeth,
-                    ..usual
-                }
-            ),
-            [Form, Results, Teeth]
-        );
+        assert_eq!(seen(80, 24, Panes { lower: Teeth, ..usual }), [Form, Results, Teeth]);
         assert_eq!(seen(140, 45, usual), [Form, Results, Chart, Teeth]);
-        assert_eq!(
-            seen(
-                140,
-                45,
-                Panes {
-                    lower: Trade,
-                    ..usual
-                }
-            ),
-            [Form, Results, Teeth, Trade]
-        );
+        assert_eq!(seen(140, 45, Panes { lower: Trade, ..usual }), [Form, Results, Teeth, Trade]);
         assert_eq!(seen(240, 70, usual), [Form, Results, Chart, Teeth]);
-        assert_eq!(
-            seen(
-                240,
-                70,
-                Panes {
-                    is_zoomed: true,
-                    ..usual
-                }
-            ),
-            [Form]
-        );
-        assert_eq!(
-            seen(
-                80,
-                24,
-                Panes {
-                    is_zoomed: true,
-                    focus: Results,
-                    ..usual
-                }
-            ),
-            [Results]
-        );
-        assert_eq!(
-            seen(
-                240,
-                70,
-                Panes {
-                    is_zoomed: true,
-                    focus: Trade,
-                    ..usual
-                }
-            ),
-            [Trade]
-        );
+        assert_eq!(seen(240, 70, Panes { is_zoomed: true, ..usual }), [Form]);
+        assert_eq!(seen(80, 24, Panes { is_zoomed: true, focus: Results, ..usual }), [Results]);
+        assert_eq!(seen(240, 70, Panes { is_zoomed: true, focus: Trade, ..usual }), [Trade]);
     }
 
     #[test]
@@ -324,18 +210,10 @@ mod tests {
             (0..=260).flat_map(|width| (0..=80).map(move |height| (width, height)))
         {
             for focus in Pane::ALL {
-                for (lower, is_zoomed) in Pane::LOWER
-                    .into_iter()
-                    .flat_map(|lower| [(lower, false), (lower, true)])
+                for (lower, is_zoomed) in
+                    Pane::LOWER.into_iter().flat_map(|lower| [(lower, false), (lower, true)])
                 {
-                    let plan = plan(
-                        Size { width, height },
-                        Panes {
-                            focus,
-                            lower,
-                            is_zoomed,
-                        },
-                    );
+                    let plan = plan(Size { width, height }, Panes { focus, lower, is_zoomed });
                     let areas = [
                         plan.header,
                         plan.form,

@@ -73,8 +73,7 @@ impl ChartPane {
     /// The key of the selected chart, as in `plot --chart`.
     #[must_use]
     pub fn key(&self) -> &'static str {
-        self.worker_chart
-            .map_or(GRAPHS[self.graph].key, WorkerChart::key)
+        self.worker_chart.map_or(GRAPHS[self.graph].key, WorkerChart::key)
     }
 }
 
@@ -142,10 +141,9 @@ impl Charts<'_> {
     /// The view of the pane. A chart of the path of contact starts with the whole contact.
     fn view(&self) -> ChartView {
         match self.pane.view.frame {
-            Frame::Opening if self.is_by_model() => ChartView {
-                frame: Frame::Whole,
-                ..self.pane.view
-            },
+            Frame::Opening if self.is_by_model() => {
+                ChartView { frame: Frame::Whole, ..self.pane.view }
+            }
             _ => self.pane.view,
         }
     }
@@ -171,11 +169,8 @@ impl Charts<'_> {
             }
             ChartCommand::Zoom(steps) => {
                 pane.view = self.zoomed(steps);
-                let end = if steps > 0 {
-                    "closest zoom"
-                } else {
-                    "the charts show the whole contact"
-                };
+                let end =
+                    if steps > 0 { "closest zoom" } else { "the charts show the whole contact" };
                 (pane.view == self.view()).then_some(end)
             }
             ChartCommand::Whole => {
@@ -214,9 +209,7 @@ impl Charts<'_> {
     pub(crate) fn occasion(&self) -> Occasion {
         let view = &self.pane.view;
         Occasion {
-            answered: self
-                .answer
-                .map(|answer| (answer.serial, answer.pending.is_some())),
+            answered: self.answer.map(|answer| (answer.serial, answer.pending.is_some())),
             stiffness: self
                 .answer
                 .and_then(|answer| answer.stiffness.as_ref()?.as_ref().ok())
@@ -242,17 +235,11 @@ impl Charts<'_> {
             return scale;
         };
         // The axis does not shrink while the worker still solves a method.
-        let pinned = self
-            .baseline
-            .map(|baseline| (baseline, baseline.beside(answer.active)));
+        let pinned = self.baseline.map(|baseline| (baseline, baseline.beside(answer.active)));
         let way = pinned
             .map_or(Span::NONE, |(base, method)| angle_range_of(base, method))
             .and(way(answer));
-        let way = if self.is_by_model() {
-            way.and(path(answer))
-        } else {
-            way
-        };
+        let way = if self.is_by_model() { way.and(path(answer)) } else { way };
         scale.across = match (answer.pending, refit.all) {
             (Some(_), _) => scale.across.grown(way),
             (None, true) => scale.across.refit(way),
@@ -273,10 +260,8 @@ impl Charts<'_> {
         let window = self.view().window(&scale);
         for graph in self.shown() {
             let curves = curves(self, &GRAPHS[graph]);
-            let values = curves
-                .iter()
-                .map(|curve| curve.upright_within(window))
-                .fold(Span::NONE, Span::and);
+            let values =
+                curves.iter().map(|curve| curve.upright_within(window)).fold(Span::NONE, Span::and);
             let now = scale.upright[graph];
             let fitted = |now: Span| match GRAPHS[graph].by_model {
                 Some(_) => now.fitted_closely(values),
@@ -299,17 +284,10 @@ impl Charts<'_> {
             let graph = &GRAPHS[*graph];
             graph.by_model.is_none() && method.is_some_and(|method| graph.column(method).is_some())
         };
-        std::iter::once(chosen)
-            .chain(others.filter(has_curve))
-            .take(self.count())
-            .collect()
+        std::iter::once(chosen).chain(others.filter(has_curve)).take(self.count()).collect()
     }
 
     fn count(&self) -> usize {
-        if self.area.is_empty() {
-            0
-        } else {
-            usize::from((self.area.height / ROWS).clamp(1, MOST))
-        }
+        if self.area.is_empty() { 0 } else { usize::from((self.area.height / ROWS).clamp(1, MOST)) }
     }
 }

@@ -130,10 +130,7 @@ impl Lines {
     /// The lines of the form in its pane.
     pub(crate) fn of(pane: &Form<'_>) -> Lines {
         let width = pane.area.width;
-        Lines {
-            width,
-            rows: rows(pane, width),
-        }
+        Lines { width, rows: rows(pane, width) }
     }
 }
 
@@ -149,22 +146,13 @@ pub(crate) fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
     }
     let mut cursor = None;
     for (row, y) in rows.iter().skip(pane.top).zip(inner.top()..inner.bottom()) {
-        let line = Rect {
-            y,
-            height: 1,
-            width: inner.width - 1,
-            ..inner
-        };
+        let line = Rect { y, height: 1, width: inner.width - 1, ..inner };
         cursor = draw_row(pane, row, line, buffer).or(cursor);
     }
     text::scroll_bar(
         pane.top,
         rows.len(),
-        Rect {
-            x: inner.right() - 1,
-            width: 1,
-            ..inner
-        },
+        Rect { x: inner.right() - 1, width: 1, ..inner },
         buffer,
     );
     cursor
@@ -179,20 +167,13 @@ pub(crate) fn top_for(pane: &Form<'_>) -> usize {
     }
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let rows = &pane.lines.rows;
-    let focused = rows
-        .iter()
-        .position(|row| *row == Row::Line(pane.focus))
-        .unwrap_or(0);
-    let reasons = rows[focused + 1..]
-        .iter()
-        .take_while(|row| matches!(row, Row::Reason(_)))
-        .count();
+    let focused = rows.iter().position(|row| *row == Row::Line(pane.focus)).unwrap_or(0);
+    let reasons =
+        rows[focused + 1..].iter().take_while(|row| matches!(row, Row::Reason(_))).count();
     let follows_group = focused > 0 && matches!(rows[focused - 1], Row::Group(_));
     let first = focused - usize::from(follows_group);
     let ahead = usize::from(height > 4);
-    let least = (focused + reasons + 1 + ahead)
-        .min(rows.len())
-        .saturating_sub(height);
+    let least = (focused + reasons + 1 + ahead).min(rows.len()).saturating_sub(height);
     let most = rows.len().saturating_sub(height);
     pane.top.max(least).min(first.max(least)).min(most)
 }
@@ -235,25 +216,17 @@ fn group_title(pane: &Form<'_>, index: usize) -> String {
     let Some(field) = rows::field(pane.case, index) else {
         return "Limits".to_owned();
     };
-    let title = GROUPS
-        .iter()
-        .find(|(table, _)| *table == field.table())
-        .map_or("", |(_, title)| title);
+    let title =
+        GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
     let material = materials::name_of_gear(pane.case, field.table());
-    material.map_or_else(
-        || title.to_owned(),
-        |material| format!("{title}, {material}"),
-    )
+    material.map_or_else(|| title.to_owned(), |material| format!("{title}, {material}"))
 }
 
 // The reasons of an invalid field. An unfinished value is explained in the hint until the user
 // leaves the field. A missing value has no reason: the field shows that it is required.
 fn reasons(pane: &Form<'_>, field: usize, width: u16) -> impl Iterator<Item = String> {
     let has_reason = !pane.is_unfinished(field) && !pane.lacks(field);
-    let own = pane
-        .problems
-        .iter()
-        .filter(move |(at, _)| *at == field && has_reason);
+    let own = pane.problems.iter().filter(move |(at, _)| *at == field && has_reason);
     own.flat_map(move |(_, problem)| {
         let lines = text::wrap(
             &format!("{}: {}", problem.cause, problem.fix),
@@ -275,13 +248,7 @@ fn draw_row(pane: &Form<'_>, row: &Row, line: Rect, buffer: &mut Buffer) -> Opti
             None
         }
         Row::Reason(reason) => {
-            buffer.set_stringn(
-                line.x + MARK,
-                line.y,
-                reason,
-                line.width.into(),
-                theme.problem,
-            );
+            buffer.set_stringn(line.x + MARK, line.y, reason, line.width.into(), theme.problem);
             None
         }
         Row::Line(index) => match rows::row(pane.case, *index) {
@@ -304,20 +271,12 @@ fn draw_field(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) ->
         buffer.set_stringn(line.x, line.y, IDLE, 1, style);
     }
     draw_mark(pane, index, line, buffer);
-    let name = Rect {
-        x: line.x + MARK,
-        width: line.width.saturating_sub(MARK),
-        ..line
-    };
+    let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
     let offset = if matches!(field.kind, Kind::Text) {
         draw_words(field.label, name, style, buffer)
     } else {
         let (usual, label) = (label_width(name), field.label.width() as u16);
-        let least = if field.symbol.is_empty() {
-            label
-        } else {
-            label.min(LEAST_LABEL)
-        };
+        let least = if field.symbol.is_empty() { label } else { label.min(LEAST_LABEL) };
         let over = longer(pane, index, line.width - (MARK + SYMBOL + usual + 1))
             .min(usual.saturating_sub(least));
         draw_name(
@@ -329,11 +288,7 @@ fn draw_field(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) ->
             buffer,
         )
     };
-    let value = Rect {
-        x: line.x + offset,
-        width: line.width.saturating_sub(offset),
-        ..line
-    };
+    let value = Rect { x: line.x + offset, width: line.width.saturating_sub(offset), ..line };
     draw_value(pane, index, value, style, buffer)
 }
 
@@ -344,11 +299,7 @@ fn longer(pane: &Form<'_>, index: usize, room: u16) -> u16 {
         |text| ascii::printable(text).into_owned(),
     );
     let is_edited = pane.focus == index && pane.line.is_some() && pane.case.text(index).is_some();
-    if is_edited {
-        0
-    } else {
-        (shown.width() as u16).saturating_sub(room)
-    }
+    if is_edited { 0 } else { (shown.width() as u16).saturating_sub(room) }
 }
 
 // A text has no symbol; its value needs the room.
@@ -370,13 +321,7 @@ fn draw_value(
     if is_edited && matches!(FIELDS[index].kind, Kind::Choice(..)) {
         let shown = written.map_or(unwritten, |text| ascii::printable(text).into_owned());
         let width = usize::from(area.width);
-        buffer.set_stringn(
-            area.x,
-            area.y,
-            text::cut(&format!("‹ {shown} ›"), width),
-            width,
-            style,
-        );
+        buffer.set_stringn(area.x, area.y, text::cut(&format!("‹ {shown} ›"), width), width, style);
         return None;
     }
     draw_text(pane, index, written, &unwritten, area, style, buffer)

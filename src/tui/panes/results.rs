@@ -33,11 +33,8 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
         text::draw_lines(&parts.head, inner, buffer);
         return;
     };
-    let inner = Rect {
-        x: inner.x + inner.width.min(1),
-        width: inner.width.saturating_sub(1),
-        ..inner
-    };
+    let inner =
+        Rect { x: inner.x + inner.width.min(1), width: inner.width.saturating_sub(1), ..inner };
     let table = table::lines(pane, answer, inner.width.into());
     let quantities = table.rows.iter().skip(pane.state.top).take(parts.rows);
     let before = parts.head.len() + 2;

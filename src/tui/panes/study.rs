@@ -101,14 +101,8 @@ struct Rooms {
 /// The number of points of a map in a pane with an area, horizontally and vertically.
 #[must_use]
 pub(crate) fn map_points(area: Rect) -> (usize, usize) {
-    let across = area
-        .width
-        .saturating_sub(MAP_MARGIN.0)
-        .clamp(2, MOST_CELLS.0);
-    let up = area
-        .height
-        .saturating_sub(MAP_MARGIN.1)
-        .clamp(2, MOST_CELLS.1);
+    let across = area.width.saturating_sub(MAP_MARGIN.0).clamp(2, MOST_CELLS.0);
+    let up = area.height.saturating_sub(MAP_MARGIN.1).clamp(2, MOST_CELLS.1);
     (across.into(), up.into())
 }
 
@@ -137,13 +131,7 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
         _ => {}
     }
     for (line, y) in lines.iter().zip(rooms.words.top()..rooms.words.bottom()) {
-        buffer.set_stringn(
-            inner.x + 1,
-            y,
-            line,
-            usize::from(inner.width) - 1,
-            Style::new(),
-        );
+        buffer.set_stringn(inner.x + 1, y, line, usize::from(inner.width) - 1, Style::new());
     }
 }
 
@@ -200,10 +188,7 @@ fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
         chosen.or_else(own).unwrap_or(0).min(last)
     };
     let chosen = pane.study.cursor;
-    (
-        at(across, chosen.map(|chosen| chosen.0)),
-        at(up, chosen.map(|chosen| chosen.1)),
-    )
+    (at(across, chosen.map(|chosen| chosen.0)), at(up, chosen.map(|chosen| chosen.1)))
 }
 
 /// The areas for `lines` lines of text below the plot, if the plot keeps most of the pane.
@@ -212,22 +197,12 @@ fn rooms(inner: Rect, lines: usize) -> Rooms {
     let least = inner.height.min(if inner.height >= TALL { 2 } else { 1 });
     let most = least.max(inner.height / WORDS);
     let words = u16::try_from(lines).unwrap_or(most).clamp(least, most);
-    let plot = Rect {
-        y: inner.y + legend,
-        height: inner.height.saturating_sub(legend + words),
-        ..inner
-    };
+    let plot =
+        Rect { y: inner.y + legend, height: inner.height.saturating_sub(legend + words), ..inner };
     Rooms {
-        legend: Rect {
-            height: legend,
-            ..inner
-        },
+        legend: Rect { height: legend, ..inner },
         plot,
-        words: Rect {
-            y: plot.bottom(),
-            height: words,
-            ..inner
-        },
+        words: Rect { y: plot.bottom(), height: words, ..inner },
     }
 }
 
@@ -243,11 +218,7 @@ fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &m
     }
     let top = top(pane, shown);
     let lines = shown.page.iter().skip(top);
-    let page = Rect {
-        x: inner.x + 1,
-        width: inner.width.saturating_sub(2),
-        ..inner
-    };
+    let page = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     for (line, y) in lines.zip(page.top()..page.bottom()) {
         let width = usize::from(page.width);
         buffer.set_stringn(page.x, y, text::cut(line, width), width, Style::new());

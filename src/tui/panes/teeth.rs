@@ -61,11 +61,8 @@ impl TeethView {
             TeethCommand::Zoom(steps) => {
                 let (inputs, solution) = solved.ok_or("no valid results to show")?;
                 *self = self.zoomed(steps, inputs, solution);
-                let end = if steps > 0 {
-                    "closest zoom"
-                } else {
-                    "the teeth pane shows the whole pair"
-                };
+                let end =
+                    if steps > 0 { "closest zoom" } else { "the teeth pane shows the whole pair" };
                 (*self == before).then(|| end.to_owned())
             }
             TeethCommand::Reset => {
@@ -96,10 +93,7 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let most =
         1 + u16::from(area.height >= TWO_LINES_FROM) + u16::from(area.height >= THREE_LINES_FROM);
     let lines = most.min(values.len().max(1) as u16);
-    let plot = Rect {
-        height: area.height.saturating_sub(lines),
-        ..area
-    };
+    let plot = Rect { height: area.height.saturating_sub(lines), ..area };
     for (line, y) in values.iter().zip(plot.bottom()..area.bottom()) {
         buffer.set_stringn(
             area.x + 1,

@@ -67,23 +67,15 @@ impl Title {
         let from = area.right().checked_sub(names.width() as u16 + 1)?;
         let column = usize::from(at.x.checked_sub(from)?);
         let begins = |pane: &&Pane| {
-            names
-                .find(&format!(" {}", pane.number()))
-                .is_some_and(|start| start <= column)
+            names.find(&format!(" {}", pane.number())).is_some_and(|start| start <= column)
         };
         let named = self.hidden.iter().rfind(begins);
-        named
-            .filter(|_| at.y == area.y && column < names.width())
-            .copied()
+        named.filter(|_| at.y == area.y && column < names.width()).copied()
     }
 
     /// The keys to type for a command of the pane.
     pub(crate) fn key_to(&self, command: &str) -> String {
-        if self.has_focus {
-            command.to_owned()
-        } else {
-            format!("{}{command}", self.key())
-        }
+        if self.has_focus { command.to_owned() } else { format!("{}{command}", self.key()) }
     }
 
     // While a field is edited, the key begins with Esc, since digits are part of the value. The
@@ -102,39 +94,24 @@ impl Title {
         if self.hidden.is_empty() {
             return String::new();
         }
-        let leave = if self.is_editing {
-            format!(" {}", LEAVE.trim_end())
-        } else {
-            String::new()
-        };
+        let leave = if self.is_editing { format!(" {}", LEAVE.trim_end()) } else { String::new() };
         let hidden = || self.hidden.iter();
-        let names: Vec<String> = hidden()
-            .map(|pane| format!(" {} {} ", pane.number(), pane.name()))
-            .collect();
+        let names: Vec<String> =
+            hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name())).collect();
         let names = names.concat();
-        let keys: String = hidden()
-            .map(|pane| format!(" {}", pane.number()))
-            .chain([" ".to_owned()])
-            .collect();
+        let keys: String =
+            hidden().map(|pane| format!(" {}", pane.number())).chain([" ".to_owned()]).collect();
         let is_alone = self.hidden.len() + 1 == Pane::ALL.len();
         let beside_names = if is_alone { ALONE } else { BESIDE_NAMES };
-        let sayings = [
-            (format!("{leave}{names}"), beside_names),
-            (format!("{leave}{keys}"), BESIDE_KEYS),
-        ];
-        let fits = sayings
-            .into_iter()
-            .find(|(words, least)| room_beside(words, width) >= *least);
+        let sayings =
+            [(format!("{leave}{names}"), beside_names), (format!("{leave}{keys}"), BESIDE_KEYS)];
+        let fits = sayings.into_iter().find(|(words, least)| room_beside(words, width) >= *least);
         fits.map_or_else(String::new, |(words, _)| words)
     }
 }
 
 // The names are at the right end, before one cell of the rule.
 fn room_beside(names: &str, width: u16) -> usize {
-    let taken = if names.is_empty() {
-        0
-    } else {
-        names.width() + 1
-    };
+    let taken = if names.is_empty() { 0 } else { names.width() + 1 };
     usize::from(width).saturating_sub(taken)
 }

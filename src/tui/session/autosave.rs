@@ -104,8 +104,7 @@ impl Autosave {
     /// The time at which the journal must be written; `None` if it is complete.
     #[must_use]
     pub fn deadline(&self) -> Option<Instant> {
-        self.due
-            .map(|due| (due.last + AFTER_LAST).min(due.first + AFTER_FIRST))
+        self.due.map(|due| (due.last + AFTER_LAST).min(due.first + AFTER_FIRST))
     }
 
     /// Requests the write of the journal if its time has come.
@@ -161,15 +160,9 @@ impl Autosave {
     // Drops closed cases, and cases that were saved under another name.
     fn drop_closed(&mut self, cases: &[OpenCase<'_>]) {
         let is_open = |id: usize, case: &Tracked| {
-            cases
-                .iter()
-                .any(|open| open.id == id && open.path == case.path.as_deref())
+            cases.iter().any(|open| open.id == id && open.path == case.path.as_deref())
         };
-        for (_, case) in self
-            .tracked
-            .iter()
-            .filter(|(id, case)| !is_open(**id, case))
-        {
+        for (_, case) in self.tracked.iter().filter(|(id, case)| !is_open(**id, case)) {
             if let Some(journal) = &case.journal {
                 self.journal_writer.put(journal, None);
                 self.journal_writer.ring();
@@ -210,10 +203,7 @@ impl Autosave {
             .tracked
             .get(&open.id)
             .filter(|case| case.is_held && (is_locked || !open.is_held))?;
-        let lock = case
-            .path
-            .clone()
-            .map_or(Ok(None), |path| self.locks.take(&path));
+        let lock = case.path.clone().map_or(Ok(None), |path| self.locks.take(&path));
         let mut claim = Claim::of(open.id, Access::Own);
         match lock {
             Ok(None) => {}
@@ -233,18 +223,15 @@ impl Autosave {
         let stamp = open.document.stamp();
         for folder in self.journals.iter().chain(&self.others) {
             let Found { journals, notices } = folder.left_behind(open.path, stamp);
-            let offers = journals
-                .into_iter()
-                .filter_map(|(place, journal)| offer(open, place, &journal));
+            let offers =
+                journals.into_iter().filter_map(|(place, journal)| offer(open, place, &journal));
             claim.offers.extend(offers);
             claim.notices.extend(notices);
         }
         // Only when the workbench starts.
         if !std::mem::replace(&mut self.has_reported, true) && claim.offers.is_empty() {
             let own = self.journals.as_ref();
-            claim
-                .notices
-                .extend(own.and_then(|own| own.report(open.path, stamp)));
+            claim.notices.extend(own.and_then(|own| own.report(open.path, stamp)));
         }
         claim
     }
@@ -252,10 +239,8 @@ impl Autosave {
     // Passes new edits to the journal. The error is the reason why they cannot be journaled.
     fn note(&mut self, open: &OpenCase<'_>, now: Instant) -> Result<(), String> {
         let unsaved = (open.case != open.document.loaded()).then_some(open.case);
-        let Some(case) = self
-            .tracked
-            .get_mut(&open.id)
-            .filter(|case| case.noted.as_ref() != unsaved)
+        let Some(case) =
+            self.tracked.get_mut(&open.id).filter(|case| case.noted.as_ref() != unsaved)
         else {
             return Ok(());
         };
@@ -284,29 +269,17 @@ impl Autosave {
             });
             self.session = Some(begun?);
         }
-        let session = self
-            .session
-            .as_ref()
-            .map(|(session, _)| session.clone())
-            .unwrap_or_default();
+        let session = self.session.as_ref().map(|(session, _)| session.clone()).unwrap_or_default();
         let place = journals.place(open.path, &session, open.id);
         if let Some(case) = self.tracked.get_mut(&open.id) {
             let base_stamp = *case.stamp.get_or_insert_with(|| open.document.stamp());
             let changes = changes::between(open.document.loaded(), edited);
-            let journal = Journal {
-                case: case.path.clone(),
-                base_stamp,
-                written: 0,
-                session,
-                changes,
-            };
+            let journal =
+                Journal { case: case.path.clone(), base_stamp, written: 0, session, changes };
             self.journal_writer.put(&place, Some(journal));
             case.journal = Some(place);
         }
-        self.due = Some(Due {
-            first: self.due.map_or(now, |due| due.first),
-            last: now,
-        });
+        self.due = Some(Due { first: self.due.map_or(now, |due| due.first), last: now });
         Ok(())
     }
 
@@ -316,9 +289,7 @@ impl Autosave {
             && self.journal_writer.is_needed()
             && self.journal_writer.write(false).is_ok()
         {
-            self.adopted
-                .drain(..)
-                .for_each(|journal| drop(fs::remove_file(journal)));
+            self.adopted.drain(..).for_each(|journal| drop(fs::remove_file(journal)));
         }
     }
 }
@@ -329,12 +300,8 @@ fn offer(open: &OpenCase<'_>, place: PathBuf, journal: &Journal) -> Option<Offer
         from: changes::text_of(open.document.loaded(), &change.key),
         ..change.clone()
     };
-    let changes: Vec<_> = journal
-        .changes
-        .iter()
-        .map(from_now)
-        .filter(|change| change.from != change.to)
-        .collect();
+    let changes: Vec<_> =
+        journal.changes.iter().map(from_now).filter(|change| change.from != change.to).collect();
     if changes.is_empty() {
         drop(fs::remove_file(place));
         return None;

@@ -5,9 +5,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// Seconds since 1970.
 #[must_use]
 pub(super) fn now() -> u64 {
-    SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .map_or(0, |time| time.as_secs())
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs())
 }
 
 /// A duration in seconds as text.
@@ -31,16 +29,7 @@ mod tests {
         let ages = [0, 59, 60, 3599, 3600, 7260, 100_000, 172_800].map(age);
         assert_eq!(
             ages,
-            [
-                "0 s",
-                "59 s",
-                "1 min",
-                "59 min",
-                "1 h 0 min",
-                "2 h 1 min",
-                "27 h 46 min",
-                "2 days"
-            ]
+            ["0 s", "59 s", "1 min", "59 min", "1 h 0 min", "2 h 1 min", "27 h 46 min", "2 days"]
         );
     }
 }

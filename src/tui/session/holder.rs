@@ -77,9 +77,7 @@ impl Holder {
         let toml: DocumentMut = text.parse().ok()?;
         let text = |key| toml.get(key).and_then(Item::as_str).map(str::to_owned);
         let number = |key| {
-            toml.get(key)
-                .and_then(Item::as_integer)
-                .and_then(|number| u64::try_from(number).ok())
+            toml.get(key).and_then(Item::as_integer).and_then(|number| u64::try_from(number).ok())
         };
         Some(Holder {
             host: text("host")?,
@@ -104,11 +102,5 @@ fn boot() -> String {
 // Field 22 of `/proc/PID/stat`. Field 2, the name, may contain blanks and brackets.
 fn started(process: u32) -> Option<u64> {
     let state = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    state
-        .rsplit_once(')')?
-        .1
-        .split_whitespace()
-        .nth(19)?
-        .parse()
-        .ok()
+    state.rsplit_once(')')?.1.split_whitespace().nth(19)?.parse().ok()
 }

@@ -129,9 +129,8 @@ fn read(toml: &Table) -> Result<Journal, &'static str> {
             .and_then(|number| u64::try_from(number).ok())
             .ok_or(key)
     };
-    let hash = text_in(toml, "hash")
-        .and_then(|text| u64::from_str_radix(text, 16).ok())
-        .ok_or("hash")?;
+    let hash =
+        text_in(toml, "hash").and_then(|text| u64::from_str_radix(text, 16).ok()).ok_or("hash")?;
     let case = match (text_in(toml, "case"), text_in(toml, "case_bytes")) {
         (Some(path), _) => Some(PathBuf::from(path)),
         (None, Some(bytes)) => Some(from_hex(bytes).ok_or("case_bytes")?),
@@ -148,10 +147,7 @@ fn read(toml: &Table) -> Result<Journal, &'static str> {
     };
     Ok(Journal {
         case,
-        base_stamp: Stamp {
-            length: number("length")?,
-            hash,
-        },
+        base_stamp: Stamp { length: number("length")?, hash },
         written: number("written")?,
         session: text_in(toml, "session").ok_or("session")?.to_owned(),
         changes,
@@ -160,11 +156,7 @@ fn read(toml: &Table) -> Result<Journal, &'static str> {
 
 fn change_of(table: &Table) -> Result<Change, &'static str> {
     let text = |key| text_in(table, key).map(str::to_owned);
-    Ok(Change {
-        key: text("key").ok_or("key")?,
-        from: text("from"),
-        to: text("to"),
-    })
+    Ok(Change { key: text("key").ok_or("key")?, from: text("from"), to: text("to") })
 }
 
 fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
@@ -173,9 +165,7 @@ fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
 
 // In hexadecimal, because a path need not be valid text.
 fn hex(path: &Path) -> String {
-    paths::bytes(path)
-        .iter()
-        .fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+    paths::bytes(path).iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
 fn from_hex(text: &str) -> Option<PathBuf> {
@@ -203,11 +193,7 @@ mod tests {
             session: "abc123".to_owned(),
             changes: vec![
                 change("pair.module", Some("5 mm"), Some("1 in")),
-                change(
-                    "title",
-                    Some("'''\"\"\"\\"),
-                    Some("\u{0}\u{7f}\u{9b}\r\n\u{202e}"),
-                ),
+                change("title", Some("'''\"\"\"\\"), Some("\u{0}\u{7f}\u{9b}\r\n\u{202e}")),
                 change("driver.tip_radius", None, Some("0.2 mm")),
                 change("notes", Some("x"), None),
             ],
@@ -216,15 +202,8 @@ mod tests {
 
     #[test]
     fn a_journal_is_parsed_from_its_text() {
-        let other = Journal {
-            case: Some(paths::from_bytes(vec![b'/', 0xff, b'a'])),
-            ..journal()
-        };
-        let fresh = Journal {
-            case: None,
-            changes: Vec::new(),
-            ..journal()
-        };
+        let other = Journal { case: Some(paths::from_bytes(vec![b'/', 0xff, b'a'])), ..journal() };
+        let fresh = Journal { case: None, changes: Vec::new(), ..journal() };
         for journal in [journal(), other, fresh] {
             assert_eq!(Journal::from_text(&journal.to_text()), Ok(journal));
         }
@@ -239,10 +218,7 @@ mod tests {
                 .char_indices()
                 .map(|(own, letter)| if own == at { '~' } else { letter })
                 .collect();
-            assert!(
-                Journal::from_text(&changed).is_err() || changed == text,
-                "changed at {at}"
-            );
+            assert!(Journal::from_text(&changed).is_err() || changed == text, "changed at {at}");
         }
         assert!(Journal::from_text(&(text.clone() + "\n")).is_err());
         assert!(Journal::from_text(&text.replace('\n', "\r\n")).is_err());
@@ -251,13 +227,7 @@ mod tests {
     #[test]
     fn a_newer_journal_is_refused_by_its_version() {
         let newer = journal().to_text().replace("format = 1", "format = 2");
-        assert_eq!(
-            Journal::from_text(&newer),
-            Err(JournalFault::NewerFormat(2))
-        );
-        assert_eq!(
-            Journal::from_text("format = 1\n"),
-            Err(JournalFault::NotOne)
-        );
+        assert_eq!(Journal::from_text(&newer), Err(JournalFault::NewerFormat(2)));
+        assert_eq!(Journal::from_text("format = 1\n"), Err(JournalFault::NotOne));
     }
 }

@@ -45,27 +45,19 @@ impl JournalWriter {
     pub fn open(tell: impl Fn(String) + Send + 'static) -> io::Result<Arc<JournalWriter>> {
         let journal_writer = Arc::new(JournalWriter::default());
         let theirs = Arc::clone(&journal_writer);
-        thread::Builder::new()
-            .name(THREAD.to_owned())
-            .spawn(move || {
-                while theirs.wait() {
-                    if let Err(error) = theirs.write(true) {
-                        tell(format!(
-                            "a crash would lose unsaved edits: {error}: save soon"
-                        ));
-                    }
+        thread::Builder::new().name(THREAD.to_owned()).spawn(move || {
+            while theirs.wait() {
+                if let Err(error) = theirs.write(true) {
+                    tell(format!("a crash would lose unsaved edits: {error}: save soon"));
                 }
-            })?;
+            }
+        })?;
         Ok(journal_writer)
     }
 
     /// Sets the content of a journal; `None` removes it.
     pub(crate) fn put(&self, path: &Path, journal: Option<Journal>) {
-        self.entries()
-            .by_path
-            .entry(path.to_owned())
-            .or_default()
-            .wanted = journal;
+        self.entries().by_path.entry(path.to_owned()).or_default().wanted = journal;
     }
 
     /// Wakes the thread, which writes every changed journal.
@@ -80,28 +72,18 @@ impl JournalWriter {
     /// # Errors
     /// The first error; the other journals are written nevertheless.
     pub fn write(&self, lasting: bool) -> io::Result<()> {
-        let write_lock = self
-            .write_lock
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
+        let write_lock = self.write_lock.lock().unwrap_or_else(PoisonError::into_inner);
         let changed: Vec<_> = self.entries().changed();
         let mut result = Ok(());
         for (path, wanted) in changed {
             let written = match &wanted {
                 Some(journal) => Journals::write(
                     &path,
-                    &Journal {
-                        written: clock::now(),
-                        ..journal.clone()
-                    },
+                    &Journal { written: clock::now(), ..journal.clone() },
                     lasting,
                 ),
                 None => fs::remove_file(&path).or_else(|error| {
-                    if error.kind() == io::ErrorKind::NotFound {
-                        Ok(())
-                    } else {
-                        Err(error)
-                    }
+                    if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) }
                 }),
             };
             if written.is_ok() {
@@ -116,10 +98,7 @@ impl JournalWriter {
     /// Whether any journal contains edits that no file has.
     #[must_use]
     pub fn is_needed(&self) -> bool {
-        self.entries()
-            .by_path
-            .values()
-            .any(|entry| entry.wanted.is_some())
+        self.entries().by_path.values().any(|entry| entry.wanted.is_some())
     }
 
     /// Ends the thread.
@@ -136,10 +115,7 @@ impl JournalWriter {
     fn wait(&self) -> bool {
         let mut entries = self.entries();
         while !entries.is_due && !entries.is_closed {
-            entries = self
-                .bell
-                .wait(entries)
-                .unwrap_or_else(PoisonError::into_inner);
+            entries = self.bell.wait(entries).unwrap_or_else(PoisonError::into_inner);
         }
         entries.is_due = false;
         !entries.is_closed
@@ -160,8 +136,7 @@ impl Entries {
     // the next write deletes the file.
     fn settle(&mut self, path: &Path, written: Option<Journal>) {
         self.by_path.entry(path.to_owned()).or_default().written = written;
-        self.by_path
-            .retain(|_, entry| entry.wanted.is_some() || entry.written.is_some());
+        self.by_path.retain(|_, entry| entry.wanted.is_some() || entry.written.is_some());
     }
 }
 
@@ -183,9 +158,8 @@ mod tests {
     #[test]
     fn no_journal_stays_of_a_case_closed_during_a_write() {
         let folder = tempfile::tempdir().expect("a folder");
-        let paths: Vec<PathBuf> = (0..20)
-            .map(|number| folder.path().join(number.to_string()))
-            .collect();
+        let paths: Vec<PathBuf> =
+            (0..20).map(|number| folder.path().join(number.to_string())).collect();
         for round in 0..20 {
             let writer = JournalWriter::default();
             for path in &paths {

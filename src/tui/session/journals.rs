@@ -41,10 +41,7 @@ impl Journals {
     /// The folders inside a state folder.
     #[must_use]
     pub(super) fn within(state: &Path) -> Journals {
-        Journals {
-            journals: state.join("journals"),
-            sessions: state.join("sessions"),
-        }
+        Journals { journals: state.join("journals"), sessions: state.join("sessions") }
     }
 
     /// Starts a session: its lock shows others that its journals are still in use.
@@ -62,8 +59,7 @@ impl Journals {
     /// The path of the journal of a case in a session; `number` distinguishes cases without a file.
     #[must_use]
     pub(super) fn place(&self, case: Option<&Path>, session: &str, number: usize) -> PathBuf {
-        self.journals
-            .join(format!("{}{session}-{number}.{ENDING}", stem(case)))
+        self.journals.join(format!("{}{session}-{number}.{ENDING}", stem(case)))
     }
 
     /// Replaces a journal; a `lasting` write survives a power failure.
@@ -90,17 +86,14 @@ impl Journals {
                 Ok(journal) if !journal.is_of(case, stamp) || self.is_written(&journal) => {}
                 Ok(journal) => found.journals.push((path, journal)),
                 Err(Untrusted::Unread(error)) => {
-                    found.notices.push(format!(
-                        "unsaved edits in {} cannot be read: {error}",
-                        shown(&path)
-                    ));
+                    found
+                        .notices
+                        .push(format!("unsaved edits in {} cannot be read: {error}", shown(&path)));
                 }
                 Err(Untrusted::Fault(fault)) => found.notices.push(set_aside(&path, &fault)),
             }
         }
-        found
-            .journals
-            .sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
+        found.journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
         found
     }
 
@@ -111,11 +104,7 @@ impl Journals {
         let described = journals.map(|(path, journal)| {
             let count = journal.changes.len();
             let edits = if count == 1 { "edit" } else { "edits" };
-            let missing = if is_missing(&journal) {
-                ", no such file"
-            } else {
-                ""
-            };
+            let missing = if is_missing(&journal) { ", no such file" } else { "" };
             let age = clock::age(age_of(&journal));
             let words = format!("{}: {count} {edits}, {age} old{missing}", name_of(&journal));
             (path, words)
@@ -133,9 +122,7 @@ impl Journals {
             0 | 1 => names.pop_first()?,
             count => format!("{count} other cases"),
         };
-        Some(format!(
-            "{name}: unsaved edits of an ended session; :journals lists them"
-        ))
+        Some(format!("{name}: unsaved edits of an ended session; :journals lists them"))
     }
 
     fn all_left_behind(&self) -> impl Iterator<Item = (PathBuf, Journal)> {
@@ -145,19 +132,13 @@ impl Journals {
     }
 
     fn is_written(&self, journal: &Journal) -> bool {
-        let is_a_name = journal
-            .session
-            .chars()
-            .all(|letter| letter.is_ascii_alphanumeric());
+        let is_a_name = journal.session.chars().all(|letter| letter.is_ascii_alphanumeric());
         is_a_name && Lock::is_held(&self.sessions.join(&journal.session))
     }
 
     fn named(&self, start: &str) -> Vec<PathBuf> {
-        let entries = fs::read_dir(&self.journals)
-            .into_iter()
-            .flatten()
-            .flatten()
-            .map(|entry| entry.path());
+        let entries =
+            fs::read_dir(&self.journals).into_iter().flatten().flatten().map(|entry| entry.path());
         let fits = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             !name.starts_with('.')
@@ -176,17 +157,13 @@ enum Untrusted {
 }
 
 fn read(path: &Path) -> Result<Journal, Untrusted> {
-    let is_file = fs::symlink_metadata(path)
-        .map_err(Untrusted::Unread)?
-        .is_file();
+    let is_file = fs::symlink_metadata(path).map_err(Untrusted::Unread)?.is_file();
     if !is_file {
         return Err(Untrusted::Fault(JournalFault::NotOne));
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(Untrusted::Unread)?;
-    file.take(MOST_BYTES as u64 + 1)
-        .read_to_end(&mut bytes)
-        .map_err(Untrusted::Unread)?;
+    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(Untrusted::Unread)?;
     if bytes.len() > MOST_BYTES {
         return Err(Untrusted::Fault(JournalFault::NotOne));
     }
@@ -235,11 +212,8 @@ fn stem(case: Option<&Path>) -> String {
         return "new-".to_owned();
     };
     let name = case.file_stem().unwrap_or_default().to_string_lossy();
-    let letters: String = name
-        .chars()
-        .filter(char::is_ascii_alphanumeric)
-        .take(MOST_LETTERS)
-        .collect();
+    let letters: String =
+        name.chars().filter(char::is_ascii_alphanumeric).take(MOST_LETTERS).collect();
     format!("case-{letters}-{:016x}-", hash(paths::bytes(case)))
 }
 
@@ -278,10 +252,6 @@ mod tests {
         assert!(report(None).starts_with("2 other cases: "));
         let list = journals.list();
         assert_eq!(list.len(), 4);
-        assert!(
-            list[0]
-                .1
-                .ends_with("deleted.toml: 0 edits, 1 min old, no such file")
-        );
+        assert!(list[0].1.ends_with("deleted.toml: 0 edits, 1 min old, no such file"));
     }
 }

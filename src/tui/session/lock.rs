@@ -47,10 +47,7 @@ impl Lock {
             if let Hold::Other(holder) = hold {
                 return Ok(LockOutcome::Held(holder));
             }
-            let mut lock = Lock {
-                file,
-                path: path.to_owned(),
-            };
+            let mut lock = Lock { file, path: path.to_owned() };
             if lock.is_in_place() {
                 lock.sign();
                 return Ok(match hold {
@@ -69,10 +66,8 @@ impl Lock {
     /// Returns an error if the disk is full.
     pub(super) fn create(folder: &Path) -> io::Result<(String, Lock)> {
         clear(folder);
-        let hidden = tempfile::Builder::new()
-            .prefix(UNLOCKED)
-            .rand_bytes(10)
-            .tempfile_in(folder)?;
+        let hidden =
+            tempfile::Builder::new().prefix(UNLOCKED).rand_bytes(10).tempfile_in(folder)?;
         let name = hidden.path().file_name().unwrap_or_default();
         let name = name.to_string_lossy().replace(UNLOCKED, "");
         let (LockOutcome::Ours(mut lock) | LockOutcome::Unguarded(mut lock, _)) =
@@ -81,9 +76,7 @@ impl Lock {
             return Err(io::Error::other("the name of the session is in use"));
         };
         let path = folder.join(&name);
-        hidden
-            .persist_noclobber(&path)
-            .map_err(|error| error.error)?;
+        hidden.persist_noclobber(&path).map_err(|error| error.error)?;
         lock.path = path;
         Ok((name, lock))
     }
@@ -108,10 +101,8 @@ impl Lock {
 
     // The last holder deletes the file, possibly while this process opens it.
     fn is_in_place(&self) -> bool {
-        let both = self
-            .file
-            .metadata()
-            .and_then(|ours| Ok((ours, fs::symlink_metadata(&self.path)?)));
+        let both =
+            self.file.metadata().and_then(|ours| Ok((ours, fs::symlink_metadata(&self.path)?)));
         both.is_ok_and(|(ours, there)| locks::is_same(&ours, &there))
     }
 }
@@ -136,9 +127,9 @@ fn hold(file: &mut File) -> Hold {
     match file.try_lock() {
         Ok(()) => Hold::Ours,
         Err(TryLockError::WouldBlock) => Hold::Other(Holder::read(file).unwrap_or_default()),
-        Err(TryLockError::Error(error)) => Holder::read(file)
-            .filter(Holder::is_alive)
-            .map_or(Hold::Unguarded(error), Hold::Other),
+        Err(TryLockError::Error(error)) => {
+            Holder::read(file).filter(Holder::is_alive).map_or(Hold::Unguarded(error), Hold::Other)
+        }
     }
 }
 
@@ -159,11 +150,7 @@ fn open(path: &Path) -> io::Result<File> {
     let ours = regular(locks::open_or_create(path), path);
     // A lock file of another user may be readable only, which is enough to lock it.
     ours.or_else(|error| {
-        if error.kind() == io::ErrorKind::PermissionDenied {
-            look_at(path)
-        } else {
-            Err(error)
-        }
+        if error.kind() == io::ErrorKind::PermissionDenied { look_at(path) } else { Err(error) }
     })
 }
 
@@ -221,10 +208,7 @@ mod tests {
         match Lock::take(&path) {
             Ok(LockOutcome::Held(holder)) => {
                 assert!(holder.is_alive());
-                assert_eq!(
-                    (holder.process, &holder.host),
-                    (std::process::id(), &host())
-                );
+                assert_eq!((holder.process, &holder.host), (std::process::id(), &host()));
                 assert!(!holder.host.is_empty() && !holder.boot.is_empty());
             }
             other => panic!("{other:?}"),
@@ -238,13 +222,9 @@ mod tests {
     fn every_user_can_read_the_lock_of_a_user_with_a_strict_umask() {
         let (_folder, path) = place();
         let file = File::create(&path).expect("room on the disk");
-        file.set_permissions(fs::Permissions::from_mode(0o600))
-            .expect("our own file");
+        file.set_permissions(fs::Permissions::from_mode(0o600)).expect("our own file");
         let lock = ours(&path);
-        let mode = fs::metadata(&path)
-            .expect("it is there")
-            .permissions()
-            .mode();
+        let mode = fs::metadata(&path).expect("it is there").permissions().mode();
         assert_eq!(mode & 0o777, 0o644);
         drop(lock);
     }
@@ -252,28 +232,15 @@ mod tests {
     #[test]
     fn the_lock_file_of_an_ended_process_never_blocks() {
         let ourselves = Holder::ourselves();
-        let dead = Holder {
-            process: u32::MAX / 4,
-            ..ourselves.clone()
-        };
-        let reused = Holder {
-            started: ourselves.started + 1,
-            ..ourselves.clone()
-        };
-        let earlier = Holder {
-            boot: "another".to_owned(),
-            ..ourselves.clone()
-        };
+        let dead = Holder { process: u32::MAX / 4, ..ourselves.clone() };
+        let reused = Holder { started: ourselves.started + 1, ..ourselves.clone() };
+        let earlier = Holder { boot: "another".to_owned(), ..ourselves.clone() };
         for stale in [&dead, &reused, &earlier] {
             assert!(!stale.is_alive());
         }
         // Nobody has locked the file, so that even the text of a running process has no effect.
         let texts = [dead, reused, earlier, ourselves].map(|holder| holder.to_text());
-        for text in texts
-            .iter()
-            .map(String::as_str)
-            .chain(["", "\0\u{1b}[2J", "process = -1"])
-        {
+        for text in texts.iter().map(String::as_str).chain(["", "\0\u{1b}[2J", "process = -1"]) {
             let (_folder, path) = place();
             fs::write(&path, text).expect("room on the disk");
             drop(ours(&path));

@@ -122,9 +122,6 @@ mod tests {
         std::fs::write(&lock, "").expect("room on the disk");
         let words = unlocked(&case, &lock, &denied);
         assert!(!words.contains("read-only"), "{words}");
-        assert!(
-            words.contains("created its lock .case.toml.tipstrike"),
-            "{words}"
-        );
+        assert!(words.contains("created its lock .case.toml.tipstrike"), "{words}");
     }
 }

@@ -67,12 +67,7 @@ impl Claim {
     /// A claim without offers and notices.
     #[must_use]
     pub fn of(id: usize, access: Access) -> Claim {
-        Claim {
-            id,
-            access,
-            offers: Vec::new(),
-            notices: Vec::new(),
-        }
+        Claim { id, access, offers: Vec::new(), notices: Vec::new() }
     }
 
     /// Whether the claim has no message for the user.
@@ -86,11 +81,7 @@ impl Access {
     /// The initial access to a document.
     #[must_use]
     pub(crate) fn of(document: &Document) -> Access {
-        if document.is_newer() {
-            Access::Newer
-        } else {
-            Access::Own
-        }
+        if document.is_newer() { Access::Newer } else { Access::Own }
     }
 
     /// The mark beside the name of the case.
@@ -120,16 +111,8 @@ pub(crate) fn summary(changes: &[Change]) -> String {
     const MOST: usize = 3;
     let first: Vec<_> = changes.iter().take(MOST).map(line).collect();
     let more = changes.len().saturating_sub(MOST);
-    let more = if more > 0 {
-        format!("; and {more} more")
-    } else {
-        String::new()
-    };
-    if first.is_empty() {
-        "no value changes".to_owned()
-    } else {
-        first.join("; ") + &more
-    }
+    let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+    if first.is_empty() { "no value changes".to_owned() } else { first.join("; ") + &more }
 }
 
 /// A text cut to one short line; `(empty)` without a text.

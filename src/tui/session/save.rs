@@ -125,30 +125,19 @@ impl Saving {
                 let is_case = !matches!(error, ReadError::Bad(_) | ReadError::NewerFormat(_));
                 let error = error.to_string();
                 let first = error.lines().next().unwrap_or_default();
-                let cause = if is_case {
-                    ""
-                } else {
-                    "It is not a valid case: "
-                };
-                return Found {
-                    stamp,
-                    lines: vec![format!("{cause}{first}")],
-                };
+                let cause = if is_case { "" } else { "It is not a valid case: " };
+                return Found { stamp, lines: vec![format!("{cause}{first}")] };
             }
         };
-        let lines = changes::between(&theirs, &self.document.case)
-            .into_iter()
-            .map(|change| {
-                let (there, here) = (
-                    recovery::shown(change.from.as_deref()),
-                    recovery::shown(change.to.as_deref()),
-                );
-                format!(
-                    "{}: {there} in the file, {here} in the form{}",
-                    changes::label(&change.key),
-                    remark(&change)
-                )
-            });
+        let lines = changes::between(&theirs, &self.document.case).into_iter().map(|change| {
+            let (there, here) =
+                (recovery::shown(change.from.as_deref()), recovery::shown(change.to.as_deref()));
+            format!(
+                "{}: {there} in the file, {here} in the form{}",
+                changes::label(&change.key),
+                remark(&change)
+            )
+        });
         let mut lines: Vec<_> = lines.collect();
         if lines.is_empty() {
             lines.push(same.to_owned());
@@ -177,7 +166,5 @@ impl Saving {
 }
 
 fn stamp_of(path: &Path) -> Option<Stamp> {
-    read_bytes(path, MOST_BYTES)
-        .ok()
-        .map(|bytes| Stamp::of(&bytes))
+    read_bytes(path, MOST_BYTES).ok().map(|bytes| Stamp::of(&bytes))
 }

@@ -22,14 +22,9 @@ pub fn answer(request: &Request) -> Answer {
 /// the stiffness spread, and `None` if the compliance of the pair needs a field.
 #[must_use]
 pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
-    let methods = Method::CLOSED_FORM
-        .into_iter()
-        .chain([request.inputs.method]);
+    let methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
     let needs_field = methods.into_iter().any(|method| {
-        let inputs = Inputs {
-            method,
-            ..request.inputs.clone()
-        };
+        let inputs = Inputs { method, ..request.inputs.clone() };
         matches!(model_of(&inputs).model().compliance, Compliance::PerGear(_))
     });
     if needs_field {
@@ -42,10 +37,7 @@ pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
     };
     let start = Instant::now();
     let answer = answer_while(&quick, &|| start.elapsed() < PATIENCE);
-    Some(Answer {
-        requested: request.stages,
-        ..answer
-    })
+    Some(Answer { requested: request.stages, ..answer })
 }
 
 fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
@@ -63,10 +55,7 @@ pub(in crate::tui) fn with_stiffness(request: &Request, answer: Answer) -> Answe
         return answer;
     }
     let found = compare_path(&request.inputs, PATH_POINTS).map(Arc::new);
-    Answer {
-        stiffness: Some(found),
-        ..answer
-    }
+    Answer { stiffness: Some(found), ..answer }
 }
 
 /// The results of the closed forms, of the method of the case and, for `dynamic`, of the load at
@@ -83,38 +72,28 @@ pub(in crate::tui) fn solved(
         return Some(first);
     };
     let stages = request.stages.except(Stages::LATE);
-    let found = evaluator.solve(&request.inputs, method, stages, &|part| {
-        go_on(part, &|| first.clone())
-    });
+    let found =
+        evaluator.solve(&request.inputs, method, stages, &|part| go_on(part, &|| first.clone()));
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
     // If the program chose the method, the chosen method is active.
     let active = found.as_ref().map_or(method, |solution| solution.method);
-    let mut answer = Answer {
-        active,
-        pending: None,
-        stages,
-        ..first.clone()
-    };
+    let mut answer = Answer { active, pending: None, stages, ..first.clone() };
     answer.methods.retain(|(known, _)| *known != active);
     if active == Method::Dynamic {
         // The required relief of the load at rest is fast to compute and is compared with that of
         // the motion.
         let stages = request.stages.without(Stage::StaticSpectrum);
-        let shared = evaluator.solve(&request.inputs, Method::Static, stages, &|_| {
-            go_on(1.0, &|| first.clone())
-        });
+        let shared = evaluator
+            .solve(&request.inputs, Method::Static, stages, &|_| go_on(1.0, &|| first.clone()));
         if matches!(shared, Err(Refusal::Stopped)) {
             return None;
         }
         answer.methods.push((Method::Static, shared));
     }
     answer.methods.push((active, found));
-    answer.cost = Cost {
-        stages: stages_run(&answer.methods),
-        micros: micros(begun),
-    };
+    answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
     answer.notes = answer
         .of(active)
         .map(|solution| model::notes(&request.inputs, solution))
@@ -135,24 +114,14 @@ pub(in crate::tui) fn cleared(
         return Some(answer);
     }
     if answer.refusal().is_some() {
-        return Some(Answer {
-            stages: request.stages,
-            ..answer
-        });
+        return Some(Answer { stages: request.stages, ..answer });
     }
-    let found = evaluator.solve(
-        &request.inputs,
-        request.inputs.method,
-        request.stages,
-        go_on,
-    );
+    let found = evaluator.solve(&request.inputs, request.inputs.method, request.stages, go_on);
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
     answer.stages = request.stages;
-    answer.cost.stages += found
-        .as_ref()
-        .map_or(0, |solution| solution.ran.iter().count());
+    answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
     answer.cost.micros = micros(begun);
     answer.methods.retain(|(known, _)| *known != answer.active);
     answer.methods.push((answer.active, found));
@@ -168,12 +137,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
     let asked = request.inputs.method;
     let methods: Vec<_> = Method::CLOSED_FORM
         .into_iter()
-        .map(|method| {
-            (
-                method,
-                evaluator.solve(&request.inputs, method, request.stages, &|_| true),
-            )
-        })
+        .map(|method| (method, evaluator.solve(&request.inputs, method, request.stages, &|_| true)))
         .collect();
     let pending = Some(asked).filter(|method| !Method::CLOSED_FORM.contains(method));
     let mut answer = Answer {
@@ -181,16 +145,9 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         stages: request.stages,
         requested: request.stages,
         inputs: request.inputs.clone(),
-        active: if pending.is_some() {
-            Method::Exact
-        } else {
-            asked
-        },
+        active: if pending.is_some() { Method::Exact } else { asked },
         pending,
-        cost: Cost {
-            stages: stages_run(&methods),
-            micros: micros(begun),
-        },
+        cost: Cost { stages: stages_run(&methods), micros: micros(begun) },
         methods,
         notes: Vec::new(),
         stiffness: None,
@@ -230,13 +187,8 @@ mod tests {
             let case = Case::table_1();
             let mut inputs = case.inputs().expect("Table 1 is valid");
             inputs.method = method;
-            let asked = Request {
-                serial: 1,
-                inputs,
-                case,
-                stages: Stages::EVERY,
-                stiffness: false,
-            };
+            let asked =
+                Request { serial: 1, inputs, case, stages: Stages::EVERY, stiffness: false };
             let found = answer(&asked);
             assert_eq!((found.active, found.pending), (active, None));
             assert!(found.of(active).is_some() && found.of(Method::Exact).is_some());

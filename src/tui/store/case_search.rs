@@ -69,11 +69,7 @@ pub fn find(base: PathBuf, typed: String, go_on: &dyn Fn(f64) -> bool) -> Option
     }
     cases.sort();
     cases.truncate(MOST_CASES);
-    Some(SearchResult {
-        asked: (base, typed),
-        cases,
-        is_cut,
-    })
+    Some(SearchResult { asked: (base, typed), cases, is_cut })
 }
 
 enum Kind {
@@ -102,12 +98,7 @@ fn kind(entry: &fs::DirEntry) -> Kind {
 impl Case {
     fn of(way: PathBuf, depth: usize) -> Case {
         let name = sanitize(&way.to_string_lossy());
-        Case {
-            depth,
-            folded: name.to_lowercase(),
-            name,
-            way,
-        }
+        Case { depth, folded: name.to_lowercase(), name, way }
     }
 }
 

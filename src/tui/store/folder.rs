@@ -41,37 +41,22 @@ pub struct Listing {
 #[must_use]
 pub fn list(base: PathBuf, typed: String) -> Listing {
     let place = place_of(&base, &typed);
-    let folder = fs::canonicalize(&place)
-        .or_else(|_| std::path::absolute(&place))
-        .unwrap_or(place);
+    let folder = fs::canonicalize(&place).or_else(|_| std::path::absolute(&place)).unwrap_or(place);
     let found = entries(&folder);
     let is_cut = found.as_ref().is_ok_and(|entries| entries.len() >= MOST);
-    Listing {
-        asked: (base, typed),
-        folder,
-        entries: found,
-        is_cut,
-    }
+    Listing { asked: (base, typed), folder, entries: found, is_cut }
 }
 
 /// The typed folder; by default the present folder.
 pub(crate) fn place_of(base: &Path, typed: &str) -> PathBuf {
     let place = at_home(&beneath(base, typed));
-    if place.as_os_str().is_empty() {
-        PathBuf::from(".")
-    } else {
-        place
-    }
+    if place.as_os_str().is_empty() { PathBuf::from(".") } else { place }
 }
 
 /// The path of a text typed into a browser of `base`; `~` and `/` make it absolute.
 #[must_use]
 pub fn beneath(base: &Path, typed: &str) -> PathBuf {
-    if typed.starts_with('~') {
-        PathBuf::from(typed)
-    } else {
-        base.join(typed)
-    }
+    if typed.starts_with('~') { PathBuf::from(typed) } else { base.join(typed) }
 }
 
 /// The folders and cases of a folder, sorted by name.
@@ -81,11 +66,8 @@ pub fn beneath(base: &Path, typed: &str) -> PathBuf {
 pub(crate) fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
     let found =
         fs::read_dir(folder).map_err(|error| format!("This folder cannot be read: {error}."))?;
-    let mut entries: Vec<_> = found
-        .flatten()
-        .filter_map(|entry| Entry::of(&entry))
-        .take(MOST)
-        .collect();
+    let mut entries: Vec<_> =
+        found.flatten().filter_map(|entry| Entry::of(&entry)).take(MOST).collect();
     entries.sort();
     Ok(entries)
 }
@@ -105,11 +87,6 @@ impl Entry {
         let is_folder = kind.is_dir() || kind.is_symlink() && entry.path().is_dir();
         let is_case = !is_folder && Entry::is_case(Path::new(&file));
         let name = sanitize(&file.to_string_lossy());
-        (is_folder || is_case).then(|| Entry {
-            is_folder,
-            folded: name.to_lowercase(),
-            name,
-            file,
-        })
+        (is_folder || is_case).then(|| Entry { is_folder, folded: name.to_lowercase(), name, file })
     }
 }

@@ -34,11 +34,7 @@ pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
     let look = |path: PathBuf| {
         let is_missing =
             fs::metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
-        Recent {
-            folded: sanitize(&path.to_string_lossy()).to_lowercase(),
-            is_missing,
-            path,
-        }
+        Recent { folded: sanitize(&path.to_string_lossy()).to_lowercase(), is_missing, path }
     };
     paths.into_iter().map(look).collect()
 }
@@ -51,11 +47,7 @@ pub(crate) fn list() -> Vec<PathBuf> {
     };
     let is_ours =
         fs::metadata(&file).is_ok_and(|about| about.is_file() && about.len() <= MOST_BYTES);
-    if is_ours {
-        parse(&fs::read(file).unwrap_or_default())
-    } else {
-        Vec::new()
-    }
+    if is_ours { parse(&fs::read(file).unwrap_or_default()) } else { Vec::new() }
 }
 
 /// The latest case.
@@ -85,20 +77,12 @@ fn with(mut paths: Vec<PathBuf>, latest: PathBuf) -> Vec<PathBuf> {
 }
 
 fn parse(bytes: &[u8]) -> Vec<PathBuf> {
-    let paths = bytes
-        .split(|&byte| byte == END)
-        .filter(|path| !path.is_empty());
-    paths
-        .map(|path| paths::from_bytes(path.to_vec()))
-        .take(MOST)
-        .collect()
+    let paths = bytes.split(|&byte| byte == END).filter(|path| !path.is_empty());
+    paths.map(|path| paths::from_bytes(path.to_vec())).take(MOST).collect()
 }
 
 fn render(paths: &[PathBuf]) -> Vec<u8> {
-    paths
-        .iter()
-        .flat_map(|path| paths::bytes(path).iter().copied().chain([END]))
-        .collect()
+    paths.iter().flat_map(|path| paths::bytes(path).iter().copied().chain([END])).collect()
 }
 
 fn file() -> Option<PathBuf> {
@@ -113,10 +97,7 @@ mod tests {
     #[test]
     fn the_latest_case_is_first_and_no_case_is_listed_twice() {
         let paths = ["a", "b", "c"].map(PathBuf::from).to_vec();
-        assert_eq!(
-            with(paths.clone(), "c".into()),
-            ["c", "a", "b"].map(PathBuf::from)
-        );
+        assert_eq!(with(paths.clone(), "c".into()), ["c", "a", "b"].map(PathBuf::from));
         let many: Vec<PathBuf> = (0..MOST).map(|number| number.to_string().into()).collect();
         let more = with(many, "new".into());
         assert_eq!((more.len(), &more[0]), (MOST, &PathBuf::from("new")));
@@ -127,10 +108,7 @@ mod tests {
         let odd = paths::from_bytes(vec![b'/', 0xff, b'\n', b' ']);
         let paths = vec![odd, "/plain.toml".into()];
         assert_eq!(parse(&render(&paths)), paths);
-        assert_eq!(
-            parse(b"/kept/before.toml"),
-            [PathBuf::from("/kept/before.toml")]
-        );
+        assert_eq!(parse(b"/kept/before.toml"), [PathBuf::from("/kept/before.toml")]);
         assert!(parse(b"").is_empty());
     }
 }

@@ -58,10 +58,8 @@ impl State {
             Some(folder) => check(folder, user).err().map(|why| why.to_string()),
         };
         let is_usual = problem.is_none();
-        let mut safe: VecDeque<PathBuf> = private
-            .into_iter()
-            .filter(|folder| check(folder, user).is_ok())
-            .collect();
+        let mut safe: VecDeque<PathBuf> =
+            private.into_iter().filter(|folder| check(folder, user).is_ok()).collect();
         let folder = usual.filter(|_| is_usual).or_else(|| safe.pop_front());
         let notice = problem.map(|problem| match &folder {
             Some(place) => format!(
@@ -70,11 +68,7 @@ impl State {
             ),
             None => format!("{problem}; until then, a crash loses unsaved edits"),
         });
-        State {
-            folder,
-            others: safe.into(),
-            notice,
-        }
+        State { folder, others: safe.into(), notice }
     }
 }
 
@@ -93,12 +87,7 @@ fn usual() -> Option<PathBuf> {
     let own = absolute("XDG_STATE_HOME").map(|path| path.join("tipstrike"));
     own.or_else(|| {
         let folders = ProjectDirs::from("", "", "tipstrike")?;
-        Some(
-            folders
-                .state_dir()
-                .unwrap_or(folders.data_local_dir())
-                .to_owned(),
-        )
+        Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
     })
 }
 
@@ -110,17 +99,13 @@ fn private() -> Vec<PathBuf> {
 }
 
 fn absolute(variable: &str) -> Option<PathBuf> {
-    env::var_os(variable)
-        .map(PathBuf::from)
-        .filter(|path| path.is_absolute())
+    env::var_os(variable).map(PathBuf::from).filter(|path| path.is_absolute())
 }
 
 /// A missing folder is accepted, because it is created as private.
 fn check(folder: &Path, user: u32) -> Result<(), Exposed> {
     is_private(folder, user)?;
-    INSIDE
-        .iter()
-        .try_for_each(|name| is_private(&folder.join(name), user))
+    INSIDE.iter().try_for_each(|name| is_private(&folder.join(name), user))
 }
 
 /// Checks that every link and folder of the path belongs to the user or the system, that nobody
@@ -240,10 +225,7 @@ mod tests {
         }
         symlink("there", path.join("own-link")).expect("a link");
         let state = State::choose(Some(path.join("own-link")), Vec::new());
-        assert_eq!(
-            (state.folder, state.notice),
-            (Some(path.join("own-link")), None)
-        );
+        assert_eq!((state.folder, state.notice), (Some(path.join("own-link")), None));
     }
 
     #[test]
@@ -252,11 +234,7 @@ mod tests {
             let (_folder, path) = folder_with(&["state/journals", "above/state"]);
             open_to_all(&path.join(exposed));
             let usual = path.join(exposed.split('/').next().unwrap_or_default());
-            let usual = if exposed == "above" {
-                usual.join("state")
-            } else {
-                usual
-            };
+            let usual = if exposed == "above" { usual.join("state") } else { usual };
             let state = State::choose(Some(usual.clone()), vec![path.join("run")]);
             assert_eq!(state.folder, Some(path.join("run")), "{exposed}");
             let notice = state.notice.expect("a notice");
@@ -267,9 +245,7 @@ mod tests {
             let nowhere = State::choose(Some(usual), Vec::new());
             assert_eq!(nowhere.folder, None);
             assert!(
-                nowhere
-                    .notice
-                    .is_some_and(|notice| notice.contains("a crash loses unsaved edits"))
+                nowhere.notice.is_some_and(|notice| notice.contains("a crash loses unsaved edits"))
             );
         }
     }

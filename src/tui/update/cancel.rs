@@ -65,12 +65,7 @@ fn stop(app: &mut App, has_study: bool) -> Vec<Effect> {
     let solving = app.tab.solving.take().map(|_| {
         app.tab.is_settled = true;
         app.is_pinning = false;
-        if let Some(method) = app
-            .tab
-            .answer
-            .as_mut()
-            .and_then(|answer| answer.pending.take())
-        {
+        if let Some(method) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
             app.say(format!(
                 "method {} is stopped; the closed form is shown until the next edit",
                 method.name()

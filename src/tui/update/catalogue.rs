@@ -24,40 +24,28 @@ pub(super) fn materials(app: &mut App) {
         Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
         _ => &["driver", "driven"],
     };
-    app.prompts
-        .push(Prompt::Pick(Picker::new(List::Materials(gears))));
+    app.prompts.push(Prompt::Pick(Picker::new(List::Materials(gears))));
 }
 
 /// Opens the list of examples.
 pub(super) fn examples(app: &mut App) -> Vec<Effect> {
-    app.prompts
-        .push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
+    app.prompts.push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
     vec![Effect::Job(Job::Examples(app.settings.units))]
 }
 
 /// Sets the material of the gears as one edit, which undo reverts.
 pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Effect> {
     let mut case = app.tab.case.clone();
-    let made = gears
-        .iter()
-        .try_for_each(|gear| materials::apply(&mut case, gear, material));
+    let made = gears.iter().try_for_each(|gear| materials::apply(&mut case, gear, material));
     if let Err(problem) = made {
         app.complain(problem.for_form().to_string());
         return Vec::new();
     }
     let is_other = case != app.tab.case;
     let effects = edit::replace(app, case);
-    let whose = if let [gear] = gears {
-        gear
-    } else {
-        "both gears"
-    };
+    let whose = if let [gear] = gears { gear } else { "both gears" };
     let verb = if is_other { "from" } else { "unchanged, from" };
-    app.say(format!(
-        "{whose}: {} {verb} {}",
-        assignments(app, material),
-        material.name
-    ));
+    app.say(format!("{whose}: {} {verb} {}", assignments(app, material), material.name));
     effects
 }
 
@@ -65,9 +53,8 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
 fn assignments(app: &App, material: &Material) -> String {
     let values = material.texts().map(|(name, text)| {
         let field = FIELDS.iter().find(|field| field.name() == name);
-        let name = field.map_or("", |field| {
-            field.symbol.trim_end_matches(|c: char| c.is_ascii_digit())
-        });
+        let name =
+            field.map_or("", |field| field.symbol.trim_end_matches(|c: char| c.is_ascii_digit()));
         format!("{} {text}", symbol(name, app.look.ascii))
     });
     values.join(", ")

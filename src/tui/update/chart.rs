@@ -22,9 +22,6 @@ pub(super) fn fit(app: &mut App) {
 /// Scrolls to a moved cursor.
 pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
-        app.chart.view = app
-            .chart
-            .view
-            .following(0.0 - cursor.to_degrees(), &app.tab.scale);
+        app.chart.view = app.chart.view.following(0.0 - cursor.to_degrees(), &app.tab.scale);
     }
 }

@@ -66,10 +66,7 @@ pub(super) fn results(app: &mut App) -> Vec<Effect> {
     );
     let file = app.tab.as_edited().render();
     app.say("preparing the report of the results");
-    vec![Effect::Job(Job::Markdown(Box::new(Reporting {
-        report,
-        file,
-    })))]
+    vec![Effect::Job(Job::Markdown(Box::new(Reporting { report, file })))]
 }
 
 /// Copies the prepared report.

@@ -70,10 +70,7 @@ pub(super) fn play(app: &mut App) -> Vec<Effect> {
         app.complain("no corner contact, so nothing to play");
         return Vec::new();
     };
-    if app
-        .cursor
-        .is_none_or(|cursor| cursor <= reach.run_to || cursor > reach.run_from)
-    {
+    if app.cursor.is_none_or(|cursor| cursor <= reach.run_to || cursor > reach.run_from) {
         app.cursor = Some(reach.run_from);
     }
     app.is_playing = true;
@@ -86,24 +83,14 @@ pub(super) fn tick(app: &mut App) -> Vec<Effect> {
         return vec![Effect::Play(false)];
     }
     let reach = range(app);
-    let next = reach
-        .zip(app.cursor)
-        .and_then(|(reach, cursor)| reach.played(cursor));
+    let next = reach.zip(app.cursor).and_then(|(reach, cursor)| reach.played(cursor));
     app.cursor = Some(next.unwrap_or(reach.map_or(0.0, |reach| reach.run_to)));
-    if next.is_none() {
-        stop(app)
-    } else {
-        Vec::new()
-    }
+    if next.is_none() { stop(app) } else { Vec::new() }
 }
 
 /// Stops the animation.
 pub(super) fn stop(app: &mut App) -> Vec<Effect> {
-    if std::mem::take(&mut app.is_playing) {
-        vec![Effect::Play(false)]
-    } else {
-        Vec::new()
-    }
+    if std::mem::take(&mut app.is_playing) { vec![Effect::Play(false)] } else { Vec::new() }
 }
 
 fn range(app: &App) -> Option<Reach> {

@@ -44,9 +44,8 @@ fn announce(app: &mut App, digit: char, before: Option<&str>) {
         }
         None => format!("{label}: {digit} starts a value. Ctrl-Z removes {digit}"),
     };
-    let pane = Pane::of_digit(digit).map_or_else(String::new, |pane| {
-        format!("; Esc {digit} shows {}", pane.name())
-    });
+    let pane = Pane::of_digit(digit)
+        .map_or_else(String::new, |pane| format!("; Esc {digit} shows {}", pane.name()));
     app.say(format!("{earlier}{edit}{pane}"));
 }
 
@@ -61,21 +60,13 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let Some(line) = line else { return Vec::new() };
     let room = LONGEST.saturating_sub(line.kept());
     let text = in_a_line(text);
-    let mut letters = text
-        .chars()
-        .filter(|&letter| ascii::is_safe(letter))
-        .take(room)
-        .peekable();
+    let mut letters = text.chars().filter(|&letter| ascii::is_safe(letter)).take(room).peekable();
     if letters.peek().is_none() {
         return Vec::new();
     }
     let typed: String = letters.collect();
     line.insert(&typed);
-    if editing_case {
-        write(app)
-    } else {
-        line_changed(app)
-    }
+    if editing_case { write(app) } else { line_changed(app) }
 }
 
 fn in_a_line(text: &str) -> Cow<'_, str> {
@@ -97,10 +88,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
         return browse::up(app);
     }
     if let Some(prompt) = app.prompts.last_mut() {
-        let changed = prompt
-            .dialog_mut()
-            .input()
-            .and_then(|input| input.handle(request));
+        let changed = prompt.dialog_mut().input().and_then(|input| input.handle(request));
         return if changed.is_some_and(|changed| changed.value) {
             line_changed(app)
         } else {
@@ -163,9 +151,7 @@ pub(super) fn chosen(app: &App, field: usize) -> &str {
 }
 
 fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
-    let name = names(app)
-        .iter()
-        .find(|name| name.starts_with(letter.to_ascii_lowercase()));
+    let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
     match (name, Pane::of_digit(letter)) {
         (Some(name), _) => return set(app, app.tab.form.focus, name),
         (None, Some(pane)) => app.say(format!(
@@ -192,11 +178,7 @@ pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
 
 /// The end of the message about an edit that replaces the case of the form.
 pub(super) fn undone_by(app: &App, case: &Case) -> &'static str {
-    if *case == app.tab.case {
-        ", unchanged"
-    } else {
-        "; Ctrl-Z undoes"
-    }
+    if *case == app.tab.case { ", unchanged" } else { "; Ctrl-Z undoes" }
 }
 
 /// Replaces the case of the form as one edit.
@@ -226,29 +208,17 @@ fn write(app: &mut App) -> Vec<Effect> {
 
 // The typed text, a number with its unit; blanks around a number are removed.
 fn completed(app: &App) -> String {
-    let text = [
-        app.tab.form.input.value(),
-        &app.ending().unwrap_or_default(),
-    ]
-    .concat();
+    let text = [app.tab.form.input.value(), &app.ending().unwrap_or_default()].concat();
     let is_words = rows::field(&app.tab.case, app.tab.form.focus)
         .is_some_and(|field| matches!(field.kind, Kind::Text));
-    if is_words {
-        text
-    } else {
-        text.trim().to_owned()
-    }
+    if is_words { text } else { text.trim().to_owned() }
 }
 
 // Of two fields that exclude each other, the edited one applies. Once it is empty again, the value
 // of the other is restored. The status line reports this during typing.
 fn take_turns(app: &mut App, field: usize, other: usize) {
-    let Some(before) = app
-        .tab
-        .history
-        .before_visit()
-        .and_then(|before| before.text(other))
-        .map(str::to_owned)
+    let Some(before) =
+        app.tab.history.before_visit().and_then(|before| before.text(other)).map(str::to_owned)
     else {
         return;
     };

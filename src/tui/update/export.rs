@@ -45,9 +45,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
     };
     if let Some(running) = &app.exporting {
         let running = ascii::printable(&running.path.display().to_string()).into_owned();
-        app.complain(format!(
-            "the export to {running} still runs: wait for its end"
-        ));
+        app.complain(format!("the export to {running} still runs: wait for its end"));
         return Vec::new();
     }
     let is_picture = exports::is_picture(&path);
@@ -69,10 +67,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
         inputs,
         picture,
     };
-    app.exporting = Some(RunningExport {
-        path: exporting.path.clone(),
-        picture,
-    });
+    app.exporting = Some(RunningExport { path: exporting.path.clone(), picture });
     app.say("exporting");
     vec![Effect::Job(Job::Export(Box::new(exporting)))]
 }
@@ -92,11 +87,7 @@ fn picture(app: &App) -> Option<Picture> {
 /// Reports the result of an export.
 pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) {
     let picture = app.exporting.take().and_then(|running| running.picture);
-    if app
-        .prompts
-        .last()
-        .is_some_and(Prompt::is_about_running_export)
-    {
+    if app.prompts.last().is_some_and(Prompt::is_about_running_export) {
         app.prompts.pop();
     }
     let is_asking = app.prompts.last().is_some_and(Prompt::is_export);

@@ -21,26 +21,17 @@ use crate::tui::tab::{Origin, Tab};
 
 /// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {
-    let unsaved: Vec<_> = app
-        .tabs()
-        .enumerate()
-        .filter(|(_, tab)| tab.is_unsaved())
-        .map(|(at, _)| at)
-        .collect();
+    let unsaved: Vec<_> =
+        app.tabs().enumerate().filter(|(_, tab)| tab.is_unsaved()).map(|(at, _)| at).collect();
     match unsaved[..] {
         [] => leave(app),
         [only] => {
             tabs::go_to(app, only);
-            app.prompts
-                .push(Prompt::Ask(Question::unsaved(&app.tab.name(), &Next::Quit)));
+            app.prompts.push(Prompt::Ask(Question::unsaved(&app.tab.name(), &Next::Quit)));
             Vec::new()
         }
         _ => {
-            let names: Vec<_> = app
-                .tabs()
-                .filter(|tab| tab.is_unsaved())
-                .map(Tab::name)
-                .collect();
+            let names: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
             app.prompts.push(Prompt::Ask(Question::all_unsaved(&names)));
             Vec::new()
         }
@@ -60,10 +51,7 @@ fn leave(app: &mut App) -> Vec<Effect> {
 /// Closes the current case, or asks if it has unsaved edits.
 pub(super) fn close(app: &mut App) -> Vec<Effect> {
     if app.tab.is_unsaved() {
-        app.prompts.push(Prompt::Ask(Question::unsaved(
-            &app.tab.name(),
-            &Next::Close,
-        )));
+        app.prompts.push(Prompt::Ask(Question::unsaved(&app.tab.name(), &Next::Close)));
         return Vec::new();
     }
     go(app, Next::Close)
@@ -184,15 +172,15 @@ pub(super) fn saved(
             effects.extend(go(app, next));
             return effects;
         }
-        Err(SaveFault::Exists(found)) => app
-            .prompts
-            .push(Prompt::Ask(Question::exists(&path, found, &next))),
-        Err(SaveFault::Changed(found)) => app
-            .prompts
-            .push(Prompt::Ask(Question::changed(&path, found, &next))),
-        Err(SaveFault::Held(holder)) => app
-            .prompts
-            .push(Prompt::Ask(Question::held(&path, &holder, &next))),
+        Err(SaveFault::Exists(found)) => {
+            app.prompts.push(Prompt::Ask(Question::exists(&path, found, &next)))
+        }
+        Err(SaveFault::Changed(found)) => {
+            app.prompts.push(Prompt::Ask(Question::changed(&path, found, &next)))
+        }
+        Err(SaveFault::Held(holder)) => {
+            app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next)))
+        }
         Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
     }
     Vec::new()
@@ -225,10 +213,7 @@ pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
     };
     app.prompts.clear();
     tabs::go_to(app, at);
-    app.say(format!(
-        "{} is open already",
-        ascii::printable(&app.tab.name())
-    ));
+    app.say(format!("{} is open already", ascii::printable(&app.tab.name())));
     Vec::new()
 }
 
@@ -254,17 +239,12 @@ fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
 
 fn place_of(app: &App, path: &Path) -> Option<usize> {
     let path = rexs::case_path(path);
-    app.tabs()
-        .position(|tab| tab.path.as_deref() == Some(&path))
+    app.tabs().position(|tab| tab.path.as_deref() == Some(&path))
 }
 
 // A file with invalid values could not be opened again; a file with missing values can.
 fn refuse_faulty(app: &mut App) -> bool {
-    let wrong = app
-        .tab
-        .problems
-        .iter()
-        .find(|(row, _)| !rows::lacks(&app.tab.case, *row));
+    let wrong = app.tab.problems.iter().find(|(row, _)| !rows::lacks(&app.tab.case, *row));
     let Some(&(field, _)) = wrong else {
         return false;
     };
@@ -276,14 +256,7 @@ fn refuse_faulty(app: &mut App) -> bool {
 fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     let document = app.tab.as_edited();
     app.tab.saving = Some(app.tab.case.clone());
-    Effect::Save(
-        Box::new(Saving {
-            document,
-            path,
-            over,
-        }),
-        next,
-    )
+    Effect::Save(Box::new(Saving { document, path, over }), next)
 }
 
 // The list of cases in a folder shows only names with the extension.
@@ -305,10 +278,7 @@ pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
         return Vec::new();
     }
     let is_own = app.tab.path.as_deref() == Some(Path::new(name));
-    let (path, over) = if is_own {
-        (PathBuf::from(name), Over::Own)
-    } else {
-        (named(name.trim()), Over::Nothing)
-    };
+    let (path, over) =
+        if is_own { (PathBuf::from(name), Over::Own) } else { (named(name.trim()), Over::Nothing) };
     vec![saving(app, path, over, next)]
 }

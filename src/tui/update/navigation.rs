@@ -37,11 +37,7 @@ fn fault(app: &mut App) {
         let problems = app.tab.problems.iter().map(|(row, _)| *row);
         problems.chain(app.tab.refused_row())
     };
-    match rows()
-        .filter(|&row| row > app.tab.form.focus)
-        .min()
-        .or_else(|| rows().min())
-    {
+    match rows().filter(|&row| row > app.tab.form.focus).min().or_else(|| rows().min()) {
         Some(row) => field(app, row),
         None => app.say("no field has an error"),
     }
@@ -90,7 +86,5 @@ fn group_beside(case: &Case, focus: usize, by: isize) -> usize {
     } else {
         starts.iter().rev().find(|&&start| start < focus)
     };
-    found
-        .copied()
-        .unwrap_or(if by > 0 { rows::count(case) - 1 } else { 0 })
+    found.copied().unwrap_or(if by > 0 { rows::count(case) - 1 } else { 0 })
 }

@@ -41,11 +41,7 @@ const UNICODE: &str = "drawn in Unicode; a locale without UTF-8 keeps it for thi
 pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
     app.look.ascii = !app.look.ascii;
     app.settings.ascii = app.look.ascii;
-    app.say(if app.look.ascii {
-        "drawn in ASCII"
-    } else {
-        UNICODE
-    });
+    app.say(if app.look.ascii { "drawn in ASCII" } else { UNICODE });
     keep(app)
 }
 

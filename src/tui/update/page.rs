@@ -23,22 +23,14 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
         );
         return Vec::new();
     };
-    let solution = app
-        .tab
-        .answer
-        .as_ref()
-        .and_then(|answer| answer.of(answer.active));
+    let solution = app.tab.answer.as_ref().and_then(|answer| answer.of(answer.active));
     let value = solution.and_then(|solution| report::value(quantity, solution));
     let value = value.and_then(|value| {
         let [own, metric] = [app.settings.units, System::Metric]
             .map(|system| report::shown_in(quantity, value, system));
         (own.unit != metric.unit).then_some(own)
     });
-    app.prompts.push(Prompt::Explain(Explanation::new(
-        quantity,
-        app.tab.name(),
-        value,
-    )));
+    app.prompts.push(Prompt::Explain(Explanation::new(quantity, app.tab.name(), value)));
     vec![Effect::Job(Job::Explain(Box::new(Explaining {
         quantity,
         case: app.tab.case.clone(),
@@ -53,10 +45,7 @@ pub(super) fn notes(app: &mut App) {
         app.complain("there are no results to show");
     } else {
         let page = Page::new("Outcome, limits, notes", lines);
-        app.prompts.push(Prompt::Read(Page {
-            is_of_results: true,
-            ..page
-        }));
+        app.prompts.push(Prompt::Read(Page { is_of_results: true, ..page }));
     }
 }
 

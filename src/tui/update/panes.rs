@@ -26,15 +26,9 @@ pub(super) fn step(app: &mut App, by: isize) {
 /// Shows another pane in the lower area; the focus does not move unless it is there.
 pub(super) fn cycle_lower(app: &mut App) {
     let plan = app.layout.plan();
-    let now = Pane::LOWER
-        .iter()
-        .position(|&pane| pane == app.layout.lower())
-        .unwrap_or(0);
+    let now = Pane::LOWER.iter().position(|&pane| pane == app.layout.lower()).unwrap_or(0);
     let others = (1..=Pane::LOWER.len()).map(|by| Pane::LOWER[(now + by) % Pane::LOWER.len()]);
-    let next = others
-        .into_iter()
-        .find(|&pane| plan.area(pane).is_empty())
-        .unwrap_or(Pane::Chart);
+    let next = others.into_iter().find(|&pane| plan.area(pane).is_empty()).unwrap_or(Pane::Chart);
     let has_room = Pane::LOWER.iter().any(|&pane| !plan.area(pane).is_empty());
     if app.layout.focus().is_lower() || !has_room {
         app.layout.show_below(next);
@@ -66,16 +60,8 @@ pub(super) fn show_result(app: &mut App, key: &str) {
 
 /// Reports a letter without a command in the focused pane, and suggests a command.
 pub(super) fn stray(app: &mut App, letter: char) {
-    let name = if letter == ' ' {
-        "Space".to_owned()
-    } else {
-        letter.to_string()
-    };
-    let meant = if app.layout.focus() == Pane::Form {
-        "Enter edits the field, "
-    } else {
-        ""
-    };
+    let name = if letter == ' ' { "Space".to_owned() } else { letter.to_string() };
+    let meant = if app.layout.focus() == Pane::Form { "Enter edits the field, " } else { "" };
     app.say(format!(
         "{} is not a command in {}: {meant}? lists the keys",
         ascii::printable(&name),

@@ -103,7 +103,5 @@ fn hidden_at(app: &App, at: Position) -> Option<Pane> {
 
 fn pane_at(app: &App, at: Position) -> Option<Pane> {
     let plan = app.layout.plan();
-    Pane::ALL
-        .into_iter()
-        .find(|&pane| plan.area(pane).contains(at))
+    Pane::ALL.into_iter().find(|&pane| plan.area(pane).contains(at))
 }

@@ -17,16 +17,9 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     if !claim.is_silent() {
         tabs::go_to(app, at);
     }
-    let Claim {
-        id,
-        access,
-        offers,
-        notices,
-    } = claim;
+    let Claim { id, access, offers, notices } = claim;
     if let Access::Held(holder) = &access {
-        app.complain(format!(
-            "read-only: open in {holder}; F2 saves under another name"
-        ));
+        app.complain(format!("read-only: open in {holder}; F2 saves under another name"));
     }
     if let Some(tab) = std::iter::once(&mut app.tab)
         .chain(&mut app.others)
@@ -36,21 +29,12 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     }
     if !notices.is_empty() {
         let said = app.message.take().map(|message| message.text);
-        app.complain(
-            said.into_iter()
-                .chain(notices)
-                .collect::<Vec<_>>()
-                .join("; "),
-        );
+        app.complain(said.into_iter().chain(notices).collect::<Vec<_>>().join("; "));
     }
     let name = app.tab.name();
     // The latest is on top.
-    app.prompts.extend(
-        offers
-            .into_iter()
-            .rev()
-            .map(|offer| Prompt::Ask(Question::recover(&name, offer))),
-    );
+    app.prompts
+        .extend(offers.into_iter().rev().map(|offer| Prompt::Ask(Question::recover(&name, offer))));
 }
 
 /// Shows the journals of ended sessions.
@@ -74,9 +58,7 @@ pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
     app.tab.before_edit(app.tab.form.focus);
     let mut effects = solve(app.replace_case(case, app.tab.form.focus));
     if let Some(problem) = refused.first() {
-        app.complain(format!(
-            "some edits are not restored, and the journal stays: {problem}"
-        ));
+        app.complain(format!("some edits are not restored, and the journal stays: {problem}"));
     } else {
         app.say("the edits are restored, not saved yet");
         effects.push(Effect::Adopt(offer.journal.clone()));

@@ -31,12 +31,9 @@ pub(super) fn take(app: &mut App, values: &[(&'static str, String)]) -> Vec<Effe
         }
     }
     let effects = edit::replace(app, case);
-    let amounts = values
-        .iter()
-        .filter(|(key, _)| key.ends_with(".tip_relief"));
-    let words: Vec<String> = amounts
-        .map(|(key, text)| format!("{} {text}", key.replace(['.', '_'], " ")))
-        .collect();
+    let amounts = values.iter().filter(|(key, _)| key.ends_with(".tip_relief"));
+    let words: Vec<String> =
+        amounts.map(|(key, text)| format!("{} {text}", key.replace(['.', '_'], " "))).collect();
     app.say(format!("{}; Ctrl-Z undoes", words.join(", ")));
     effects
 }

@@ -51,9 +51,7 @@ pub(super) fn changed(
         Err(faults) => {
             let fault = faults.into_iter().next().unwrap_or_default();
             let fault = ascii::printable(&fault).into_owned();
-            app.complain(format!(
-                "{name} changed on disk and cannot be read: {fault}"
-            ));
+            app.complain(format!("{name} changed on disk and cannot be read: {fault}"));
             return Vec::new();
         }
     };

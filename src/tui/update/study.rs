@@ -21,12 +21,7 @@ use crate::tui::study::{
 use crate::tui::tab::Tab;
 
 /// The methods of the overlaid curves.
-const METHODS: [Method; 4] = [
-    Method::Exact,
-    Method::Paper,
-    Method::Static,
-    Method::Dynamic,
-];
+const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Method::Dynamic];
 
 /// Requests the visible study if it differs from the last one; stops a hidden one.
 pub(super) fn request(app: &mut App) -> Vec<Effect> {
@@ -79,11 +74,7 @@ fn key(app: &App, quantity: Option<&Quantity>) -> StudyKey {
 }
 
 fn stop_running(app: &mut App) -> Vec<Effect> {
-    if forget_running(app) {
-        vec![Effect::CancelStudy]
-    } else {
-        Vec::new()
-    }
+    if forget_running(app) { vec![Effect::CancelStudy] } else { Vec::new() }
 }
 
 /// Forgets the running study, so that its tab requests it again once it is visible. Returns whether
@@ -114,9 +105,7 @@ fn quantity(app: &App) -> Option<&'static Quantity> {
 /// Returns the reason if there is no study.
 fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyParameters, String> {
     let tab = &app.tab;
-    let inputs = tab
-        .inputs()
-        .ok_or("No study: a field has an error. Alt-E goes to that field.")?;
+    let inputs = tab.inputs().ok_or("No study: a field has an error. Alt-E goes to that field.")?;
     let quantity = quantity.ok_or("No result is selected.")?;
     if app.study.is_tolerance {
         return tolerance(app, inputs, quantity);
@@ -124,17 +113,12 @@ fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyPar
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.layout.plan().area(Pane::Study));
     let second = app.study.second.filter(|second| *second != field);
-    let place = RangeOf {
-        case: &tab.case,
-        units: app.settings.units,
-        zoom: app.study.zoom,
-    };
+    let place = RangeOf { case: &tab.case, units: app.settings.units, zoom: app.study.zoom };
     let axis_of = |field, steps| place.axis(field, steps);
     let axes = match second {
-        Some(second) => vec![
-            axis_of(second, Steps::Round(up))?,
-            axis_of(field, Steps::Round(across))?,
-        ],
+        Some(second) => {
+            vec![axis_of(second, Steps::Round(up))?, axis_of(field, Steps::Round(across))?]
+        }
         None => vec![axis_of(field, Steps::Equal(CURVE_POINTS))?],
     };
     let axes = Grid::of(axes)
@@ -184,19 +168,10 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
     };
     let other = |method: Method| {
         let own = counterpart(quantity, solved_by, method)?;
-        let inputs = Inputs {
-            method,
-            ..inputs.clone()
-        };
-        Some(Layer {
-            source: LayerSource::Other(method),
-            inputs,
-            quantity: own.key,
-        })
+        let inputs = Inputs { method, ..inputs.clone() };
+        Some(Layer { source: LayerSource::Other(method), inputs, quantity: own.key })
     };
-    let others = METHODS
-        .into_iter()
-        .filter(|method| *method != active && *method != solved_by);
+    let others = METHODS.into_iter().filter(|method| *method != active && *method != solved_by);
     let pinned = app.baseline.as_ref().and_then(|baseline| {
         let answer = &baseline.answer;
         Some(Layer {
@@ -265,9 +240,7 @@ pub(super) fn run(app: &mut App, command: StudyCommand) -> Vec<Effect> {
         }
         StudyCommand::Reset => app.study.zoom = 0,
         StudyCommand::Second if app.study.second.take().is_some() => (),
-        StudyCommand::Second => app
-            .prompts
-            .push(Prompt::Pick(Picker::new(List::SecondField))),
+        StudyCommand::Second => app.prompts.push(Prompt::Pick(Picker::new(List::SecondField))),
         StudyCommand::Tolerance => {
             app.study.is_tolerance = !app.study.is_tolerance;
             app.study.top = 0;

@@ -21,8 +21,7 @@ pub(super) fn go_to(app: &mut App, at: usize) {
     let taken = if at > now { at - 1 } else { at };
     let next = app.others.remove(taken);
     let before = std::mem::replace(&mut app.tab, next);
-    app.others
-        .insert(if at > now { now } else { now - 1 }, before);
+    app.others.insert(if at > now { now } else { now - 1 }, before);
     app.place_of_tab = at;
     // The worker may have dropped a request of this tab for a later one.
     if !app.tab.is_settled {
@@ -37,10 +36,7 @@ pub(super) fn step(app: &mut App, by: isize) {
     if count == 1 {
         app.say("only one case is open");
     }
-    go_to(
-        app,
-        (app.place_of_tab + count).saturating_add_signed(by) % count,
-    );
+    go_to(app, (app.place_of_tab + count).saturating_add_signed(by) % count);
 }
 
 /// Shows a document: in the tab of its path, instead of the unchanged built-in case, or in a new
@@ -74,10 +70,7 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let replaces = app.tab.is_untouched();
     let request = put(
         app,
-        Tab {
-            origin: Origin::New,
-            ..Tab::new(Document::new(Case::fresh()), None)
-        },
+        Tab { origin: Origin::New, ..Tab::new(Document::new(Case::fresh()), None) },
         replaces,
     );
     let missing = app.tab.problems.len();
@@ -94,16 +87,10 @@ pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request>
     let replaces = app.tab.is_untouched();
     let request = put(
         app,
-        Tab {
-            origin: Origin::Example(example.name),
-            ..Tab::new(example.document(), None)
-        },
+        Tab { origin: Origin::Example(example.name), ..Tab::new(example.document(), None) },
         replaces,
     );
-    app.say(format!(
-        "new case from {}; it has no file yet",
-        example.name
-    ));
+    app.say(format!("new case from {}; it has no file yet", example.name));
     request
 }
 
@@ -126,13 +113,7 @@ pub(super) fn close(app: &mut App) -> Option<Request> {
 fn put(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
     let focus = app.tab.form.focus;
     app.last_id += 1;
-    let before = std::mem::replace(
-        &mut app.tab,
-        Tab {
-            id: app.last_id,
-            ..tab
-        },
-    );
+    let before = std::mem::replace(&mut app.tab, Tab { id: app.last_id, ..tab });
     if !replaces {
         app.others.insert(app.place_of_tab, before);
         app.place_of_tab += 1;

@@ -6,9 +6,7 @@ use crate::tui::panes::teeth::TeethCommand;
 /// Runs a command of the pane.
 pub(super) fn run(app: &mut App, command: TeethCommand) {
     let mut view = app.teeth;
-    let solved = app
-        .picture()
-        .map(|picture| (picture.inputs, picture.solution));
+    let solved = app.picture().map(|picture| (picture.inputs, picture.solution));
     let result = view.run(command, solved);
     app.teeth = view;
     match result {

@@ -22,22 +22,10 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     };
     app.last_serial += 1;
     let serial = app.last_serial;
-    app.tab.traded = Some(Traded {
-        serial,
-        inputs: inputs.clone(),
-        trade: None,
-        marked: None,
-    });
+    app.tab.traded = Some(Traded { serial, inputs: inputs.clone(), trade: None, marked: None });
     app.measuring = Some(serial);
-    app.progress = Some(Progress {
-        what: MEASURING.to_owned(),
-        part: 0.0,
-    });
-    vec![Effect::Measure(Box::new(Measuring {
-        serial,
-        inputs,
-        patience: Patience::STEADY,
-    }))]
+    app.progress = Some(Progress { what: MEASURING.to_owned(), part: 0.0 });
+    vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: Patience::STEADY }))]
 }
 
 /// Stops a hidden benchmark. A terminal that is briefly too small does not stop it.
@@ -46,34 +34,19 @@ pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
     let Some(serial) = app.measuring.filter(|_| !is_too_small) else {
         return Vec::new();
     };
-    let is_own = app
-        .tab
-        .traded
-        .as_ref()
-        .is_some_and(|traded| traded.serial == serial);
+    let is_own = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
     let is_shown = is_own && !app.layout.plan().area(Pane::Trade).is_empty();
-    if is_shown {
-        Vec::new()
-    } else {
-        vec![Effect::CancelWork]
-    }
+    if is_shown { Vec::new() } else { vec![Effect::CancelWork] }
 }
 
 /// Adds results of the benchmark and reports its end.
 pub(super) fn measured(app: &mut App, measured: BenchmarkProgress) {
     let BenchmarkProgress { serial, trade, end } = measured;
-    let is_shown = app
-        .tab
-        .traded
-        .as_ref()
-        .is_some_and(|traded| traded.serial == serial);
+    let is_shown = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
     let is_latest = app.measuring == Some(serial);
     if let Some(trade) = trade {
         if is_latest {
-            app.progress = Some(Progress {
-                what: MEASURING.to_owned(),
-                part: trade.part,
-            });
+            app.progress = Some(Progress { what: MEASURING.to_owned(), part: trade.part });
         }
         if let Some(traded) = app.traded_of(serial) {
             traded.trade = Some(*trade);

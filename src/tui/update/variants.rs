@@ -15,10 +15,8 @@ use crate::tui::variants::{Variants, VariantsRequest};
 
 /// Asks for the name of the variant.
 pub(super) fn ask(app: &mut App) {
-    let picker = Picker {
-        input: format!("{VARIANT} ").as_str().into(),
-        ..Picker::new(List::Commands)
-    };
+    let picker =
+        Picker { input: format!("{VARIANT} ").as_str().into(), ..Picker::new(List::Commands) };
     app.prompts.push(Prompt::Pick(picker));
 }
 
@@ -52,9 +50,7 @@ pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
 fn recall(app: &mut App, name: &str) -> Vec<Effect> {
     let Ok(variant) = app.tab.case.variant(name).cloned() else {
         let key = app.key_of(Command::Variant);
-        app.say(format!(
-            "no edits since the last save: change a field, then type {key} NAME"
-        ));
+        app.say(format!("no edits since the last save: change a field, then type {key} NAME"));
         return Vec::new();
     };
     let case = app.tab.case.with(&variant);
@@ -69,9 +65,7 @@ pub(super) fn next(app: &mut App) {
     let count = app.tab.case.variants.len();
     if count == 0 {
         let key = app.key_of(Command::Variant);
-        app.say(format!(
-            "the case has no variants: {key} NAME saves the edits as one"
-        ));
+        app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
         return;
     }
     let page = results::variants_page(&app.results());
@@ -85,15 +79,10 @@ pub(super) fn next(app: &mut App) {
 /// A request for the visible variants, unless they are solved or requested already.
 pub(super) fn request(app: &mut App) -> Option<Effect> {
     let is_shown = !app.layout.plan().area(Pane::Results).is_empty();
-    app.first_variant = app
-        .first_variant
-        .filter(|first| *first < app.tab.case.variants.len());
+    app.first_variant = app.first_variant.filter(|first| *first < app.tab.case.variants.len());
     app.first_variant.filter(|_| is_shown)?;
     let tab = &mut app.tab;
-    let is_known = tab
-        .variants
-        .as_ref()
-        .is_some_and(|found| found.serial == tab.serial);
+    let is_known = tab.variants.as_ref().is_some_and(|found| found.serial == tab.serial);
     // A request of another tab replaces this request.
     if is_known || app.comparing == Some(tab.serial) || !tab.problems.is_empty() {
         return None;

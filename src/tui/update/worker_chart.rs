@@ -20,11 +20,7 @@ pub(super) fn request(app: &mut App) -> Vec<Effect> {
     }
     forget_running(app);
     app.last_serial += 1;
-    let request = ChartRequest {
-        serial: app.last_serial,
-        chart,
-        inputs,
-    };
+    let request = ChartRequest { serial: app.last_serial, chart, inputs };
     app.tab.chart_work.request = Some(request.clone());
     app.tab.chart_work.is_running = true;
     vec![Effect::Chart(Box::new(request))]
@@ -32,11 +28,7 @@ pub(super) fn request(app: &mut App) -> Vec<Effect> {
 
 /// Stops the computation; the request is repeated once the chart is visible.
 fn stop(app: &mut App) -> Vec<Effect> {
-    if forget_running(app) {
-        vec![Effect::CancelChart]
-    } else {
-        Vec::new()
-    }
+    if forget_running(app) { vec![Effect::CancelChart] } else { Vec::new() }
 }
 
 /// Forgets the running request of any tab: the computation ends, and the tab requests it again.

@@ -38,30 +38,19 @@ pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
         lines.push(Line::styled(text::cut(&bar, width), theme.note));
     }
     if let Some(message) = &app.message {
-        let (mark, style) = if message.is_fault {
-            ("! ", theme.problem)
-        } else {
-            ("", theme.note)
-        };
+        let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
         let wrapped = text::wrap(&format!("{mark}{}", message.text), width);
         // The fix is at the end of a message: a long message replaces the hint.
         is_long = wrapped.len() > 1;
         if is_long {
             lines.clear();
         }
-        lines.splice(
-            0..0,
-            wrapped.into_iter().map(|line| Line::styled(line, style)),
-        );
+        lines.splice(0..0, wrapped.into_iter().map(|line| Line::styled(line, style)));
     }
     let room = usize::from(area.height);
     if !is_long {
         let left = room.saturating_sub(lines.len());
-        lines.extend(
-            text::sentences(&focused(app), width, left)
-                .into_iter()
-                .map(Line::raw),
-        );
+        lines.extend(text::sentences(&focused(app), width, left).into_iter().map(Line::raw));
     }
     if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
         lines[at] = Line::styled(
@@ -79,9 +68,8 @@ pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut spans = Vec::new();
     let mut shown: Vec<&str> = Vec::new();
     let mut left = usize::from(area.width);
-    for binding in BINDINGS
-        .iter()
-        .filter(|binding| binding.places.meets(place) && binding.footer.meets(place))
+    for binding in
+        BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.footer.meets(place))
     {
         let key = short(binding);
         let used = key.width() + binding.name.width() + 3;
@@ -93,10 +81,7 @@ pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
         }
         shown.push(binding.name);
         left = left.saturating_sub(used);
-        spans.extend([
-            Span::styled(key, theme.key),
-            Span::raw(format!(" {}  ", binding.name)),
-        ]);
+        spans.extend([Span::styled(key, theme.key), Span::raw(format!(" {}  ", binding.name))]);
     }
     Line::from(spans).render(area, buffer);
 }
@@ -107,14 +92,11 @@ pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
     let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
     let bounds = match field.kind {
         Kind::Text => String::new(),
-        Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => format!(
-            ", {}..{} {}",
-            shortest(range.from),
-            shortest(range.to),
-            range.unit
-        )
-        .trim_end()
-        .to_owned(),
+        Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => {
+            format!(", {}..{} {}", shortest(range.from), shortest(range.to), range.unit)
+                .trim_end()
+                .to_owned()
+        }
         Kind::Number(..) => format!(", {}", field.range_in(units)),
         Kind::Count(from, to, _) => format!(", {from}..{to}"),
         Kind::Choice(names, _) => format!(", {}", names.join(" | ")),
@@ -134,18 +116,10 @@ fn focused(app: &App) -> String {
                 Row::Field(field) => about_field(app, field),
                 Row::Limit(limit) => about_limit(app, limit),
             };
-            typed(app)
-                .into_iter()
-                .chain([about])
-                .collect::<Vec<_>>()
-                .join(" ")
+            typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }
         Pane::Results => results::marked(&app.results()).map_or_else(String::new, |quantity| {
-            let method = app
-                .tab
-                .answer
-                .as_ref()
-                .map_or(Method::Exact, |answer| answer.active);
+            let method = app.tab.answer.as_ref().map_or(Method::Exact, |answer| answer.active);
             let name = symbol(quantity.symbol_in(method), app.look.ascii);
             let about = format!(
                 "{name} {}, {} ({}).",
@@ -174,11 +148,8 @@ fn typed(app: &App) -> Option<String> {
         return Some(format!("Required, such as {example}."));
     }
     if app.form().is_unfinished(app.tab.form.focus)
-        && let Some((_, problem)) = app
-            .tab
-            .problems
-            .iter()
-            .find(|(at, _)| *at == app.tab.form.focus)
+        && let Some((_, problem)) =
+            app.tab.problems.iter().find(|(at, _)| *at == app.tab.form.focus)
     {
         return Some(format!("Not yet: {}: {}.", problem.cause, problem.fix));
     }
@@ -189,11 +160,8 @@ fn typed(app: &App) -> Option<String> {
 // The typed value in another unit, why the field has no effect, and its description.
 fn about_field(app: &App, index: usize) -> String {
     let field = &FIELDS[index];
-    let converted = app
-        .tab
-        .case
-        .text(index)
-        .and_then(|text| field.converted(text, app.settings.units));
+    let converted =
+        app.tab.case.text(index).and_then(|text| field.converted(text, app.settings.units));
     let inputs = &app.tab.inputs_so_far;
     let idle = match relevance(index, inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
@@ -202,16 +170,11 @@ fn about_field(app: &App, index: usize) -> String {
         _ => partial_relevance(index, inputs).map(|why| format!("Limited effect: {why}.")),
     };
     let about = about(field, app.look.ascii, app.settings.units);
-    [
-        converted.map(|value| value + "."),
-        idle,
-        material(app, field),
-        Some(about),
-    ]
-    .into_iter()
-    .flatten()
-    .collect::<Vec<_>>()
-    .join(" ")
+    [converted.map(|value| value + "."), idle, material(app, field), Some(about)]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 // The source of a value, if it is that of a material.
@@ -235,15 +198,9 @@ fn about_limit(app: &App, limit: &Limit) -> String {
             .into_iter()
             .find(|verdict| verdict.limit.quantity == limit.quantity)
     };
-    let verdict = solution
-        .filter(|_| !limit.text.is_empty())
-        .and_then(of_case);
+    let verdict = solution.filter(|_| !limit.text.is_empty()).and_then(of_case);
     let sentence = verdict.map(|verdict| {
-        format!(
-            "{} {}. ",
-            verdict.standing.word(),
-            verdict.sentence(app.settings.units)
-        )
+        format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))
     });
     format!(
         "{}Upper limit of {}; empty: no limit.",
@@ -267,33 +224,17 @@ fn at_cursor(app: &App) -> String {
 
 // Progress of a slow solve.
 fn solving(app: &App) -> Option<Progress> {
-    let method = app
-        .tab
-        .answer
-        .as_ref()
-        .and_then(|answer| answer.pending)
-        .map_or("", Method::name);
-    app.tab.solving.map(|part| Progress {
-        what: format!("solving {method}"),
-        part,
-    })
+    let method = app.tab.answer.as_ref().and_then(|answer| answer.pending).map_or("", Method::name);
+    app.tab.solving.map(|part| Progress { what: format!("solving {method}"), part })
 }
 
 fn bar(progress: &Progress) -> String {
-    let part = if progress.part.is_finite() {
-        progress.part.clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let part = if progress.part.is_finite() { progress.part.clamp(0.0, 1.0) } else { 0.0 };
     let full = (part * BAR as f64).floor() as usize;
     let bar = "█".repeat(full) + &"░".repeat(BAR - full);
     format!("{bar} {:3.0} % {}", part * 100.0, progress.what)
 }
 
 fn short(binding: &Binding) -> String {
-    binding
-        .chords
-        .first()
-        .map(Chord::short_name)
-        .unwrap_or_default()
+    binding.chords.first().map(Chord::short_name).unwrap_or_default()
 }

@@ -38,21 +38,14 @@ pub fn draw(request: &ChartRequest, running: Running<'_>) {
     let found = match found {
         Ok(found) => Some(found),
         Err(Refusal::Stopped) => None,
-        Err(refusal) => Some(ChartValues::Refused(format!(
-            "{refusal}: {}",
-            refusal.fix()
-        ))),
+        Err(refusal) => Some(ChartValues::Refused(format!("{refusal}: {}", refusal.fix()))),
     };
     (running.send)(action(request, found, true));
 }
 
 fn action(request: &ChartRequest, found: Option<ChartValues>, is_over: bool) -> Action {
     let serial = request.serial;
-    Action::Charted(Box::new(ChartPart {
-        serial,
-        found,
-        is_over,
-    }))
+    Action::Charted(Box::new(ChartPart { serial, found, is_over }))
 }
 
 fn tooth_compliance(gear: usize, inputs: &Inputs) -> Result<ChartValues, Refusal> {
@@ -71,10 +64,7 @@ fn spectrum(inputs: &Inputs, running: Running<'_>) -> Result<ChartValues, Refusa
         Method::Dynamic => Method::Dynamic,
         _ => Method::Static,
     };
-    let inputs = Inputs {
-        method,
-        ..inputs.clone()
-    };
+    let inputs = Inputs { method, ..inputs.clone() };
     let late = Stages::of(Stage::StaticSpectrum).and(Stages::of(Stage::SteadyMotion));
     let solution = solve_while(&inputs, late, &|_| (running.is_wanted)())?;
     Ok(ChartValues::Spectra(spectra("", &solution)))

@@ -55,12 +55,10 @@ fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Resu
     let go_on = |done: usize, of: usize| go_on(done as f64 / of.max(1) as f64);
     let format = match subject {
         Subject::Picture(picture) => {
-            return picture
-                .of_case(source, &go_on)
-                .map_err(|reason| match reason {
-                    NoPicture::Refused(refusal) => refused(&refusal),
-                    NoPicture::Absent(reason) => reason,
-                });
+            return picture.of_case(source, &go_on).map_err(|reason| match reason {
+                NoPicture::Refused(refusal) => refused(&refusal),
+                NoPicture::Absent(reason) => reason,
+            });
         }
         Subject::Report(format) => format,
     };

@@ -83,10 +83,7 @@ fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> 
         Ok(inputs) => Digest::solve(case, &inputs, system, go_on),
         Err(_) => Some(Digest::default()),
     };
-    EXAMPLES
-        .iter()
-        .map(|example| digest(&example.document().case))
-        .collect()
+    EXAMPLES.iter().map(|example| digest(&example.document().case)).collect()
 }
 
 // As in `tipstrike compare`.
@@ -104,10 +101,7 @@ fn compared(request: VariantsRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Var
         };
         Some((name, found))
     });
-    Some(Variants {
-        serial: request.serial,
-        columns: columns.collect::<Option<_>>()?,
-    })
+    Some(Variants { serial: request.serial, columns: columns.collect::<Option<_>>()? })
 }
 
 // As in `tipstrike relief`.
@@ -122,20 +116,11 @@ fn relieved(request: ReliefRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Relie
 
 // As in `tipstrike explain`.
 fn explained(explaining: Explaining) -> Explained {
-    let Explaining {
-        quantity,
-        case,
-        inputs,
-    } = explaining;
+    let Explaining { quantity, case, inputs } = explaining;
     let inputs = inputs.needing([quantity.stage]);
     let page = match model::solve(&inputs, Stages::of(quantity.stage)) {
-        Ok(solution) => Ok(Box::new(explain::explain(
-            quantity, &case, &inputs, &solution,
-        ))),
-        Err(refusal) => Err(format!(
-            "Not solved: {refusal}. Correction: {}.",
-            refusal.fix()
-        )),
+        Ok(solution) => Ok(Box::new(explain::explain(quantity, &case, &inputs, &solution))),
+        Err(refusal) => Err(format!("Not solved: {refusal}. Correction: {}.", refusal.fix())),
     };
     Explained { quantity, page }
 }

@@ -49,10 +49,7 @@ impl<R: std::marker::Send + 'static> Worker<R> {
                 }
             };
             while let Some(request) = theirs.take() {
-                let running = Running {
-                    is_wanted: &|| theirs.is_wanted(),
-                    send: &send,
-                };
+                let running = Running { is_wanted: &|| theirs.is_wanted(), send: &send };
                 let done = catch_unwind(AssertUnwindSafe(|| {
                     fault::on_demand(name);
                     work(&request, running);
@@ -141,10 +138,7 @@ impl<R> LatestRequest<R> {
                 state.is_stopped = state.is_next_stopped;
                 return Some(request);
             }
-            state = self
-                .bell
-                .wait(state)
-                .unwrap_or_else(PoisonError::into_inner);
+            state = self.bell.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 

@@ -14,29 +14,18 @@ use crate::tui::benchmark::{BenchmarkProgress, End, Measuring};
 /// Returns an error if the system cannot start a thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<Measuring>> {
     Worker::start("benchmark", send, measure, |measuring| {
-        of(
-            measuring,
-            None,
-            Some(End::Failed("internal error".to_owned())),
-        )
+        of(measuring, None, Some(End::Failed("internal error".to_owned())))
     })
 }
 
 /// Runs the benchmark to its end and sends each step.
 pub fn measure(measuring: &Measuring, running: Running<'_>) {
-    let parameters = TradeParameters {
-        within: measuring.inputs.within,
-        patience: measuring.patience,
-    };
+    let parameters =
+        TradeParameters { within: measuring.inputs.within, patience: measuring.patience };
     let mut report = |sofar: &Trade| {
         (running.send)(of(measuring, Some(sofar.clone()), None));
     };
-    let found = trade(
-        &measuring.inputs,
-        &parameters,
-        running.is_wanted,
-        &mut report,
-    );
+    let found = trade(&measuring.inputs, &parameters, running.is_wanted, &mut report);
     let (trade, end) = match found {
         Ok(trade) => (Some(trade), End::Whole),
         Err(Refusal::Stopped) => (None, End::Stopped),
@@ -64,11 +53,7 @@ mod tests {
     use crate::study::trade::Patience;
 
     fn measuring(serial: u64) -> Measuring {
-        Measuring {
-            serial,
-            inputs: Case::table_1().inputs().unwrap(),
-            patience: Patience::ONCE,
-        }
+        Measuring { serial, inputs: Case::table_1().inputs().unwrap(), patience: Patience::ONCE }
     }
 
     /// The messages of a benchmark while `go_on` returns true.
@@ -83,10 +68,7 @@ mod tests {
                 all.borrow_mut().push(*measured);
             }
         };
-        let running = Running {
-            is_wanted: &|| is_wanted.get(),
-            send: &send,
-        };
+        let running = Running { is_wanted: &|| is_wanted.get(), send: &send };
         measure(measuring, running);
         all.into_inner()
     }
@@ -98,9 +80,7 @@ mod tests {
         worker.request(measuring(7));
         let mut known = 0;
         for action in receiver {
-            let Action::Measured(measured) = action else {
-                panic!("{action:?}")
-            };
+            let Action::Measured(measured) = action else { panic!("{action:?}") };
             assert_eq!(measured.serial, 7);
             let trade = measured.trade.expect("a trade");
             assert!(trade.settings.len() >= known);
@@ -119,10 +99,7 @@ mod tests {
             trade.map_or(0, |trade| trade.settings.len())
         };
         let all = sent(&measuring(1), &|measured| count(measured) != 3);
-        assert_eq!(
-            all.last().map(|last| last.end.clone()),
-            Some(Some(End::Stopped))
-        );
+        assert_eq!(all.last().map(|last| last.end.clone()), Some(Some(End::Stopped)));
         assert_eq!(all.iter().map(count).max(), Some(3));
     }
 
@@ -130,9 +107,7 @@ mod tests {
     fn a_case_that_no_method_solves_reports_the_reason() {
         let mut refused = measuring(2);
         refused.inputs.centre_distance = Some(0.01);
-        let end = sent(&refused, &|_| true)
-            .into_iter()
-            .find_map(|measured| measured.end);
+        let end = sent(&refused, &|_| true).into_iter().find_map(|measured| measured.end);
         assert!(matches!(end, Some(End::Failed(reason)) if reason.contains("centre distance")));
     }
 }

@@ -66,18 +66,10 @@ fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> 
             continue;
         }
         (running.send)(Action::Solved(Box::new(answer.clone())));
-        let request = Request {
-            stages,
-            ..request.clone()
-        };
-        answer = cleared(evaluator, &request, answer, begun, &|_| {
-            (running.is_wanted)()
-        })?;
+        let request = Request { stages, ..request.clone() };
+        answer = cleared(evaluator, &request, answer, begun, &|_| (running.is_wanted)())?;
     }
-    Some(Answer {
-        stages: request.stages,
-        ..answer
-    })
+    Some(Answer { stages: request.stages, ..answer })
 }
 
 #[cfg(test)]
@@ -111,11 +103,8 @@ mod tests {
     fn a_later_request_interrupts_a_slow_method_which_shows_the_closed_form() {
         let (solver, replies) = started();
         let mut slow = request(1);
-        (
-            slow.inputs.method,
-            slow.inputs.tolerance,
-            slow.inputs.warmup_cycles,
-        ) = (Method::Dynamic, 1e-12, 10_000);
+        (slow.inputs.method, slow.inputs.tolerance, slow.inputs.warmup_cycles) =
+            (Method::Dynamic, 1e-12, 10_000);
         // Without damping the motion never becomes steady.
         slow.inputs.damping_ratio = 0.0;
         solver.request(slow);
@@ -149,9 +138,7 @@ mod tests {
                 };
                 // A surplus answer to the previous request would fail here.
                 assert_eq!(answer.serial, serial);
-                let clearing = answer
-                    .of(answer.active)
-                    .and_then(|solution| solution.clearing);
+                let clearing = answer.of(answer.active).and_then(|solution| solution.clearing);
                 if answer.pending.is_none() {
                     assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
                     found.push(clearing.is_some_and(|clearing| clearing.relief.is_some()));

@@ -106,15 +106,8 @@ fn solve_layer(
     send: &mut dyn FnMut(LayerFound),
 ) -> Result<(), Stopped> {
     let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
-    let inputs = &layer
-        .inputs
-        .clone()
-        .needing(quantities.iter().map(|of| of.stage));
-    let batch = Batch {
-        inputs,
-        points: grid,
-        quantities: &quantities,
-    };
+    let inputs = &layer.inputs.clone().needing(quantities.iter().map(|of| of.stage));
+    let batch = Batch { inputs, points: grid, quantities: &quantities };
     let (mut waiting, mut refusals) = (LayerFound::default(), Refusals::default());
     let mut sent = Instant::now();
     let solved = solve(&batch, grid.count(), running, &mut |rows| {
@@ -139,23 +132,12 @@ fn sample(
     parameters: &ToleranceParameters,
     running: Running<'_>,
 ) -> Result<(), Unfinished> {
-    let size = Size {
-        samples: SAMPLES,
-        seed: 1,
-        ranked: None,
-    };
+    let size = Size { samples: SAMPLES, seed: 1, ranked: None };
     let only: Vec<&'static Quantity> = Quantity::find(parameters.quantity).into_iter().collect();
     let study = Tolerance::of(&parameters.case, &parameters.inputs, &only, size)
         .map_err(Unfinished::Refused)?;
-    let inputs = &parameters
-        .inputs
-        .clone()
-        .needing(only.iter().map(|of| of.stage));
-    let batch = Batch {
-        inputs,
-        points: &study.design,
-        quantities: &study.quantities,
-    };
+    let inputs = &parameters.inputs.clone().needing(only.iter().map(|of| of.stage));
+    let batch = Batch { inputs, points: &study.design, quantities: &study.quantities };
     let (mut samples, mut sent) = (Samples::of(&study), Instant::now());
     let count = study.design.count();
     let solved = solve(&batch, count, running, &mut |rows| {
@@ -179,11 +161,7 @@ fn page(parameters: &ToleranceParameters, study: &Tolerance, samples: &Samples) 
     let so_far = Tolerance {
         design: Design {
             samples: solved.min(study.design.samples),
-            ranked: if solved < count {
-                0
-            } else {
-                study.design.ranked
-            },
+            ranked: if solved < count { 0 } else { study.design.ranked },
             ..study.design.clone()
         },
         ..study.clone()
@@ -198,15 +176,9 @@ fn page(parameters: &ToleranceParameters, study: &Tolerance, samples: &Samples) 
     let mut bytes = Vec::new();
     // Writing into memory does not fail.
     drop(report.write_for_screen(&mut bytes));
-    let mut lines: Vec<String> = String::from_utf8_lossy(&bytes)
-        .lines()
-        .map(str::to_owned)
-        .collect();
-    let refused = samples
-        .refusals
-        .0
-        .iter()
-        .map(|refused| report.refused(refused));
+    let mut lines: Vec<String> =
+        String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect();
+    let refused = samples.refusals.0.iter().map(|refused| report.refused(refused));
     lines.extend(refused);
     Found::Page(lines, solved as f64 / count as f64)
 }

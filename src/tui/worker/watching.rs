@@ -34,10 +34,7 @@ impl Watcher {
     /// Returns an error if the system cannot start a thread or has no means to wait.
     pub(super) fn start(send: Send) -> io::Result<Watcher> {
         let mut changes = Changes::new()?;
-        let watched = Arc::new(Watched {
-            list: Mutex::default(),
-            bell: Bell::new()?,
-        });
+        let watched = Arc::new(Watched { list: Mutex::default(), bell: Bell::new()? });
         let theirs = Arc::clone(&watched);
         thread::Builder::new()
             .name("watch".to_owned())
@@ -122,17 +119,11 @@ fn places(files: &[WatchedFile]) -> Places {
             let Some(path) = next else { break };
             let above = || path.ancestors().skip(1).map(Path::to_owned);
             // A missing folder may appear again.
-            places
-                .folders
-                .extend(above().find(|folder| folder.is_dir()));
+            places.folders.extend(above().find(|folder| folder.is_dir()));
             places.parts.extend(above());
-            next = fs::read_link(&path)
-                .ok()
-                .and_then(|target| Some(path.parent()?.join(target)));
+            next = fs::read_link(&path).ok().and_then(|target| Some(path.parent()?.join(target)));
         }
-        places
-            .parts
-            .extend(file.target.ancestors().skip(1).map(Path::to_owned));
+        places.parts.extend(file.target.ancestors().skip(1).map(Path::to_owned));
     }
     places
 }

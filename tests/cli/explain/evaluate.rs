@@ -10,22 +10,14 @@ const GLUE: char = '\u{a0}';
 pub(crate) fn evaluate(text: &str) -> f64 {
     let mut reader = Reader { rest: text };
     let value = reader.sum();
-    assert!(
-        reader.rest.trim().is_empty(),
-        "{text}: what is {:?}?",
-        reader.rest
-    );
+    assert!(reader.rest.trim().is_empty(), "{text}: what is {:?}?", reader.rest);
     value
 }
 
 /// The factor of a unit to SI.
 pub(crate) fn factor(unit: &str) -> Option<f64> {
-    units::factor(unit).or_else(|| {
-        STEP_UNITS
-            .iter()
-            .find(|(name, _)| *name == unit)
-            .map(|&(_, factor)| factor)
-    })
+    units::factor(unit)
+        .or_else(|| STEP_UNITS.iter().find(|(name, _)| *name == unit).map(|&(_, factor)| factor))
 }
 
 struct Reader<'a> {
@@ -41,11 +33,7 @@ impl Reader<'_> {
     }
 
     fn must(&mut self, mark: &str) {
-        assert!(
-            self.took(mark),
-            "{mark:?} is missing before {:?}",
-            self.rest
-        );
+        assert!(self.took(mark), "{mark:?} is missing before {:?}", self.rest);
     }
 
     fn sum(&mut self) -> f64 {
@@ -75,11 +63,7 @@ impl Reader<'_> {
     }
 
     fn signed(&mut self) -> f64 {
-        if self.took("-") {
-            -self.power()
-        } else {
-            self.power()
-        }
+        if self.took("-") { -self.power() } else { self.power() }
     }
 
     fn power(&mut self) -> f64 {
@@ -108,11 +92,7 @@ impl Reader<'_> {
                 return of(&arguments);
             }
         }
-        if self.took("π") {
-            std::f64::consts::PI
-        } else {
-            self.number()
-        }
+        if self.took("π") { std::f64::consts::PI } else { self.number() }
     }
 
     fn number(&mut self) -> f64 {
@@ -120,15 +100,12 @@ impl Reader<'_> {
         let mut end = self.rest.find(|c| !digits(c)).unwrap_or(self.rest.len());
         let power = self.rest[end..].strip_prefix('e').unwrap_or_default();
         let digits = power.trim_start_matches('-');
-        let length = digits
-            .find(|c: char| !c.is_ascii_digit())
-            .unwrap_or(digits.len());
+        let length = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
         if length > 0 {
             end += 1 + power.len() - digits.len() + length;
         }
-        let number: f64 = self.rest[..end]
-            .parse()
-            .unwrap_or_else(|_| panic!("{:?} is no number", self.rest));
+        let number: f64 =
+            self.rest[..end].parse().unwrap_or_else(|_| panic!("{:?} is no number", self.rest));
         self.rest = &self.rest[end..];
         match self.rest.strip_prefix(GLUE) {
             Some(after) => number * self.unit(after),
@@ -141,14 +118,10 @@ impl Reader<'_> {
         let plain = text.replace(GLUE, " ");
         let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());
         let mut known = ends.filter_map(|end| Some((end, factor(&plain[..end])?)));
-        let (end, factor) = known
-            .next_back()
-            .unwrap_or_else(|| panic!("{text:?} starts with no unit"));
+        let (end, factor) =
+            known.next_back().unwrap_or_else(|| panic!("{text:?} starts with no unit"));
         let length = plain[..end].chars().count();
-        let skip = text
-            .char_indices()
-            .nth(length)
-            .map_or(text.len(), |(at, _)| at);
+        let skip = text.char_indices().nth(length).map_or(text.len(), |(at, _)| at);
         let at = self.rest.len() - text.len() + skip;
         self.rest = &self.rest[at..];
         factor

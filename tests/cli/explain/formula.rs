@@ -46,46 +46,14 @@ impl PartialEq for Function {
 
 /// Every function; the number of arguments is 0 if it is not fixed.
 const FUNCTIONS: [Function; 9] = [
-    Function {
-        name: "sin",
-        arguments: 1,
-        of: |x| x[0].sin(),
-    },
-    Function {
-        name: "cos",
-        arguments: 1,
-        of: |x| x[0].cos(),
-    },
-    Function {
-        name: "tan",
-        arguments: 1,
-        of: |x| x[0].tan(),
-    },
-    Function {
-        name: "acos",
-        arguments: 1,
-        of: |x| x[0].acos(),
-    },
-    Function {
-        name: "atan2",
-        arguments: 2,
-        of: |x| x[0].atan2(x[1]),
-    },
-    Function {
-        name: "ln",
-        arguments: 1,
-        of: |x| x[0].ln(),
-    },
-    Function {
-        name: "inv",
-        arguments: 1,
-        of: |x| x[0].tan() - x[0],
-    },
-    Function {
-        name: "min",
-        arguments: 0,
-        of: |x| x.iter().copied().fold(f64::INFINITY, f64::min),
-    },
+    Function { name: "sin", arguments: 1, of: |x| x[0].sin() },
+    Function { name: "cos", arguments: 1, of: |x| x[0].cos() },
+    Function { name: "tan", arguments: 1, of: |x| x[0].tan() },
+    Function { name: "acos", arguments: 1, of: |x| x[0].acos() },
+    Function { name: "atan2", arguments: 2, of: |x| x[0].atan2(x[1]) },
+    Function { name: "ln", arguments: 1, of: |x| x[0].ln() },
+    Function { name: "inv", arguments: 1, of: |x| x[0].tan() - x[0] },
+    Function { name: "min", arguments: 0, of: |x| x.iter().copied().fold(f64::INFINITY, f64::min) },
     Function {
         name: "max",
         arguments: 0,
@@ -96,22 +64,15 @@ const FUNCTIONS: [Function; 9] = [
 impl Tree {
     /// The tree of a text; `None` if the text is not a formula.
     pub(crate) fn read(text: &str) -> Option<Tree> {
-        let mut reader = Reader {
-            tokens: tokens(text)?,
-            at: 0,
-        };
+        let mut reader = Reader { tokens: tokens(text)?, at: 0 };
         let tree = reader.sum()?;
         (reader.at == reader.tokens.len()).then_some(tree)
     }
 
     /// Its value, if every symbol has one.
     pub(crate) fn value(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
-        let list = |parts: &[Tree]| {
-            parts
-                .iter()
-                .map(|part| part.value(of))
-                .collect::<Option<Vec<f64>>>()
-        };
+        let list =
+            |parts: &[Tree]| parts.iter().map(|part| part.value(of)).collect::<Option<Vec<f64>>>();
         match self {
             Tree::Number(text) => text.parse().ok(),
             Tree::Pi => Some(PI),
@@ -123,11 +84,7 @@ impl Tree {
             }),
             Tree::Product(factors) => factors.iter().try_fold(1.0, |product, (divides, factor)| {
                 let factor = factor.value(of)?;
-                Some(if *divides {
-                    product / factor
-                } else {
-                    product * factor
-                })
+                Some(if *divides { product / factor } else { product * factor })
             }),
             Tree::Power(base, exponent) => Some(base.value(of)?.powf(exponent.value(of)?)),
             Tree::Root(inner) => Some(inner.value(of)?.sqrt()),
@@ -165,11 +122,7 @@ impl<'a> Reader<'a> {
             self.at += 1;
             terms.push((mark == '-', self.product()?));
         }
-        Some(if matches!(terms[..], [(false, _)]) {
-            terms.remove(0).1
-        } else {
-            Tree::Sum(terms)
-        })
+        Some(if matches!(terms[..], [(false, _)]) { terms.remove(0).1 } else { Tree::Sum(terms) })
     }
 
     fn product(&mut self) -> Option<Tree> {
@@ -192,11 +145,7 @@ impl<'a> Reader<'a> {
             }
             factors.push((divides, self.factor()?));
         }
-        Some(if factors.len() == 1 {
-            factors.remove(0).1
-        } else {
-            Tree::Product(factors)
-        })
+        Some(if factors.len() == 1 { factors.remove(0).1 } else { Tree::Product(factors) })
     }
 
     fn factor(&mut self) -> Option<Tree> {
@@ -206,10 +155,9 @@ impl<'a> Reader<'a> {
         }
         let raised = SUPERSCRIPTS.iter().find(|(mark, _)| self.took(*mark));
         Some(match raised {
-            Some((_, exponent)) => Tree::Power(
-                Box::new(base),
-                Box::new(Tree::Number((*exponent).to_owned())),
-            ),
+            Some((_, exponent)) => {
+                Tree::Power(Box::new(base), Box::new(Tree::Number((*exponent).to_owned())))
+            }
             None => base,
         })
     }
@@ -265,9 +213,7 @@ fn value(text: &str) -> f64 {
             _ => return None,
         })
     };
-    Tree::read(text)
-        .and_then(|tree| tree.value(&of))
-        .unwrap_or(f64::NAN)
+    Tree::read(text).and_then(|tree| tree.value(&of)).unwrap_or(f64::NAN)
 }
 
 #[test]
@@ -287,19 +233,13 @@ fn the_evaluator_follows_the_precedence_of_print() {
         ("3 sin(a - a) + inv(0)", 0.0),
         ("2 [N/(um mm)]/[mm]", 2e12),
     ] {
-        assert!(
-            (value(text) - expected).abs() < 1e-15,
-            "{text}: {}",
-            value(text)
-        );
+        assert!((value(text) - expected).abs() < 1e-15, "{text}: {}", value(text));
     }
 }
 
 #[test]
 fn the_evaluator_refuses_a_text_that_is_no_formula() {
-    for text in [
-        "", "a +", "(a", "a)", "|a", "atan2(a)", "a ? a", "a ^", "cos",
-    ] {
+    for text in ["", "a +", "(a", "a)", "|a", "atan2(a)", "a ? a", "a ^", "cos"] {
         assert_eq!(Tree::read(text), None, "{text}");
     }
     assert!(value("unknown").is_nan());

@@ -94,12 +94,7 @@ impl<'a> Naive<'a> {
         let tip = self.tip_at(angle);
         let (driver, driven) = (self.inputs.speed, self.inputs.driven_speed());
         let normal = driver * self.base[0] - driven * tip.normal_radius;
-        [
-            tip.radius,
-            tip.normal_radius,
-            normal,
-            driven * tip.normal_length - driver * tip.curvature,
-        ]
+        [tip.radius, tip.normal_radius, normal, driven * tip.normal_length - driver * tip.curvature]
     }
 
     /// F_S by Eq. 57 with Eq. 55 or a constant; `None` outside the range of Eq. 56.
@@ -122,10 +117,8 @@ impl<'a> Naive<'a> {
         let inertia = |gear: &Gear, base: f64| {
             PI * gear.density * gear.face_width / 2.0 * (base.powi(4) - gear.bore_radius.powi(4))
         };
-        let (first, second) = (
-            inertia(&inputs.driver, self.base[0]),
-            inertia(&inputs.driven, self.base[1]),
-        );
+        let (first, second) =
+            (inertia(&inputs.driver, self.base[0]), inertia(&inputs.driven, self.base[1]));
         let mass =
             first * second / (first * tip.normal_radius.powi(2) + second * self.base[0].powi(2));
         let teeth = self.tooth(&inputs.driver, tip.radius) + self.tooth(&inputs.driven, self.tip);

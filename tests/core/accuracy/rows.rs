@@ -85,12 +85,8 @@ fn path() -> PathBuf {
 pub(crate) fn frozen() -> Vec<Row> {
     let text = std::fs::read_to_string(path()).expect("the frozen rows");
     let file: Value = serde_json::from_str(&text).expect("JSON");
-    let keys: Vec<&str> = file["quantities"]
-        .as_array()
-        .expect("keys")
-        .iter()
-        .filter_map(Value::as_str)
-        .collect();
+    let keys: Vec<&str> =
+        file["quantities"].as_array().expect("keys").iter().filter_map(Value::as_str).collect();
     file["rows"]
         .as_array()
         .expect("rows")
@@ -112,15 +108,10 @@ pub(crate) fn regenerate() {
     let rows: Vec<Row> = thread::scope(|scope| {
         let (first, second) = COUNTS.split_at(2);
         let other = scope.spawn(|| {
-            second
-                .iter()
-                .flat_map(|&(corner, count)| rows_of(corner, count))
-                .collect::<Vec<_>>()
+            second.iter().flat_map(|&(corner, count)| rows_of(corner, count)).collect::<Vec<_>>()
         });
-        let mut rows: Vec<Row> = first
-            .iter()
-            .flat_map(|&(corner, count)| rows_of(corner, count))
-            .collect();
+        let mut rows: Vec<Row> =
+            first.iter().flat_map(|&(corner, count)| rows_of(corner, count)).collect();
         rows.extend(other.join().expect("the other half"));
         rows
     });
@@ -131,11 +122,7 @@ pub(crate) fn regenerate() {
 pub(crate) fn rows_of(corner: Corner, count: usize) -> Vec<Row> {
     let mut random = Random::new(corner as u64 + 1);
     let pairs = std::iter::repeat_with(|| envelope::pair(&mut random, corner));
-    pairs
-        .filter(has_teeth)
-        .filter_map(|inputs| Row::of(corner, inputs))
-        .take(count)
-        .collect()
+    pairs.filter(has_teeth).filter_map(|inputs| Row::of(corner, inputs)).take(count).collect()
 }
 
 fn written(rows: &[Row]) -> String {
@@ -152,15 +139,11 @@ fn written(rows: &[Row]) -> String {
 
 fn written_row(row: &Row, keys: &[&str]) -> String {
     let mut inputs = row.inputs.clone();
-    let fields: Vec<Option<String>> = FIELDS
-        .iter()
-        .map(|(_, slot)| slot(&mut inputs).written())
-        .collect();
+    let fields: Vec<Option<String>> =
+        FIELDS.iter().map(|(_, slot)| slot(&mut inputs).written()).collect();
     let answers: Vec<Option<&String>> = keys.iter().map(|&key| row.answers.get(key)).collect();
-    let conditions: Vec<Option<f64>> = keys
-        .iter()
-        .map(|&key| row.conditions.get(key).copied())
-        .collect();
+    let conditions: Vec<Option<f64>> =
+        keys.iter().map(|&key| row.conditions.get(key).copied()).collect();
     serde_json::json!([
         format!("{:?}", row.corner),
         choices(&row.inputs),
@@ -182,16 +165,12 @@ fn read(row: &Value, keys: &[&str]) -> Row {
         slot(&mut inputs).read(value.as_str());
     }
     let listed = |values: &Value| {
-        keys.iter()
-            .map(|&key| key.to_owned())
-            .zip(values.as_array().expect("values").clone())
+        keys.iter().map(|&key| key.to_owned()).zip(values.as_array().expect("values").clone())
     };
     Row {
         corner,
         inputs,
-        answers: listed(&row[3])
-            .filter_map(|(key, value)| Some((key, text(&value)?)))
-            .collect(),
+        answers: listed(&row[3]).filter_map(|(key, value)| Some((key, text(&value)?))).collect(),
         conditions: listed(&row[4])
             .filter_map(|(key, value)| Some((key, value.as_f64()?)))
             .collect(),
@@ -230,104 +209,44 @@ type Field = (&'static str, fn(&mut Inputs) -> LatestRequest<'_>);
 /// Every number of the inputs that differs between rows.
 const FIELDS: [Field; 30] = [
     ("module", |i| LatestRequest::Number(&mut i.module)),
-    ("pressure_angle", |i| {
-        LatestRequest::Number(&mut i.pressure_angle)
-    }),
-    ("centre_distance", |i| {
-        LatestRequest::Perhaps(&mut i.centre_distance)
-    }),
+    ("pressure_angle", |i| LatestRequest::Number(&mut i.pressure_angle)),
+    ("centre_distance", |i| LatestRequest::Perhaps(&mut i.centre_distance)),
     ("drive", |i| match &mut i.drive {
         Drive::Power(drive) | Drive::Torque(drive) => LatestRequest::Number(drive),
     }),
     ("speed", |i| LatestRequest::Number(&mut i.speed)),
-    ("base_pitch_deviation", |i| {
-        LatestRequest::Number(&mut i.base_pitch_deviation)
-    }),
+    ("base_pitch_deviation", |i| LatestRequest::Number(&mut i.base_pitch_deviation)),
     ("deflection", |i| LatestRequest::Perhaps(&mut i.deflection)),
-    ("driver.teeth", |i| {
-        LatestRequest::Count(&mut i.driver.teeth)
-    }),
-    ("driver.profile_shift", |i| {
-        LatestRequest::Number(&mut i.driver.profile_shift)
-    }),
-    ("driver.addendum", |i| {
-        LatestRequest::Number(&mut i.driver.addendum)
-    }),
-    ("driver.face_width", |i| {
-        LatestRequest::Number(&mut i.driver.face_width)
-    }),
-    ("driver.bore_radius", |i| {
-        LatestRequest::Number(&mut i.driver.bore_radius)
-    }),
-    ("driver.young", |i| {
-        LatestRequest::Number(&mut i.driver.young)
-    }),
-    ("driver.poisson", |i| {
-        LatestRequest::Number(&mut i.driver.poisson)
-    }),
-    ("driver.density", |i| {
-        LatestRequest::Number(&mut i.driver.density)
-    }),
-    ("driver.root_relief", |i| {
-        LatestRequest::Number(&mut i.driver.root_relief)
-    }),
-    ("driver.tip_chamfer", |i| {
-        LatestRequest::Number(&mut i.driver.tip_chamfer)
-    }),
-    ("driver.tip_radius", |i| {
-        LatestRequest::Perhaps(&mut i.driver.tip_radius)
-    }),
-    ("driven.teeth", |i| {
-        LatestRequest::Count(&mut i.driven.teeth)
-    }),
-    ("driven.profile_shift", |i| {
-        LatestRequest::Number(&mut i.driven.profile_shift)
-    }),
-    ("driven.addendum", |i| {
-        LatestRequest::Number(&mut i.driven.addendum)
-    }),
-    ("driven.face_width", |i| {
-        LatestRequest::Number(&mut i.driven.face_width)
-    }),
-    ("driven.bore_radius", |i| {
-        LatestRequest::Number(&mut i.driven.bore_radius)
-    }),
-    ("driven.young", |i| {
-        LatestRequest::Number(&mut i.driven.young)
-    }),
-    ("driven.poisson", |i| {
-        LatestRequest::Number(&mut i.driven.poisson)
-    }),
-    ("driven.density", |i| {
-        LatestRequest::Number(&mut i.driven.density)
-    }),
-    ("driven.tip_relief", |i| {
-        LatestRequest::Number(&mut i.driven.tip_relief)
-    }),
-    ("driven.tip_chamfer", |i| {
-        LatestRequest::Number(&mut i.driven.tip_chamfer)
-    }),
-    ("driven.tip_radius", |i| {
-        LatestRequest::Perhaps(&mut i.driven.tip_radius)
-    }),
+    ("driver.teeth", |i| LatestRequest::Count(&mut i.driver.teeth)),
+    ("driver.profile_shift", |i| LatestRequest::Number(&mut i.driver.profile_shift)),
+    ("driver.addendum", |i| LatestRequest::Number(&mut i.driver.addendum)),
+    ("driver.face_width", |i| LatestRequest::Number(&mut i.driver.face_width)),
+    ("driver.bore_radius", |i| LatestRequest::Number(&mut i.driver.bore_radius)),
+    ("driver.young", |i| LatestRequest::Number(&mut i.driver.young)),
+    ("driver.poisson", |i| LatestRequest::Number(&mut i.driver.poisson)),
+    ("driver.density", |i| LatestRequest::Number(&mut i.driver.density)),
+    ("driver.root_relief", |i| LatestRequest::Number(&mut i.driver.root_relief)),
+    ("driver.tip_chamfer", |i| LatestRequest::Number(&mut i.driver.tip_chamfer)),
+    ("driver.tip_radius", |i| LatestRequest::Perhaps(&mut i.driver.tip_radius)),
+    ("driven.teeth", |i| LatestRequest::Count(&mut i.driven.teeth)),
+    ("driven.profile_shift", |i| LatestRequest::Number(&mut i.driven.profile_shift)),
+    ("driven.addendum", |i| LatestRequest::Number(&mut i.driven.addendum)),
+    ("driven.face_width", |i| LatestRequest::Number(&mut i.driven.face_width)),
+    ("driven.bore_radius", |i| LatestRequest::Number(&mut i.driven.bore_radius)),
+    ("driven.young", |i| LatestRequest::Number(&mut i.driven.young)),
+    ("driven.poisson", |i| LatestRequest::Number(&mut i.driven.poisson)),
+    ("driven.density", |i| LatestRequest::Number(&mut i.driven.density)),
+    ("driven.tip_relief", |i| LatestRequest::Number(&mut i.driven.tip_relief)),
+    ("driven.tip_chamfer", |i| LatestRequest::Number(&mut i.driven.tip_chamfer)),
+    ("driven.tip_radius", |i| LatestRequest::Perhaps(&mut i.driven.tip_radius)),
     ("backlash", |i| LatestRequest::Number(&mut i.backlash)),
 ];
 
 /// The choices of the inputs as text.
 fn choices(inputs: &Inputs) -> String {
-    let drive = if matches!(inputs.drive, Drive::Power(_)) {
-        "power"
-    } else {
-        "torque"
-    };
-    let tooth = inputs
-        .tooth_compliance
-        .map_or("by-range", ToothCompliance::name);
-    format!(
-        "{} {drive} {tooth} {}",
-        inputs.method.name(),
-        inputs.contact_compliance.name()
-    )
+    let drive = if matches!(inputs.drive, Drive::Power(_)) { "power" } else { "torque" };
+    let tooth = inputs.tooth_compliance.map_or("by-range", ToothCompliance::name);
+    format!("{} {drive} {tooth} {}", inputs.method.name(), inputs.contact_compliance.name())
 }
 
 /// Inputs with these choices and default numbers.
@@ -336,18 +255,9 @@ fn chosen(choices: &str) -> Inputs {
     let named = |contact: &ContactCompliance| contact.name() == words[3];
     Inputs {
         inertia: InertiaModel::BaseCircle,
-        drive: if words[1] == "power" {
-            Drive::Power(0.0)
-        } else {
-            Drive::Torque(0.0)
-        },
-        method: Method::ALL
-            .into_iter()
-            .find(|method| method.name() == words[0])
-            .expect("a method"),
-        tooth_compliance: ToothCompliance::ALL
-            .into_iter()
-            .find(|tooth| tooth.name() == words[2]),
+        drive: if words[1] == "power" { Drive::Power(0.0) } else { Drive::Torque(0.0) },
+        method: Method::ALL.into_iter().find(|method| method.name() == words[0]).expect("a method"),
+        tooth_compliance: ToothCompliance::ALL.into_iter().find(|tooth| tooth.name() == words[2]),
         contact_compliance: ContactCompliance::ALL
             .into_iter()
             .find(named)

@@ -50,10 +50,7 @@ pub(crate) struct Table(Vec<Line>);
 
 /// The decade of the Δ of a row.
 pub(crate) fn decade(row: &Row) -> i32 {
-    row.answer("total_deviation")
-        .expect("a deviation")
-        .log10()
-        .floor() as i32
+    row.answer("total_deviation").expect("a deviation").log10().floor() as i32
 }
 
 fn path() -> PathBuf {
@@ -86,12 +83,7 @@ impl Table {
         let mut line = |quantity: &str, formula: &str| Line {
             quantity: quantity.to_owned(),
             formula: formula.to_owned(),
-            cells: errors
-                .next()
-                .expect("a line")
-                .into_iter()
-                .map(cell)
-                .collect(),
+            cells: errors.next().expect("a line").into_iter().map(cell).collect(),
         };
         Table(
             QUANTITIES
@@ -129,10 +121,7 @@ impl Table {
 
     /// Median errors of the printed formula and of tipstrike.
     pub(crate) fn median_at(&self, quantity: &str, decade: i32) -> (f64, f64) {
-        let column = DECADES
-            .iter()
-            .position(|&of| of == decade)
-            .expect("a decade");
+        let column = DECADES.iter().position(|&of| of == decade).expect("a decade");
         let of = |formula: &str| {
             let line = self
                 .0
@@ -155,10 +144,9 @@ impl Table {
                 let (Some(stored), Some(made)) = (stored, made) else {
                     continue;
                 };
-                for (stored, made) in [
-                    (stored.median, made.median),
-                    (stored.greatest, made.greatest),
-                ] {
+                for (stored, made) in
+                    [(stored.median, made.median), (stored.greatest, made.greatest)]
+                {
                     let ratio = stored.max(ROUNDING) / made.clamp(ROUNDING, 1.0);
                     assert!(
                         (0.1..=10.0).contains(&ratio),
@@ -199,10 +187,7 @@ fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
         let ours = (Quantity::find(key).expect("a quantity").value)(&solution).expect("a value");
         *errors = [Some(row.off(key, found)), Some(row.off(key, ours))];
     }
-    errors[0] = [
-        Some(rows::off(naive.gap(angle), &exact_gap)),
-        Some(rows::off(gap, &exact_gap)),
-    ];
+    errors[0] = [Some(rows::off(naive.gap(angle), &exact_gap)), Some(rows::off(gap, &exact_gap))];
     errors
 }
 
@@ -212,28 +197,19 @@ fn cell(mut errors: Vec<f64>) -> Option<Cell> {
         *error = error.min(1.0);
     }
     errors.sort_by(f64::total_cmp);
-    Some(Cell {
-        median: *errors.get(errors.len() / 2)?,
-        greatest: *errors.last()?,
-    })
+    Some(Cell { median: *errors.get(errors.len() / 2)?, greatest: *errors.last()? })
 }
 
 fn short(error: f64) -> String {
-    if error == 0.0 {
-        "0".to_owned()
-    } else {
-        format!("{error:.0e}")
-    }
+    if error == 0.0 { "0".to_owned() } else { format!("{error:.0e}") }
 }
 
 fn read_line(line: &str) -> Line {
     let words: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
     let number = |text: &str| text.parse::<f64>().expect("a number");
     let cell = |text: &&str| {
-        text.split_once(" / ").map(|(median, greatest)| Cell {
-            median: number(median),
-            greatest: number(greatest),
-        })
+        text.split_once(" / ")
+            .map(|(median, greatest)| Cell { median: number(median), greatest: number(greatest) })
     };
     Line {
         quantity: words[0].to_owned(),

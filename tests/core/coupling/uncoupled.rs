@@ -11,14 +11,8 @@ const REACH: f64 = 4e-4;
 
 /// The mesh of a pair with additional tip relief of the driven gear, in m.
 fn mesh(inputs: &Inputs, solution: &Solution, relief: f64) -> Option<Mesh> {
-    let driven = Gear {
-        tip_relief: inputs.driven.tip_relief + relief,
-        ..inputs.driven.clone()
-    };
-    let inputs = Inputs {
-        driven,
-        ..inputs.clone()
-    };
+    let driven = Gear { tip_relief: inputs.driven.tip_relief + relief, ..inputs.driven.clone() };
+    let inputs = Inputs { driven, ..inputs.clone() };
     let (force, error) = (solution.mesh_force, solution.deviation.equivalent_error);
     let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, force, error, REACH);
     Some(mesh.ok()?.uncoupled())
@@ -38,9 +32,7 @@ pub(crate) fn required_relief(inputs: &Inputs, solution: &Solution) -> Option<f6
     let settings = Settings::of(inputs, solution.reduced_mass);
     let touches = |relief: f64| {
         let meter = Meter::new(MOTION_WORK);
-        let found = approach(&mesh(inputs, solution, relief)?, &settings, &meter, &|_| {
-            true
-        });
+        let found = approach(&mesh(inputs, solution, relief)?, &settings, &meter, &|_| true);
         Some(found.ok()?.lead > 0.0)
     };
     let mut last = None;

@@ -46,12 +46,7 @@ pub(crate) struct Line {
 
 impl WholeGear {
     pub(crate) fn new(outline: Outline, sectors: u32, bore: f64, poisson: f64) -> WholeGear {
-        let mut mesh = Mesh {
-            outline,
-            bore,
-            places: Vec::new(),
-            known: HashMap::new(),
-        };
+        let mut mesh = Mesh { outline, bore, places: Vec::new(), known: HashMap::new() };
         let elements = mesh.elements();
         let flank = (0..=2 * FLANK).map(|at| {
             let place = mesh.tooth(2 * ACROSS, 2 * HIGH + at);
@@ -125,11 +120,7 @@ impl WholeGear {
         }
         let held = self.factored.solve(&vector);
         let passed = -(self.to_cuts.transpose() * &held);
-        Line {
-            vector,
-            held,
-            passed,
-        }
+        Line { vector, held, passed }
     }
 
     /// Displacement along one line by the force on another, which acts `pitches` further
@@ -146,18 +137,9 @@ impl WholeGear {
         let moved = self.ring.solve(&force);
         let halves = starts(0).into_iter().enumerate();
         let by_cuts: f64 = halves
-            .map(|(half, at)| {
-                measured
-                    .passed
-                    .rows(half * count, count)
-                    .dot(&moved.rows(at, count))
-            })
+            .map(|(half, at)| measured.passed.rows(half * count, count).dot(&moved.rows(at, count)))
             .sum();
-        let own = if start == 0 {
-            measured.vector.dot(&loaded.held)
-        } else {
-            0.0
-        };
+        let own = if start == 0 { measured.vector.dot(&loaded.held) } else { 0.0 };
         own + by_cuts - self.twist()
     }
 
@@ -179,26 +161,21 @@ impl WholeGear {
 
     fn place_at(&self, radius: f64) -> Point2<f64> {
         let shares = self.shares(radius);
-        shares.iter().fold(Point2::origin(), |sum, (node, share)| {
-            sum + self.places[*node].coords * *share
-        })
+        shares
+            .iter()
+            .fold(Point2::origin(), |sum, (node, share)| sum + self.places[*node].coords * *share)
     }
 
     /// The three nodes of the edge of the flank at a radius, with their shape functions.
     fn shares(&self, radius: f64) -> [(usize, f64); 3] {
         let radius_of = |at: usize| self.places[self.flank[at]].coords.norm();
-        let edge = (0..FLANK)
-            .find(|edge| radius <= radius_of(2 * edge + 2))
-            .unwrap_or(FLANK - 1);
+        let edge = (0..FLANK).find(|edge| radius <= radius_of(2 * edge + 2)).unwrap_or(FLANK - 1);
         let nodes = [0, 1, 2].map(|at| self.flank[2 * edge + at]);
         let shares = |t: f64| [0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)];
         let off = |t: f64| {
-            let place = nodes
-                .iter()
-                .zip(shares(t))
-                .fold(Vector2::zeros(), |sum, (node, share)| {
-                    sum + self.places[*node].coords * share
-                });
+            let place = nodes.iter().zip(shares(t)).fold(Vector2::zeros(), |sum, (node, share)| {
+                sum + self.places[*node].coords * share
+            });
             place.norm() - radius
         };
         let (mut low, mut high) = (-1.0, 1.0);
@@ -228,10 +205,7 @@ struct Mesh {
 impl Mesh {
     fn node(&mut self, place: Point2<f64>) -> usize {
         const GRAIN: f64 = 1e-9;
-        let key = (
-            (place.x / GRAIN).round() as i64,
-            (place.y / GRAIN).round() as i64,
-        );
+        let key = ((place.x / GRAIN).round() as i64, (place.y / GRAIN).round() as i64);
         let next = self.places.len();
         let node = *self.known.entry(key).or_insert(next);
         if node == next {
@@ -242,16 +216,8 @@ impl Mesh {
 
     /// The nodes of every element: corners, then midpoints of the edges.
     fn elements(&mut self) -> Vec<[usize; 8]> {
-        const PLACES: [(usize, usize); 8] = [
-            (0, 0),
-            (2, 0),
-            (2, 2),
-            (0, 2),
-            (1, 0),
-            (2, 1),
-            (1, 2),
-            (0, 1),
-        ];
+        const PLACES: [(usize, usize); 8] =
+            [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)];
         let mut elements = Vec::new();
         for (across, up) in grid(ACROSS, HIGH + FLANK) {
             elements.push(PLACES.map(|(y, x)| {
@@ -271,11 +237,9 @@ impl Mesh {
     /// A point of the tooth, in half elements across (clockwise flank first) and up.
     fn tooth(&self, across: usize, up: usize) -> Point2<f64> {
         let edge = if up <= 2 * HIGH {
-            self.outline
-                .at(Piece::Fillet, 0.5 + 0.5 * up as f64 / (2 * HIGH) as f64)
+            self.outline.at(Piece::Fillet, 0.5 + 0.5 * up as f64 / (2 * HIGH) as f64)
         } else {
-            self.outline
-                .at(Piece::Flank, (up - 2 * HIGH) as f64 / (2 * FLANK) as f64)
+            self.outline.at(Piece::Flank, (up - 2 * HIGH) as f64 / (2 * FLANK) as f64)
         };
         Point2::new(edge.x, edge.y * (across as f64 / ACROSS as f64 - 1.0))
     }
@@ -298,11 +262,7 @@ impl Mesh {
         let (profile, side) = (self.outline.profile(), 2 * (LOW + SPACE));
         let [from, to] = [profile.half_pitch(), profile.root_half_angle()];
         // Two fillets may leave no part of the root circle.
-        let land = if from - to > 1e-3 * from {
-            2 * SPACE
-        } else {
-            0
-        };
+        let land = if from - to > 1e-3 * from { 2 * SPACE } else { 0 };
         if around < land {
             let angle = from + around as f64 / land as f64 * (to - from);
             let radius = profile.circles().root;

@@ -15,10 +15,8 @@ const PAIRS: [(&str, &str); 3] = [
     ("NASA 28/28", "cases/nasa-lewis-28-28.toml"),
 ];
 
-const INERTIAS: [(InertiaModel, &str); 2] = [
-    (InertiaModel::BaseCircle, "base-circle"),
-    (InertiaModel::Outline, "outline"),
-];
+const INERTIAS: [(InertiaModel, &str); 2] =
+    [(InertiaModel::BaseCircle, "base-circle"), (InertiaModel::Outline, "outline")];
 
 /// First contact in degrees of the driver, peak force before E and overall in N, and required
 /// additional tip relief in um.
@@ -46,9 +44,7 @@ impl Found {
     }
 
     fn row(&self) -> String {
-        let cells = self
-            .0
-            .map(|value| value.map_or("-".to_owned(), |value| significant(value, 4)));
+        let cells = self.0.map(|value| value.map_or("-".to_owned(), |value| significant(value, 4)));
         cells.join(" | ")
     }
 
@@ -84,10 +80,7 @@ pub(super) fn section() -> String {
 }
 
 fn pair(name: &str, file: &str) -> String {
-    let pair = Inputs {
-        method: Method::Dynamic,
-        ..inputs(file)
-    };
+    let pair = Inputs { method: Method::Dynamic, ..inputs(file) };
     let mut text = format!(
         "\n{name} (`{file}`):\n\n| tooth compliance | inertia | first contact | peak before E | \
          peak | relief |\n|---|---|---|---|---|---|\n"
@@ -100,10 +93,7 @@ fn pair(name: &str, file: &str) -> String {
     ];
     let found = kinds.map(|(model, is_coupled, words)| {
         INERTIAS.map(|(inertia, inertia_name)| {
-            let inputs = Inputs {
-                inertia,
-                ..with_model(&pair, model)
-            };
+            let inputs = Inputs { inertia, ..with_model(&pair, model) };
             let found = Found::of(&inputs, is_coupled);
             let row = found.row();
             writeln!(text, "| {}{words} | {inertia_name} | {row} |", model.name()).unwrap();
@@ -113,21 +103,9 @@ fn pair(name: &str, file: &str) -> String {
     text += "\n| change | first contact | peak before E | peak | relief |\n|---|---|---|---|---|\n";
     let [_, [_, beam], [_, alone], [disc, whole]] = &found;
     let changes = [
-        (
-            "true inertia instead of the disc of Eq. 47, with finite-element",
-            disc,
-            whole,
-        ),
-        (
-            "elastic field instead of the beam, without coupling",
-            beam,
-            alone,
-        ),
-        (
-            "coupling instead of independent springs, with finite-element",
-            alone,
-            whole,
-        ),
+        ("true inertia instead of the disc of Eq. 47, with finite-element", disc, whole),
+        ("elastic field instead of the beam, without coupling", beam, alone),
+        ("coupling instead of independent springs, with finite-element", alone, whole),
     ];
     for (words, from, to) in changes {
         writeln!(text, "| {words} | {} |", to.change(from)).unwrap();

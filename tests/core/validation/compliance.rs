@@ -37,10 +37,7 @@ fn gears() -> Vec<Inputs> {
 
 /// Differences of a model from the field over the flank of a gear, in %; `None` outside its range.
 fn differences(inputs: &Inputs, model: ToothCompliance) -> Option<[f64; 6]> {
-    let covered = Inputs {
-        tooth_compliance: Some(model),
-        ..inputs.clone()
-    };
+    let covered = Inputs { tooth_compliance: Some(model), ..inputs.clone() };
     if !(model.model().covers)(&covered) {
         return None;
     }

@@ -17,10 +17,7 @@ use crate::stiffness::{ISO_PAIRS, at_pitch, iso_single_stiffness, pairs, stiffne
 const PER_MICROMETRE: f64 = 1e-6;
 
 fn solved(inputs: &Inputs, method: Method) -> Option<Solution> {
-    let inputs = Inputs {
-        method,
-        ..inputs.clone()
-    };
+    let inputs = Inputs { method, ..inputs.clone() };
     let wanted = Stages::EVERY.without(tipstrike::model::Stage::Clearing);
     solve(&inputs, wanted).ok()
 }
@@ -35,10 +32,7 @@ fn by(inputs: &Inputs, method: Method, key: &str) -> Option<f64> {
 
 /// The same pair with many stations.
 fn dense(inputs: &Inputs) -> Inputs {
-    Inputs {
-        stations: Some(512),
-        ..inputs.clone()
-    }
+    Inputs { stations: Some(512), ..inputs.clone() }
 }
 
 /// Mesh stiffness F_0/x of the load at rest at each station: distance from E over the base pitch,
@@ -65,9 +59,7 @@ fn stiffness_at(inputs: &Inputs, way: f64) -> Option<f64> {
 fn greatest_stiffness(inputs: &Inputs) -> Option<f64> {
     let curve = mesh_stiffness(inputs)?;
     let within = curve.iter().filter(|(way, _)| (0.0..=1.0).contains(way));
-    within
-        .map(|&(_, stiffness)| stiffness)
-        .max_by(f64::total_cmp)
+    within.map(|&(_, stiffness)| stiffness).max_by(f64::total_cmp)
 }
 
 /// Stiffness per unit width of the pair at the pitch point, in single-tooth contact, in N/(um mm).
@@ -79,10 +71,7 @@ fn single_stiffness(inputs: &Inputs) -> Option<f64> {
 
 /// The same without friction, which vanishes at the pitch point.
 fn single_stiffness_without_friction(inputs: &Inputs) -> Option<f64> {
-    single_stiffness(&Inputs {
-        friction_coefficient: None,
-        ..inputs.clone()
-    })
+    single_stiffness(&Inputs { friction_coefficient: None, ..inputs.clone() })
 }
 
 /// Compliance of both teeth without contact at a place, with the twist of both bodies, in um mm/N.
@@ -122,10 +111,7 @@ fn dynamic_factor(inputs: &Inputs) -> Option<f64> {
 fn resonant_factor(inputs: &Inputs) -> Option<f64> {
     let solution = solved(inputs, Method::Static)?;
     let frequency = (value(&solution, "mesh_stiffness")? / solution.reduced_mass).sqrt();
-    dynamic_factor(&Inputs {
-        speed: frequency / f64::from(inputs.driver.teeth),
-        ..inputs.clone()
-    })
+    dynamic_factor(&Inputs { speed: frequency / f64::from(inputs.driver.teeth), ..inputs.clone() })
 }
 
 /// The load at rest, with the coupling of neighbouring teeth or with independent teeth.
@@ -164,10 +150,7 @@ fn loaded_pairs(inputs: &Inputs, is_coupled: bool) -> Option<f64> {
 /// of the driver, in N/mm.
 fn force_before_path(inputs: &Inputs, radius: f64, is_coupled: bool) -> Option<f64> {
     let (geometry, load) = at_rest(&dense(inputs), is_coupled)?;
-    let before = load
-        .stations
-        .iter()
-        .filter(|one| one.roll_angle_driven > 0.0);
+    let before = load.stations.iter().filter(|one| one.roll_angle_driven > 0.0);
     let near = |one: &&MeshStation| {
         (tip_at(&geometry, one.roll_angle_driven).radius_driver - radius).abs()
     };
@@ -269,10 +252,7 @@ pub(super) const SOURCES: &[Source] = &[
                 unit: "um",
                 published: 43.58,
                 ours: |inputs| {
-                    let inputs = Inputs {
-                        method: Method::Static,
-                        ..inputs.clone()
-                    };
+                    let inputs = Inputs { method: Method::Static, ..inputs.clone() };
                     Some(1e6 * value(&solve(&inputs, Stages::EVERY).ok()?, "clearing_relief")?)
                 },
                 by_model: true,

@@ -51,10 +51,7 @@ macro_rules! gear {
                 has_size(inputs, &inputs.$gear)
                     .then(|| inputs.$gear.addendum_coefficient(inputs.module))
             })
-            .reasons(&[Partly(
-                |inputs| is_driver($i) && by_impact(inputs),
-                TIP_OF_DRIVER,
-            )]),
+            .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(
                 concat!(stringify!($gear), ".tip_diameter"),
                 concat!("da", $i),
@@ -72,10 +69,7 @@ macro_rules! gear {
             .instead_of(concat!(stringify!($gear), ".addendum"), |inputs| {
                 tip_diameter(inputs, &inputs.$gear)
             })
-            .reasons(&[Partly(
-                |inputs| is_driver($i) && by_impact(inputs),
-                TIP_OF_DRIVER,
-            )]),
+            .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(
                 concat!(stringify!($gear), ".dedendum"),
                 concat!("hf*", $i),
@@ -210,10 +204,7 @@ macro_rules! gear {
                 "Material removed at the tip, normal to the \
                         flank."
             )
-            .reasons(&[Idle(
-                |inputs| is_driver($i) && by_impact(inputs),
-                AT_RUN_OUT,
-            )]),
+            .reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             number!(
                 concat!(stringify!($gear), ".root_relief"),
                 concat!("Cf", $i),
@@ -227,10 +218,7 @@ macro_rules! gear {
                 "Material removed at the root, normal to the \
                         flank."
             )
-            .reasons(&[Idle(
-                |inputs| !is_driver($i) && by_impact(inputs),
-                AT_RUN_OUT,
-            )]),
+            .reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             Field {
                 key: concat!(stringify!($gear), ".tip_relief_length"),
                 symbol: concat!("La", $i),
@@ -276,10 +264,7 @@ macro_rules! gear {
                 "Radial height of the chamfer; its corner is a sharp tip, lower by this \
                         height."
             )
-            .reasons(&[Partly(
-                |inputs| is_driver($i) && by_impact(inputs),
-                TIP_OF_DRIVER,
-            )]),
+            .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(
                 concat!(stringify!($gear), ".tip_radius"),
                 concat!("re", $i),
@@ -327,10 +312,7 @@ macro_rules! gear {
                 ..Field::PLAIN
             }
             .with_example("7")
-            .reasons(&[Idle(
-                always,
-                "the base pitch deviation of this gear is given",
-            )]),
+            .reasons(&[Idle(always, "the base pitch deviation of this gear is given")]),
         ]
     };
 }

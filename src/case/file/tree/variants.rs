@@ -20,18 +20,13 @@ impl Reader {
             return self.fault(key.span().start, problem);
         }
         let Some(table) = value.get_ref().as_table() else {
-            let cause = format!(
-                "expected a table of overrides, found {}",
-                kind_of(value.get_ref())
-            );
+            let cause =
+                format!("expected a table of overrides, found {}", kind_of(value.get_ref()));
             let fix = format!("write [{place}] on a line of its own, and {EXAMPLE} below it");
             return self.fault(value.span().start, Problem::new(&place, cause, fix));
         };
         self.places.tables.push((place.clone(), key.span()));
-        let mut overrides = Overrides {
-            reader: Reader::of(""),
-            taken: Vec::new(),
-        };
+        let mut overrides = Overrides { reader: Reader::of(""), taken: Vec::new() };
         for (key, value) in in_order(table) {
             overrides.read("", key, value);
         }
@@ -49,10 +44,7 @@ impl Reader {
             if variant.overrides.is_empty() && !self.faults.iter().any(is_of_it) {
                 let start = self.places.table(&place).map_or(0, |span| span.start);
                 let fix = format!("write an override, such as {EXAMPLE}, or remove the table");
-                self.fault(
-                    start,
-                    Problem::new(&place, "the variant changes nothing", fix),
-                );
+                self.fault(start, Problem::new(&place, "the variant changes nothing", fix));
             }
         }
     }
@@ -66,10 +58,7 @@ impl Reader {
         }
         for found in other.faults {
             let field = of_table(&found.problem.field);
-            let problem = Problem {
-                field,
-                ..found.problem
-            };
+            let problem = Problem { field, ..found.problem };
             self.faults.push(Found { problem, ..found });
         }
         self.more += other.more;
@@ -157,20 +146,12 @@ impl Overrides {
 
     fn take(&mut self, key: &str, text: String) {
         if self.taken.iter().any(|known| known.key == key) {
-            let at = self
-                .reader
-                .places
-                .entries
-                .last()
-                .map_or(0, |place| place.value.start);
+            let at = self.reader.places.entries.last().map_or(0, |place| place.value.start);
             let fix = "keep one of the two";
             let problem = Problem::new(key, "the variant overrides this key twice", fix);
             return self.reader.fault(at, problem);
         }
-        self.taken.push(Override {
-            key: key.to_owned(),
-            text,
-        });
+        self.taken.push(Override { key: key.to_owned(), text });
     }
 
     /// Checks every value, and that the variant gives only one of two fields that exclude each
@@ -199,11 +180,9 @@ fn is_empty(value: Value<'_, '_>) -> bool {
 /// The refusal of a key that a variant cannot override.
 fn unknown(path: &str) -> Problem {
     match path.rsplit_once('.') {
-        _ if path == "format" => Problem::new(
-            path,
-            "a variant has the format of its case",
-            "remove this key",
-        ),
+        _ if path == "format" => {
+            Problem::new(path, "a variant has the format of its case", "remove this key")
+        }
         Some((table, name)) if is_table(table) => unknown_in_table(table, name),
         Some(_) => check::unknown_key(path),
         None => unknown_at_top(path),

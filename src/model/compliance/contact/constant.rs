@@ -35,8 +35,5 @@ impl ContactCompliance {
 /// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the
 /// mean.
 fn constant(elasticity: &Elasticity) -> ContactLaw {
-    ContactLaw {
-        offset: 2.0 * plane_strain_compliance(elasticity) / PI,
-        slope: 0.0,
-    }
+    ContactLaw { offset: 2.0 * plane_strain_compliance(elasticity) / PI, slope: 0.0 }
 }

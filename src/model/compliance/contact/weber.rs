@@ -86,15 +86,11 @@ fn weber(
             slope: 2.0 * scale,
         }
     };
-    let driver = depth(
-        &Profile::of_flank(&elasticity.driver.rack, &geometry.driver),
-        place.radius_driver,
-    )?;
-    let driven = depth(
-        &Profile::of_flank(&elasticity.driven.rack, &geometry.driven),
-        place.radius_driven,
-    )
-    .map_err(Refusal::at_driven)?;
+    let driver =
+        depth(&Profile::of_flank(&elasticity.driver.rack, &geometry.driver), place.radius_driver)?;
+    let driven =
+        depth(&Profile::of_flank(&elasticity.driven.rack, &geometry.driven), place.radius_driven)
+            .map_err(Refusal::at_driven)?;
     Ok(of(&elasticity.driver, driver) + of(&elasticity.driven, driven))
 }
 
@@ -104,9 +100,6 @@ fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
     if depth > 0.0 {
         Ok(depth)
     } else {
-        Err(Refusal::PointedTip {
-            field: "driver.addendum",
-            thickness: 2.0 * depth,
-        })
+        Err(Refusal::PointedTip { field: "driver.addendum", thickness: 2.0 * depth })
     }
 }

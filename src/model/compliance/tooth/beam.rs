@@ -134,10 +134,7 @@ fn tooth_within(
     if has_neck {
         Ok(compliance)
     } else {
-        Err(Refusal::CutThrough {
-            field: "driver.profile_shift",
-            shift: gear.rack.profile_shift,
-        })
+        Err(Refusal::CutThrough { field: "driver.profile_shift", shift: gear.rack.profile_shift })
     }
 }
 
@@ -157,9 +154,7 @@ impl Beam {
         // If the force is normal to the centre line, the section at the load has this height.
         let normal = roll - profile.load_angle(roll);
         let other = normal.max(2.0 * normal - roll);
-        root::between(other, roll, |roll| {
-            profile.involute_at(roll).along - self.crossing
-        })
+        root::between(other, roll, |roll| profile.involute_at(roll).along - self.crossing)
     }
 
     /// Compliance times E of a section per unit of the profile parameter. Infinite if the section
@@ -202,10 +197,8 @@ fn covers(inputs: &Inputs) -> bool {
 
 fn check(context: &Context) -> Option<Finding> {
     let geometry = &context.solution.geometry;
-    let gears = [
-        (&context.inputs.driver, &geometry.driver),
-        (&context.inputs.driven, &geometry.driven),
-    ];
+    let gears =
+        [(&context.inputs.driver, &geometry.driver), (&context.inputs.driven, &geometry.driven)];
     let [driver, driven] =
         gears.map(|(gear, circles)| Foundation::of(context.inputs, gear, circles));
     let here = format!(
@@ -303,16 +296,10 @@ fn foundation(profile: &Profile, gear: &ElasticGear, circles: &Circles, angle: f
     const L: [f64; 6] = [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045];
     const M: [f64; 6] = [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086];
     const P: [f64; 6] = [-50.952e-5, 185.50e-3, 0.0538e-4, 53.300e-3, 0.2895, 0.9236];
-    const Q: [f64; 6] = [
-        -6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904,
-    ];
+    const Q: [f64; 6] = [-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904];
     let (sine, cosine) = angle.sin_cos();
     let half_angle = profile.root_half_angle();
-    let held_at = if gear.bore_radius > 0.0 {
-        gear.bore_radius
-    } else {
-        circles.root / SOLID_BODY
-    };
+    let held_at = if gear.bore_radius > 0.0 { gear.bore_radius } else { circles.root / SOLID_BODY };
     let ratio = (circles.root / held_at).clamp(FOUNDATION_BODY.0, FOUNDATION_BODY.1);
     let theta = half_angle.clamp(FOUNDATION_ANGLE.0, FOUNDATION_ANGLE.1);
     let [l, m, p, q] = [L, M, P, Q].map(|[a, b, c, d, e, f]| {
@@ -320,17 +307,8 @@ fn foundation(profile: &Profile, gear: &ElasticGear, circles: &Circles, angle: f
     });
     let arm = (circles.base / cosine - circles.root) / (2.0 * half_angle * circles.root);
     let held = cosine * cosine * (l * arm * arm + m * arm + p) + p * q * sine * sine;
-    let twist = body::twist(
-        circles.base,
-        circles.root,
-        circles.root / ratio,
-        gear.poisson,
-    );
-    let shift = if gear.bore_radius > 0.0 {
-        0.0
-    } else {
-        body::shift(gear.poisson) * ratio.ln()
-    };
+    let twist = body::twist(circles.base, circles.root, circles.root / ratio, gear.poisson);
+    let shift = if gear.bore_radius > 0.0 { 0.0 } else { body::shift(gear.poisson) * ratio.ln() };
     plane_strain(gear.poisson) / plane_strain(FOUNDATION_POISSON) * held - twist - shift
 }
 
@@ -385,9 +363,8 @@ mod tests {
         let form = Profile::of(&gear.rack, circles).form_radius();
         let loads = [0.05, 0.5, 1.0].map(|part| form + part * (circles.tip - form));
         let by = |radius, tolerance| tooth_within(&gear, circles, radius, tolerance).ok();
-        let found = loads
-            .iter()
-            .filter_map(|&radius| Some((by(radius, TOLERANCE)?, by(radius, 1e-15)?)));
+        let found =
+            loads.iter().filter_map(|&radius| Some((by(radius, TOLERANCE)?, by(radius, 1e-15)?)));
         found
             .inspect(|(found, exact)| {
                 assert!(

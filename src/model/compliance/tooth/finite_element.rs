@@ -110,14 +110,8 @@ fn covers(inputs: &Inputs) -> bool {
 
 fn check(context: &Context) -> Option<Finding> {
     let refusal = refusal(context.inputs);
-    let here = refusal.map_or("both gears have a field".to_owned(), |found| {
-        found.to_string()
-    });
-    Finding::new(
-        format!("finite elements: {}", MODEL.range),
-        here,
-        refusal.is_none(),
-    )
+    let here = refusal.map_or("both gears have a field".to_owned(), |found| found.to_string());
+    Finding::new(format!("finite elements: {}", MODEL.range), here, refusal.is_none())
 }
 
 fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
@@ -170,11 +164,7 @@ fn build(gear: &ElasticGear, _: &Circles) -> Result<Arc<dyn LoadedTooth>, Refusa
 fn check_radius(field: &Field, radius: f64) -> Result<(), Refusal> {
     let [form, _] = field.radii();
     if radius < form {
-        return Err(Refusal::BelowFormCircle {
-            field: "driven.addendum",
-            radius,
-            form,
-        });
+        return Err(Refusal::BelowFormCircle { field: "driven.addendum", radius, form });
     }
     Ok(())
 }
@@ -280,13 +270,8 @@ mod tests {
         assert_eq!(inputs.elasticity().tooth, ToothCompliance::BEAM);
         let solution = solve(&inputs, Stages::CLOSED_FORM).unwrap();
         let notes = crate::model::notes(&inputs, &solution);
-        let note = notes
-            .iter()
-            .find(|note| note.code == "tooth-compliance-beam");
+        let note = notes.iter().find(|note| note.code == "tooth-compliance-beam");
         let message = &note.unwrap().message;
-        assert!(
-            message.contains("no finite elements for the gear with 12 teeth"),
-            "{message}"
-        );
+        assert!(message.contains("no finite elements for the gear with 12 teeth"), "{message}");
     }
 }

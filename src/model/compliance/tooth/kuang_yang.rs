@@ -128,10 +128,7 @@ fn check(context: &Context) -> Option<Finding> {
 fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
     (!covers(inputs)).then(|| {
         let name = MODEL.name;
-        (
-            "outside-fit",
-            format!("the tooth compliance `{name}` is used outside its fit, {RANGE}"),
-        )
+        ("outside-fit", format!("the tooth compliance `{name}` is used outside its fit, {RANGE}"))
     })
 }
 
@@ -155,17 +152,11 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
 pub fn tooth(gear: &ElasticGear, circles: &Circles) -> Result<StiffnessLine, Refusal> {
     let (gear, (least, most)) = (&gear.rack, TEETH);
     if !(least..=most).contains(&gear.teeth) {
-        return Err(Refusal::TeethOutsideFit {
-            teeth: gear.teeth,
-            range: TEETH,
-        });
+        return Err(Refusal::TeethOutsideFit { teeth: gear.teeth, range: TEETH });
     }
     let shift = gear.profile_shift;
     if shift.abs() > SHIFT {
-        return Err(Refusal::ShiftOutsideFit {
-            shift,
-            limit: SHIFT,
-        });
+        return Err(Refusal::ShiftOutsideFit { shift, limit: SHIFT });
     }
     let [at_reference, per_height] = line(gear.teeth, shift);
     Ok(StiffnessLine {
@@ -213,9 +204,6 @@ mod tests {
         let line = tooth(&gear, &circles).unwrap();
         assert!(line.compliance(circles.tip).is_ok());
         let high = line.compliance(circles.reference + 5.0 * inputs.module);
-        assert!(
-            matches!(high, Err(Refusal::HeightOutsideFit { .. })),
-            "{high:?}"
-        );
+        assert!(matches!(high, Err(Refusal::HeightOutsideFit { .. })), "{high:?}");
     }
 }

@@ -67,18 +67,12 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
         speed: inputs.driven_speed(),
         ..inputs.clone()
     };
-    let swapped_geometry = solve(&swapped, Stages::of(Stage::Geometry))
-        .unwrap()
-        .geometry;
+    let swapped_geometry = solve(&swapped, Stages::of(Stage::Geometry)).unwrap().geometry;
     let of = |inputs: &MeshInputs, geometry, error, turned: bool| {
         let flanks = Flanks::new(&inputs.elasticity, geometry).unwrap();
         let neighbours = ByRadii(|rear: [f64; 2], front: [f64; 2], pitches| {
             // In the mirror the rear pair is the front pair, and the gears are swapped.
-            let radii = if turned {
-                [front[1], rear[0]]
-            } else {
-                [rear[0], front[1]]
-            };
+            let radii = if turned { [front[1], rear[0]] } else { [rear[0], front[1]] };
             let share = if pitches == 1 { 8e-10 } else { 3e-10 };
             let place = 40.0 * (radii[0] + 2.0 * radii[1] - 0.2);
             share * inputs.elasticity.width * (1.0 + 0.4 * place.sin())
@@ -119,11 +113,7 @@ struct Plain<'a> {
 
 impl Plain<'_> {
     fn new(pair: &Rattling) -> Plain<'_> {
-        let Rattling {
-            mesh,
-            back,
-            settings,
-        } = pair;
+        let Rattling { mesh, back, settings } = pair;
         let start = -f64::from(settings.warmup_cycles) * mesh.base_pitch;
         let inside = start + 1e-9 * mesh.base_pitch;
         let critical = 2.0 * (mesh.mean_stiffness() * settings.mass).sqrt();
@@ -147,11 +137,7 @@ impl Plain<'_> {
 
     /// The pairs of the working flanks and of the back flanks, with the displacement of each side.
     fn sides(&self, t: f64, x: f64) -> [(PairSet, f64); 2] {
-        let Rattling {
-            mesh,
-            back,
-            settings,
-        } = self.pair;
+        let Rattling { mesh, back, settings } = self.pair;
         let (s, offset) = (t * mesh.speed, mesh.back_place());
         let fallen = -x - settings.backlash.unwrap();
         [
@@ -161,8 +147,7 @@ impl Plain<'_> {
     }
 
     fn forces(&self, t: f64, x: f64) -> [Vec<f64>; 2] {
-        self.sides(t, x)
-            .map(|(pairs, displaced)| pairs.forces(displaced).into_vec())
+        self.sides(t, x).map(|(pairs, displaced)| pairs.forces(displaced).into_vec())
     }
 
     /// The pairs in contact.
@@ -170,9 +155,7 @@ impl Plain<'_> {
         self.sides(t, x).map(|(pairs, displaced)| {
             let forces = pairs.forces(displaced);
             let all = pairs.pairs().iter().zip(forces);
-            all.filter(|(_, force)| *force > 0.0)
-                .map(|(pair, _)| pair.ahead)
-                .collect()
+            all.filter(|(_, force)| *force > 0.0).map(|(pair, _)| pair.ahead).collect()
         })
     }
 
@@ -198,10 +181,7 @@ impl Plain<'_> {
     fn go_to(&mut self, end: f64, length: f64) {
         let speed = self.pair.mesh.speed;
         while self.t < end {
-            let border = self
-                .borders
-                .last()
-                .map_or(f64::INFINITY, |border| border / speed);
+            let border = self.borders.last().map_or(f64::INFINITY, |border| border / speed);
             self.smooth_to(end.min(border), length);
             if border <= end {
                 let passed = self.borders.pop().unwrap();
@@ -276,16 +256,13 @@ fn energies_balance_across_the_backlash() {
         for (name, pair) in rattling() {
             let mut mesh = pair.mesh.clone();
             if friction > 0.0 {
-                mesh = of_case(
-                    name.contains("coupled"),
-                    pair.settings.backlash.unwrap(),
-                    &|inputs| {
+                mesh =
+                    of_case(name.contains("coupled"), pair.settings.backlash.unwrap(), &|inputs| {
                         inputs.drive = Drive::Torque(3.0);
                         inputs.friction_coefficient = Some(friction);
                         inputs.speed *= 2.0;
-                    },
-                )
-                .mesh;
+                    })
+                    .mesh;
             }
             let motion = Motion::new(&mesh, &pair.settings).with_back();
             let meter = Meter::new(MOTION_WORK);
@@ -301,22 +278,13 @@ fn energies_balance_across_the_backlash() {
 fn a_backlash_that_does_not_close_changes_no_bit() {
     let (_, pair) = rattling().swap_remove(1);
     let far = |backlash| {
-        let settings = Settings {
-            backlash,
-            ..pair.settings
-        };
+        let settings = Settings { backlash, ..pair.settings };
         dynamic(&pair.mesh, &settings, &|_| true).unwrap()
     };
     let (without, with) = (far(None), far(Some(5e-3)));
     assert_eq!(with.rattle, Some(Rattle::default()));
     assert_eq!(without.rattle, None);
-    assert_eq!(
-        Dynamic {
-            rattle: None,
-            ..with
-        },
-        without
-    );
+    assert_eq!(Dynamic { rattle: None, ..with }, without);
 }
 
 /// Plain steps converge to the steady motion across the backlash.
@@ -324,31 +292,15 @@ fn a_backlash_that_does_not_close_changes_no_bit() {
 fn the_steady_motion_has_the_strikes_of_a_motion_after_a_long_warm_up() {
     let (name, pair) = rattling().swap_remove(0);
     let mesh = pair.mesh.without_error();
-    let steady = steady(
-        &mesh,
-        &pair.settings,
-        None,
-        &Meter::new(MOTION_WORK),
-        &|_| true,
-    )
-    .unwrap();
-    let settings = Settings {
-        warmup_cycles: 400,
-        ..pair.settings
-    };
+    let steady = steady(&mesh, &pair.settings, None, &Meter::new(MOTION_WORK), &|_| true).unwrap();
+    let settings = Settings { warmup_cycles: 400, ..pair.settings };
     let motion = Motion::new(&mesh, &settings).with_back();
     let meter = Meter::new(MOTION_WORK);
     let mut run = Run::begin(&motion, settings.tolerance, &meter).unwrap();
     let (mut strikes, mut last) = (0, Touching::NONE);
     let period = f64::from(steady.periods) * mesh.base_pitch;
-    while run
-        .borders
-        .get(run.next)
-        .is_some_and(|&border| border < -1e-9)
-    {
-        let window = motion
-            .window(run.borders[run.next - 1], run.borders[run.next])
-            .unwrap();
+    while run.borders.get(run.next).is_some_and(|&border| border < -1e-9) {
+        let window = motion.window(run.borders[run.next - 1], run.borders[run.next]).unwrap();
         let mut touching = window.touching(&run.touching).unwrap();
         let end = motion.time(window.ends.1);
         run.next += 1;
@@ -366,9 +318,5 @@ fn the_steady_motion_has_the_strikes_of_a_motion_after_a_long_warm_up() {
         last = touching;
     }
     assert!(!last.is_none() || strikes > 0);
-    assert_eq!(
-        strikes,
-        steady.rattle.unwrap().strikes,
-        "{name}: {steady:?}"
-    );
+    assert_eq!(strikes, steady.rattle.unwrap().strikes, "{name}: {steady:?}");
 }

@@ -15,16 +15,10 @@ fn lines_are_the_forces_and_overlaps_by_the_compliance_matrix() {
             base_pitch_deviation: deviation,
             ..standard_pair(teeth, teeth, 3e-3)
         };
-        let mesh = solve(&inputs, Stages::of(Stage::Static))
-            .unwrap()
-            .mesh
-            .unwrap();
+        let mesh = solve(&inputs, Stages::of(Stage::Static)).unwrap().mesh.unwrap();
         let borders = mesh.borders(0.0, mesh.base_pitch);
         for ends in borders.windows(2) {
-            let (s, inside) = (
-                0.7 * ends[0] + 0.3 * ends[1],
-                f64::midpoint(ends[0], ends[1]),
-            );
+            let (s, inside) = (0.7 * ends[0] + 0.3 * ends[1], f64::midpoint(ends[0], ends[1]));
             let pairs = mesh.pair_set(s, inside);
             let (x, balance) = pairs.shared(mesh.force);
             let touches = |pair: &usize| balance[*pair] > 0.0;
@@ -41,11 +35,7 @@ fn lines_are_the_forces_and_overlaps_by_the_compliance_matrix() {
             let at = |of: Of, x: f64| {
                 let line = shares.at(of, s + first);
                 let apart = of.index() > 0 && incoming == Some(of.index() - 1);
-                let error = if apart && meeting.deviating.is_none() {
-                    mesh.error
-                } else {
-                    0.0
-                };
+                let error = if apart && meeting.deviating.is_none() { mesh.error } else { 0.0 };
                 line.slope * x - line.offset + line.deviated.unwrap_or(0.0) * mesh.error + error
             };
             for x in [0.6 * x, 1.7 * x] {

@@ -68,17 +68,9 @@ impl Browser {
     /// A browser in the folder of the present case; selects the recent cases if they are preferred.
     #[must_use]
     pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
-        let base = path
-            .and_then(Path::parent)
-            .map(Path::to_owned)
-            .unwrap_or_default();
+        let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         let came_from = path.and_then(Path::file_name).map(ToOwned::to_owned);
-        Browser {
-            base,
-            prefers_recents,
-            came_from,
-            ..Browser::default()
-        }
+        Browser { base, prefers_recents, came_from, ..Browser::default() }
     }
 
     /// The folder and the typed part of the requested listing.
@@ -117,10 +109,7 @@ impl Browser {
             self.refit();
             let came_from = self.came_from.take();
             let is_it = |entry: &Entry| Some(&entry.file) == came_from.as_ref();
-            let at = self
-                .entries()
-                .position(is_it)
-                .map(|at| at + usize::from(self.has_up()));
+            let at = self.entries().position(is_it).map(|at| at + usize::from(self.has_up()));
             self.marked = at.filter(|_| !self.prefers_recents).unwrap_or(self.marked);
         }
     }
@@ -168,10 +157,7 @@ impl Browser {
 
     /// The matching entries of the folder.
     pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
-        let entries = self
-            .listing
-            .as_ref()
-            .and_then(|listing| listing.entries.as_ref().ok());
+        let entries = self.listing.as_ref().and_then(|listing| listing.entries.as_ref().ok());
         self.fitting.iter().filter_map(move |&at| entries?.get(at))
     }
 
@@ -201,14 +187,7 @@ impl Browser {
         }
         let in_folder = at - usize::from(self.has_up());
         if let Some(&entry) = self.fitting.get(in_folder) {
-            return self
-                .listing
-                .as_ref()?
-                .entries
-                .as_ref()
-                .ok()?
-                .get(entry)
-                .map(Line::Entry);
+            return self.listing.as_ref()?.entries.as_ref().ok()?.get(entry).map(Line::Entry);
         }
         let beyond = in_folder - self.fitting.len();
         if let Some(&case) = self.fitting_below.get(beyond) {
@@ -218,9 +197,7 @@ impl Browser {
         if let Some(&example) = self.fitting_examples.get(beyond) {
             return EXAMPLES.get(example).map(Line::Example);
         }
-        let recent = *self
-            .fitting_recents
-            .get(beyond - self.fitting_examples.len())?;
+        let recent = *self.fitting_recents.get(beyond - self.fitting_examples.len())?;
         self.recents.get(recent).map(Line::Recent)
     }
 
@@ -232,17 +209,11 @@ impl Browser {
             Line::Recent(recent) => Viewport::File(recent.path.clone()),
             Line::Example(example) => Viewport::Example(example),
             Line::Found(case) => Viewport::File(
-                self.below
-                    .as_ref()
-                    .map_or_else(|| case.way.clone(), |below| below.path(case)),
+                self.below.as_ref().map_or_else(|| case.way.clone(), |below| below.path(case)),
             ),
             Line::Entry(entry) => {
                 let path = beneath(&self.base, &self.typed_folder).join(&entry.file);
-                if entry.is_folder {
-                    Viewport::Folder(path)
-                } else {
-                    Viewport::File(path)
-                }
+                if entry.is_folder { Viewport::Folder(path) } else { Viewport::File(path) }
             }
         }
     }
@@ -266,13 +237,7 @@ impl Browser {
     /// Enters a folder.
     pub(crate) fn enter(&mut self, folder: PathBuf) {
         self.came_from = (folder == self.above())
-            .then(|| {
-                self.listing
-                    .as_ref()?
-                    .folder
-                    .file_name()
-                    .map(ToOwned::to_owned)
-            })
+            .then(|| self.listing.as_ref()?.folder.file_name().map(ToOwned::to_owned))
             .flatten();
         self.base = folder;
         (self.input, self.typed_folder, self.listing) = (Text::default(), String::new(), None);
@@ -283,13 +248,10 @@ impl Browser {
     /// The parent folder, as a full path if known.
     #[must_use]
     pub(crate) fn above(&self) -> PathBuf {
-        let known = self.listing.as_ref().map(|listing| {
-            listing
-                .folder
-                .parent()
-                .unwrap_or(&listing.folder)
-                .to_owned()
-        });
+        let known = self
+            .listing
+            .as_ref()
+            .map(|listing| listing.folder.parent().unwrap_or(&listing.folder).to_owned());
         known.unwrap_or_else(|| beneath(&self.base, &self.typed_folder).join(".."))
     }
 
@@ -323,30 +285,19 @@ impl Browser {
             .and_then(|listing| listing.entries.as_ref().ok())
             .map(Vec::as_slice);
         let places = |fits: &mut dyn Iterator<Item = bool>| {
-            fits.enumerate()
-                .filter_map(|(at, fits)| fits.then_some(at))
-                .collect()
+            fits.enumerate().filter_map(|(at, fits)| fits.then_some(at)).collect()
         };
         let fitting = places(&mut entries.unwrap_or_default().iter().map(fits));
         let typed = self.input.value().to_lowercase();
-        let fitting_recents = places(
-            &mut self
-                .recents
-                .iter()
-                .map(|recent| recent.folded.contains(&typed)),
-        );
+        let fitting_recents =
+            places(&mut self.recents.iter().map(|recent| recent.folded.contains(&typed)));
         let (fitting_below, fitting_examples) = match self.wanted() {
             None => (Vec::new(), Vec::new()),
             Some(wanted) => {
-                let cases = self
-                    .own_below()
-                    .map(|below| below.cases.as_slice())
-                    .unwrap_or_default();
+                let cases =
+                    self.own_below().map(|below| below.cases.as_slice()).unwrap_or_default();
                 let below = places(&mut cases.iter().map(|case| case.folded.contains(&wanted)));
-                (
-                    below,
-                    places(&mut EXAMPLES.iter().map(|example| example.name.contains(&typed))),
-                )
+                (below, places(&mut EXAMPLES.iter().map(|example| example.name.contains(&typed))))
             }
         };
         (self.fitting, self.fitting_recents) = (fitting, fitting_recents);
@@ -362,9 +313,7 @@ impl Browser {
     }
 
     fn own_below(&self) -> Option<&SearchResult> {
-        self.below
-            .as_ref()
-            .filter(|below| below.asked == self.asks())
+        self.below.as_ref().filter(|below| below.asked == self.asks())
     }
 
     // Selects the first line that is not the parent folder, if any.
@@ -386,9 +335,7 @@ impl Browser {
         if wanted.is_empty() {
             0
         } else {
-            at(&|entry| entry.folded == wanted)
-                .or_else(begins)
-                .unwrap_or(0)
+            at(&|entry| entry.folded == wanted).or_else(begins).unwrap_or(0)
         }
     }
 }

@@ -97,15 +97,7 @@ pub(super) fn field(index: usize) -> Item {
 }
 
 pub(super) fn of_material(gears: &'static [&'static str], material: &'static Material) -> Item {
-    let Material {
-        name,
-        group,
-        young,
-        poisson,
-        density,
-        source,
-        ..
-    } = material;
+    let Material { name, group, young, poisson, density, source, .. } = material;
     Item {
         pick: Pick::Make(gears, material),
         name: name.clone(),
@@ -115,20 +107,9 @@ pub(super) fn of_material(gears: &'static [&'static str], material: &'static Mat
 }
 
 pub(super) fn result(quantity: &'static Quantity) -> Item {
-    let Quantity {
-        key,
-        symbol,
-        label,
-        equation,
-        ..
-    } = quantity;
+    let Quantity { key, symbol, label, equation, .. } = quantity;
     let about = format!("{symbol} {}, a result; {equation}", label.trim_start());
-    Item {
-        pick: Pick::Show(key),
-        name: (*key).to_owned(),
-        about,
-        keys: String::new(),
-    }
+    Item { pick: Pick::Show(key), name: (*key).to_owned(), about, keys: String::new() }
 }
 
 pub(super) fn quantity(quantity: &'static Quantity) -> Item {
@@ -141,15 +122,9 @@ pub(super) fn quantity(quantity: &'static Quantity) -> Item {
 }
 
 pub(super) fn example(example: &'static Example, digest: Option<&Digest>) -> Item {
-    let about = digest.map_or_else(String::new, |digest| {
-        format!("{}: {}", digest.title, digest.verdict())
-    });
-    Item {
-        pick: Pick::Begin(example),
-        name: example.name.to_owned(),
-        about,
-        keys: String::new(),
-    }
+    let about =
+        digest.map_or_else(String::new, |digest| format!("{}: {}", digest.title, digest.verdict()));
+    Item { pick: Pick::Begin(example), name: example.name.to_owned(), about, keys: String::new() }
 }
 
 // The rank of a line, smaller is better; `None` if a word does not match. Symbols may be typed in
@@ -159,16 +134,9 @@ pub(super) fn rank(item: &Item, words: &[&str]) -> Option<usize> {
     let about = item.about.to_lowercase();
     let written_out = symbol(&item.about, true).to_lowercase();
     let rank_of = |word: &&str| {
-        let begins = name
-            .split(['.', '_', ' ', '/'])
-            .any(|part| part.starts_with(*word));
+        let begins = name.split(['.', '_', ' ', '/']).any(|part| part.starts_with(*word));
         let occurs = about.contains(*word) || written_out.contains(*word);
-        match (
-            name.starts_with(*word),
-            begins,
-            name.contains(*word),
-            occurs,
-        ) {
+        match (name.starts_with(*word), begins, name.contains(*word), occurs) {
             (true, ..) => Some(0),
             (_, true, ..) => Some(1),
             (_, _, true, _) => Some(2),

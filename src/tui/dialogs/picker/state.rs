@@ -82,21 +82,13 @@ impl Picker {
     /// The whole list.
     #[must_use]
     pub(crate) fn new(list: List) -> Picker {
-        Picker {
-            list,
-            input: Line::default(),
-            marked: 0,
-            context: Context::default(),
-        }
+        Picker { list, input: Line::default(), marked: 0, context: Context::default() }
     }
 
     /// The whole list, in the order of a context.
     #[must_use]
     pub(crate) fn over(list: List, context: Context) -> Picker {
-        Picker {
-            context,
-            ..Picker::new(list)
-        }
+        Picker { context, ..Picker::new(list) }
     }
 
     #[must_use]
@@ -126,10 +118,8 @@ impl Picker {
         let typed = self.input.value().to_lowercase();
         let words: Vec<&str> = typed.split_whitespace().collect();
         let items = self.items();
-        let mut fitting: Vec<_> = items
-            .iter()
-            .filter_map(|item| Some((rank(item, &words)?, item)))
-            .collect();
+        let mut fitting: Vec<_> =
+            items.iter().filter_map(|item| Some((rank(item, &words)?, item))).collect();
         let places = if self.list == List::Commands && !words.is_empty() {
             self.places()
         } else {
@@ -141,9 +131,8 @@ impl Picker {
                 .iter()
                 .map(|item| (likeness(item), item))
                 .filter(|(likeness, _)| *likeness > LIKENESS);
-            fitting = alike
-                .map(|(likeness, item)| (((1.0 - likeness) * 1e3) as usize, item))
-                .collect();
+            fitting =
+                alike.map(|(likeness, item)| (((1.0 - likeness) * 1e3) as usize, item)).collect();
         }
         fitting.sort_by_key(|(rank, _)| *rank);
         // Matches in the name rank before matches in the description.
@@ -175,12 +164,7 @@ impl Picker {
     // of form and results.
     fn places(&self) -> Vec<Place> {
         let typed = self.input.value();
-        let Context {
-            results,
-            are_results_first,
-            idle,
-            ..
-        } = &self.context;
+        let Context { results, are_results_first, idle, .. } = &self.context;
         let words = typed.split_whitespace().count();
         let more_words = |label: &str| label.split_whitespace().count().saturating_sub(words);
         // A typed key ranks before all other matches.
@@ -220,11 +204,7 @@ impl Picker {
     // The order in which commands are listed.
     fn distance(&self, command: Command) -> usize {
         let Context { own, elsewhere, .. } = &self.context;
-        if own.contains(&command) {
-            0
-        } else {
-            1 + usize::from(elsewhere.contains(&command))
-        }
+        if own.contains(&command) { 0 } else { 1 + usize::from(elsewhere.contains(&command)) }
     }
 
     /// Moves the selection, within the list.
@@ -243,23 +223,17 @@ impl Picker {
                 listed.into_iter().map(command).chain(charts).collect()
             }
             List::Places => Vec::new(),
-            List::Materials(gears) => materials::all()
-                .iter()
-                .map(|material| of_material(gears, material))
-                .collect(),
+            List::Materials(gears) => {
+                materials::all().iter().map(|material| of_material(gears, material)).collect()
+            }
             List::Limits => QUANTITIES.iter().map(quantity).collect(),
             List::SecondField => (0..FIELDS.len())
                 .filter(|&at| !matches!(FIELDS[at].kind, Kind::Text))
-                .map(|at| Item {
-                    pick: Pick::Second(at),
-                    ..field(at)
-                })
+                .map(|at| Item { pick: Pick::Second(at), ..field(at) })
                 .collect(),
-            List::Examples(digests) => EXAMPLES
-                .iter()
-                .enumerate()
-                .map(|(at, one)| example(one, digests.get(at)))
-                .collect(),
+            List::Examples(digests) => {
+                EXAMPLES.iter().enumerate().map(|(at, one)| example(one, digests.get(at))).collect()
+            }
         }
     }
 }

@@ -109,26 +109,14 @@ fn every_key_is_decoded_with_its_modifiers() {
 
 #[test]
 fn the_three_kinds_of_mouse_reports_are_decoded() {
-    let mouse = |kind, column, row, modifiers| {
-        Event::Mouse(MouseEvent {
-            kind,
-            column,
-            row,
-            modifiers,
-        })
-    };
+    let mouse =
+        |kind, column, row, modifiers| Event::Mouse(MouseEvent { kind, column, row, modifiers });
     let left = MouseEventKind::Down(MouseButton::Left);
     let rows: [(&[u8], Event); 7] = [
         (b"\x1b[<0;20;8M", mouse(left, 19, 7, NONE)),
         (b"\x1b[<16;1;1M", mouse(left, 0, 0, CTRL)),
-        (
-            b"\x1b[<0;20;8m",
-            mouse(MouseEventKind::Up(MouseButton::Left), 19, 7, NONE),
-        ),
-        (
-            b"\x1b[<65;300;2M",
-            mouse(MouseEventKind::ScrollDown, 299, 1, NONE),
-        ),
+        (b"\x1b[<0;20;8m", mouse(MouseEventKind::Up(MouseButton::Left), 19, 7, NONE)),
+        (b"\x1b[<65;300;2M", mouse(MouseEventKind::ScrollDown, 299, 1, NONE)),
         (b"\x1b[<35;9;9M", mouse(MouseEventKind::Moved, 8, 8, NONE)),
         (b"\x1b[32;30;40M", mouse(left, 29, 39, NONE)),
         (b"\x1b[M \x21\xff", mouse(left, 0, 222, NONE)),
@@ -230,11 +218,7 @@ fn a_paste_ends_with_its_mark_with_silence_or_with_a_lone_escape() {
     assert_eq!(decode(&[b"\x1b[200~abc"]), (vec![], paste("abc")));
     assert_eq!(decode(&[b"\x1b[200~abc\x1b"]), (vec![], paste("abc")));
     let (mut decoder, mut inputs) = (Decoder::default(), Vec::new());
-    for (bytes, patience) in [
-        (&b"\x1b[200~a"[..], PASTE),
-        (b"\x1b", SEQUENCE),
-        (b"[20", PASTE),
-    ] {
+    for (bytes, patience) in [(&b"\x1b[200~a"[..], PASTE), (b"\x1b", SEQUENCE), (b"[20", PASTE)] {
         decoder.feed(bytes, false, &mut inputs);
         assert_eq!(decoder.patience(), Some(patience));
     }

@@ -73,16 +73,10 @@ impl Ruler {
                     "angle",
                 ],
             },
-            true if longest < MOST_MICROS => Ruler {
-                factor: micros,
-                unit: "us",
-                labels: &TIME_LABELS,
-            },
-            true => Ruler {
-                factor: 1e-3 * micros,
-                unit: "ms",
-                labels: &TIME_LABELS,
-            },
+            true if longest < MOST_MICROS => {
+                Ruler { factor: micros, unit: "us", labels: &TIME_LABELS }
+            }
+            true => Ruler { factor: 1e-3 * micros, unit: "ms", labels: &TIME_LABELS },
         }
     }
 
@@ -96,12 +90,7 @@ impl Ruler {
 #[must_use]
 pub(crate) fn margin(uprights: impl Iterator<Item = Span>, height: u16) -> u16 {
     let labels = uprights.flat_map(|span| beside(span, height).labelled);
-    labels
-        .map(|(_, label)| label.len())
-        .max()
-        .unwrap_or(0)
-        .max(LABEL) as u16
-        + 2
+    labels.map(|(_, label)| label.len()).max().unwrap_or(0).max(LABEL) as u16 + 2
 }
 
 fn beside(span: Span, height: u16) -> Ticks {
@@ -117,18 +106,11 @@ impl Axes {
         (across, upright): (Span, Span),
         ruler: Ruler,
     ) -> Axes {
-        let (width, height) = (
-            area.width.saturating_sub(margin + 1),
-            area.height.saturating_sub(2),
-        );
+        let (width, height) =
+            (area.width.saturating_sub(margin + 1), area.height.saturating_sub(2));
         let has_room = width >= LEAST_COLUMNS && height >= LEAST_ROWS;
         let plot = if has_room {
-            Rect {
-                x: area.x + margin,
-                y: area.y,
-                width,
-                height,
-            }
+            Rect { x: area.x + margin, y: area.y, width, height }
         } else {
             Rect::ZERO
         };
@@ -148,15 +130,8 @@ impl Axes {
     #[must_use]
     pub(crate) fn split(&self, rows: u16) -> (Rect, Axes) {
         let rows = rows.min(self.plot.height.saturating_sub(LEAST_ROWS));
-        let above = Rect {
-            height: rows,
-            ..self.plot
-        };
-        let area = Rect {
-            y: self.area.y + rows,
-            height: self.area.height - rows,
-            ..self.area
-        };
+        let above = Rect { height: rows, ..self.plot };
+        let area = Rect { y: self.area.y + rows, height: self.area.height - rows, ..self.area };
         let margin = self.plot.x - self.area.x;
         let spans = (self.across, self.upright);
         (above, Axes::new(area, margin, spans, self.ruler))
@@ -211,9 +186,7 @@ impl Axes {
         for (column, label) in self.labels_below() {
             buffer.set_string(column, axis, "┴", Style::new());
             let width = label.len() as u16;
-            let x = column
-                .saturating_sub(width / 2)
-                .min((plot.right() + 1).saturating_sub(width));
+            let x = column.saturating_sub(width / 2).min((plot.right() + 1).saturating_sub(width));
             if x >= free {
                 buffer.set_string(x, axis + 1, label, Style::new());
                 free = x + width + 1;
@@ -273,9 +246,7 @@ impl Axes {
         is_legend: impl Fn(Position) -> bool,
         buffer: &mut Buffer,
     ) {
-        let column = charts
-            .cursor
-            .and_then(|cursor| self.column(0.0 - cursor.to_degrees()));
+        let column = charts.cursor.and_then(|cursor| self.column(0.0 - cursor.to_degrees()));
         let Some(x) = column else { return };
         for y in self.plot.top()..self.plot.bottom() {
             if !is_legend(Position::new(x, y)) {
@@ -295,9 +266,7 @@ impl Axes {
                 .rev()
                 .find(|&x| (x..x + width).all(is_line))
         };
-        let found = TIME
-            .into_iter()
-            .find_map(|text| Some((text, place(&text)?)));
+        let found = TIME.into_iter().find_map(|text| Some((text, place(&text)?)));
         if let Some((text, x)) = found {
             buffer.set_string(x, y, text, Style::new());
         }
@@ -311,9 +280,5 @@ fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
     let last = last_contact(solution).map(|angle| (angle, "L"));
     let first = first_contact(solution).map(|angle| (angle, "D"));
     let found = [Some(end), last, Some((0.0, "E")), first];
-    found
-        .into_iter()
-        .flatten()
-        .map(|(angle, name)| (0.0 - angle.to_degrees(), name))
-        .collect()
+    found.into_iter().flatten().map(|(angle, name)| (0.0 - angle.to_degrees(), name)).collect()
 }

@@ -53,34 +53,18 @@ pub fn curves(charts: &Charts, graph: &Graph) -> Vec<Curve> {
     let Some(answer) = charts.answer else {
         return Vec::new();
     };
-    let drawn = Drawn {
-        graph,
-        system: charts.units,
-    };
+    let drawn = Drawn { graph, system: charts.units };
     if let Some(column) = graph.by_model {
         return drawn.models(answer, column);
     }
-    let pinned = charts
-        .baseline
-        .and_then(|baseline| drawn.pinned(baseline, answer.active));
-    let others = answer
-        .methods
-        .iter()
-        .filter(|(method, _)| *method != answer.active)
-        .filter_map(|(method, found)| {
-            drawn.curve(
-                &answer.inputs,
-                found.as_ref().ok()?,
-                CurveSource::Other(*method),
-            )
-        });
+    let pinned = charts.baseline.and_then(|baseline| drawn.pinned(baseline, answer.active));
+    let others = answer.methods.iter().filter(|(method, _)| *method != answer.active).filter_map(
+        |(method, found)| {
+            drawn.curve(&answer.inputs, found.as_ref().ok()?, CurveSource::Other(*method))
+        },
+    );
     let own = drawn.active(answer, CurveSource::Active(answer.active));
-    pinned
-        .into_iter()
-        .chain(others)
-        .chain(drawn.bound(answer))
-        .chain(own)
-        .collect()
+    pinned.into_iter().chain(others).chain(drawn.bound(answer)).chain(own).collect()
 }
 
 #[derive(Clone, Copy)]
@@ -106,10 +90,7 @@ impl Drawn<'_> {
             let points = found.mesh_curve(at);
             let points = points.map(|(angle, value)| (angle.to_degrees(), Some(value / factor)));
             Curve {
-                source: CurveSource::Model {
-                    model,
-                    is_own: model == own,
-                },
+                source: CurveSource::Model { model, is_own: model == own },
                 column,
                 unit,
                 pieces: pieces(points, f64::INFINITY),
@@ -129,12 +110,9 @@ impl Drawn<'_> {
     fn bound(self, answer: &Answer) -> Option<Curve> {
         let (solution, bound) = (answer.of(answer.active)?, self.graph.bound?);
         let symbol = bound.symbols[usize::from(solution.method.shares_load())];
-        self.with(
-            &answer.inputs,
-            solution,
-            CurveSource::Bound(symbol),
-            |row| (bound.value)(solution, row),
-        )
+        self.with(&answer.inputs, solution, CurveSource::Bound(symbol), |row| {
+            (bound.value)(solution, row)
+        })
     }
 
     // `None` if the method has no such column or no station.
@@ -153,12 +131,7 @@ impl Drawn<'_> {
         let column = self.graph.column(solution.method)?;
         let unit = self.system.unit(column.shown);
         let pieces = curve_of(inputs, solution, unit, value);
-        (!pieces.is_empty()).then_some(Curve {
-            source,
-            column,
-            unit,
-            pieces,
-        })
+        (!pieces.is_empty()).then_some(Curve { source, column, unit, pieces })
     }
 }
 
@@ -176,19 +149,12 @@ fn is_own(source: CurveSource) -> bool {
 /// The curves without the parts that coincide with the active curve.
 #[must_use]
 pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
-    let Some(own) = curves
-        .iter()
-        .find(|curve| matches!(curve.source, CurveSource::Active(_)))
-        .cloned()
+    let Some(own) =
+        curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_))).cloned()
     else {
         return curves;
     };
-    let alike = ALIKE
-        * curves
-            .iter()
-            .map(Curve::upright)
-            .fold(Span::NONE, Span::and)
-            .length();
+    let alike = ALIKE * curves.iter().map(Curve::upright).fold(Span::NONE, Span::and).length();
     let coincides = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
     let shown = curves.into_iter().map(|curve| match curve.source {
         CurveSource::Other(_) | CurveSource::Pinned(_) => curve.without(coincides),
@@ -207,18 +173,13 @@ impl Curve {
         let pieces = self.pieces.iter().flat_map(|piece| {
             let hidden: Vec<bool> = piece.iter().map(|point| is_hidden(*point)).collect();
             let around = |at: usize| at.saturating_sub(1)..=(at + 1).min(piece.len() - 1);
-            let kept: Vec<usize> = (0..piece.len())
-                .filter(|&at| around(at).any(|near| !hidden[near]))
-                .collect();
+            let kept: Vec<usize> =
+                (0..piece.len()).filter(|&at| around(at).any(|near| !hidden[near])).collect();
             let runs =
                 kept.chunk_by(|one, next| one + 1 == *next && !(hidden[*one] && hidden[*next]));
-            runs.map(|run| run.iter().map(|&at| piece[at]).collect())
-                .collect::<Vec<Vec<Point>>>()
+            runs.map(|run| run.iter().map(|&at| piece[at]).collect()).collect::<Vec<Vec<Point>>>()
         });
-        Curve {
-            pieces: pieces.collect(),
-            ..self
-        }
+        Curve { pieces: pieces.collect(), ..self }
     }
 
     /// The least and the greatest value.
@@ -229,13 +190,9 @@ impl Curve {
 
     /// The least and the greatest value within a range of the angle.
     pub(crate) fn upright_within(&self, window: Span) -> Span {
-        let ends = [window.from, window.to]
-            .into_iter()
-            .filter_map(|x| self.at(x));
-        let inside = self
-            .points()
-            .filter(|(x, _)| (window.from..=window.to).contains(x))
-            .map(|(_, y)| y);
+        let ends = [window.from, window.to].into_iter().filter_map(|x| self.at(x));
+        let inside =
+            self.points().filter(|(x, _)| (window.from..=window.to).contains(x)).map(|(_, y)| y);
         ends.chain(inside).fold(Span::NONE, Span::with)
     }
 
@@ -268,38 +225,18 @@ mod tests {
     fn parts_that_coincide_with_the_active_curve_are_not_drawn() {
         let column = &crate::report::stations::COLUMNS[6];
         let curve = |source, points: &[f64]| {
-            let points = points
-                .iter()
-                .enumerate()
-                .map(|(at, y)| (at as f64, *y))
-                .collect();
-            Curve {
-                source,
-                column,
-                unit: column.shown,
-                pieces: vec![points],
-            }
+            let points = points.iter().enumerate().map(|(at, y)| (at as f64, *y)).collect();
+            Curve { source, column, unit: column.shown, pieces: vec![points] }
         };
-        let own = curve(
-            CurveSource::Active(Method::Exact),
-            &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
-        );
-        let same = curve(
-            CurveSource::Other(Method::Static),
-            &[0.0, 1.0, 2.0, 3.0, 4.0],
-        );
-        let other = curve(
-            CurveSource::Other(Method::Paper),
-            &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0],
-        );
+        let own = curve(CurveSource::Active(Method::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        let same = curve(CurveSource::Other(Method::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
+        let other =
+            curve(CurveSource::Other(Method::Paper), &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
         let shown = apart(vec![same, other, own]);
         assert_eq!(shown.len(), 2);
         assert_eq!(
             shown[0].pieces,
-            [
-                vec![(0.0, 9.0), (1.0, 1.0)],
-                vec![(5.0, 5.0), (6.0, 6.0), (7.0, 7.0)]
-            ]
+            [vec![(0.0, 9.0), (1.0, 1.0)], vec![(5.0, 5.0), (6.0, 6.0), (7.0, 7.0)]]
         );
         assert_eq!(shown[1].pieces[0].len(), 6);
     }

@@ -40,26 +40,13 @@ impl Legend {
     /// The message, if any, and the name of each curve, the active method first.
     #[must_use]
     pub(crate) fn of(charts: &Charts, curves: &[Curve], message: Option<&str>) -> Legend {
-        let words = |text: &str| {
-            text.split(' ')
-                .map(|word| Line::raw(word.to_owned()))
-                .collect()
-        };
-        let message = message.map(|text| Block {
-            pieces: words(text),
-            gap: 1,
-        });
+        let words = |text: &str| text.split(' ').map(|word| Line::raw(word.to_owned())).collect();
+        let message = message.map(|text| Block { pieces: words(text), gap: 1 });
         let names = Block {
-            pieces: curves
-                .iter()
-                .rev()
-                .map(|curve| name(charts, curve))
-                .collect(),
+            pieces: curves.iter().rev().map(|curve| name(charts, curve)).collect(),
             gap: 2,
         };
-        Legend {
-            blocks: message.into_iter().chain([names]).collect(),
-        }
+        Legend { blocks: message.into_iter().chain([names]).collect() }
     }
 
     /// Places every block on blank cells of the plot. Returns `None` if a block does not fit.
@@ -85,14 +72,7 @@ impl Legend {
             let rows = block.rows(area.width).into_iter();
             rows.map(|row| block.line(row))
         });
-        let row = |(row, y)| Placed {
-            area: Rect {
-                y,
-                height: 1,
-                ..area
-            },
-            rows: vec![row],
-        };
+        let row = |(row, y)| Placed { area: Rect { y, height: 1, ..area }, rows: vec![row] };
         rows.zip(area.top()..area.bottom()).map(row).collect()
     }
 
@@ -156,9 +136,7 @@ impl Block {
             if size.width > width || size.height > plot.height {
                 break;
             }
-            let same = layouts
-                .last_mut()
-                .filter(|(last, _)| last.height == size.height);
+            let same = layouts.last_mut().filter(|(last, _)| last.height == size.height);
             match same {
                 Some(last) => *last = (size, rows),
                 None => layouts.push((size, rows)),
@@ -182,9 +160,7 @@ impl Block {
         let anywhere = layouts.iter().flat_map(|(size, rows)| {
             let (right, low) = room(*size);
             (0..=low).flat_map(move |down| {
-                (0..=right)
-                    .rev()
-                    .map(move |across| (*size, rows, (across, down)))
+                (0..=right).rev().map(move |across| (*size, rows, (across, down)))
             })
         });
         tidy.chain(anywhere)

@@ -44,12 +44,8 @@ pub(crate) fn draw(charts: &Charts, buffer: &mut Buffer) {
     for (at, (graph, axes)) in panels(charts).iter().enumerate() {
         let graph = &GRAPHS[*graph];
         if at > 0 {
-            let above = Rect {
-                x: area.x,
-                y: axes.plot.y.saturating_sub(1),
-                width: area.width,
-                height: 1,
-            };
+            let above =
+                Rect { x: area.x, y: axes.plot.y.saturating_sub(1), width: area.width, height: 1 };
             let room = usize::from(area.width.saturating_sub(4));
             let title = title(charts, graph, axes, room);
             text::titled(&title, above, charts.look.theme, buffer);
@@ -61,9 +57,7 @@ pub(crate) fn draw(charts: &Charts, buffer: &mut Buffer) {
 /// The width of the visible chart in columns, or of a default chart if none is visible.
 #[must_use]
 pub(crate) fn columns(charts: &Charts) -> u16 {
-    let columns = panels(charts)
-        .first()
-        .map_or(0, |(_, axes)| axes.plot.width);
+    let columns = panels(charts).first().map_or(0, |(_, axes)| axes.plot.width);
     if columns > 1 { columns } else { USUAL_COLUMNS }
 }
 
@@ -81,10 +75,7 @@ pub(crate) fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
 fn panels(charts: &Charts) -> Vec<(usize, Axes)> {
     let (shown, area) = (charts.shown(), charts.area);
     let Some(answer) = charts.answer else {
-        return shown
-            .into_iter()
-            .map(|graph| (graph, Axes::default()))
-            .collect();
+        return shown.into_iter().map(|graph| (graph, Axes::default())).collect();
     };
     let height = area.height / u16::try_from(shown.len().max(1)).unwrap_or(1);
     let window = charts.window();
@@ -93,27 +84,11 @@ fn panels(charts: &Charts) -> Vec<(usize, Axes)> {
     let margin = axes::margin(uprights, height.saturating_sub(3));
     let below = |at: usize| {
         let y = area.y + height * at as u16;
-        let height = if at + 1 == shown.len() {
-            area.bottom() - y
-        } else {
-            height
-        };
-        Rect {
-            y: y + 1,
-            height: height.saturating_sub(1),
-            ..area
-        }
+        let height = if at + 1 == shown.len() { area.bottom() - y } else { height };
+        Rect { y: y + 1, height: height.saturating_sub(1), ..area }
     };
     let axes = |(at, graph): (usize, &usize)| {
-        (
-            *graph,
-            Axes::new(
-                below(at),
-                margin,
-                (window, charts.scale.upright[*graph]),
-                ruler,
-            ),
-        )
+        (*graph, Axes::new(below(at), margin, (window, charts.scale.upright[*graph]), ruler))
     };
     shown.iter().enumerate().map(axes).collect()
 }
@@ -123,11 +98,7 @@ fn draw_panel(charts: &Charts, graph: &Graph, axes: &Axes, buffer: &mut Buffer) 
     let curves = curves::apart(curves(charts, graph));
     let missing = missing(charts, graph, &curves);
     if axes.plot.is_empty() || curves.is_empty() || charts.window().is_empty() {
-        let y = if axes.plot.is_empty() {
-            area.y + 1
-        } else {
-            axes.plot.y + axes.plot.height / 2
-        };
+        let y = if axes.plot.is_empty() { area.y + 1 } else { axes.plot.y + axes.plot.height / 2 };
         let message = missing.unwrap_or_else(|| "The pane is too small for a chart.".to_owned());
         if y < area.bottom() {
             buffer.set_stringn(
@@ -179,11 +150,7 @@ fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
     let column = own.or_else(|| graph.all_columns().next());
     let value = column.map_or_else(String::new, |column| {
         let shown = charts.units.unit(column.shown);
-        format!(
-            "{}{}",
-            symbol(column.symbol, charts.look.ascii),
-            unit(shown, axes.beside.power)
-        )
+        format!("{}{}", symbol(column.symbol, charts.look.ascii), unit(shown, axes.beside.power))
     });
     let (names, unnamed) = if is_free_impact {
         let label = graph.label.to_lowercase();
@@ -200,11 +167,7 @@ fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
     let mut titles = Vec::new();
     for names in [&names[..], std::slice::from_ref(&unnamed)] {
         for label in ruler.labels {
-            titles.extend(
-                names
-                    .iter()
-                    .map(|name| format!("{name} over {label}{below}")),
-            );
+            titles.extend(names.iter().map(|name| format!("{name} over {label}{below}")));
         }
         titles.extend(names.last().map(|name| format!("{name}, x axis{below}")));
         titles.extend(names.last().cloned());
@@ -227,12 +190,8 @@ fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let Some(answer) = charts.answer else {
         return Some("No results yet.".to_owned());
     };
-    let is_main = |curve: &Curve| {
-        matches!(
-            curve.source,
-            CurveSource::Active(_) | CurveSource::Model { .. }
-        )
-    };
+    let is_main =
+        |curve: &Curve| matches!(curve.source, CurveSource::Active(_) | CurveSource::Model { .. });
     if curves.iter().any(is_main) {
         return None;
     }
@@ -264,15 +223,11 @@ fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
 
 fn nothing(solution: &Solution, label: &str, notes_key: fn() -> String) -> String {
     match solution.outcome {
-        Outcome::NoCornerContact => format!(
-            "No corner contact: {}; no impact.",
-            without_contact(solution)
-        ),
+        Outcome::NoCornerContact => {
+            format!("No corner contact: {}; no impact.", without_contact(solution))
+        }
         Outcome::CornerContact => {
-            format!(
-                "No {label} between D and E; {} shows the reason.",
-                notes_key()
-            )
+            format!("No {label} between D and E; {} shows the reason.", notes_key())
         }
     }
 }

@@ -53,9 +53,7 @@ impl ChartView {
         let all = scale.across.and(frame);
         let half =
             0.5 * (frame.length() * 2f64.powf(-0.5 * f64::from(self.zoom))).min(all.length());
-        let middle = self
-            .middle
-            .unwrap_or_else(|| f64::midpoint(frame.from, frame.to));
+        let middle = self.middle.unwrap_or_else(|| f64::midpoint(frame.from, frame.to));
         if self.zoom == 0 && self.middle.is_none() {
             frame
         } else {
@@ -68,26 +66,15 @@ impl ChartView {
     #[must_use]
     pub(crate) fn zoomed(self, steps: i32, around: f64, scale: &Scale) -> ChartView {
         let zoom = (self.zoom + steps).min(LAST_STEP_IN);
-        let view = ChartView {
-            zoom,
-            middle: Some(around),
-            ..self
-        };
+        let view = ChartView { zoom, middle: Some(around), ..self };
         let shows_all = view.window(scale).length() >= scale.across.length() * (1.0 - 1e-9);
-        if steps < 0 && shows_all {
-            ChartView::whole()
-        } else {
-            view
-        }
+        if steps < 0 && shows_all { ChartView::whole() } else { view }
     }
 
     /// The whole contact.
     #[must_use]
     pub(crate) fn whole() -> ChartView {
-        ChartView {
-            frame: Frame::Whole,
-            ..ChartView::default()
-        }
+        ChartView { frame: Frame::Whole, ..ChartView::default() }
     }
 
     /// Switches between the strike and the whole contact.
@@ -96,10 +83,7 @@ impl ChartView {
             Frame::Strike => Frame::Whole,
             Frame::Opening | Frame::Whole => Frame::Strike,
         };
-        ChartView {
-            frame,
-            ..ChartView::default()
-        }
+        ChartView { frame, ..ChartView::default() }
     }
 
     /// The view, scrolled if necessary to make an angle visible.
@@ -110,11 +94,7 @@ impl ChartView {
         }
         let inward = (0.5 - MARGIN) * window.length();
         ChartView {
-            middle: Some(if angle > window.to {
-                angle + inward
-            } else {
-                angle - inward
-            }),
+            middle: Some(if angle > window.to { angle + inward } else { angle - inward }),
             ..self
         }
     }
@@ -168,16 +148,10 @@ impl Occasion {
     /// the earlier occasion remain.
     #[must_use]
     pub(crate) fn since(&mut self, before: Occasion) -> Refit {
-        if self
-            .answered
-            .is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1)
-        {
+        if self.answered.is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1) {
             self.ground = before.ground;
         }
-        Refit {
-            upright: self.shown != before.shown,
-            all: self.ground != before.ground,
-        }
+        Refit { upright: self.shown != before.shown, all: self.ground != before.ground }
     }
 }
 
@@ -187,14 +161,8 @@ mod tests {
     use super::*;
 
     const SCALE: Scale = Scale {
-        across: Span {
-            from: -5.0,
-            to: 25.0,
-        },
-        strike: Span {
-            from: -1.5,
-            to: 0.5,
-        },
+        across: Span { from: -5.0, to: 25.0 },
+        strike: Span { from: -1.5, to: 0.5 },
         upright: [Span { from: 0.0, to: 1.0 }; GRAPHS.len()],
     };
 
@@ -202,15 +170,9 @@ mod tests {
     fn it_opens_on_the_strike_if_the_contact_continues_after_it() {
         let view = ChartView::default();
         assert_eq!(view.window(&SCALE), SCALE.strike);
-        let closed_form = Scale {
-            across: Span::new(-1.5, 0.0),
-            ..SCALE
-        };
+        let closed_form = Scale { across: Span::new(-1.5, 0.0), ..SCALE };
         assert_eq!(view.window(&closed_form), closed_form.across);
-        let no_strike = Scale {
-            strike: Span::default(),
-            ..SCALE
-        };
+        let no_strike = Scale { strike: Span::default(), ..SCALE };
         assert_eq!(view.window(&no_strike), SCALE.across);
         assert_eq!(view.strike_or_whole(&SCALE).window(&SCALE), SCALE.across);
     }
@@ -221,15 +183,11 @@ mod tests {
         assert_eq!(view.window(&SCALE), SCALE.across);
         let close = (0..4).fold(view, |view, _| view.zoomed(1, -1.0, &SCALE));
         assert_eq!(close.window(&SCALE), Span::new(-4.75, 2.75));
-        assert_eq!(
-            (0..4).fold(close, |view, _| view.zoomed(-1, -1.0, &SCALE)),
-            view
-        );
+        assert_eq!((0..4).fold(close, |view, _| view.zoomed(-1, -1.0, &SCALE)), view);
         assert_eq!(view.strike_or_whole(&SCALE).window(&SCALE), SCALE.strike);
         assert_eq!(view.strike_or_whole(&SCALE).strike_or_whole(&SCALE), view);
         assert_eq!(
-            (0..9).fold(view.strike_or_whole(&SCALE), |view, _| view
-                .zoomed(-1, 0.0, &SCALE)),
+            (0..9).fold(view.strike_or_whole(&SCALE), |view, _| view.zoomed(-1, 0.0, &SCALE)),
             view
         );
     }

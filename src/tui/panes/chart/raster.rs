@@ -50,11 +50,7 @@ pub(crate) fn style(charts: &Charts, source: CurveSource) -> Style {
         CurveSource::Pinned(_) => theme.baseline,
         CurveSource::Bound(_) => theme.rule,
     };
-    if charts.is_stale {
-        style.patch(theme.faint)
-    } else {
-        style
-    }
+    if charts.is_stale { style.patch(theme.faint) } else { style }
 }
 
 /// Draws the visible parts of the curves, the last on top; the curves of the compliance models share
@@ -66,16 +62,10 @@ pub fn draw(
     plot: Rect,
     buffer: &mut Buffer,
 ) {
-    let area = PlotArea {
-        cells: plot,
-        across,
-        upright,
-    };
+    let area = PlotArea { cells: plot, across, upright };
     let shown = curves.iter().map(|curve| {
         let pieces = curve.pieces.iter();
-        let pieces: Vec<_> = pieces
-            .map(|piece| visible(piece, across, plot.width))
-            .collect();
+        let pieces: Vec<_> = pieces.map(|piece| visible(piece, across, plot.width)).collect();
         let look = (marker(charts, curve.source), style(charts, curve.source));
         (pieces, look)
     });
@@ -89,9 +79,7 @@ pub fn draw(
 
 // The visible points and their neighbours, reduced if a column has many.
 fn visible(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
-    let from = piece
-        .partition_point(|point| point.0 < across.from)
-        .saturating_sub(1);
+    let from = piece.partition_point(|point| point.0 < across.from).saturating_sub(1);
     let to = (piece.partition_point(|point| point.0 <= across.to) + 1).min(piece.len());
     let piece = &piece[from.min(to)..to];
     if piece.len() <= MANY * usize::from(columns) {
@@ -107,15 +95,9 @@ fn visible(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
 // The first, the least, the greatest and the last point, in order.
 fn outline(points: &[Point]) -> Vec<Point> {
     let by_height = |one: &usize, other: &usize| points[*one].1.total_cmp(&points[*other].1);
-    let extremes = [
-        (0..points.len()).min_by(by_height),
-        (0..points.len()).max_by(by_height),
-    ];
-    let mut kept: Vec<usize> = extremes
-        .into_iter()
-        .flatten()
-        .chain([0, points.len() - 1])
-        .collect();
+    let extremes = [(0..points.len()).min_by(by_height), (0..points.len()).max_by(by_height)];
+    let mut kept: Vec<usize> =
+        extremes.into_iter().flatten().chain([0, points.len() - 1]).collect();
     kept.sort_unstable();
     kept.dedup();
     kept.into_iter().map(|index| points[index]).collect()
@@ -127,15 +109,10 @@ mod tests {
 
     #[test]
     fn a_peak_narrower_than_a_column_is_kept() {
-        let points: Vec<Point> = (0..10_000)
-            .map(|at| (f64::from(at), if at == 4321 { 7.0 } else { 1.0 }))
-            .collect();
+        let points: Vec<Point> =
+            (0..10_000).map(|at| (f64::from(at), if at == 4321 { 7.0 } else { 1.0 })).collect();
         let kept = visible(&points, Span::new(0.0, 9999.0), 50);
-        assert!(
-            kept.len() <= 4 * 51 && kept.contains(&(4321.0, 7.0)),
-            "{}",
-            kept.len()
-        );
+        assert!(kept.len() <= 4 * 51 && kept.contains(&(4321.0, 7.0)), "{}", kept.len());
         assert!(kept.is_sorted_by(|one, other| one.0 < other.0));
         assert_eq!((kept.first(), kept.last()), (points.first(), points.last()));
     }
@@ -144,14 +121,8 @@ mod tests {
     fn hidden_points_are_omitted_except_the_neighbours() {
         let points: Vec<Point> = (0..100).map(|at| (f64::from(at), 0.0)).collect();
         let kept = visible(&points, Span::new(10.5, 20.5), 50);
-        assert_eq!(
-            (kept.first(), kept.last()),
-            (Some(&(10.0, 0.0)), Some(&(21.0, 0.0)))
-        );
-        assert_eq!(
-            visible(&points[..5], Span::new(10.5, 20.5), 50),
-            [points[4]]
-        );
+        assert_eq!((kept.first(), kept.last()), (Some(&(10.0, 0.0)), Some(&(21.0, 0.0))));
+        assert_eq!(visible(&points[..5], Span::new(10.5, 20.5), 50), [points[4]]);
         assert_eq!(visible(&[], Span::new(0.0, 1.0), 50), []);
     }
 }

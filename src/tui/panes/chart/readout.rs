@@ -22,19 +22,11 @@ const ROUNDING: f64 = 1e-9;
 pub fn readout(charts: &Charts, cursor: f64) -> String {
     let mut parts = vec![place(charts, cursor)];
     let graphs = charts.shown();
-    let chosen = if graphs.is_empty() {
-        vec![charts.pane.graph]
-    } else {
-        graphs
-    };
-    let seen: Vec<String> = chosen
-        .iter()
-        .filter_map(|&graph| all(charts, &GRAPHS[graph], cursor))
-        .collect();
+    let chosen = if graphs.is_empty() { vec![charts.pane.graph] } else { graphs };
+    let seen: Vec<String> =
+        chosen.iter().filter_map(|&graph| all(charts, &GRAPHS[graph], cursor)).collect();
     let rest = (0..GRAPHS.len()).filter(|graph| !chosen.contains(graph));
-    let rest: Vec<String> = rest
-        .filter_map(|graph| own(charts, &GRAPHS[graph], cursor))
-        .collect();
+    let rest: Vec<String> = rest.filter_map(|graph| own(charts, &GRAPHS[graph], cursor)).collect();
     parts.extend(seen);
     parts.extend((!rest.is_empty()).then(|| rest.join(", ")));
     let (angle, values) = parts.split_at(1);
@@ -46,15 +38,10 @@ pub fn readout(charts: &Charts, cursor: f64) -> String {
 }
 
 fn place(charts: &Charts, cursor: f64) -> String {
-    let (side, degrees) = (
-        if cursor < 0.0 { "after" } else { "before" },
-        cursor.abs().to_degrees(),
-    );
+    let (side, degrees) =
+        (if cursor < 0.0 { "after" } else { "before" }, cursor.abs().to_degrees());
     if degrees > 0.0 {
-        format!(
-            "{degrees:.4} deg of the driver {side} E{}",
-            time(charts, cursor)
-        )
+        format!("{degrees:.4} deg of the driver {side} E{}", time(charts, cursor))
     } else {
         "At E".to_owned()
     }
@@ -73,20 +60,15 @@ fn time(charts: &Charts, cursor: f64) -> String {
 // The values of every curve of a chart, the active method first, in the unit of the greatest value.
 fn all(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(charts, graph);
-    let readings: Vec<Reading> = curves
-        .iter()
-        .rev()
-        .filter_map(|curve| Reading::of(charts, graph, curve, cursor))
-        .collect();
+    let readings: Vec<Reading> =
+        curves.iter().rev().filter_map(|curve| Reading::of(charts, graph, curve, cursor)).collect();
     in_words(charts, &readings)
 }
 
 // The value of the active method only.
 fn own(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(charts, graph);
-    let own = curves
-        .iter()
-        .find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
+    let own = curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
     in_words(charts, &[Reading::of(charts, graph, own, cursor)?])
 }
 
@@ -122,11 +104,7 @@ fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(
         return Some((value * factor, curve.column.digits));
     }
     let is_pinned = matches!(curve.source, CurveSource::Pinned(_));
-    let answer = if is_pinned {
-        charts.baseline?
-    } else {
-        charts.answer?
-    };
+    let answer = if is_pinned { charts.baseline? } else { charts.answer? };
     let method = if let CurveSource::Other(method) | CurveSource::Pinned(method) = curve.source {
         method
     } else {
@@ -140,10 +118,7 @@ fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(
         } else {
             curve.column.digits
         };
-        Some((
-            (graph.bound?.value)(solution, Row::from(&interpolated))?,
-            digits,
-        ))
+        Some(((graph.bound?.value)(solution, Row::from(&interpolated))?, digits))
     } else {
         let value = curve.column.of(Row::from(&interpolated))?;
         Some((
@@ -156,11 +131,7 @@ fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(
 /// The name of the curve of the baseline, with its method if it differs from the active method.
 pub(crate) fn base_name(charts: &Charts, method: Method) -> String {
     let is_other = charts.answer.is_some_and(|answer| answer.active != method);
-    if is_other {
-        format!("baseline ({})", method.name())
-    } else {
-        "baseline".to_owned()
-    }
+    if is_other { format!("baseline ({})", method.name()) } else { "baseline".to_owned() }
 }
 
 impl Reading {
@@ -168,12 +139,7 @@ impl Reading {
         let name = |text: &'static str| symbol(text, charts.look.ascii).into_owned();
         let (value, digits) = value(charts, graph, curve, cursor)?;
         let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
-        let most = curve
-            .pieces
-            .iter()
-            .flatten()
-            .map(|(_, y)| y.abs())
-            .fold(0.0, f64::max);
+        let most = curve.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
         let is_zero = in_unit.abs() < ROUNDING * most;
         Some(Reading {
             name: match curve.source {

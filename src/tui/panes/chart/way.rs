@@ -30,10 +30,7 @@ pub(crate) fn path(answer: &Answer) -> Span {
     let Some(Ok(found)) = &answer.stiffness else {
         return Span::NONE;
     };
-    let ways = found
-        .points
-        .iter()
-        .map(|point| point.way / found.base_radius);
+    let ways = found.points.iter().map(|point| point.way / found.base_radius);
     ways.fold(Span::NONE, |span, angle| span.with(angle.to_degrees()))
 }
 

@@ -46,11 +46,7 @@ pub(super) fn draw(charts: &Charts, chart: WorkerChart, buffer: &mut Buffer) {
     if area.height < 2 {
         return;
     }
-    let inner = Rect {
-        y: area.y + 1,
-        height: area.height - 1,
-        ..area
-    };
+    let inner = Rect { y: area.y + 1, height: area.height - 1, ..area };
     let Some(drawn) = charts.work.drawn(chart) else {
         let words = charts.work.missing(chart);
         let room = usize::from(inner.width.saturating_sub(3));
@@ -99,11 +95,7 @@ impl<'a> Plot<'a> {
             charts,
             chart,
             legend,
-            area: PlotArea {
-                cells,
-                across: across(chart),
-                upright,
-            },
+            area: PlotArea { cells, across: across(chart), upright },
             labels,
         })
     }
@@ -140,18 +132,11 @@ impl<'a> Plot<'a> {
         let is_whole = |value: f64| (value - value.round()).abs() < 1e-9;
         let has_bars = self.chart.series.iter().any(is_bars);
         for (value, label) in ticks.labelled {
-            let Some(column) = self
-                .area
-                .column(value)
-                .filter(|_| !has_bars || is_whole(value))
+            let Some(column) = self.area.column(value).filter(|_| !has_bars || is_whole(value))
             else {
                 continue;
             };
-            let label = if ticks.power == 0 {
-                label
-            } else {
-                format!("{value}")
-            };
+            let label = if ticks.power == 0 { label } else { format!("{value}") };
             let start = column.saturating_sub(label.width() as u16 / 2);
             if start + label.width() as u16 <= cells.right() + 2 {
                 buffer.set_string(column, bottom, "┴", rule);
@@ -257,11 +242,7 @@ fn legend(charts: &Charts, chart: &Chart, inner: Rect) -> Legend {
             _ => sign(chart, index, charts.look.ascii),
         };
         let name = series.name.split(',').next().unwrap_or_default();
-        let missing = if series.pieces.is_empty() {
-            " (no value)"
-        } else {
-            ""
-        };
+        let missing = if series.pieces.is_empty() { " (no value)" } else { "" };
         let room = usize::from(inner.width.saturating_sub(2));
         let words = text::cut(&format!("{sign} {name}{missing}"), room);
         let width = words.width() as u16;
@@ -294,16 +275,9 @@ fn is_bars(series: &Series) -> bool {
 
 /// The range of the horizontal axis: the points and, for bars, half a number at each end.
 fn across(chart: &Chart) -> Span {
-    let half = if chart.series.iter().any(is_bars) {
-        0.5
-    } else {
-        0.0
-    };
+    let half = if chart.series.iter().any(is_bars) { 0.5 } else { 0.0 };
     let marks = chart.marks.iter().map(|(x, _)| *x);
-    let points = chart
-        .series
-        .iter()
-        .flat_map(|series| series.pieces.iter().flatten());
+    let points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
     let all = points.map(|(x, _)| *x).chain(marks);
     let span = all.fold(Span::NONE, Span::with);
     Span::new(span.from - half, span.to + half)
@@ -311,14 +285,7 @@ fn across(chart: &Chart) -> Span {
 
 /// The range of the values, with 0 for bars.
 fn ordinates(chart: &Chart) -> Span {
-    let points = chart
-        .series
-        .iter()
-        .flat_map(|series| series.pieces.iter().flatten());
-    let start = if chart.series.iter().any(is_bars) {
-        Span::NONE.with(0.0)
-    } else {
-        Span::NONE
-    };
+    let points = chart.series.iter().flat_map(|series| series.pieces.iter().flatten());
+    let start = if chart.series.iter().any(is_bars) { Span::NONE.with(0.0) } else { Span::NONE };
     points.fold(start, |span, (_, y)| span.with(*y))
 }

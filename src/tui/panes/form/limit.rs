@@ -28,17 +28,9 @@ pub(super) fn draw_limit(
     buffer: &mut Buffer,
 ) -> Option<Position> {
     let theme = pane.look.theme;
-    let style = if pane.focus == index {
-        theme.focus
-    } else {
-        Style::new()
-    };
+    let style = if pane.focus == index { theme.focus } else { Style::new() };
     draw_mark(pane, index, line, buffer);
-    let name = Rect {
-        x: line.x + MARK,
-        width: line.width.saturating_sub(MARK),
-        ..line
-    };
+    let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
     let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
     let symbol = ascii::symbol(symbol, pane.look.ascii);
     let label = rows::label(pane.case, index);
@@ -53,25 +45,14 @@ pub(super) fn draw_limit(
     } else {
         let named = format!("{symbol} {label}{AT_MOST}");
         let has_room = usize::from(MARK) + named.width() + needed <= line.width.into();
-        let brief = if has_room {
-            named
-        } else {
-            format!("{symbol}{AT_MOST}")
-        };
+        let brief = if has_room { named } else { format!("{symbol}{AT_MOST}") };
         buffer.set_stringn(name.x, name.y, &brief, name.width.into(), style);
         (MARK + brief.width() as u16).min(line.width)
     };
     let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
     // The label gives its unused columns to the verdict, so that a word fits rather than a sign.
-    let spare = if is_whole {
-        usize::from(usual).saturating_sub(label.width())
-    } else {
-        0
-    };
-    let in_words = words
-        .iter()
-        .take(2)
-        .find(|word| word.width() <= left + spare);
+    let spare = if is_whole { usize::from(usual).saturating_sub(label.width()) } else { 0 };
+    let in_words = words.iter().take(2).find(|word| word.width() <= left + spare);
     let word = in_words
         .or_else(|| words.iter().find(|word| word.width() <= left))
         .cloned()
@@ -88,9 +69,7 @@ pub(super) fn draw_limit(
     draw_text(
         pane,
         index,
-        Some(&limit.text)
-            .filter(|text| !text.is_empty())
-            .map(String::as_str),
+        Some(&limit.text).filter(|text| !text.is_empty()).map(String::as_str),
         "(no limit)",
         value,
         style,
@@ -102,22 +81,14 @@ pub(super) fn draw_limit(
 fn standing(pane: &Form<'_>, limit: &Limit) -> (Vec<String>, Style) {
     let theme = pane.look.theme;
     let is_known = !pane.is_stale && !limit.text.is_empty();
-    let solution = pane
-        .answer
-        .and_then(|answer| answer.of(answer.active))
-        .filter(|_| is_known);
+    let solution = pane.answer.and_then(|answer| answer.of(answer.active)).filter(|_| is_known);
     let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {
         return (Vec::new(), Style::new());
     };
     let is_above_beside = verdict.is_exceeded_beside();
-    let style = if verdict.standing.holds() && !is_above_beside {
-        theme.note
-    } else {
-        theme.problem
-    };
-    let part = verdict
-        .part()
-        .map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
+    let style =
+        if verdict.standing.holds() && !is_above_beside { theme.note } else { theme.problem };
+    let part = verdict.part().map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
     let beside = if is_above_beside { ABOVE_BESIDE } else { "" };
     let word = verdict.standing.word();
     let sign = if verdict.standing.holds() { word } else { "!" };

@@ -23,13 +23,7 @@ const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 pub(super) fn draw_mark(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) {
     let theme = pane.look.theme;
     if rows::differs(pane.case, pane.saved, index) {
-        buffer.set_stringn(
-            line.x + 1,
-            line.y,
-            EDITED,
-            usize::from(line.width > 1),
-            theme.note,
-        );
+        buffer.set_stringn(line.x + 1, line.y, EDITED, usize::from(line.width > 1), theme.note);
     }
     // The reason below the row has a mark of its own.
     if pane.focus == index {
@@ -41,11 +35,7 @@ pub(super) fn draw_mark(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut 
 
 // Width of the labels beside values of the default width.
 pub(super) fn label_width(area: Rect) -> u16 {
-    let value = if area.width + MARK < WHOLE {
-        NARROW_VALUE
-    } else {
-        VALUE
-    };
+    let value = if area.width + MARK < WHOLE { NARROW_VALUE } else { VALUE };
     LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value))
 }
 
@@ -85,21 +75,11 @@ pub(super) fn draw_text(
     if let Some(line) = line.filter(|_| written.is_some()) {
         let style = style.add_modifier(Modifier::UNDERLINED);
         let cursor = text::edited(line, area, style, buffer);
-        text::ending(
-            pane.ending.as_deref(),
-            line.value().width(),
-            area,
-            pane.look.theme,
-            buffer,
-        );
+        text::ending(pane.ending.as_deref(), line.value().width(), area, pane.look.theme, buffer);
         return cursor;
     }
     let shown = written.map_or(unwritten.into(), ascii::printable);
-    let faint = if written.is_none() && !pane.lacks(index) {
-        pane.look.theme.faint
-    } else {
-        style
-    };
+    let faint = if written.is_none() && !pane.lacks(index) { pane.look.theme.faint } else { style };
     buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
     line.is_some().then_some(Position::new(area.x, area.y))
 }

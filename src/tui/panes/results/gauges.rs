@@ -28,9 +28,8 @@ pub(super) fn gauges(pane: &Results<'_>, answer: &Answer) -> Vec<Gauge> {
     let Some(solution) = answer.of(answer.active) else {
         return Vec::new();
     };
-    let ratios = (!solution.method.shares_load())
-        .then(|| ratios(answer, pane.look.ascii))
-        .flatten();
+    let ratios =
+        (!solution.method.shares_load()).then(|| ratios(answer, pane.look.ascii)).flatten();
     // `paper` is not compared: it repeats `exact` with misprints.
     let others: Vec<&Solution> = (answer.methods.iter().rev())
         .filter(|(method, _)| *method != answer.active && *method != Method::Paper)
@@ -39,10 +38,7 @@ pub(super) fn gauges(pane: &Results<'_>, answer: &Answer) -> Vec<Gauge> {
     let differing = other_outcomes(answer, solution, &others);
     let relief = relief(pane, answer, solution, &others);
     let whine = whine(solution).map(|words| Gauge(words.into()));
-    [differing, relief, whine, band(pane, solution), ratios]
-        .into_iter()
-        .flatten()
-        .collect()
+    [differing, relief, whine, band(pane, solution), ratios].into_iter().flatten().collect()
 }
 
 // A slow method is not compared before its own result is present.
@@ -75,10 +71,7 @@ fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
     // In the unit of the force, with an additional digit if the unit needs it.
     let ends = || [band.low, band.high].into_iter();
-    let (few, usual) = (
-        Quantity::find("impact_force_low")?,
-        Quantity::find("impact_force")?,
-    );
+    let (few, usual) = (Quantity::find("impact_force_low")?, Quantity::find("impact_force")?);
     let unit = report::common_unit(usual, ends().chain([force]), pane.units);
     let is_enough = report::common_unit(few, ends(), pane.units) == unit;
     let quantity = if is_enough { few } else { usual };

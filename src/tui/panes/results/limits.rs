@@ -8,21 +8,15 @@ use crate::tui::ascii::symbol;
 
 /// The first limit that is not met, in two lengths, with the number of further ones.
 pub(super) fn warning(pane: &Results<'_>, solution: &Solution) -> Option<Vec<String>> {
-    let unmet: Vec<Verdict<'_>> = written(pane, solution)
-        .into_iter()
-        .filter(|verdict| !is_met(verdict))
-        .collect();
+    let unmet: Vec<Verdict<'_>> =
+        written(pane, solution).into_iter().filter(|verdict| !is_met(verdict)).collect();
     let words = unmet.first().and_then(|first| words(pane, first))?;
     let more = match unmet.len() {
         1 => String::new(),
         count => format!("; {} more", count - 1),
     };
     let lines = words.into_iter().map(|words| format!("! {words}{more}"));
-    Some(
-        lines
-            .map(|line| symbol(&line, pane.look.ascii).into_owned())
-            .collect(),
-    )
+    Some(lines.map(|line| symbol(&line, pane.look.ascii).into_owned()).collect())
 }
 
 /// The verdict on each limit as a sentence.

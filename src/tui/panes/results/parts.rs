@@ -45,10 +45,7 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = pane.answer {
         head.extend(outcome(pane, answer, width, height < LOW));
-        gauges = gauges::gauges(pane, answer)
-            .iter()
-            .map(|gauge| gauge.fitting(width))
-            .collect();
+        gauges = gauges::gauges(pane, answer).iter().map(|gauge| gauge.fitting(width)).collect();
         notes = answer
             .notes
             .iter()
@@ -57,10 +54,7 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
             .collect();
     }
     let whole = |texts: &[String]| {
-        texts
-            .iter()
-            .flat_map(|text| text::wrap(text, width))
-            .collect::<Vec<_>>()
+        texts.iter().flat_map(|text| text::wrap(text, width)).collect::<Vec<_>>()
     };
     let rows_beside = |gauges: &[String], notes: &[String]| {
         height.saturating_sub(head.len() + gauges.len() + 1 + notes.len())
@@ -69,11 +63,7 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
     if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
         gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
         note_lines = shortened(pane, 0, width).into_iter().collect();
-        let least = if faults == 0 {
-            LEAST_ROWS
-        } else {
-            LEAST_BELOW_FAULT
-        };
+        let least = if faults == 0 { LEAST_ROWS } else { LEAST_BELOW_FAULT };
         let room = |notes: usize| height.saturating_sub(head.len() + 1 + least + notes);
         if gauge_lines.len() > room(note_lines.len()) {
             let hidden = gauge_lines.len() - room(1).min(gauge_lines.len());
@@ -81,26 +71,15 @@ pub(super) fn parts(pane: &Results<'_>) -> Parts {
             note_lines = shortened(pane, hidden, width).into_iter().collect();
         }
     }
-    let faint = if pane.is_stale {
-        pane.look.theme.faint
-    } else {
-        Style::new()
-    };
-    head.extend(
-        gauge_lines
-            .into_iter()
-            .map(|gauge| Line::styled(gauge, faint)),
-    );
+    let faint = if pane.is_stale { pane.look.theme.faint } else { Style::new() };
+    head.extend(gauge_lines.into_iter().map(|gauge| Line::styled(gauge, faint)));
     head.truncate(height.saturating_sub(1 + LEAST_BELOW_FAULT + note_lines.len()));
     let rows = height.saturating_sub(head.len() + 1 + note_lines.len());
     let style = pane.look.theme.note.patch(faint);
     Parts {
         head,
         rows,
-        notes: note_lines
-            .into_iter()
-            .map(|note| Line::styled(note, style))
-            .collect(),
+        notes: note_lines.into_iter().map(|note| Line::styled(note, style)).collect(),
     }
 }
 
@@ -120,28 +99,16 @@ fn shortened(pane: &Results<'_>, hidden: usize, width: usize) -> Option<String> 
     if hidden > 0 {
         return Some(counted);
     }
-    let in_full = notes
-        .first()
-        .filter(|_| count == 1)
-        .map(|note| format!("{NOTE}{}", note.message));
-    let names: Vec<String> = notes
-        .iter()
-        .map(|note| note.code.replace('-', " "))
-        .collect();
+    let in_full =
+        notes.first().filter(|_| count == 1).map(|note| format!("{NOTE}{}", note.message));
+    let names: Vec<String> = notes.iter().map(|note| note.code.replace('-', " ")).collect();
     let by_names = (1..=count).rev().map(|shown| {
-        let others = if shown < count {
-            format!(", {} more", count - shown)
-        } else {
-            String::new()
-        };
+        let others =
+            if shown < count { format!(", {} more", count - shown) } else { String::new() };
         format!("{NOTE}{}{others} ({key})", names[..shown].join(", "))
     });
     let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
-    (count > 0).then(|| {
-        sayings
-            .find(|words| words.width() <= width)
-            .unwrap_or(counted)
-    })
+    (count > 0).then(|| sayings.find(|words| words.width() <= width).unwrap_or(counted))
 }
 
 fn banner(pane: &Results<'_>, width: usize) -> Vec<Line<'static>> {
@@ -149,9 +116,7 @@ fn banner(pane: &Results<'_>, width: usize) -> Vec<Line<'static>> {
     let lines = faults(pane).into_iter().zip(styles);
     lines
         .flat_map(|(text, style)| {
-            text::wrap(&text, width)
-                .into_iter()
-                .map(move |line| Line::styled(line, style))
+            text::wrap(&text, width).into_iter().map(move |line| Line::styled(line, style))
         })
         .collect()
 }
@@ -160,11 +125,7 @@ fn outcome(pane: &Results<'_>, answer: &Answer, width: usize, is_low: bool) -> V
     let Some(solution) = answer.of(answer.active) else {
         return Vec::new();
     };
-    let style = if pane.is_stale {
-        pane.look.theme.faint
-    } else {
-        pane.look.theme.focus
-    };
+    let style = if pane.is_stale { pane.look.theme.faint } else { pane.look.theme.focus };
     let words = if is_low && width < NARROW {
         digest::short(solution, pane.units)
     } else {
@@ -177,8 +138,5 @@ fn outcome(pane: &Results<'_>, answer: &Answer, width: usize, is_low: bool) -> V
         let line = text::cut(&words, width);
         Line::styled(line, pane.look.theme.problem)
     });
-    lines
-        .map(|line| Line::styled(line, style))
-        .chain(warning)
-        .collect()
+    lines.map(|line| Line::styled(line, style)).chain(warning).collect()
 }

@@ -49,12 +49,7 @@ pub(crate) fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) 
     };
     let (row, quantity) = table::order(answer).enumerate().find(is_meant)?;
     let has_value = answer.of(answer.active).and_then(quantity.value).is_some();
-    Some(Listed {
-        key: quantity.key,
-        row,
-        line: table::line_of(answer, row),
-        has_value,
-    })
+    Some(Listed { key: quantity.key, row, line: table::line_of(answer, row), has_value })
 }
 
 /// The state for a new answer: the selection stays on the quantity that was selected in the
@@ -73,17 +68,10 @@ pub(crate) fn followed(
     let had_value = selected.is_none_or(|selected| selected.has_value);
     let now = place_of(answer, state, Some(key)).filter(|now| now.has_value || !had_value);
     let Some(now) = now else {
-        return ResultsState {
-            lost: Some(key),
-            ..ResultsState::default()
-        };
+        return ResultsState { lost: Some(key), ..ResultsState::default() };
     };
     let above = selected.map_or(0, |selected| selected.line.saturating_sub(state.top));
-    ResultsState {
-        row: now.row,
-        top: now.line.saturating_sub(above),
-        lost: None,
-    }
+    ResultsState { row: now.row, top: now.line.saturating_sub(above), lost: None }
 }
 
 impl Results<'_> {
@@ -105,11 +93,7 @@ impl Results<'_> {
         } else {
             self.state.row.clamp(top, last)
         };
-        ResultsState {
-            row: row.min(self.last()),
-            top,
-            ..self.state
-        }
+        ResultsState { row: row.min(self.last()), top, ..self.state }
     }
 
     fn last(&self) -> usize {
@@ -122,19 +106,13 @@ pub(crate) fn top_for(pane: &Results<'_>) -> usize {
     let rows = page(pane).max(1);
     let line = line_of(pane, pane.state.row);
     let least = (line + 1).saturating_sub(rows);
-    pane.state
-        .top
-        .clamp(least, line.max(least))
-        .min(line_count(pane).saturating_sub(rows))
+    pane.state.top.clamp(least, line.max(least)).min(line_count(pane).saturating_sub(rows))
 }
 
 /// The first visible line after scrolling by lines downwards.
 #[must_use]
 pub(crate) fn scrolled(pane: &Results<'_>, by: isize) -> usize {
-    pane.state
-        .top
-        .saturating_add_signed(by)
-        .min(line_count(pane).saturating_sub(page(pane)))
+    pane.state.top.saturating_add_signed(by).min(line_count(pane).saturating_sub(page(pane)))
 }
 
 /// The index of the quantity at a cell, if any.
@@ -146,14 +124,11 @@ pub(crate) fn row_at(pane: &Results<'_>, at: Position) -> Option<usize> {
 
 // The line of a quantity.
 pub(super) fn line_of(pane: &Results<'_>, row: usize) -> usize {
-    pane.answer
-        .map_or(row, |answer| table::line_of(answer, row))
+    pane.answer.map_or(row, |answer| table::line_of(answer, row))
 }
 
 pub(super) fn line_count(pane: &Results<'_>) -> usize {
-    count(pane)
-        .checked_sub(1)
-        .map_or(0, |last| line_of(pane, last) + 1)
+    count(pane).checked_sub(1).map_or(0, |last| line_of(pane, last) + 1)
 }
 
 // The number of lines of title, head and heading.

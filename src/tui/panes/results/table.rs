@@ -83,12 +83,8 @@ pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> 
         Method::Dynamic => FIRST_OF_DYNAMIC,
         Method::Paper | Method::Exact | Method::Auto => FIRST,
     };
-    let stages = answer
-        .methods
-        .iter()
-        .fold(Stages::NONE, |stages, (method, _)| {
-            stages.and(method.stages())
-        });
+    let stages =
+        answer.methods.iter().fold(Stages::NONE, |stages, (method, _)| stages.and(method.stages()));
     let has_friction = answer.inputs.friction_coefficient.is_some();
     let is_listed = move |quantity: &&Quantity| {
         !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction)
@@ -127,30 +123,19 @@ pub(super) fn lines(pane: &Results<'_>, answer: &Answer, width: usize) -> Table 
     if let Some(variants) = pane.variants {
         return variants::lines(pane, answer, variants, width);
     }
-    let cells: Vec<Cells> = order(answer)
-        .map(|quantity| Cells::of(pane, answer, quantity))
-        .collect();
+    let cells: Vec<Cells> =
+        order(answer).map(|quantity| Cells::of(pane, answer, quantity)).collect();
     let columns = Columns::of(pane, answer, &cells, width);
-    let faint = if pane.is_stale {
-        pane.look.theme.faint
-    } else {
-        Style::new()
-    };
+    let faint = if pane.is_stale { pane.look.theme.faint } else { Style::new() };
     let line = |cells| columns.line(pane, answer, cells).patch_style(faint);
     let mut rows: Vec<Line<'static>> = cells.iter().map(line).collect();
     if let Some(above) = above_heading(answer) {
         let titles = [format!("{FREE_IMPACT}:"), "Free impact:".to_owned()];
         let fits = titles.iter().find(|title| title.width() <= width);
         let title = text::cut(fits.unwrap_or(&titles[1]), width);
-        rows.insert(
-            above,
-            Line::styled(title, pane.look.theme.title).patch_style(faint),
-        );
+        rows.insert(above, Line::styled(title, pane.look.theme.title).patch_style(faint));
     }
-    Table {
-        heading: columns.heading(pane, answer).patch_style(faint),
-        rows,
-    }
+    Table { heading: columns.heading(pane, answer).patch_style(faint), rows }
 }
 
 /// The texts of a row.
@@ -169,10 +154,8 @@ pub(super) struct Cells {
 impl Cells {
     fn of(pane: &Results<'_>, answer: &Answer, quantity: &'static Quantity) -> Cells {
         let methods = methods(answer);
-        let values: Vec<Option<f64>> = methods
-            .iter()
-            .map(|&method| value(answer, method, quantity))
-            .collect();
+        let values: Vec<Option<f64>> =
+            methods.iter().map(|&method| value(answer, method, quantity)).collect();
         let unit = report::common_unit(quantity, values.iter().copied().flatten(), pane.units);
         let shown = |value: f64| report::shown_with(quantity, value, unit);
         let number =
@@ -182,10 +165,7 @@ impl Cells {
             quantity,
             symbol: symbol(quantity.symbol_in(answer.active), pane.look.ascii).into_owned(),
             label: quantity.label_in(answer.active),
-            numbers: methods
-                .into_iter()
-                .zip(values.into_iter().map(number))
-                .collect(),
+            numbers: methods.into_iter().zip(values.into_iter().map(number)).collect(),
             unit: has_value.map_or("", |value| shown(value).unit),
             common: unit,
             mark: mark(pane, answer, quantity),
@@ -208,11 +188,7 @@ fn methods(answer: &Answer) -> Vec<Method> {
 // The mark of a quantity: above its limit, or changed.
 fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static str {
     let solution = answer.of(answer.active).filter(|_| !pane.is_stale);
-    let limit = pane
-        .case
-        .limits
-        .iter()
-        .find(|limit| limit.quantity == quantity.key);
+    let limit = pane.case.limits.iter().find(|limit| limit.quantity == quantity.key);
     let is_exceeded = limit
         .zip(solution)
         .is_some_and(|(limit, solution)| verdict(limit, solution).standing == Standing::Exceeded);
@@ -228,9 +204,7 @@ fn is_changed(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> bool 
     let Some(earlier) = pane.earlier.filter(|_| !pane.is_stale) else {
         return false;
     };
-    let at = QUANTITIES
-        .iter()
-        .position(|known| known.key == quantity.key);
+    let at = QUANTITIES.iter().position(|known| known.key == quantity.key);
     let before = at.and_then(|at| earlier.get(at).copied().flatten());
     let now = answer.of(answer.active).and_then(quantity.value);
     let printed = |value: Option<f64>| value.map(|value| shown_in(pane, quantity, value));

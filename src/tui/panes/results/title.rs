@@ -22,54 +22,30 @@ fn position(pane: &Results<'_>, rows: usize) -> [String; 3] {
     [
         format!(" {first} to {last} of {lines}"),
         format!(" {first}-{last}/{lines}"),
-        [
-            " ",
-            if first > 1 { "↑" } else { "" },
-            if last < lines { "↓" } else { "" },
-        ]
-        .concat(),
+        [" ", if first > 1 { "↑" } else { "" }, if last < lines { "↓" } else { "" }].concat(),
     ]
 }
 
 // The longest title that fits without a cut.
 pub(super) fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
-    let name = if pane.shows_last_valid {
-        "Results: LAST VALID"
-    } else {
-        "Results"
-    };
+    let name = if pane.shows_last_valid { "Results: LAST VALID" } else { "Results" };
     let left = room.saturating_sub(name.width());
     let name_of_base = match (pane.variants, pane.baseline) {
-        (Some(_), _) => VARIANTS
-            .into_iter()
-            .find(|words| words.width() <= left)
-            .map(str::to_owned),
+        (Some(_), _) => VARIANTS.into_iter().find(|words| words.width() <= left).map(str::to_owned),
         (None, baseline) => baseline.map(|baseline| format!(", against {}", baseline.name)),
     };
     let against = name_of_base.as_deref().unwrap_or_default();
     let begun = text::cut(against, left);
-    let base = if begun.width() >= LEAST_OF_BASE || pane.variants.is_some() {
-        begun.as_str()
-    } else {
-        ""
-    };
+    let base =
+        if begun.width() >= LEAST_OF_BASE || pane.variants.is_some() { begun.as_str() } else { "" };
     let answer = pane.answer;
     let pending = answer
         .and_then(|answer| answer.pending)
         .map_or_else(String::new, |method| format!(", {} pending", method.name()));
-    let cost = answer
-        .filter(|_| pane.shows_cost)
-        .map_or_else(String::new, |answer| {
-            format!(
-                ", {} stages in {} us",
-                answer.cost.stages, answer.cost.micros
-            )
-        });
-    let short = if pane.shows_last_valid {
-        "LAST VALID"
-    } else {
-        name
-    };
+    let cost = answer.filter(|_| pane.shows_cost).map_or_else(String::new, |answer| {
+        format!(", {} stages in {} us", answer.cost.stages, answer.cost.micros)
+    });
+    let short = if pane.shows_last_valid { "LAST VALID" } else { name };
     let [position, numbers, arrows] = position(pane, rows);
     let titles = [
         format!("{name}{position}{against}{pending}{cost}"),
@@ -83,8 +59,5 @@ pub(super) fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
         format!("{name}{arrows}"),
         name.to_owned(),
     ];
-    titles
-        .into_iter()
-        .find(|title| title.width() <= room)
-        .unwrap_or_else(|| short.to_owned())
+    titles.into_iter().find(|title| title.width() <= room).unwrap_or_else(|| short.to_owned())
 }

@@ -42,20 +42,13 @@ fn wrong(pane: &Results<'_>) -> Option<String> {
         rows::label(pane.case, *row)
     );
     let fields: BTreeSet<usize> = pane.problems.iter().map(|(row, _)| *row).collect();
-    let more = if fields.len() > 1 {
-        format!("; {} more", fields.len() - 1)
-    } else {
-        String::new()
-    };
+    let more =
+        if fields.len() > 1 { format!("; {} more", fields.len() - 1) } else { String::new() };
     let key = (pane.next_fault)();
     if let Some(missing) = pane.missing.filter(|&missing| missing > 1) {
         return Some(format!("! {missing} required values are missing ({key})"));
     }
-    Some(format!(
-        "! {}: {}{more} ({key})",
-        name.trim_start(),
-        problem.cause
-    ))
+    Some(format!("! {}: {}{more} ({key})", name.trim_start(), problem.cause))
 }
 
 /// The faults, the outcome, the limits, the gauges and the notes in full, one per line.
@@ -68,19 +61,12 @@ pub(crate) fn in_full(pane: &Results<'_>) -> Vec<String> {
 }
 
 fn of_answer(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
-    let age = if pane.shows_last_valid {
-        "LAST VALID: "
-    } else {
-        ""
-    };
+    let age = if pane.shows_last_valid { "LAST VALID: " } else { "" };
     let solution = answer.of(answer.active);
     let outcome = solution.map(|solution| format!("{age}{}", sentence(pane, solution)));
     let limits = solution.map(|solution| limits::sentences(pane, solution));
     let gauges = gauges::gauges(pane, answer).into_iter().map(Gauge::in_full);
-    let notes = answer
-        .notes
-        .iter()
-        .map(|note| format!("{NOTE}{}.", note.message));
+    let notes = answer.notes.iter().map(|note| format!("{NOTE}{}.", note.message));
     outcome
         .into_iter()
         .chain(limits.into_iter().flatten())
@@ -92,10 +78,7 @@ fn of_answer(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
 
 /// One line for each variant that the model refuses.
 pub(super) fn refused_variants<'a>(pane: &Results<'a>) -> impl Iterator<Item = String> + use<'a> {
-    let columns = pane
-        .variants
-        .into_iter()
-        .flat_map(|variants| &variants.columns);
+    let columns = pane.variants.into_iter().flat_map(|variants| &variants.columns);
     columns.filter_map(|(name, found)| {
         let reason = found.as_ref().err()?;
         Some(format!("{NOTE}variant {name} is refused: {reason}."))

@@ -43,11 +43,7 @@ pub(super) fn draw(
     };
     let layers: Vec<(&Layer, &LayerFound)> = grid.layers.iter().zip(&shown.layers).collect();
     draw_legend(pane, &layers, rooms.legend, buffer);
-    let all = || {
-        layers
-            .iter()
-            .flat_map(|(_, found)| found.values.iter().flatten().copied())
-    };
+    let all = || layers.iter().flat_map(|(_, found)| found.values.iter().flatten().copied());
     let Some(known) = shown.quantity() else {
         return;
     };
@@ -56,13 +52,7 @@ pub(super) fn draw(
     let values = all().fold(Span::NONE, |span, value| span.with(value / factor));
     let upright = Span::default().refit(values);
     let ticks = upright.ticks(rooms.plot.height.saturating_sub(1) / 2);
-    let margin = ticks
-        .labelled
-        .iter()
-        .map(|(_, label)| label.len())
-        .max()
-        .unwrap_or(0) as u16
-        + 3;
+    let margin = ticks.labelled.iter().map(|(_, label)| label.len()).max().unwrap_or(0) as u16 + 3;
     let cells = Rect {
         x: rooms.plot.x + margin,
         width: rooms.plot.width.saturating_sub(margin + 2),
@@ -72,17 +62,8 @@ pub(super) fn draw(
     if cells.width < LEAST.0 || cells.height < LEAST.1 {
         return;
     }
-    let plot = Plot {
-        pane,
-        shown,
-        axis,
-        area: PlotArea {
-            cells,
-            across: across(axis),
-            upright,
-        },
-        factor,
-    };
+    let plot =
+        Plot { pane, shown, axis, area: PlotArea { cells, across: across(axis), upright }, factor };
     plot.frame(&ticks.labelled, buffer);
     // The active method is drawn last, on top.
     for (layer, found) in layers.iter().rev() {
@@ -98,19 +79,12 @@ pub(super) fn draw(
 fn across(axis: &Axis) -> Span {
     let last = axis.points.len().saturating_sub(1);
     let span = Span::new(x(axis, 0), x(axis, last));
-    if span.is_empty() {
-        Span::new(span.from - 0.5, span.to + 0.5)
-    } else {
-        span
-    }
+    if span.is_empty() { Span::new(span.from - 0.5, span.to + 0.5) } else { span }
 }
 
 /// The position of a point on the axis.
 fn x(axis: &Axis, at: usize) -> f64 {
-    axis.points
-        .get(at)
-        .and_then(|point| point.number)
-        .unwrap_or(at as f64)
+    axis.points.get(at).and_then(|point| point.number).unwrap_or(at as f64)
 }
 
 impl Plot<'_> {
@@ -144,17 +118,13 @@ impl Plot<'_> {
     fn labels(&self) -> Vec<(f64, String)> {
         if self.axis.points.iter().any(|point| point.number.is_none()) {
             let names = self.axis.points.iter().enumerate();
-            return names
-                .map(|(at, point)| (x(self.axis, at), point.text.clone()))
-                .collect();
+            return names.map(|(at, point)| (x(self.axis, at), point.text.clone())).collect();
         }
         let ticks = self.area.across.ticks(self.area.cells.width / LABEL_ROOM);
         let plain = |(value, label): (f64, String)| {
             let is_scaled = ticks.power != 0;
             let number = crate::numeric::decimal::significant(value, 6);
-            let shortest = number
-                .parse::<f64>()
-                .map_or(number, |number| number.to_string());
+            let shortest = number.parse::<f64>().map_or(number, |number| number.to_string());
             (value, if is_scaled { shortest } else { label })
         };
         ticks.labelled.into_iter().map(plain).collect()
@@ -163,13 +133,11 @@ impl Plot<'_> {
     fn curve(&self, layer: &Layer, found: &LayerFound, buffer: &mut Buffer) {
         let is_joined = self.axis.points.iter().all(|point| point.number.is_some());
         let points = found.values.iter().enumerate();
-        let points: Vec<Option<(f64, f64)>> = points
-            .map(|(at, value)| Some((x(self.axis, at), (*value)? / self.factor)))
-            .collect();
+        let points: Vec<Option<(f64, f64)>> =
+            points.map(|(at, value)| Some((x(self.axis, at), (*value)? / self.factor))).collect();
         let pieces = points.chunk_by(|one, other| is_joined && one.is_some() && other.is_some());
-        let pieces: Vec<Vec<(f64, f64)>> = pieces
-            .map(|piece| piece.iter().copied().flatten().collect())
-            .collect();
+        let pieces: Vec<Vec<(f64, f64)>> =
+            pieces.map(|piece| piece.iter().copied().flatten().collect()).collect();
         let look = look(self.pane, layer.source);
         self.area.draw_pieces(&pieces, look, buffer);
     }
@@ -194,9 +162,8 @@ impl Plot<'_> {
     /// Draws the limit, the present value and the cursor.
     fn marks(&self, buffer: &mut Buffer) {
         let theme = self.pane.look.theme;
-        let limit = self
-            .limit()
-            .filter(|limit| (0.0..=1.0).contains(&self.area.upright.part(*limit)));
+        let limit =
+            self.limit().filter(|limit| (0.0..=1.0).contains(&self.area.upright.part(*limit)));
         if let Some(limit) = limit {
             for x in self.area.cells.left()..self.area.cells.right() {
                 put_where_free((x, self.area.row(limit)), "╌", theme.rule, buffer);
@@ -226,12 +193,7 @@ impl Plot<'_> {
 
     fn limit(&self) -> Option<f64> {
         let key = self.shown.quantity()?.key;
-        let limit = self
-            .pane
-            .case
-            .limits
-            .iter()
-            .find(|limit| limit.quantity == key)?;
+        let limit = self.pane.case.limits.iter().find(|limit| limit.quantity == key)?;
         limit.value.is_finite().then(|| limit.value / self.factor)
     }
 }
@@ -293,11 +255,8 @@ fn draw_legend(
     }
     put("● now", pane.look.theme.focus);
     put("▴ cursor", pane.look.theme.focus);
-    let has = |sought: PointOutcome| {
-        layers
-            .iter()
-            .any(|(_, found)| found.outcomes.contains(&sought))
-    };
+    let has =
+        |sought: PointOutcome| layers.iter().any(|(_, found)| found.outcomes.contains(&sought));
     if has(PointOutcome::Solved(Outcome::NoCornerContact)) {
         put(&format!("{NO_CONTACT} no contact"), pane.look.theme.note);
     }

@@ -45,21 +45,12 @@ pub(super) fn draw(
     let labels = labelled(up, height).map(|at| up.points[at].text.width());
     let margin = labels.max().unwrap_or(0).max(5) as u16 + 2;
     let width = rooms.plot.width.saturating_sub(margin + 1);
-    let cells = Rect {
-        x: rooms.plot.x + margin,
-        y: rooms.plot.y,
-        width,
-        height,
-    };
+    let cells = Rect { x: rooms.plot.x + margin, y: rooms.plot.y, width, height };
     if cells.width < 2 || cells.height < 2 {
         return;
     }
     let all = found.values.iter().flatten().copied();
-    let limit = pane
-        .case
-        .limits
-        .iter()
-        .find(|limit| limit.quantity == known.key);
+    let limit = pane.case.limits.iter().find(|limit| limit.quantity == known.key);
     let map = Map {
         pane,
         found,
@@ -67,9 +58,7 @@ pub(super) fn draw(
         up,
         cells,
         values: all.clone().fold(Span::NONE, Span::with),
-        limit: limit
-            .map(|limit| limit.value)
-            .filter(|value| value.is_finite()),
+        limit: limit.map(|limit| limit.value).filter(|value| value.is_finite()),
     };
     map.frame(buffer);
     for (column, row) in positions(cells) {
@@ -114,11 +103,7 @@ impl Map<'_> {
     }
 
     fn value(&self, column: u16, row: u16) -> Option<f64> {
-        self.found
-            .values
-            .get(self.index(column, row))
-            .copied()
-            .flatten()
+        self.found.values.get(self.index(column, row)).copied().flatten()
     }
 
     fn outcome(&self, column: u16, row: u16) -> Option<PointOutcome> {
@@ -143,16 +128,8 @@ impl Map<'_> {
     }
 
     fn shade(&self, value: f64) -> &'static str {
-        let part = if self.values.is_empty() {
-            0.5
-        } else {
-            self.values.part(value)
-        };
-        let shades = if self.pane.look.ascii {
-            &SHADES_ASCII
-        } else {
-            &SHADES
-        };
+        let part = if self.values.is_empty() { 0.5 } else { self.values.part(value) };
+        let shades = if self.pane.look.ascii { &SHADES_ASCII } else { &SHADES };
         let last = shades.len() - 1;
         shades[((part * shades.len() as f64) as usize).min(last)]
     }
@@ -182,9 +159,7 @@ impl Map<'_> {
         let (width, height) = (self.cells.width, self.cells.height);
         let steps = [(-1, 0), (1, 0), (0, -1), (0, 1)];
         steps.into_iter().filter_map(move |(x, y)| {
-            let column = column
-                .checked_add_signed(x)
-                .filter(|column| *column < width)?;
+            let column = column.checked_add_signed(x).filter(|column| *column < width)?;
             let row = row.checked_add_signed(y).filter(|row| *row < height)?;
             Some((column, row))
         })
@@ -205,9 +180,7 @@ impl Map<'_> {
             let label = &self.across.points[at].text;
             let x = cells.x + Map::of(at, cells.width, self.across.points.len());
             let width = label.width() as u16;
-            let start = x
-                .saturating_sub(width / 2)
-                .min((cells.right() + 1).saturating_sub(width));
+            let start = x.saturating_sub(width / 2).min((cells.right() + 1).saturating_sub(width));
             if start >= free {
                 buffer.set_string(x, bottom, "┴", rule);
                 buffer.set_string(start, bottom + 1, label, Style::new());
@@ -247,10 +220,7 @@ impl Map<'_> {
         if self.values.from <= self.values.to {
             let worded = |value| shown_with(known, value, unit).to_string();
             let (least, most) = (self.shade(self.values.from), self.shade(self.values.to));
-            put(
-                &format!("{least} {}", worded(self.values.from)),
-                theme.active,
-            );
+            put(&format!("{least} {}", worded(self.values.from)), theme.active);
             put(&format!("{most} {}", worded(self.values.to)), theme.active);
         }
         if let Some(limit) = self.limit {

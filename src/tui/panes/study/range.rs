@@ -53,10 +53,9 @@ impl RangeOf<'_> {
     pub(crate) fn axis(self, field: usize, steps: Steps) -> Result<Axis, String> {
         let known = &FIELDS[field];
         match known.kind {
-            Kind::Text => Err(format!(
-                "{} is a text: go to a field with a value.",
-                known.full_label()
-            )),
+            Kind::Text => {
+                Err(format!("{} is a text: go to a field with a value.", known.full_label()))
+            }
             Kind::Choice(names, _) => {
                 let text = format!("{}={}", known.key, names.join(","));
                 let axis = Axis::parse(&text, Sampling::default());
@@ -86,18 +85,10 @@ impl RangeOf<'_> {
         let unit = self.unit(field);
         let factor = units::factor(&unit).unwrap_or(1.0);
         let value = value(self.case, field);
-        let usual = if value == 0.0 {
-            around_zero(self.case, field)
-        } else {
-            REACH * value.abs()
-        };
+        let usual = if value == 0.0 { around_zero(self.case, field) } else { REACH * value.abs() };
         let reach = usual * 2f64.powi(-self.zoom.clamp(-MOST_ZOOM, MOST_ZOOM));
         let (least, most) = field_range(field);
-        let rounded = |si: f64| {
-            significant(si / factor, DIGITS)
-                .parse()
-                .unwrap_or(si / factor)
-        };
+        let rounded = |si: f64| significant(si / factor, DIGITS).parse().unwrap_or(si / factor);
         let end = |si: f64| {
             let number: f64 = rounded(si);
             // Rounding must not exceed the limits of the field.
@@ -107,16 +98,8 @@ impl RangeOf<'_> {
                 number
             }
         };
-        let (from, to) = (
-            end((value - reach).max(least)),
-            end((value + reach).min(most)),
-        );
-        AxisRange {
-            field,
-            unit,
-            from,
-            to,
-        }
+        let (from, to) = (end((value - reach).max(least)), end((value + reach).min(most)));
+        AxisRange { field, unit, from, to }
     }
 
     /// The unit of the value as written, otherwise the usual unit, or its inch unit if inches are
@@ -140,10 +123,7 @@ fn stepped(range: &AxisRange, steps: Steps) -> Result<Axis, Problem> {
         Steps::Equal(points) => (range.clone(), points),
         Steps::Round(most) => round(range, most).unwrap_or((range.clone(), most)),
     };
-    range.axis(Sampling {
-        points: Some(points.max(2)),
-        is_log: false,
-    })
+    range.axis(Sampling { points: Some(points.max(2)), is_log: false })
 }
 
 /// The axis with the present value of the field as one of its points.
@@ -160,14 +140,8 @@ fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
     };
     // A point that differs only by rounding is the present value.
     let rounding = own.abs() * 10f64.powi(1 - i32::try_from(digits).unwrap_or(0));
-    axis.points.retain(|other| {
-        other
-            .number
-            .is_none_or(|number| (number - own).abs() > rounding)
-    });
-    let at = axis
-        .points
-        .partition_point(|other| other.number < Some(own));
+    axis.points.retain(|other| other.number.is_none_or(|number| (number - own).abs() > rounding));
+    let at = axis.points.partition_point(|other| other.number < Some(own));
     axis.points.insert(at, point);
     axis
 }
@@ -183,11 +157,7 @@ fn round(range: &AxisRange, most: usize) -> Option<(AxisRange, usize)> {
     // A tick next to the end of the range may be outside the limits of the field.
     let numbers: Vec<f64> = numbers.filter(|number| range.at(*number).is_ok()).collect();
     let (from, to) = (*numbers.first()?, *numbers.last()?);
-    let own = AxisRange {
-        from,
-        to,
-        ..range.clone()
-    };
+    let own = AxisRange { from, to, ..range.clone() };
     (numbers.len() > 1).then_some((own, numbers.len()))
 }
 
@@ -207,9 +177,7 @@ fn number(case: &Case, field: usize) -> Option<f64> {
 /// For the field of the centre distance: the centre distance without backlash, in m.
 fn without_backlash(field: usize, inputs: &Inputs) -> Option<f64> {
     let quantity = Quantity::find(FIELDS[field].name())?;
-    (quantity.key == "centre_distance")
-        .then(|| value_of(quantity, inputs))
-        .flatten()
+    (quantity.key == "centre_distance").then(|| value_of(quantity, inputs)).flatten()
 }
 
 /// The present value in SI: as written, otherwise the default or an example.
@@ -294,9 +262,8 @@ mod tests {
 
     fn ends(key: &str, zoom: i32) -> (String, String) {
         let field = index_of(key).expect("a field");
-        let axis = range_of(&Case::table_1(), zoom)
-            .axis(field, Steps::Equal(101))
-            .expect("a range");
+        let axis =
+            range_of(&Case::table_1(), zoom).axis(field, Steps::Equal(101)).expect("a range");
         (axis.with_unit(0), axis.with_unit(axis.points.len() - 1))
     }
 
@@ -312,11 +279,7 @@ mod tests {
             ("driver.teeth", 0, "10", "30"),
             ("driver.teeth", -9, "5", "70"),
         ] {
-            assert_eq!(
-                ends(key, zoom),
-                (from.to_owned(), to.to_owned()),
-                "{key} {zoom}"
-            );
+            assert_eq!(ends(key, zoom), (from.to_owned(), to.to_owned()), "{key} {zoom}");
         }
     }
 
@@ -324,25 +287,13 @@ mod tests {
     fn the_points_of_a_map_are_round_numbers_within_the_range() {
         let case = Case::table_1();
         for (key, zoom, most, expected) in [
-            (
-                "operation.speed",
-                0,
-                30,
-                ["1000 rpm", "1100 rpm", "3000 rpm"],
-            ),
-            (
-                "operation.speed",
-                2,
-                30,
-                ["1760 rpm", "1780 rpm", "2240 rpm"],
-            ),
+            ("operation.speed", 0, 30, ["1000 rpm", "1100 rpm", "3000 rpm"]),
+            ("operation.speed", 2, 30, ["1760 rpm", "1780 rpm", "2240 rpm"]),
             ("driven.tip_relief", 0, 60, ["0 um", "1 um", "50 um"]),
             ("operation.power", 3, 7, ["14.5 kW", "15 kW", "15.5 kW"]),
         ] {
             let field = index_of(key).expect("a field");
-            let axis = range_of(&case, zoom)
-                .axis(field, Steps::Round(most))
-                .expect("a range");
+            let axis = range_of(&case, zoom).axis(field, Steps::Round(most)).expect("a range");
             let last = axis.points.len() - 1;
             assert!(last < most, "{key}: {last}");
             assert_eq!([0, 1, last].map(|at| axis.with_unit(at)), expected, "{key}");
@@ -357,11 +308,7 @@ mod tests {
                 for points in [2, 30, 101] {
                     for steps in [Steps::Equal(points), Steps::Round(points)] {
                         let found = range_of(&case, zoom).axis(at, steps);
-                        assert_eq!(
-                            found.is_err(),
-                            matches!(field.kind, Kind::Text),
-                            "{found:?}"
-                        );
+                        assert_eq!(found.is_err(), matches!(field.kind, Kind::Text), "{found:?}");
                     }
                 }
             }

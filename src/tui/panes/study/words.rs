@@ -18,12 +18,7 @@ use crate::tui::text;
 
 /// The longest title that fits a width.
 pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
-    let Some(shown) = pane
-        .study
-        .shown
-        .as_ref()
-        .filter(|_| pane.study.obstacle.is_none())
-    else {
+    let Some(shown) = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none()) else {
         return "Study".to_owned();
     };
     let state = progress(shown);
@@ -56,12 +51,9 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
         }
     };
     let all = words.iter().map(|words| format!("{words}{state}"));
-    let all: Vec<String> = all
-        .map(|words| symbol(&words, pane.look.ascii).into_owned())
-        .collect();
+    let all: Vec<String> = all.map(|words| symbol(&words, pane.look.ascii).into_owned()).collect();
     let fits = all.iter().find(|words| words.width() <= room);
-    fits.cloned()
-        .unwrap_or_else(|| text::cut(all.last().map_or("Study", String::as_str), room))
+    fits.cloned().unwrap_or_else(|| text::cut(all.last().map_or("Study", String::as_str), room))
 }
 
 /// The visible lines of a tolerance, if some do not fit.
@@ -75,11 +67,7 @@ fn position(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
 }
 
 fn in_unit(axis: &Axis) -> String {
-    if axis.unit.is_empty() {
-        String::new()
-    } else {
-        format!(" in {}", axis.unit)
-    }
+    if axis.unit.is_empty() { String::new() } else { format!(" in {}", axis.unit) }
 }
 
 /// The progress of an unfinished study.
@@ -106,11 +94,7 @@ pub(super) fn below(pane: &StudyPane<'_>, shown: &StudyResults, width: usize) ->
     }
     let line = at_cursor(pane, shown);
     lines.push(text::cut(&symbol(&line, pane.look.ascii), width));
-    lines.extend(
-        refused(shown)
-            .into_iter()
-            .flat_map(|line| text::wrap(&line, width)),
-    );
+    lines.extend(refused(shown).into_iter().flat_map(|line| text::wrap(&line, width)));
     lines
 }
 
@@ -124,18 +108,11 @@ pub(super) fn at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     let width = across.map_or(0, |axis| axis.points.len());
     let setting = |axis: &Axis, at: usize| {
         let known = &FIELDS[axis.field];
-        let name = if known.symbol.is_empty() {
-            known.label
-        } else {
-            known.symbol
-        };
+        let name = if known.symbol.is_empty() { known.label } else { known.symbol };
         format!("{name} = {}", axis.with_unit(at))
     };
     let first = across.map(|axis| setting(axis, x));
-    let settings: Vec<String> = first
-        .into_iter()
-        .chain(up.map(|axis| setting(axis, y)))
-        .collect();
+    let settings: Vec<String> = first.into_iter().chain(up.map(|axis| setting(axis, y))).collect();
     let values: Vec<String> = grid
         .layers
         .iter()
@@ -166,23 +143,13 @@ fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> 
 
 /// The refused points of the first curve that has some: their number and the most frequent reason.
 fn refused(shown: &StudyResults) -> Option<String> {
-    let found = shown
-        .layers
-        .iter()
-        .find(|found| found.refusals.total() > 0)?;
+    let found = shown.layers.iter().find(|found| found.refusals.total() > 0)?;
     let reasons = found.refusals.0.iter();
     let Refused { count, problem, .. } = reasons.rev().max_by_key(|refused| refused.count)?;
     let total = found.refusals.total();
     let points = if total == 1 { "point" } else { "points" };
-    let of_them = if *count < total {
-        format!(", {count} of them")
-    } else {
-        String::new()
-    };
-    Some(format!(
-        "{total} {points} refused{of_them}: {}: {}",
-        problem.cause, problem.fix
-    ))
+    let of_them = if *count < total { format!(", {count} of them") } else { String::new() };
+    Some(format!("{total} {points} refused{of_them}: {}: {}", problem.cause, problem.fix))
 }
 
 /// The hint line while the pane has the focus: the values at the cursor if the pane cuts them,

@@ -29,11 +29,7 @@ impl Labels {
     /// No labels yet, on a picture in an area.
     #[must_use]
     pub fn new(area: Rect) -> Labels {
-        Labels {
-            area,
-            marks: Vec::new(),
-            words: Vec::new(),
-        }
+        Labels { area, marks: Vec::new(), words: Vec::new() }
     }
 
     /// Writes the scale, the factor, and every name that fits. Returns their cells.
@@ -53,10 +49,9 @@ impl Labels {
         for (name, at) in self.ways_out(scene, picture) {
             self.put_beside(name, at, 0, theme.faint, buffer);
         }
-        for (name, places, ink) in [
-            ("driver", &scene.bodies[0], Ink::Driver),
-            ("driven", &scene.bodies[1], Ink::Driven),
-        ] {
+        for (name, places, ink) in
+            [("driver", &scene.bodies[0], Ink::Driver), ("driven", &scene.bodies[1], Ink::Driven)]
+        {
             self.put_inside(name, scene, places, ink.style(theme), buffer);
         }
         self.words
@@ -64,34 +59,15 @@ impl Labels {
 
     /// Writes the length of the scale bar beside it.
     fn draw_scale(&mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) {
-        let Some((start, end)) = self
-            .cell(scene, scene.bar.0)
-            .zip(self.cell(scene, scene.bar.1))
+        let Some((start, end)) = self.cell(scene, scene.bar.0).zip(self.cell(scene, scene.bar.1))
         else {
             return;
         };
         let text = length((scene.bar.1 - scene.bar.0).norm(), picture.units);
         let style = Ink::Mark.style(picture.look.theme);
-        let line = Rect {
-            y: end.y,
-            height: 1,
-            ..self.area
-        };
-        self.put(
-            &text,
-            Rect {
-                x: end.x + 2,
-                width: text.width() as u16,
-                ..line
-            },
-            style,
-            buffer,
-        );
-        self.words.push(Rect {
-            x: start.x,
-            width: end.x + 1 - start.x,
-            ..line
-        });
+        let line = Rect { y: end.y, height: 1, ..self.area };
+        self.put(&text, Rect { x: end.x + 2, width: text.width() as u16, ..line }, style, buffer);
+        self.words.push(Rect { x: start.x, width: end.x + 1 - start.x, ..line });
     }
 
     /// Writes the exaggeration of the gap in the first free corner, otherwise at any free position.
@@ -99,64 +75,35 @@ impl Labels {
         let Some(factor) = scene.factor else { return };
         let text = format!("gap x{}", times(factor));
         let width = text.width() as u16;
-        let (left, right) = (
-            self.area.x + 1,
-            self.area.right().saturating_sub(width + 1).max(self.area.x),
-        );
+        let (left, right) =
+            (self.area.x + 1, self.area.right().saturating_sub(width + 1).max(self.area.x));
         let (top, bottom) = (self.area.y, self.area.bottom() - 1);
-        let corners = [
-            (right, top),
-            (left, top),
-            (right, bottom),
-            (left, bottom.saturating_sub(1)),
-        ];
-        let edges = [top, bottom]
-            .into_iter()
-            .flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
+        let corners =
+            [(right, top), (left, top), (right, bottom), (left, bottom.saturating_sub(1))];
+        let edges =
+            [top, bottom].into_iter().flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
         let inside = (top..=bottom).flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
-        let mut rooms = corners
-            .into_iter()
-            .chain(edges)
-            .chain(inside)
-            .map(|(x, y)| Rect {
-                x,
-                y,
-                width,
-                height: 1,
-            });
+        let mut rooms = corners.into_iter().chain(edges).chain(inside).map(|(x, y)| Rect {
+            x,
+            y,
+            width,
+            height: 1,
+        });
         let free = rooms.find(|room| self.is_free(*room) && covered(*room, buffer) == 0);
-        self.put(
-            &text,
-            free.unwrap_or(Rect {
-                x: right,
-                y: top,
-                width,
-                height: 1,
-            }),
-            style,
-            buffer,
-        );
+        self.put(&text, free.unwrap_or(Rect { x: right, y: top, width, height: 1 }), style, buffer);
     }
 
     /// The points where the line of action leaves the window towards a hidden point of tangency.
     fn ways_out(&self, scene: &Scene, picture: &Picture) -> Vec<(&'static str, Position)> {
         let geometry = &picture.solution.geometry;
-        let (first, second) = (
-            driver_tangent_point(geometry),
-            driven_tangent_point(geometry),
-        );
+        let (first, second) = (driver_tangent_point(geometry), driven_tangent_point(geometry));
         let Some((from, to)) = scene.window.clip(first, second) else {
             return Vec::new();
         };
         let at = |part: f64| first + (second - first) * part;
         let inward = 1e-9 * (to - from);
-        let ends = [
-            ("to N1", first, from + inward),
-            ("to N2", second, to - inward),
-        ];
-        let out_of_sight = ends
-            .into_iter()
-            .filter(|(_, end, _)| !scene.window.sees(*end));
+        let ends = [("to N1", first, from + inward), ("to N2", second, to - inward)];
+        let out_of_sight = ends.into_iter().filter(|(_, end, _)| !scene.window.sees(*end));
         out_of_sight
             .filter_map(|(name, _, part)| Some((name, self.cell(scene, at(part))?)))
             .collect()
@@ -164,10 +111,7 @@ impl Labels {
 
     fn cell(&self, scene: &Scene, at: Point2<f64>) -> Option<Position> {
         let (x, y) = scene.window.cell(at)?;
-        Some(Position {
-            x: self.area.x + x,
-            y: self.area.y + y,
-        })
+        Some(Position { x: self.area.x + x, y: self.area.y + y })
     }
 
     /// Writes a name next to its point if it covers nothing there. Otherwise writes it close to its
@@ -214,15 +158,11 @@ impl Labels {
     /// Whether a word is nearest to its own mark.
     fn is_nearest(&self, room: Rect, at: Position) -> bool {
         let from = |mark: &Position| {
-            let off = (
-                i32::from(room.x) - i32::from(mark.x),
-                i32::from(room.y) - i32::from(mark.y),
-            );
+            let off =
+                (i32::from(room.x) - i32::from(mark.x), i32::from(room.y) - i32::from(mark.y));
             distance(off, i32::from(room.width))
         };
-        self.marks
-            .iter()
-            .all(|mark| *mark == at || from(mark) > from(&at))
+        self.marks.iter().all(|mark| *mark == at || from(mark) > from(&at))
     }
 
     /// Writes a name at the first position where it covers nothing.
@@ -249,35 +189,20 @@ impl Labels {
             u16::try_from(i32::from(at.x) + right).ok()?,
             u16::try_from(i32::from(at.y) + down).ok()?,
         );
-        let room = Rect {
-            x,
-            y,
-            width: u16::try_from(width).ok()?,
-            height: 1,
-        };
+        let room = Rect { x, y, width: u16::try_from(width).ok()?, height: 1 };
         (self.area.intersection(room) == room).then_some(room)
     }
 
     /// Whether the cells contain no mark and no word, and no word is beside them.
     fn is_free(&self, room: Rect) -> bool {
-        let spaced = Rect {
-            x: room.x.saturating_sub(1),
-            width: room.width + 2,
-            ..room
-        };
+        let spaced = Rect { x: room.x.saturating_sub(1), width: room.width + 2, ..room };
         !self.marks.iter().any(|mark| room.contains(*mark))
             && !self.words.iter().any(|word| word.intersects(spaced))
     }
 
     fn put(&mut self, text: &str, room: Rect, style: Style, buffer: &mut Buffer) {
         let room = room.intersection(self.area);
-        buffer.set_stringn(
-            room.x,
-            room.y,
-            text,
-            room.width.into(),
-            Style::reset().patch(style),
-        );
+        buffer.set_stringn(room.x, room.y, text, room.width.into(), Style::reset().patch(style));
         self.words.push(room);
     }
 }
@@ -299,9 +224,7 @@ fn further(width: i32) -> Vec<(i32, i32)> {
 fn covered(room: Rect, buffer: &Buffer) -> usize {
     room.positions()
         .filter(|position| {
-            buffer
-                .cell(*position)
-                .is_some_and(|cell| !cell.symbol().trim().is_empty())
+            buffer.cell(*position).is_some_and(|cell| !cell.symbol().trim().is_empty())
         })
         .count()
 }

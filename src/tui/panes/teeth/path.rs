@@ -65,11 +65,7 @@ fn halve(
 fn stray(from: Point2<f64>, middle: Point2<f64>, to: Point2<f64>) -> f64 {
     let (chord, way) = (to - from, middle - from);
     let length = chord.norm();
-    if length > 0.0 {
-        chord.perp(&way).abs() / length
-    } else {
-        way.norm()
-    }
+    if length > 0.0 { chord.perp(&way).abs() / length } else { way.norm() }
 }
 
 fn found_in_sight(
@@ -81,16 +77,8 @@ fn found_in_sight(
     let Some((first, last)) = window.clip(from.1, to.1) else {
         return;
     };
-    let at = |part: f64| {
-        (
-            from.0 + part * (to.0 - from.0),
-            from.1 + (to.1 - from.1) * part,
-        )
-    };
-    found(Stretch {
-        from: at(first),
-        to: at(last),
-    });
+    let at = |part: f64| (from.0 + part * (to.0 - from.0), from.1 + (to.1 - from.1) * part);
+    found(Stretch { from: at(first), to: at(last) });
 }
 
 #[cfg(test)]
@@ -103,13 +91,7 @@ mod tests {
     fn window(centre: Point2<f64>, width: f64) -> Window {
         let dot = width / 199.0;
         let half = Vector2::new(99.5, 49.5) * dot;
-        Window {
-            centre,
-            half,
-            dot,
-            size: Size::new(100, 25),
-            dots: (2, 4),
-        }
+        Window { centre, half, dot, size: Size::new(100, 25), dots: (2, 4) }
     }
 
     fn quarter(radius: f64) -> impl Fn(f64) -> Point2<f64> {
@@ -128,26 +110,17 @@ mod tests {
             follow(quarter(1.0), &window, |stretch| {
                 count += 1;
                 length += (stretch.to.1 - stretch.from.1).norm();
-                let off = (1.0
-                    - nalgebra::center(&stretch.from.1, &stretch.to.1)
-                        .coords
-                        .norm())
-                .abs();
+                let off =
+                    (1.0 - nalgebra::center(&stretch.from.1, &stretch.to.1).coords.norm()).abs();
                 assert!(off <= window.dot, "{off} off at zoom {zoom}");
                 assert!(
                     window.distance(stretch.from.1) < 1e-6 * window.dot
                         && window.distance(stretch.to.1) < 1e-6 * window.dot
                 );
             });
-            assert!(
-                (1..=128).contains(&count),
-                "{count} stretches at zoom {zoom}"
-            );
+            assert!((1..=128).contains(&count), "{count} stretches at zoom {zoom}");
             let across = length / window.dot;
-            assert!(
-                zoom < 4 || (99.0..250.0).contains(&across),
-                "{across} dots at zoom {zoom}"
-            );
+            assert!(zoom < 4 || (99.0..250.0).contains(&across), "{across} dots at zoom {zoom}");
         }
     }
 
@@ -155,15 +128,7 @@ mod tests {
     fn hidden_and_invalid_curves_cost_nothing() {
         let window = window(Point2::new(5.0, 5.0), 1.0);
         follow(quarter(1.0), &window, |stretch| panic!("{stretch:?}"));
-        follow(
-            |_| Point2::new(f64::NAN, 5.0),
-            &window,
-            |stretch| panic!("{stretch:?}"),
-        );
-        follow(
-            |part| Point2::new(5.0, part / 0.0),
-            &window,
-            |stretch| panic!("{stretch:?}"),
-        );
+        follow(|_| Point2::new(f64::NAN, 5.0), &window, |stretch| panic!("{stretch:?}"));
+        follow(|part| Point2::new(5.0, part / 0.0), &window, |stretch| panic!("{stretch:?}"));
     }
 }

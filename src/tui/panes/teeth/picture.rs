@@ -31,11 +31,7 @@ pub struct Picture<'a> {
 impl Picture<'_> {
     /// The marker of a dot. In ASCII mode it is the marker from whose dots the letters are chosen.
     pub(crate) fn drawn_marker(&self) -> Marker {
-        if self.look.ascii {
-            Marker::Braille
-        } else {
-            self.marker
-        }
+        if self.look.ascii { Marker::Braille } else { self.marker }
     }
 
     /// The displayed roll angle of the driver before E, in rad.
@@ -43,8 +39,6 @@ impl Picture<'_> {
     pub fn angle(&self) -> f64 {
         let contact =
             contact_state::first_contact(self.solution).unwrap_or(0.0) * self.inputs.ratio();
-        self.cursor
-            .filter(|cursor| cursor.is_finite())
-            .unwrap_or(contact)
+        self.cursor.filter(|cursor| cursor.is_finite()).unwrap_or(contact)
     }
 }

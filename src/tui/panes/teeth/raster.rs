@@ -40,11 +40,8 @@ pub fn draw(scene: &Scene, picture: &Picture, area: Rect, buffer: &mut Buffer) {
 fn finish(cell: &mut Cell, picture: &Picture) {
     let theme = picture.look.theme;
     let Some(ink) = Ink::of(cell.fg) else { return };
-    let style = if picture.is_stale {
-        ink.style(theme).patch(theme.faint)
-    } else {
-        ink.style(theme)
-    };
+    let style =
+        if picture.is_stale { ink.style(theme).patch(theme.faint) } else { ink.style(theme) };
     let below = Ink::of(cell.bg).map(|ink| ink.style(theme).fg);
     let both = below.is_some_and(|below| below.is_none() || below == style.fg);
     (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
@@ -55,12 +52,7 @@ fn finish(cell: &mut Cell, picture: &Picture) {
         cell.set_bg(colour);
     }
     if picture.look.ascii {
-        let letter = cell
-            .symbol()
-            .chars()
-            .next()
-            .and_then(pattern)
-            .map_or(' ', letter);
+        let letter = cell.symbol().chars().next().and_then(pattern).map_or(' ', letter);
         cell.set_char(letter);
     }
 }
@@ -69,9 +61,7 @@ fn finish(cell: &mut Cell, picture: &Picture) {
 /// bit.
 fn pattern(sign: char) -> Option<u8> {
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
-    let dots = u32::from(sign)
-        .checked_sub(0x2800)
-        .and_then(|dots| u8::try_from(dots).ok())?;
+    let dots = u32::from(sign).checked_sub(0x2800).and_then(|dots| u8::try_from(dots).ok())?;
     Some(
         (0..8)
             .filter(|bit| dots & 1 << bit != 0)
@@ -100,19 +90,11 @@ const LETTERS: [(char, &[u8]); 14] = [
 
 /// The letter most similar to a pattern of dots.
 fn letter(pattern: u8) -> char {
-    let off = |covers: &[u8]| {
-        covers
-            .iter()
-            .map(|dots| (dots ^ pattern).count_ones())
-            .min()
-    };
+    let off = |covers: &[u8]| covers.iter().map(|dots| (dots ^ pattern).count_ones()).min();
     if pattern == 0 {
         ' '
     } else {
-        LETTERS
-            .iter()
-            .min_by_key(|(_, covers)| off(covers))
-            .map_or('*', |&(letter, _)| letter)
+        LETTERS.iter().min_by_key(|(_, covers)| off(covers)).map_or('*', |&(letter, _)| letter)
     }
 }
 
@@ -131,10 +113,8 @@ mod tests {
 
     #[test]
     fn letters_follow_the_direction_of_a_line() {
-        let drawn = "⣀⠤⠒⠉⢸⡇⡜⢣⣿⠈⡀"
-            .chars()
-            .map(|sign| letter(pattern(sign).unwrap()))
-            .collect::<String>();
+        let drawn =
+            "⣀⠤⠒⠉⢸⡇⡜⢣⣿⠈⡀".chars().map(|sign| letter(pattern(sign).unwrap())).collect::<String>();
         assert_eq!(drawn, r#"_--"||/\#'."#);
         assert!((1..=u8::MAX).all(|pattern| letter(pattern).is_ascii_graphic()));
         assert_eq!(letter(0), ' ');

@@ -35,11 +35,7 @@ impl Reading {
     /// The width for any number in any unit of its kind, with a symbol of a width.
     #[must_use]
     pub(crate) fn width(&self, symbol: usize) -> usize {
-        let unit = if self.unit.is_empty() {
-            0
-        } else {
-            1 + widest_beside(self.unit)
-        };
+        let unit = if self.unit.is_empty() { 0 } else { 1 + widest_beside(self.unit) };
         symbol + 1 + NUMBER + unit
     }
 }
@@ -89,11 +85,7 @@ fn keys() -> impl Iterator<Item = &'static str> {
 
 fn open(moment: &ContactState, system: System) -> Reading {
     let (number, unit) = shown(moment.opening, "um", GAP_DIGITS, system);
-    Reading {
-        symbol: OPEN,
-        number: Some(number),
-        unit,
-    }
+    Reading { symbol: OPEN, number: Some(number), unit }
 }
 
 fn reading(
@@ -103,11 +95,7 @@ fn reading(
     system: System,
 ) -> Option<Reading> {
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
-    let interpolated = moment
-        .interpolated
-        .as_ref()
-        .map(Row::from)
-        .and_then(|row| column.of(row));
+    let interpolated = moment.interpolated.as_ref().map(Row::from).and_then(|row| column.of(row));
     let value = interpolated.or_else(|| without_contact(moment, key));
     if value.is_none() && !column.methods.contains(&solution.method) {
         return None;
@@ -116,25 +104,13 @@ fn reading(
         .interpolated
         .as_ref()
         .map_or(column.digits, |interpolated| column.digits_of(interpolated));
-    let usual = if column.shown == "1" {
-        ""
-    } else {
-        system.unit(column.shown)
-    };
+    let usual = if column.shown == "1" { "" } else { system.unit(column.shown) };
     let (number, unit) = value.map_or((None, usual), |value| {
-        let (number, unit) = shown(
-            column.resolved(value, inputs, solution),
-            column.shown,
-            digits,
-            system,
-        );
+        let (number, unit) =
+            shown(column.resolved(value, inputs, solution), column.shown, digits, system);
         (Some(number), unit)
     });
-    Some(Reading {
-        symbol: column.symbol,
-        number,
-        unit,
-    })
+    Some(Reading { symbol: column.symbol, number, unit })
 }
 
 /// The value from the involutes, if the method has none.
@@ -182,21 +158,10 @@ mod tests {
                 number: number.map(str::to_owned),
                 unit: "N",
             });
-            lines(
-                readings
-                    .iter()
-                    .map(|reading| (reading.to_string(), reading.width(3))),
-                40,
-            )
+            lines(readings.iter().map(|reading| (reading.to_string(), reading.width(3))), 40)
         };
-        assert_eq!(
-            line([Some("2191.0"), Some("1")]),
-            ["F_S 2191.0 N    F_S 1 N"]
-        );
+        assert_eq!(line([Some("2191.0"), Some("1")]), ["F_S 2191.0 N    F_S 1 N"]);
         assert_eq!(line([None, Some("1")]), ["F_S –           F_S 1 N"]);
-        assert_eq!(
-            line([Some("-0.12345"), Some("1")]),
-            ["F_S -0.12345 N  F_S 1 N"]
-        );
+        assert_eq!(line([Some("-0.12345"), Some("1")]), ["F_S -0.12345 N  F_S 1 N"]);
     }
 }

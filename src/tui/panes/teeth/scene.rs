@@ -50,28 +50,16 @@ impl Scene {
     /// The visible parts on a screen with a size.
     #[must_use]
     pub fn of(picture: &Picture, moment: Option<&ContactState>, size: Size) -> Scene {
-        let Picture {
-            inputs,
-            solution,
-            view,
-            ..
-        } = *picture;
+        let Picture { inputs, solution, view, .. } = *picture;
         let window = Window::of(*view, inputs, solution, size, picture.drawn_marker());
         let factor = moment.map(|moment| view.factor(inputs, solution, moment));
         let angle = moment.map_or(0.0, |moment| moment.roll_angle_driver);
-        let lead = moment
-            .zip(factor)
-            .map_or(0.0, |(moment, factor)| moment.lead(factor))
+        let lead = moment.zip(factor).map_or(0.0, |(moment, factor)| moment.lead(factor))
             / solution.geometry.driver.base;
         let placing = GearPose::nominal(inputs, &solution.geometry, angle);
         let mut pen = Pen::new(&window);
         construction(&mut pen, picture);
-        pen.gear(
-            &placing.driven,
-            0.0,
-            inputs.driven.bore_radius,
-            [Ink::Driven, Ink::StruckDriven],
-        );
+        pen.gear(&placing.driven, 0.0, inputs.driven.bore_radius, [Ink::Driven, Ink::StruckDriven]);
         pen.gear(
             &placing.driver,
             -lead,
@@ -83,11 +71,7 @@ impl Scene {
             .into_iter()
             .flat_map(|moment| contacts(picture, moment))
             .map(|at| (at, Ink::Contact));
-        for (at, ink) in points
-            .iter()
-            .map(|point| (point.at, Ink::Mark))
-            .chain(contacts)
-        {
+        for (at, ink) in points.iter().map(|point| (point.at, Ink::Mark)).chain(contacts) {
             pen.cross(at, ink);
         }
         let bar = pen.bar(picture.units);
@@ -106,18 +90,8 @@ impl Scene {
 fn construction(pen: &mut Pen, picture: &Picture) {
     let geometry = &picture.solution.geometry;
     let centre = Point2::new(geometry.centre_distance, 0.0);
-    pen.circle(
-        Point2::origin(),
-        geometry.driver.base,
-        Some(CIRCLE),
-        Ink::Construction,
-    );
-    pen.circle(
-        centre,
-        geometry.driven.base,
-        Some(CIRCLE),
-        Ink::Construction,
-    );
+    pen.circle(Point2::origin(), geometry.driver.base, Some(CIRCLE), Ink::Construction);
+    pen.circle(centre, geometry.driven.base, Some(CIRCLE), Ink::Construction);
     let line = |from: f64, to: f64| {
         move |part: f64| on_line_of_action(geometry, from + part * (to - from))
     };
@@ -127,12 +101,7 @@ fn construction(pen: &mut Pen, picture: &Picture) {
         Some(LINE_OF_ACTION),
         Ink::Construction,
     );
-    pen.curve(
-        line(geometry.start, geometry.end),
-        geometry.end - geometry.start,
-        None,
-        Ink::Path,
-    );
+    pen.curve(line(geometry.start, geometry.end), geometry.end - geometry.start, None, Ink::Path);
     let from = PATH_FROM * first_contact(picture.solution).unwrap_or(0.0);
     let path = |part: f64| tip_point(geometry, &tip_at(geometry, part * from));
     pen.curve(path, from * geometry.driven.tip, Some(PATH), Ink::Path);
@@ -141,9 +110,7 @@ fn construction(pen: &mut Pen, picture: &Picture) {
 /// D, E, D', the pitch point, the end of contact, the points of tangency and the centres. D' is the
 /// driven tip at the end of the impact, at most at E. `static` and `dynamic` have no D'.
 fn points(picture: &Picture) -> Vec<Named> {
-    let Picture {
-        inputs, solution, ..
-    } = *picture;
+    let Picture { inputs, solution, .. } = *picture;
     let geometry = &solution.geometry;
     let mut points = Vec::new();
     let mut add = |name, at| points.push(Named { at, name });
@@ -165,10 +132,7 @@ fn points(picture: &Picture) -> Vec<Named> {
         Some(_) => add("E=D'", start),
         None => add("E", start),
     }
-    add(
-        "P",
-        on_line_of_action(geometry, geometry.start + geometry.approach_length),
-    );
+    add("P", on_line_of_action(geometry, geometry.start + geometry.approach_length));
     add("B", on_line_of_action(geometry, geometry.end));
     add("N1", driver_tangent_point(geometry));
     add("N2", driven_tangent_point(geometry));
@@ -181,10 +145,7 @@ fn points(picture: &Picture) -> Vec<Named> {
 fn distinct(points: Vec<Named>, window: &Window) -> Vec<Named> {
     let mut kept: Vec<Named> = Vec::new();
     for point in points.into_iter().filter(|point| window.sees(point.at)) {
-        if kept
-            .iter()
-            .all(|other| (other.at - point.at).norm() >= 2.0 * window.column())
-        {
+        if kept.iter().all(|other| (other.at - point.at).norm() >= 2.0 * window.column()) {
             kept.push(point);
         }
     }
@@ -199,10 +160,7 @@ fn contacts(picture: &Picture, moment: &ContactState) -> Vec<Point2<f64>> {
     let ahead = (1..10).map(|pair| incoming + f64::from(pair) * geometry.base_pitch);
     let touching = ahead.filter(|length| (geometry.start..=geometry.end).contains(length));
     let own = moment.touches().then_some(moment.point);
-    touching
-        .map(|length| on_line_of_action(geometry, length))
-        .chain(own)
-        .collect()
+    touching.map(|length| on_line_of_action(geometry, length)).chain(own).collect()
 }
 
 /// Positions inside a gear: on the centre lines of the teeth, from the middle of a tooth to the

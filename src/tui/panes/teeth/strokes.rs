@@ -53,10 +53,7 @@ impl<'a> Pen<'a> {
     /// A pen without strokes.
     #[must_use]
     pub(crate) fn new(window: &'a Window) -> Pen<'a> {
-        Pen {
-            window,
-            strokes: Vec::new(),
-        }
+        Pen { window, strokes: Vec::new() }
     }
 
     /// Draws a gear with its tooth 0 turned by an angle.
@@ -73,18 +70,10 @@ impl<'a> Pen<'a> {
         }
         let teeth = i64::from(gear.teeth);
         let turn_of = |number: i64| {
-            if number.rem_euclid(teeth) == 0 {
-                turned
-            } else {
-                0.0
-            }
+            if number.rem_euclid(teeth) == 0 { turned } else { 0.0 }
         };
         for number in self.in_sight(gear) {
-            let ink = if number.rem_euclid(teeth) == 0 {
-                struck
-            } else {
-                ink
-            };
+            let ink = if number.rem_euclid(teeth) == 0 { struck } else { ink };
             self.tooth(&gear.turned(turn_of(number)), number, ink);
             let half = gear.outline.profile().root_half_angle();
             let middle = gear.turn + number as f64 * gear.pitch();
@@ -123,10 +112,7 @@ impl<'a> Pen<'a> {
         }
         let half = (reach / distance).asin() + gear.pitch();
         let middle = (way.y.atan2(way.x) - gear.turn).rem_euclid(TAU);
-        let (first, last) = (
-            (middle - half) / gear.pitch(),
-            (middle + half) / gear.pitch(),
-        );
+        let (first, last) = ((middle - half) / gear.pitch(), (middle + half) / gear.pitch());
         let first = first.floor() as i64;
         first..(last.ceil() as i64 + 1).min(first + teeth)
     }
@@ -151,9 +137,7 @@ impl<'a> Pen<'a> {
         dash: Option<Dash>,
         ink: Ink,
     ) {
-        let quarters = ((to - from).abs() / FRAC_PI_2 + 1e-9)
-            .ceil()
-            .clamp(1.0, 4.0);
+        let quarters = ((to - from).abs() / FRAC_PI_2 + 1e-9).ceil().clamp(1.0, 4.0);
         let step = (to - from) / quarters;
         for quarter in 0..quarters as u32 {
             let start = from + f64::from(quarter) * step;
@@ -176,11 +160,7 @@ impl<'a> Pen<'a> {
     ) {
         let window = self.window;
         follow(curve, window, |stretch| match dash {
-            None => self.strokes.push(Stroke {
-                from: stretch.from.1,
-                to: stretch.to.1,
-                ink,
-            }),
+            None => self.strokes.push(Stroke { from: stretch.from.1, to: stretch.to.1, ink }),
             Some(dash) => self.dashes(&stretch, length / window.dot, dash, ink),
         });
     }
@@ -211,23 +191,15 @@ impl<'a> Pen<'a> {
         let (unit, _) = unit_of_length(most, system);
         let length = round_down(most / unit) * unit;
         let room = Vector2::new(length + BAR_LABEL * self.window.column(), self.window.row());
-        let (low, top) = (
-            self.window.centre - self.window.half,
-            self.window.centre + self.window.half,
-        );
+        let (low, top) =
+            (self.window.centre - self.window.half, self.window.centre + self.window.half);
         let margin = Vector2::new(2.0 * dot, 0.25 * high);
         let left = low + margin;
-        let (right, up) = (
-            (top.x - room.x - margin.x).max(left.x),
-            (top.y - 1.5 * high).max(left.y),
-        );
+        let (right, up) =
+            ((top.x - room.x - margin.x).max(left.x), (top.y - 1.5 * high).max(left.y));
         let from = self.free_place(left, Point2::new(right, up), room);
         let to = from + Vector2::new(length, 0.0);
-        self.strokes.push(Stroke {
-            from,
-            to,
-            ink: Ink::Mark,
-        });
+        self.strokes.push(Stroke { from, to, ink: Ink::Mark });
         for end in [from, to] {
             self.strokes.push(Stroke {
                 from: end,
@@ -246,24 +218,17 @@ impl<'a> Pen<'a> {
         parts.sort_by(|one, other| one.min(1.0 - one).total_cmp(&other.min(1.0 - other)));
         let mut best = (usize::MAX, low);
         for y in [low.y, top.y] {
-            let row = if y > low.y {
-                self.window.centre.y + self.window.half.y - room.y
-            } else {
-                y
-            };
-            let band = self.window.around(
-                Point2::new(low.x, row),
-                Vector2::new(top.x - low.x + room.x, room.y),
-            );
+            let row =
+                if y > low.y { self.window.centre.y + self.window.half.y - room.y } else { y };
+            let band = self
+                .window
+                .around(Point2::new(low.x, row), Vector2::new(top.x - low.x + room.x, room.y));
             let near: Vec<&Stroke> = self
                 .strokes
                 .iter()
                 .filter(|stroke| band.clip(stroke.from, stroke.to).is_some())
                 .collect();
-            for at in parts
-                .iter()
-                .map(|part| Point2::new(low.x + part * (top.x - low.x), y))
-            {
+            for at in parts.iter().map(|part| Point2::new(low.x + part * (top.x - low.x), y)) {
                 let window = self.window.around(Point2::new(at.x, row), room);
                 let count = near
                     .iter()
@@ -278,21 +243,13 @@ impl<'a> Pen<'a> {
     /// Draws a cross of five dots, or one dot if the marker has one dot per cell.
     pub(crate) fn cross(&mut self, at: Point2<f64>, ink: Ink) {
         if self.window.sees(at) {
-            let arm = if self.window.dot < self.window.column() {
-                1.0
-            } else {
-                0.0
-            };
+            let arm = if self.window.dot < self.window.column() { 1.0 } else { 0.0 };
             let (right, up) = (
                 Vector2::new(arm * self.window.dot, 0.0),
                 Vector2::new(0.0, arm * self.window.dot_height()),
             );
             for arm in [right, up] {
-                self.strokes.push(Stroke {
-                    from: at - arm,
-                    to: at + arm,
-                    ink,
-                });
+                self.strokes.push(Stroke { from: at - arm, to: at + arm, ink });
             }
         }
     }

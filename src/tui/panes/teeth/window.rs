@@ -29,9 +29,7 @@ pub(crate) fn unit_of_length(length: f64, system: System) -> (f64, &'static str)
         System::Metric => (&METRIC[..], 1.0),
         System::Inch => (&INCH[..], LEAST_INCHES),
     };
-    let fitting = units
-        .iter()
-        .find(|(unit, _)| length >= 0.999 * least * unit);
+    let fitting = units.iter().find(|(unit, _)| length >= 0.999 * least * unit);
     fitting.or(units.last()).copied().unwrap_or((1.0, "m"))
 }
 
@@ -64,10 +62,7 @@ impl Window {
         let geometry = &solution.geometry;
         let dots = dots(marker);
         let span = |cells: u16, dots: u16| (f64::from(cells) - 1.0 / f64::from(dots)).max(0.5);
-        let (wide, high) = (
-            span(size.width, dots.0),
-            CELL_HEIGHT * span(size.height, dots.1),
-        );
+        let (wide, high) = (span(size.width, dots.0), CELL_HEIGHT * span(size.height, dots.1));
         let (height, width) = whole(geometry);
         let fitting = (width / wide).max(height / high);
         let cell = if view.centre == Centre::Pair {
@@ -89,23 +84,13 @@ impl Window {
             held(at.x, middle.x, 0.5 * width - half.x),
             held(at.y, middle.y, 0.5 * height - half.y),
         );
-        Window {
-            centre,
-            half,
-            dot: cell / f64::from(dots.0),
-            size,
-            dots,
-        }
+        Window { centre, half, dot: cell / f64::from(dots.0), size, dots }
     }
 
     /// The window of a rectangle with a lower left corner.
     #[must_use]
     pub(crate) fn around(&self, from: Point2<f64>, room: Vector2<f64>) -> Window {
-        Window {
-            centre: from + 0.5 * room,
-            half: 0.5 * room,
-            ..*self
-        }
+        Window { centre: from + 0.5 * room, half: 0.5 * room, ..*self }
     }
 
     /// The ends of the x axis.
@@ -131,11 +116,8 @@ impl Window {
     #[must_use]
     pub(crate) fn distance(&self, point: Point2<f64>) -> f64 {
         let off = point - self.centre;
-        Vector2::new(
-            (off.x.abs() - self.half.x).max(0.0),
-            (off.y.abs() - self.half.y).max(0.0),
-        )
-        .norm()
+        Vector2::new((off.x.abs() - self.half.x).max(0.0), (off.y.abs() - self.half.y).max(0.0))
+            .norm()
     }
 
     /// The visible part of a straight line, as fractions of its length (Liang & Barsky 1984).
@@ -169,10 +151,7 @@ impl Window {
         };
         let right = 0.5 * (1.0 + off.x / self.half.x);
         let down = 0.5 * (1.0 - off.y / self.half.y);
-        Some((
-            dot(right, self.size.width, self.dots.0),
-            dot(down, self.size.height, self.dots.1),
-        ))
+        Some((dot(right, self.size.width, self.dots.0), dot(down, self.size.height, self.dots.1)))
     }
 
     /// Width of a column of the screen.
@@ -199,10 +178,9 @@ fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     let start = on_line_of_action(geometry, geometry.start);
     match centre {
         Centre::Strike => Some(first_contact_point(solution).unwrap_or(start)),
-        Centre::PitchPoint => Some(on_line_of_action(
-            geometry,
-            geometry.start + geometry.approach_length,
-        )),
+        Centre::PitchPoint => {
+            Some(on_line_of_action(geometry, geometry.start + geometry.approach_length))
+        }
         Centre::Pair => None,
     }
 }
@@ -235,10 +213,7 @@ mod tests {
         let inputs = Case::table_1().inputs().unwrap();
         let solution = model::solve(&inputs, Stages::CLOSED_FORM).unwrap();
         let of = |(marker, size)| {
-            (
-                Window::of(TeethView::default(), &inputs, &solution, size, marker),
-                marker,
-            )
+            (Window::of(TeethView::default(), &inputs, &solution, size, marker), marker)
         };
         MARKERS
             .into_iter()
@@ -251,10 +226,8 @@ mod tests {
     fn scale_is_the_same_in_both_directions() {
         for (window, marker) in windows() {
             let (columns, rows) = (f64::from(window.size.width), f64::from(window.size.height));
-            let (wide, high) = (
-                columns - 1.0 / f64::from(window.dots.0),
-                rows - 1.0 / f64::from(window.dots.1),
-            );
+            let (wide, high) =
+                (columns - 1.0 / f64::from(window.dots.0), rows - 1.0 / f64::from(window.dots.1));
             let (column, row) = (2.0 * window.half.x / wide, 2.0 * window.half.y / high);
             assert!(
                 (row / column - CELL_HEIGHT).abs() < 1e-12,

@@ -84,21 +84,14 @@ impl TeethView {
         let unzoomed = TeethView { zoom: 0, ..self }.extent(inputs, solution);
         let beyond = 2.0 * (whole(&solution.geometry).1 / unzoomed).log2().ceil();
         let last_out = if beyond > 0.0 { -beyond as i32 } else { 0 };
-        let zoom = self
-            .zoom
-            .saturating_add(steps)
-            .max(last_out.max(LAST_STEP_OUT))
-            .min(LAST_STEP_IN);
+        let zoom =
+            self.zoom.saturating_add(steps).max(last_out.max(LAST_STEP_OUT)).min(LAST_STEP_IN);
         TeethView { zoom, ..self }
     }
 
     /// The view around another centre, without zoom.
     pub(crate) fn centred_beside(self, by: isize) -> TeethView {
-        TeethView {
-            centre: self.centre.beside(by),
-            zoom: 0,
-            ..self
-        }
+        TeethView { centre: self.centre.beside(by), zoom: 0, ..self }
     }
 
     /// The view with the exaggeration of the gap switched on or off.
@@ -108,10 +101,7 @@ impl TeethView {
             Exaggeration::Fitted => Exaggeration::True,
             Exaggeration::True => Exaggeration::Fitted,
         };
-        TeethView {
-            exaggeration,
-            ..self
-        }
+        TeethView { exaggeration, ..self }
     }
 
     /// The length of the shorter side of the picture, in m.
@@ -150,9 +140,7 @@ impl TeethView {
         }
         let room = (SHARE * self.extent(inputs, solution)).min(MOST_DEVIATION * inputs.module);
         let fitted = round_down(room / solution.deviation.total.abs()).min(MOST_FACTOR);
-        fitted
-            .min(MOST_OPENING * inputs.module / moment.opening)
-            .max(1.0)
+        fitted.min(MOST_OPENING * inputs.module / moment.opening).max(1.0)
     }
 }
 
@@ -161,10 +149,7 @@ impl TeethView {
 pub(crate) fn whole(geometry: &Geometry) -> (f64, f64) {
     const MARGIN: f64 = 1.04;
     let (driver, driven) = (geometry.driver.tip, geometry.driven.tip);
-    (
-        MARGIN * 2.0 * driver.max(driven),
-        MARGIN * (geometry.centre_distance + driver + driven),
-    )
+    (MARGIN * 2.0 * driver.max(driven), MARGIN * (geometry.centre_distance + driver + driven))
 }
 
 /// The greatest of 1, 2, 5 times a power of ten that is not above the value; at least 1.
@@ -174,10 +159,7 @@ pub(crate) fn round_down(value: f64) -> f64 {
     }
     let power = 10f64.powf(value.log10().floor());
     let steps = [10.0, 5.0, 2.0, 1.0].map(|step| step * power);
-    steps
-        .into_iter()
-        .find(|step| *step <= value * (1.0 + 1e-12))
-        .unwrap_or(power)
+    steps.into_iter().find(|step| *step <= value * (1.0 + 1e-12)).unwrap_or(power)
 }
 
 #[cfg(test)]

@@ -56,26 +56,13 @@ pub(super) fn draw(
             let is_selected = marks.selected == Some(cell.setting);
             let (text, style) = (text(cell, is_wide, is_selected), theme);
             let style = if is_selected { style.key } else { Style::new() };
-            put(
-                row,
-                NAME + at * cell_width,
-                &format!("{text:>cell_width$}"),
-                style,
-            );
+            put(row, NAME + at * cell_width, &format!("{text:>cell_width$}"), style);
         }
     }
     (rows.len() as u16 + 1).min(area.height)
 }
 
 fn text(cell: &Cell, is_wide: bool, is_selected: bool) -> String {
-    let text = if is_wide {
-        cell.to_string()
-    } else {
-        cell.total.clone()
-    };
-    if is_selected {
-        format!("▸{text}")
-    } else {
-        text
-    }
+    let text = if is_wide { cell.to_string() } else { cell.total.clone() };
+    if is_selected { format!("▸{text}") } else { text }
 }

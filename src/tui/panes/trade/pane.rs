@@ -29,11 +29,8 @@ pub(crate) struct TradePane<'a> {
 /// The settings that have an error and a time, the faster ones first.
 #[must_use]
 pub(crate) fn ordered(trade: &Trade) -> Vec<&MeasuredSetting> {
-    let mut found: Vec<&MeasuredSetting> = trade
-        .settings
-        .iter()
-        .filter(|measured| measured.total().is_some())
-        .collect();
+    let mut found: Vec<&MeasuredSetting> =
+        trade.settings.iter().filter(|measured| measured.total().is_some()).collect();
     found.sort_by(|one, other| one.seconds().total_cmp(&other.seconds()));
     found
 }
@@ -42,10 +39,7 @@ pub(crate) fn ordered(trade: &Trade) -> Vec<&MeasuredSetting> {
 /// the table.
 fn visible(trade: &Trade, view: TradeView) -> Vec<Setting> {
     match view {
-        TradeView::Chart => ordered(trade)
-            .into_iter()
-            .map(|measured| measured.setting)
-            .collect(),
+        TradeView::Chart => ordered(trade).into_iter().map(|measured| measured.setting).collect(),
         TradeView::Table => {
             let rows = compliances(trade).into_iter();
             let cells = rows.flat_map(|(_, cells)| cells);
@@ -60,11 +54,7 @@ fn visible(trade: &Trade, view: TradeView) -> Vec<Setting> {
 pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
     let (marked, trade) = (traded.marked?, traded.trade.as_ref()?);
     let distance = |setting: &Setting| {
-        (
-            *setting != marked,
-            setting.method != marked.method,
-            setting.models != marked.models,
-        )
+        (*setting != marked, setting.method != marked.method, setting.models != marked.models)
     };
     visible(trade, view).into_iter().min_by_key(distance)
 }
@@ -72,15 +62,11 @@ pub(crate) fn nearest(traded: &Traded, view: TradeView) -> Option<Setting> {
 /// The setting `by` places from the selected one, in the order of the view.
 #[must_use]
 pub(crate) fn stepped(traded: &Traded, view: TradeView, by: isize) -> Option<Setting> {
-    let settings: Vec<Setting> = traded
-        .trade
-        .iter()
-        .flat_map(|trade| visible(trade, view))
-        .collect();
+    let settings: Vec<Setting> =
+        traded.trade.iter().flat_map(|trade| visible(trade, view)).collect();
     let last = settings.len().checked_sub(1)?;
-    let now = traded
-        .marked
-        .and_then(|marked| settings.iter().position(|setting| *setting == marked));
+    let now =
+        traded.marked.and_then(|marked| settings.iter().position(|setting| *setting == marked));
     let next = now.map_or(0, |now| now.saturating_add_signed(by).min(last));
     Some(settings[next])
 }

@@ -34,12 +34,8 @@ pub(super) fn draw_legend(pane: &TradePane<'_>, trade: &Trade, area: Rect, buffe
     let methods = METHODS.into_iter().chain([Method::Auto]);
     let words = methods.map(|method| (method.name().to_owned(), mark(pane, method).1));
     let within = format!("{LEVEL}{LEVEL} within {} %", percent(trade.within));
-    let writing = [
-        "CAPITAL on the front".to_owned(),
-        "(case)".to_owned(),
-        "[selected]".to_owned(),
-        within,
-    ];
+    let writing =
+        ["CAPITAL on the front".to_owned(), "(case)".to_owned(), "[selected]".to_owned(), within];
     let mut x = area.x + 1;
     for (word, style) in words.chain(writing.map(|word| (word, Style::new()))) {
         let width = word.chars().count() as u16;
@@ -65,44 +61,23 @@ pub(super) fn draw_plot(
         ..area
     };
     let mut found = ordered(trade);
-    let errors = found
-        .iter()
-        .filter_map(|measured| measured.total())
-        .chain([trade.within])
-        .map(shown);
+    let errors =
+        found.iter().filter_map(|measured| measured.total()).chain([trade.within]).map(shown);
     let across = Axis::of(
         found.iter().map(|measured| measured.seconds()),
         f64::from(field.left()),
         f64::from(field.right() - 1),
     );
-    let up = Axis::of(
-        errors,
-        f64::from(field.bottom() - 1),
-        f64::from(field.top()),
-    );
-    let errors: Vec<f64> = found
-        .iter()
-        .filter_map(|measured| measured.total())
-        .collect();
+    let up = Axis::of(errors, f64::from(field.bottom() - 1), f64::from(field.top()));
+    let errors: Vec<f64> = found.iter().filter_map(|measured| measured.total()).collect();
     let rows = Rows::of(up, trade.within, &errors, field);
     draw_axes(pane, &across, &rows, field, buffer);
-    buffer.set_string(
-        field.x,
-        rows.level,
-        LEVEL.repeat(field.width.into()),
-        pane.look.theme.rule,
-    );
+    buffer.set_string(field.x, rows.level, LEVEL.repeat(field.width.into()), pane.look.theme.rule);
     let place = |measured: &MeasuredSetting| {
-        Some((
-            across.at(measured.seconds()).round() as u16,
-            rows.at(measured.total()?),
-        ))
+        Some((across.at(measured.seconds()).round() as u16, rows.at(measured.total()?)))
     };
-    let front: Vec<(u16, u16)> = found
-        .iter()
-        .filter(|measured| measured.is_on_front)
-        .filter_map(|one| place(one))
-        .collect();
+    let front: Vec<(u16, u16)> =
+        found.iter().filter(|measured| measured.is_on_front).filter_map(|one| place(one)).collect();
     draw_front(pane, &front, field, buffer);
     let own = own(pane);
     // The selected setting and the setting of the case are drawn on top.
@@ -134,19 +109,9 @@ impl Rows {
     fn of(up: Axis, within: f64, errors: &[f64], field: Rect) -> Rows {
         let above = u16::from(errors.iter().any(|error| *error > within));
         let below = u16::from(errors.iter().any(|error| *error <= within));
-        let (first, last) = (
-            field.top() + above,
-            (field.bottom() - 1).saturating_sub(below),
-        );
-        let level = (up.at(shown(within)).round() as u16)
-            .max(first)
-            .min(last.max(first));
-        Rows {
-            up,
-            within,
-            level,
-            field,
-        }
+        let (first, last) = (field.top() + above, (field.bottom() - 1).saturating_sub(below));
+        let level = (up.at(shown(within)).round() as u16).max(first).min(last.max(first));
+        Rows { up, within, level, field }
     }
 
     fn at(&self, error: f64) -> u16 {
@@ -184,19 +149,14 @@ fn draw_mark(
 ) {
     let theme = pane.look.theme;
     let (letter, style) = mark(pane, measured.setting.method);
-    let letter = if is_on_front {
-        letter.to_ascii_uppercase()
-    } else {
-        letter
-    };
+    let letter = if is_on_front { letter.to_ascii_uppercase() } else { letter };
     let (mark, style) = match (is_marked, is_own) {
         (true, _) => (format!("[{letter}]"), theme.key),
         (false, true) => (format!("({letter})"), theme.focus),
         (false, false) => (letter.to_string(), style),
     };
     let x = if mark.len() == 3 {
-        x.saturating_sub(1)
-            .clamp(field.left(), field.right().saturating_sub(3))
+        x.saturating_sub(1).clamp(field.left(), field.right().saturating_sub(3))
     } else {
         x
     };
@@ -232,13 +192,7 @@ fn draw_axes(pane: &TradePane<'_>, across: &Axis, rows: &Rows, field: Rect, buff
             .saturating_sub(width / 2)
             .clamp(field.x, field.right().saturating_sub(width).max(field.x));
         buffer.set_string(x, axis, "┴", rule);
-        buffer.set_stringn(
-            start,
-            axis + 1,
-            label,
-            usize::from(field.width),
-            Style::new(),
-        );
+        buffer.set_stringn(start, axis + 1, label, usize::from(field.width), Style::new());
     }
 }
 

@@ -3,10 +3,7 @@
 use super::*;
 
 fn first(list: List, typed: &str) -> Option<String> {
-    let picker = Picker {
-        input: typed.into(),
-        ..Picker::new(list)
-    };
+    let picker = Picker { input: typed.into(), ..Picker::new(list) };
     picker.fitting().into_iter().next().map(|item| item.name)
 }
 
@@ -19,11 +16,7 @@ fn a_few_letters_find_the_command() {
         ("themme", "theme"),
         ("colours", "theme"),
     ] {
-        assert_eq!(
-            first(List::Commands, typed).as_deref(),
-            Some(name),
-            "{typed}"
-        );
+        assert_eq!(first(List::Commands, typed).as_deref(), Some(name), "{typed}");
     }
     for (typed, name) in [
         ("next tab", "next case"),
@@ -38,19 +31,10 @@ fn a_few_letters_find_the_command() {
             input: typed.into(),
             ..Picker::over(
                 List::Commands,
-                Context {
-                    results,
-                    are_results_first: true,
-                    ..Context::default()
-                },
+                Context { results, are_results_first: true, ..Context::default() },
             )
         };
-        let found = picker
-            .fitting()
-            .into_iter()
-            .take(3)
-            .map(|item| item.name)
-            .collect::<Vec<_>>();
+        let found = picker.fitting().into_iter().take(3).map(|item| item.name).collect::<Vec<_>>();
         assert!(found.contains(&name.to_owned()), "{typed}: {found:?}");
     }
     assert_eq!(first(List::Commands, "xyzzy"), None);
@@ -71,9 +55,8 @@ fn a_field_is_found_by_key_label_and_symbol() {
 
 #[test]
 fn fields_with_effect_come_first_unless_a_symbol_is_typed() {
-    let idle: Vec<_> = (0..FIELDS.len())
-        .filter(|&at| FIELDS[at].key.starts_with("driver.tip_relief"))
-        .collect();
+    let idle: Vec<_> =
+        (0..FIELDS.len()).filter(|&at| FIELDS[at].key.starts_with("driver.tip_relief")).collect();
     for (typed, key) in [
         ("relief", "driven.tip_relief"),
         ("tip relief", "driven.tip_relief"),
@@ -82,13 +65,7 @@ fn fields_with_effect_come_first_unless_a_symbol_is_typed() {
     ] {
         let picker = Picker {
             input: typed.into(),
-            ..Picker::over(
-                List::Places,
-                Context {
-                    idle: idle.clone(),
-                    ..Context::default()
-                },
-            )
+            ..Picker::over(List::Places, Context { idle: idle.clone(), ..Context::default() })
         };
         assert_eq!(picker.fitting()[0].name, key, "{typed}");
     }
@@ -111,10 +88,7 @@ fn a_field_comes_before_a_result_with_a_longer_name() {
             ),
         ] {
             for list in [List::Commands, List::Places] {
-                let picker = Picker {
-                    input: typed.into(),
-                    ..Picker::over(list, context.clone())
-                };
+                let picker = Picker { input: typed.into(), ..Picker::over(list, context.clone()) };
                 assert_eq!(picker.fitting()[0].name, name, "{typed}");
             }
         }
@@ -133,10 +107,8 @@ fn a_typed_key_is_the_first_match() {
             ..Context::default()
         };
         for key in fields.clone().chain(results.iter().copied()) {
-            let picker = Picker {
-                input: key.into(),
-                ..Picker::over(List::Places, context.clone())
-            };
+            let picker =
+                Picker { input: key.into(), ..Picker::over(List::Places, context.clone()) };
             assert_eq!(picker.fitting()[0].name, key);
         }
     }

@@ -60,21 +60,15 @@ impl Columns {
         let columns = |methods: &Vec<Method>, is_labelled, is_tight| {
             Columns::measured(pane, methods, cells, width, is_labelled, is_tight)
         };
-        let labelled = all
-            .iter()
-            .filter(enough)
-            .map(|methods| columns(methods, true, false));
+        let labelled = all.iter().filter(enough).map(|methods| columns(methods, true, false));
         let others = all.iter().flat_map(|methods| {
             [(true, false), (false, false), (false, true)]
                 .map(|(is_labelled, is_tight)| columns(methods, is_labelled, is_tight))
         });
-        labelled
-            .chain(others)
-            .find(|columns| columns.taken() <= width)
-            .unwrap_or_else(|| Columns {
-                is_shared: pane.baseline.is_some(),
-                ..columns(&vec![answer.active], false, true)
-            })
+        labelled.chain(others).find(|columns| columns.taken() <= width).unwrap_or_else(|| Columns {
+            is_shared: pane.baseline.is_some(),
+            ..columns(&vec![answer.active], false, true)
+        })
     }
 
     fn measured(
@@ -137,12 +131,7 @@ impl Columns {
             before = 0;
             let is_free = at == 0 && !is_active && answer.active.shares_load();
             let fits = |free: &&&str| free.width() + name.width() < room;
-            let free = FREE
-                .iter()
-                .filter(|_| is_free)
-                .find(fits)
-                .copied()
-                .unwrap_or_default();
+            let free = FREE.iter().filter(|_| is_free).find(fits).copied().unwrap_or_default();
             let style = if is_active { theme.active } else { theme.other };
             let blank = room.saturating_sub(free.width() + name.width());
             spans.push(Span::raw(" ".repeat(blank)));
@@ -190,26 +179,16 @@ impl Columns {
             }
             None => cells.symbol.clone(),
         })];
-        let mut taken = if self.label.is_some() {
-            0
-        } else {
-            cells.symbol.width()
-        };
+        let mut taken = if self.label.is_some() { 0 } else { cells.symbol.width() };
         for (&method, &width) in self.methods.iter().zip(&self.numbers) {
             let is_active = method == answer.active;
             let style = if is_active { theme.focus } else { Style::new() };
             let room = width.saturating_sub(taken);
             taken = 0;
-            spans.push(Span::styled(
-                format!("{:>room$}", cells.number(method)),
-                style,
-            ));
+            spans.push(Span::styled(format!("{:>room$}", cells.number(method)), style));
         }
-        let behind = if unit.is_empty() {
-            cells.mark.to_owned()
-        } else {
-            format!(" {}", cells.mark)
-        };
+        let behind =
+            if unit.is_empty() { cells.mark.to_owned() } else { format!(" {}", cells.mark) };
         let room = (self.unit + MARK).saturating_sub(unit.width());
         let is_marked = !cells.mark.trim().is_empty();
         spans.push(Span::raw(format!(" {unit}")));
@@ -219,10 +198,7 @@ impl Columns {
         ));
         if self.has_base {
             let difference = base(DIFFERENCE);
-            spans.push(Span::styled(
-                format!(" {difference:>DIFFERENCE$}"),
-                theme.baseline,
-            ));
+            spans.push(Span::styled(format!(" {difference:>DIFFERENCE$}"), theme.baseline));
         }
         let left = self.width.saturating_sub(self.taken() + 1);
         let equation = cells.quantity.equation;
@@ -247,15 +223,10 @@ fn subsets(answer: &Answer) -> Vec<Vec<Method>> {
 
 // The heading of the differences, with the method of the baseline if it differs.
 fn to_base(pane: &Results<'_>, answer: &Answer, room: usize) -> String {
-    let base = pane
-        .baseline
-        .map(|baseline| baseline.answer.beside(answer.active));
+    let base = pane.baseline.map(|baseline| baseline.answer.beside(answer.active));
     let other = base.filter(|&base| base != answer.active).map(Method::name);
     let headings = other.map(|other| [format!("vs {other} baseline"), format!("{other} baseline")]);
-    let fits = headings
-        .into_iter()
-        .flatten()
-        .find(|heading| heading.width() <= room);
+    let fits = headings.into_iter().flatten().find(|heading| heading.width() <= room);
     fits.unwrap_or_else(|| text::cut(TO_BASE, room))
 }
 
@@ -268,11 +239,7 @@ fn shared_row(number: &str, unit: &str, mark: &str, difference: &str, width: usi
     };
     let (value, marked) = (joined(&[number, unit]), joined(&[number, unit, mark]));
     let close = difference.replace(" %", "%");
-    let sign = if difference == UNCHANGED {
-        EQUAL
-    } else {
-        OTHER
-    };
+    let sign = if difference == UNCHANGED { EQUAL } else { OTHER };
     let sayings = [
         (&marked, difference),
         (&marked, close.as_str()),
@@ -299,14 +266,8 @@ mod tests {
             (UNCHANGED, 18, ["216.79 kg mm2", "    ="]),
             (UNCHANGED, 24, ["216.79 kg mm2", "  unchanged"]),
         ] {
-            assert_eq!(
-                shared_row("216.79", "kg mm2", " ", difference, width),
-                shown
-            );
+            assert_eq!(shared_row("216.79", "kg mm2", " ", difference, width), shown);
         }
-        assert_eq!(
-            shared_row("5354.2", "N", "!", "+48.1 %", 17),
-            ["5354.2 N !", " +48.1%"]
-        );
+        assert_eq!(shared_row("5354.2", "N", "!", "+48.1 %", 17), ["5354.2 N !", " +48.1%"]);
     }
 }

@@ -35,13 +35,8 @@ pub(super) fn difference(
 
 // The value of the baseline in the unit of the line, with as many digits as fit.
 fn was(base: f64, unit: &str, room: usize) -> String {
-    let words = (1..=3)
-        .rev()
-        .map(|digits| format!("was {}", counted(base, unit, digits)));
-    words
-        .into_iter()
-        .find(|words| words.len() <= room)
-        .unwrap_or_else(|| "was other".to_owned())
+    let words = (1..=3).rev().map(|digits| format!("was {}", counted(base, unit, digits)));
+    words.into_iter().find(|words| words.len() <= room).unwrap_or_else(|| "was other".to_owned())
 }
 
 /// The value of the quantity and the value of the baseline, with the method of the baseline if it
@@ -53,16 +48,10 @@ pub(in crate::tui::panes::results) fn compared(
 ) -> Option<String> {
     let (method, base) = base(pane, answer, quantity)?;
     let printed = |value: Option<f64>| {
-        value.map_or_else(
-            || "none".to_owned(),
-            |value| shown_in(pane, quantity, value).to_string(),
-        )
+        value.map_or_else(|| "none".to_owned(), |value| shown_in(pane, quantity, value).to_string())
     };
-    let whose = if method == answer.active {
-        String::new()
-    } else {
-        format!(" ({})", method.name())
-    };
+    let whose =
+        if method == answer.active { String::new() } else { format!(" ({})", method.name()) };
     Some(format!(
         "{}; baseline{whose}: {}.",
         printed(value(answer, answer.active, quantity)),
@@ -74,10 +63,7 @@ pub(in crate::tui::panes::results) fn compared(
 fn base(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> Option<(Method, Option<f64>)> {
     let base = &pane.baseline?.answer;
     let method = base.beside(answer.active);
-    Some((
-        method,
-        report::value_as_in(quantity, base.of(method)?, answer.active),
-    ))
+    Some((method, report::value_as_in(quantity, base.of(method)?, answer.active)))
 }
 
 // The difference in percent, if a percentage has a meaning.

@@ -51,9 +51,8 @@ pub(in crate::tui::panes::results) fn page(pane: &Results<'_>, width: usize) -> 
     let (Some(answer), Some(variants)) = (pane.answer, pane.variants) else {
         return 1;
     };
-    let cells: Vec<Cells> = order(answer)
-        .map(|known| Cells::of(pane, answer, variants, known))
-        .collect();
+    let cells: Vec<Cells> =
+        order(answer).map(|known| Cells::of(pane, answer, variants, known)).collect();
     Layout::of(&cells, variants, width).count
 }
 
@@ -64,15 +63,10 @@ pub(super) fn lines(
     variants: &Variants,
     width: usize,
 ) -> Table {
-    let cells: Vec<Cells> = order(answer)
-        .map(|known| Cells::of(pane, answer, variants, known))
-        .collect();
+    let cells: Vec<Cells> =
+        order(answer).map(|known| Cells::of(pane, answer, variants, known)).collect();
     let layout = Layout::of(&cells, variants, width);
-    let seen = |of: usize| {
-        (pane.first_variant..of)
-            .take(layout.count)
-            .collect::<Vec<_>>()
-    };
+    let seen = |of: usize| (pane.first_variant..of).take(layout.count).collect::<Vec<_>>();
     let seen = seen(variants.columns.len());
     let theme = pane.look.theme;
     let heading = layout.heading(variants, &seen, width, theme);
@@ -82,15 +76,9 @@ pub(super) fn lines(
         let title = text::cut(&format!("{FREE_IMPACT}:"), width);
         rows.insert(above, Line::styled(title, theme.title));
     }
-    let faint = if pane.is_stale || variants.serial != answer.serial {
-        theme.faint
-    } else {
-        Style::new()
-    };
-    Table {
-        heading,
-        rows: rows.into_iter().map(|row| row.patch_style(faint)).collect(),
-    }
+    let faint =
+        if pane.is_stale || variants.serial != answer.serial { theme.faint } else { Style::new() };
+    Table { heading, rows: rows.into_iter().map(|row| row.patch_style(faint)).collect() }
 }
 
 impl Cells {
@@ -109,16 +97,10 @@ impl Cells {
             .iter()
             .map(|(_, found)| found.as_ref().map(&value).map_err(|_| ()))
             .collect();
-        let all = found
-            .iter()
-            .filter_map(|found| found.ok().flatten())
-            .chain(own);
+        let all = found.iter().filter_map(|found| found.ok().flatten()).chain(own);
         let unit = common_unit(known, all, pane.units);
         let shown = |value: Option<f64>| {
-            value.map_or_else(
-                || NONE.to_owned(),
-                |value| shown_with(known, value, unit).number,
-            )
+            value.map_or_else(|| NONE.to_owned(), |value| shown_with(known, value, unit).number)
         };
         let cell = |found: &Result<Option<f64>, ()>| match (found, own) {
             (Ok(Some(value)), Some(own)) => {
@@ -158,20 +140,11 @@ impl Layout {
         };
         let wanted = variants.columns.len().max(1);
         match (fitting(all.label), fitting(0)) {
-            (labelled, _) if labelled >= wanted.min(ENOUGH) => Layout {
-                count: labelled.min(wanted),
-                ..all
-            },
-            (_, 0) => Layout {
-                label: 0,
-                own: 0,
-                ..all
-            },
-            (_, count) => Layout {
-                label: 0,
-                count: count.min(wanted),
-                ..all
-            },
+            (labelled, _) if labelled >= wanted.min(ENOUGH) => {
+                Layout { count: labelled.min(wanted), ..all }
+            }
+            (_, 0) => Layout { label: 0, own: 0, ..all },
+            (_, count) => Layout { label: 0, count: count.min(wanted), ..all },
         }
     }
 
@@ -188,17 +161,13 @@ impl Layout {
             Span::styled(format!("{name:>room$}"), theme.other)
         };
         if self.own == 0 {
-            let names = seen
-                .iter()
-                .map(|&at| name(at, width - self.symbol.min(width)));
+            let names = seen.iter().map(|&at| name(at, width - self.symbol.min(width)));
             let blank = Span::raw(" ".repeat(self.symbol));
             return std::iter::once(blank).chain(names).collect();
         }
         let blank = Span::raw(" ".repeat(self.symbol + self.label + self.unit));
         let own = Span::styled(format!("{:>1$}", "case", self.own), theme.active);
-        let names = seen
-            .iter()
-            .map(|&at| name(at, self.value + self.difference));
+        let names = seen.iter().map(|&at| name(at, self.value + self.difference));
         [blank, own].into_iter().chain(names).collect()
     }
 
@@ -211,14 +180,9 @@ impl Layout {
                 let value = format!("{value} {}", cells.unit).trim_end().to_owned();
                 let rest = width.saturating_sub(self.symbol + value.width());
                 let close = difference.replace(" %", "%");
-                let fits = [difference, &close]
-                    .into_iter()
-                    .find(|words| words.width() < rest);
+                let fits = [difference, &close].into_iter().find(|words| words.width() < rest);
                 let difference = fits.map_or("", |words| words);
-                [
-                    Span::raw(value),
-                    Span::styled(format!("{difference:>rest$}"), theme.baseline),
-                ]
+                [Span::raw(value), Span::styled(format!("{difference:>rest$}"), theme.baseline)]
             });
             return std::iter::once(symbol).chain(others).collect();
         }
