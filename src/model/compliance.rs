@@ -13,7 +13,7 @@ use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
 use super::profile::Rack;
 use super::tip_gap::TipContact;
 use crate::numeric::chebyshev::TERMS;
-use crate::numeric::lanes::Lanes;
+use crate::numeric::real::Lanes;
 use contact::{ContactLaw, ContactSpring, HalfWidth, PairContact};
 use tooth::Tooth;
 

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 
 pub use super::limits::field::FieldRefusal;
 use super::profile::Profile;
-use crate::numeric::lanes::Lanes;
+use crate::numeric::real::Lanes;
 use boundary::Boundary;
 use fit::{Abscissa, CrossSeries, Flank, Interpolation, Series};
 use grading::Grading;

@@ -10,8 +10,8 @@ use super::mesh::Mesh;
 use super::pair_forces::Balance;
 use super::spacing::{Resolution, Spacing};
 use super::stations::MeshStation;
-use crate::numeric::peak::greatest;
 use crate::numeric::root;
+use crate::numeric::root::greatest;
 
 /// Samples in a base pitch in the search for the incoming pair.
 const SAMPLES: f64 = 16.0;

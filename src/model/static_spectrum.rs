@@ -4,8 +4,8 @@ use super::Refusal;
 use super::harmonics::{Fourier, Spectrum};
 use super::mesh::Mesh;
 use super::static_load::{balance, reaches_ends};
-use crate::numeric::peak::greatest;
 use crate::numeric::root;
+use crate::numeric::root::greatest;
 
 /// Samples between two borders of the mesh to find changes of the pairs in contact.
 const LOOKS: usize = 16;

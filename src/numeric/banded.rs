@@ -4,7 +4,7 @@ use std::ops::{Div, Mul, Sub};
 
 use smallvec::SmallVec;
 
-use super::lanes::Lanes;
+use super::real::Lanes;
 
 /// An entry of a matrix: a number, or the entries of several matrices side by side.
 pub trait Entry: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {

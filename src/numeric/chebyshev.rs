@@ -1,18 +1,12 @@
 //! Functions of one variable as polynomials on pieces, computed from Chebyshev series to full f64
 //! precision and cheap to evaluate.
 
-mod terms;
-#[cfg(test)]
-mod tests;
-
 use std::array::from_fn;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
 
-use super::lanes::Lanes;
 use super::polynomial::Polynomial;
-pub use terms::TERMS;
-use terms::{
-    Terms, about, has_settled, integral, interpolate, place, powers, terms_of, values, values_at,
-};
+use super::real::Lanes;
 
 /// As many places as a piece has terms.
 pub type Places = [f64; TERMS];
@@ -285,4 +279,298 @@ fn halve_groups<const N: usize>(
 fn may_not_halve((from, to): (f64, f64), halvings: u32, pieces: usize) -> bool {
     let is_narrow = to - from <= NARROWEST * from.abs().max(to.abs());
     halvings == 0 || is_narrow || pieces >= MOST_PIECES
+}
+
+/// One value of every function for each order. This layout allows sums of several functions at
+/// once.
+type Terms<const N: usize> = [[f64; N]; TERMS];
+
+/// cos(k π/(2 TERMS)) over a whole turn.
+static COSINES: LazyLock<[f64; 4 * TERMS]> =
+    LazyLock::new(|| from_fn(|k| (k as f64 * PI / (2 * TERMS) as f64).cos()));
+
+/// The coefficients of the powers in each Chebyshev polynomial.
+static POLYNOMIALS: LazyLock<[[f64; TERMS]; TERMS]> = LazyLock::new(|| {
+    let (mut before, mut polynomial) = ([0.0; TERMS], [0.0; TERMS]);
+    polynomial[0] = 1.0;
+    from_fn(|order| {
+        let found = polynomial;
+        // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
+        let scale = if order == 0 { 1.0 } else { 2.0 };
+        polynomial = from_fn(|power: usize| {
+            let lower = power.checked_sub(1).map_or(0.0, |lower| scale * found[lower]);
+            lower - before[power]
+        });
+        before = found;
+        found
+    })
+});
+
+/// Number of terms of a piece.
+pub const TERMS: usize = 16;
+
+/// Number of last terms that estimate the truncation error.
+const TAIL: usize = 3;
+
+/// The Chebyshev point of the first kind.
+fn place(from: f64, to: f64, point: usize) -> f64 {
+    f64::midpoint(from, to) + 0.5 * (to - from) * COSINES[2 * point + 1]
+}
+
+/// The Chebyshev coefficients of the polynomials through the function's values at the Chebyshev
+/// points of the first kind.
+fn interpolate<const N: usize, E>(
+    from: f64,
+    to: f64,
+    f: &impl Fn(f64) -> Result<[f64; N], E>,
+) -> Result<Terms<N>, E> {
+    let mut values = [[0.0; N]; TERMS];
+    for (point, value) in values.iter_mut().enumerate() {
+        *value = f(place(from, to, point))?;
+    }
+    Ok(terms_of(&values))
+}
+
+/// The Chebyshev coefficients from the values at these points. The points are symmetric: terms of
+/// even order need the sums of opposite values, terms of odd order their differences.
+fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
+    let cosines = &*COSINES;
+    let mut terms = [[0.0; N]; TERMS];
+    for (point, (value, opposite)) in values.iter().zip(values.iter().rev()).enumerate() {
+        if point == TERMS / 2 {
+            break;
+        }
+        let parts: [[f64; N]; 2] = [
+            from_fn(|function| value[function] + opposite[function]),
+            from_fn(|function| value[function] - opposite[function]),
+        ];
+        for (order, sums) in terms.iter_mut().enumerate() {
+            let weight = cosines[order * (2 * point + 1) % cosines.len()];
+            sums.iter_mut().zip(&parts[order % 2]).for_each(|(sum, part)| *sum += part * weight);
+        }
+    }
+    for (order, sums) in terms.iter_mut().enumerate() {
+        let scale = if order == 0 { 1.0 } else { 2.0 } / TERMS as f64;
+        for sum in sums.iter_mut() {
+            *sum *= scale;
+        }
+    }
+    terms
+}
+
+/// Whether the last terms of each function are at most `rest`, or are not finite, so that halving
+/// would not help.
+fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> bool {
+    let tail = &terms[TERMS - TAIL..];
+    tail.iter()
+        .flat_map(|terms| terms.iter().zip(rest))
+        .all(|(term, rest)| !term.is_finite() || term.abs() <= *rest)
+}
+
+/// Converts Chebyshev coefficients to powers: Σ c_n T_n(t) = Σ a_k t^k.
+fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
+    let mut powers = [[0.0; N]; TERMS];
+    for (order, (terms, polynomial)) in terms.iter().zip(&*POLYNOMIALS).enumerate() {
+        // T_n is even or odd.
+        for power in (order % 2..=order).step_by(2) {
+            let coefficient = polynomial[power];
+            powers[power].iter_mut().zip(terms).for_each(|(sum, term)| *sum += coefficient * term);
+        }
+    }
+    powers
+}
+
+/// Σ a_k t^k of `M` functions, starting with function `first`, by Estrin's scheme. Its partial sums
+/// are independent of each other.
+#[inline]
+fn values<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f64) -> [f64; M] {
+    let (square, fourth) = (t * t, (t * t) * (t * t));
+    let pair = |at: usize, function: usize| powers[at][function] + powers[at + 1][function] * t;
+    let four = |at: usize, function: usize| pair(at, function) + pair(at + 2, function) * square;
+    let eight = |at: usize, function: usize| four(at, function) + four(at + 4, function) * fourth;
+    from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
+}
+
+/// The same at several places at once, by Horner's rule.
+fn values_at<const N: usize, const M: usize>(
+    powers: &Terms<N>,
+    first: usize,
+    t: &[f64; TERMS],
+) -> [Lanes<TERMS>; M] {
+    let mut all = [Lanes::all(0.0); M];
+    for powers in powers.iter().rev() {
+        for (sums, power) in all.iter_mut().zip(&powers[first..first + M]) {
+            for (sum, t) in sums.0.iter_mut().zip(t) {
+                *sum = *sum * t + power;
+            }
+        }
+    }
+    all
+}
+
+/// The coefficients of the powers of t − `at`, by Horner's rule for all coefficients together. The
+/// sums of one round are independent of each other.
+fn about<const N: usize, const M: usize>(
+    powers: &Terms<N>,
+    first: usize,
+    at: f64,
+) -> [Polynomial<TERMS>; M] {
+    let mut rest = [[0.0; M]; TERMS];
+    rest.iter_mut()
+        .zip(powers)
+        .for_each(|(rest, powers)| rest.copy_from_slice(&powers[first..first + M]));
+    for lowest in (0..TERMS - 1).rev() {
+        for power in lowest..TERMS - 1 {
+            let above = rest[power + 1];
+            for (sum, above) in rest[power].iter_mut().zip(above) {
+                *sum += at * above;
+            }
+        }
+    }
+    let mut all = [Polynomial::ZERO; M];
+    for (power, values) in rest.iter().enumerate() {
+        all.iter_mut().zip(values).for_each(|(function, value)| function.0[power] = *value);
+    }
+    all
+}
+
+/// ∫ of a function from −1 to 1.
+fn integral<const N: usize>(powers: &Terms<N>, function: usize) -> f64 {
+    let even = powers.iter().enumerate().step_by(2);
+    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn series<const N: usize>(from: f64, to: f64, f: impl Fn(f64) -> [f64; N]) -> Series<N> {
+        Series::of(from, to, &|_, _| [1e-14; N], &|x| Ok::<_, ()>(f(x))).unwrap()
+    }
+
+    #[test]
+    fn smooth_functions_and_their_slopes_keep_their_digits() {
+        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp()]);
+        for step in 0..=900 {
+            let x = -2.0 + 0.01 * f64::from(step);
+            let [sine, growth] = found.at(x);
+            let slope = found.slope(0, x);
+            assert!(
+                (sine - x.sin()).abs() < 2e-14 && (growth / (0.3 * x).exp() - 1.0).abs() < 2e-14,
+                "{x}"
+            );
+            assert!((slope - x.cos()).abs() < 1e-11, "{x}: {slope}");
+            assert!((found.one(1, x) - growth).abs() == 0.0);
+        }
+        assert!((found.integral(0) - (2f64.cos() - 7f64.cos())).abs() < 1e-13);
+    }
+
+    #[test]
+    fn groups_on_the_same_pieces_are_the_series_of_their_functions() {
+        let functions = |x: f64| [[x.sin(), (0.3 * x).exp()], [x.cos(), 1.0 / (3.0 + x)]];
+        let found = Series::<2>::groups(-2.0, 7.0, &[[1e-14; 2]; 2], &|places, values| {
+            for (at, &x) in places.iter().enumerate() {
+                let [one, other] = functions(x);
+                (values[0][at], values[1][at]) = (one, other);
+            }
+        });
+        assert_eq!(found[0].pieces.len(), found[1].pieces.len());
+        for step in 0..=90 {
+            let x = -2.0 + 0.1 * f64::from(step);
+            for (group, expected) in found.iter().zip(functions(x)) {
+                let values: [f64; 2] = group.at(x);
+                for (value, expected) in values.iter().zip(expected) {
+                    assert!((value - expected).abs() < 3e-14 * expected.abs().max(1.0), "{x}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_side_by_side_are_those_of_each_place_whatever_its_piece() {
+        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp(), x.cos()]);
+        assert!(found.pieces.len() > 1);
+        for (from, to) in [(-1.9, -1.8), (-2.0, 7.0), (6.0, 6.0)] {
+            let places = std::array::from_fn(|at| to + (from - to) * at as f64 / 15.0);
+            let [growth, cosine] = found.many(1, &places);
+            for (at, x) in places.iter().enumerate() {
+                let off = (growth.0[at] / (0.3 * x).exp() - 1.0).abs();
+                assert!(off < 3e-14, "{x}: {off:e}");
+                assert!((cosine.0[at] - x.cos()).abs() < 3e-14, "{x}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_value_on_a_piece_is_beyond_its_bounds() {
+        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp()]);
+        for step in 0..90 {
+            let x = -2.0 + 0.1 * f64::from(step);
+            let (low, high) = found.bounds(1, (x, 1e-12));
+            let value = (0.3 * x).exp();
+            assert!(low <= value && value <= high, "{x}: {low} {high}");
+        }
+    }
+
+    #[test]
+    fn reversed_pieces_are_the_functions_from_the_other_end() {
+        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp()]);
+        let turned = found.reversed(5.0, [1.0, -1.0]);
+        assert!((turned.start() + 2.0).abs() < 1e-15);
+        for step in 0..=90 {
+            let x = -2.0 + 0.1 * f64::from(step);
+            let [sine, growth] = turned.at(5.0 - x);
+            let [expected_sine, expected_growth] = found.at(x);
+            assert!((sine - expected_sine).abs() < 1e-14, "{x}");
+            assert!((growth + expected_growth).abs() < 1e-14 * expected_growth, "{x}");
+        }
+    }
+
+    #[test]
+    fn a_branch_point_at_the_end_costs_pieces_and_no_digits() {
+        let found = series(0.0, 1.0, |x| [x.sqrt()]);
+        assert!(found.pieces.len() < 50, "{}", found.pieces.len());
+        for step in 0..=1000 {
+            let x = 1e-3 * f64::from(step);
+            let allowed = if step == 0 { 1e-5 } else { 1e-13 };
+            assert!((found.one(0, x) - x.sqrt()).abs() < allowed, "{x}");
+        }
+    }
+
+    #[test]
+    fn about_another_place_the_pieces_are_the_same_functions() {
+        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp(), x.abs()]);
+        let mut x = -2.0;
+        while x < 7.0 - 1e-9 {
+            let length = found.serves_until(x, 1e-12).min(7.0).min(x + 0.7) - x;
+            let [growth, distance] = found.local(1, (x, 1e-12), length);
+            for part in [0.0, 0.3, 1.0] {
+                let at = x + part * length;
+                assert!((growth.at(part) / (0.3 * at).exp() - 1.0).abs() < 1e-13, "{at}");
+                assert!((distance.at(part) - at.abs()).abs() < 1e-6, "{at}");
+            }
+            x += length;
+        }
+    }
+
+    #[test]
+    fn a_place_beside_a_piece_as_narrow_as_rounding_has_the_value_of_its_end() {
+        let (from, to) = (1.0, 1.0 + 4.0 * f64::EPSILON);
+        assert_eq!(series(from, to, |x| [(1e20 * x).sin()]).pieces.len(), 1);
+        let found = series(from, to, |x| [x, (1e20 * x).sin()]);
+        for beside in [from - 100.0 * f64::EPSILON, to + 100.0 * f64::EPSILON] {
+            let [line, rough] = found.at(beside);
+            assert!((line - 1.0).abs() < 1e-13 && rough.abs() < 2.0, "{line} {rough}");
+            let [rough] = found.local(1, (beside, 0.0), f64::EPSILON);
+            assert!(rough.at(0.0).abs() < 2.0, "{rough:?}");
+        }
+    }
+
+    #[test]
+    fn what_the_function_refuses_is_passed_on() {
+        let refused = Series::of(0.0, 1.0, &|_, _| [1e-14], &|x| {
+            if x > 0.5 { Err("beyond") } else { Ok([x]) }
+        });
+        assert_eq!(refused, Err("beyond"));
+    }
 }

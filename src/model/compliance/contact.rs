@@ -14,7 +14,7 @@ use crate::model::Refusal;
 use crate::model::explanation::{Context, Step};
 use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
-use crate::numeric::near::logarithm;
+use crate::numeric::real::logarithm;
 
 /// Every model; the first is the default of a case.
 pub const MODELS: [&ContactModel; 3] = [&logarithmic::MODEL, &constant::MODEL, &weber::MODEL];

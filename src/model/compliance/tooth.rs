@@ -18,7 +18,7 @@ use crate::model::explanation::{Context, Finding, Step};
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
 use crate::numeric::chebyshev::TERMS;
-use crate::numeric::lanes::Lanes;
+use crate::numeric::real::Lanes;
 
 /// Every model.
 pub const MODELS: [&ToothModel; 3] = [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL];

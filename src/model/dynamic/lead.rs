@@ -1,8 +1,7 @@
 //! The lead of a pair over a step as a function of the displacement: force or overlap.
 
-use crate::numeric::bernstein::{Bernstein, first_fall, sign_changes};
 use crate::numeric::chebyshev;
-use crate::numeric::polynomial::Polynomial;
+use crate::numeric::polynomial::{Bernstein, Polynomial, first_fall, sign_changes};
 
 /// Number of terms of a step's series, the fastest choice at tolerances from 1e-3 to 1e-11.
 pub(super) const TERMS: usize = 28;

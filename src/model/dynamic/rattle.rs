@@ -1,7 +1,7 @@
 //! Strikes of the back flanks.
 
 use super::step::{Course, Step};
-use crate::numeric::bernstein::extremes;
+use crate::numeric::polynomial::extremes;
 
 /// Strikes and force of the back flanks.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

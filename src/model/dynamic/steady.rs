@@ -15,8 +15,7 @@ use crate::model::budget::Meter;
 use crate::model::harmonics::{Fourier, Spectrum};
 use crate::model::mesh::Mesh;
 use crate::model::pair_forces::Touching;
-use crate::numeric::bernstein::extremes;
-use crate::numeric::polynomial::Polynomial;
+use crate::numeric::polynomial::{Polynomial, extremes};
 
 /// Greatest number of base pitches in a period. Loss of contact can double the period.
 const PERIODS: usize = 4;

@@ -8,8 +8,7 @@ use super::motion::{Motion, State, Window};
 use super::side::Side;
 use crate::model::Refusal;
 use crate::model::pair_forces::Touching;
-use crate::numeric::bernstein::Bernstein;
-use crate::numeric::polynomial::Polynomial;
+use crate::numeric::polynomial::{Bernstein, Polynomial};
 use crate::numeric::taylor::{Oscillator, convergent_part};
 
 /// Stiffness and load for a set of touching pairs.

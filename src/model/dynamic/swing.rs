@@ -2,8 +2,7 @@
 
 use super::lead::FORCE_TERMS;
 use super::step::Step;
-use crate::numeric::bernstein::sign_changes;
-use crate::numeric::polynomial::Polynomial;
+use crate::numeric::polynomial::{Polynomial, sign_changes};
 
 /// A step in which the incoming tooth carries load.
 pub(super) struct Swing {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::numeric::lanes::Lanes;
+use crate::numeric::real::Lanes;
 
 /// Terms of a series in one radius.
 pub(super) const TERMS: usize = 14;

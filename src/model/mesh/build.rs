@@ -14,7 +14,7 @@ use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::geometry::Geometry;
 use crate::model::relief::Relief;
 use crate::numeric::chebyshev::TERMS;
-use crate::numeric::lanes::Lanes;
+use crate::numeric::real::Lanes;
 
 /// The couplings from the range of the pairs, the compliance of one pair in m/N and the contact
 /// places.

@@ -6,7 +6,7 @@ use crate::model::Refusal;
 use crate::model::compliance::ContactPlace;
 use crate::model::pair_forces::PITCHES;
 use crate::numeric::chebyshev::{Places, Series, TERMS};
-use crate::numeric::lanes::Lanes;
+use crate::numeric::real::Lanes;
 
 /// Displacement of a pair by a unit force on another, as a function of the place of the rear pair.
 #[derive(Debug, Clone, PartialEq)]

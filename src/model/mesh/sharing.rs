@@ -16,7 +16,7 @@ use crate::numeric::polynomial::Polynomial;
 const SIDE_BY_SIDE: usize = 2;
 
 /// A value at each of several places.
-type Lanes = crate::numeric::lanes::Lanes<TERMS>;
+type Lanes = crate::numeric::real::Lanes<TERMS>;
 
 /// Pairs in zones, and those of them that touch.
 #[derive(Debug, Clone, PartialEq, Eq)]

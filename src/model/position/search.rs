@@ -5,7 +5,7 @@ use crate::model::geometry::Geometry;
 use crate::model::tip_gap::{
     TipContact, angle_at_curvature, gap, gap_without, largest_term, tip_at,
 };
-use crate::numeric::near::{exponential, logarithm};
+use crate::numeric::real::{exponential, logarithm};
 
 /// Limit of the search, in rad. Larger angles never bring a tip back into contact.
 pub(super) const LARGEST_ANGLE: f64 = 1.5;

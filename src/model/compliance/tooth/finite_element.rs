@@ -13,7 +13,7 @@ use crate::model::field::cache::FieldGear;
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Inputs, ToothCompliance};
 use crate::numeric::chebyshev::TERMS;
-use crate::numeric::lanes::Lanes;
+use crate::numeric::real::Lanes;
 
 /// The entry of the list.
 pub const MODEL: ToothModel = ToothModel {
