@@ -1,18 +1,18 @@
-//! Results of a run: the incoming tooth's contacts, peaks and stations.
+//! Results of a run: the stored steps, the incoming tooth's contacts, peaks and stations, and the
+//! strikes of the back flanks.
 
 use std::cell::Cell;
 
 use super::motion::{Motion, State, Window};
-use super::passage::{Passage, Record};
-use super::rattle::RattleWatch;
+use super::side::FORCE_TERMS;
 use super::step::{Course, Step};
-use super::swing::{self, Phase, Swing};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
 use crate::model::budget::{CURVE_WORK, STATIONS, TURNS};
 use crate::model::pair_forces::Touching;
 use crate::model::spacing::{Resolution, Spacing};
 use crate::model::stations::MeshStation;
+use crate::numeric::polynomial::{Polynomial, extremes, sign_changes};
 
 /// Memory of a growing list, relative to its contents: twice the contents in the new place and once
 /// in the old.
@@ -128,7 +128,7 @@ impl Watch {
             Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0)
         };
         let swings = self.swings(motion);
-        let end = || swing::end_of_first_impact(&swings.phases, swings.peak);
+        let end = || end_of_first_impact(&swings.phases, swings.peak);
         let (stations, resolution) =
             first.zip(last).map_or((Vec::new(), Resolution::Full), |contact| {
                 self.stations(motion, &swings, contact, spacing)
@@ -384,5 +384,168 @@ impl Moment<'_> {
         } else {
             0.0
         }
+    }
+}
+
+/// A step in which the incoming tooth carries load.
+struct Swing {
+    /// Start time and duration, in s.
+    begin: f64,
+    length: f64,
+    force: Polynomial<FORCE_TERMS>,
+    /// Parts of the step at the turning points of the force.
+    turns: Vec<f64>,
+}
+
+/// A stretch with a monotonic force.
+pub(super) struct Phase {
+    /// End time, in s.
+    end: f64,
+    /// Rise of the force, in N.
+    rise: f64,
+    /// Whether the tooth is apart before the stretch.
+    follows_gap: bool,
+}
+
+impl Swing {
+    /// The rise and fall of a force over a step, in N.
+    pub(super) fn of(step: &Step, force: &Polynomial<FORCE_TERMS>) -> Swing {
+        Swing {
+            begin: step.t,
+            length: step.length,
+            force: *force,
+            turns: sign_changes(&force.derivative()),
+        }
+    }
+
+    /// Whether the step is before E. A step ends at E within rounding.
+    fn is_before_start(&self) -> bool {
+        self.begin + 0.5 * self.length < 0.0
+    }
+
+    fn time(&self, part: f64) -> f64 {
+        self.begin + part * self.length
+    }
+
+    /// Times of the turning points of the force, in s.
+    pub(super) fn turns(&self) -> impl Iterator<Item = f64> {
+        self.turns.iter().map(|&part| self.time(part))
+    }
+
+    /// The stretches of the step. `follows_gap` says whether the tooth is apart before the step.
+    fn phases(&self, follows_gap: bool) -> impl Iterator<Item = Phase> {
+        let begins = std::iter::once(0.0).chain(self.turns.iter().copied());
+        let ends = self.turns.iter().copied().chain([1.0]);
+        let stretches = begins.zip(ends).enumerate();
+        stretches.map(move |(index, (begin, end))| Phase {
+            end: self.time(end),
+            rise: self.force.at(end) - self.force.at(begin),
+            follows_gap: follows_gap && index == 0,
+        })
+    }
+
+    /// The greatest force, in N.
+    pub(super) fn peak(&self) -> f64 {
+        let ends = [0.0, 1.0];
+        self.turns.iter().chain(&ends).map(|&part| self.force.at(part)).fold(0.0, f64::max)
+    }
+}
+
+/// Time of the first minimum of the force after its first peak, or of the loss of contact. `peak`
+/// is the greatest force of all phases, in N.
+fn end_of_first_impact(phases: &[Phase], peak: f64) -> Option<f64> {
+    const ROUNDING: f64 = 1e-12;
+    let none = ROUNDING * peak;
+    let (mut has_fallen, mut last) = (false, None);
+    for phase in phases {
+        if has_fallen && (phase.rise > none || phase.follows_gap) {
+            return last;
+        }
+        has_fallen |= phase.rise < -none;
+        last = Some(phase.end);
+    }
+    last.filter(|_| has_fallen)
+}
+
+/// Strikes and force of the back flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rattle {
+    /// Number of times that back flanks touch after none touched.
+    pub strikes: u32,
+    /// Greatest force of a pair of back flanks, in N.
+    pub force: f64,
+}
+
+/// Observes the back flanks during a run.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct RattleWatch {
+    found: Rattle,
+    touches: bool,
+    /// The results when the incoming pair last lost contact.
+    at_leave: Option<Rattle>,
+}
+
+impl RattleWatch {
+    /// An observer for a run that begins with or without touching back flanks.
+    pub(super) fn from(touches: bool) -> RattleWatch {
+        RattleWatch { touches, ..RattleWatch::default() }
+    }
+
+    /// Observes a step. `counts` is false for steps of the warm-up.
+    pub(super) fn see(&mut self, course: &Course<'_>, step: &Step, counts: bool) {
+        let touches = course.back_pairs().next().is_some();
+        if counts {
+            self.found.strikes += u32::from(touches && !self.touches);
+            let forces = course
+                .back_pairs()
+                .map(|pair| extremes(&course.force_along(pair, step)).fold(0.0, f64::max));
+            self.found.force = forces.fold(self.found.force, f64::max);
+        }
+        self.touches = touches;
+    }
+
+    /// The incoming pair loses contact. Later steps count only if the pair touches again.
+    pub(super) fn leave(&mut self) {
+        self.at_leave = Some(self.found);
+    }
+
+    pub(super) fn found(&self) -> Rattle {
+        self.at_leave.unwrap_or(self.found)
+    }
+}
+
+/// A step of the run.
+struct Record {
+    touching: Touching,
+    step: Step,
+}
+
+/// The steps of a window in which the incoming pair may touch.
+struct Passage {
+    window: Window,
+    /// The incoming pair's index in the window.
+    incoming: usize,
+    records: Vec<Record>,
+}
+
+impl Passage {
+    /// Stores a step. The list grows by a quarter, so that the old and the new list together use
+    /// less than 2.25 times the budget. Returns the growth in bytes.
+    fn keep(&mut self, record: Record) -> usize {
+        const LEAST: usize = 16;
+        let room = self.records.capacity();
+        if self.records.len() == room {
+            self.records.reserve_exact((room / 4).max(LEAST));
+        }
+        self.records.push(record);
+        (self.records.capacity() - room) * size_of::<Record>()
+    }
+
+    fn records(&self) -> &[Record] {
+        &self.records
+    }
+
+    fn course<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Course<'a> {
+        Course::new(motion, &self.window, record.touching)
     }
 }
