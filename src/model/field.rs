@@ -1,30 +1,26 @@
 //! Compliance of a gear's teeth and body, from plane-strain finite elements on the whole gear.
 
-pub mod body;
-mod boundary;
-pub mod cache;
 mod element;
-mod envelope;
 mod fit;
-mod grading;
-mod harmonics;
-mod load;
 mod mesh;
 mod mode;
-mod solve;
 #[cfg(test)]
 mod tests;
 
+use std::cell::RefCell;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use super::Refusal;
+use super::geometry::{GearShape, circles};
 pub use super::limits::field::FieldRefusal;
-use super::profile::Profile;
+use super::limits::field::POISSON;
+use super::profile::{Profile, Rack};
 use crate::numeric::real::Lanes;
-use boundary::Boundary;
+use element::{Load, Material};
 use fit::{Abscissa, CrossSeries, Flank, Interpolation, Series};
-use grading::Grading;
-use harmonics::Displacements;
-use load::Load;
+use mesh::{Boundary, Grading, Mesh};
+use mode::{Displacements, Mode};
 
 /// Greatest distance, in pitches, at which a force on one tooth displaces another. Pairs in contact
 /// are not farther apart if the contact ratio is below 4.
@@ -91,12 +87,12 @@ impl Field {
     /// # Errors
     /// Those of [`Field::build`] except [`FieldRefusal::NotPositive`].
     pub fn check(input: &FieldInput) -> Result<(), FieldRefusal> {
-        solve::check(input, &Grading::STANDARD)
+        check(input, &Grading::STANDARD)
     }
 
     fn graded(input: &FieldInput, grading: &Grading) -> Result<Field, FieldRefusal> {
-        let boundary = solve::boundary(input)?;
-        let (loads, values) = solve::without_twist(input, &boundary, grading)?;
+        let boundary = boundary(input)?;
+        let (loads, values) = without_twist(input, &boundary, grading)?;
         Ok(Field::fitted(input, &boundary, &loads, &values))
     }
 
@@ -249,7 +245,7 @@ impl Field {
             base_half_angle: input.profile.base_half_angle(),
             twist: (input.bore_radius > 0.0).then(|| {
                 let bore = input.bore_radius / input.module;
-                body::twist(boundary.base, boundary.root, bore, input.poisson)
+                body_twist(boundary.base, boundary.root, bore, input.poisson)
             }),
             surface: steep.series(&surface),
             depth: smooth.series(&depth),
@@ -266,4 +262,315 @@ fn surface_slope(poisson: f64) -> f64 {
 /// (1 + ν)(2 − ν)/(4π).
 fn depth_loss(poisson: f64) -> f64 {
     (1.0 + poisson) * (2.0 - poisson) / (4.0 * PI)
+}
+
+/// Greatest number of cached gears, 2 kB each. A new gear replaces the least recently used one.
+const MOST_GEARS: usize = 256;
+
+/// All inputs of a gear's field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldGear {
+    /// The rack that cuts the profile.
+    pub rack: Rack,
+    /// Shape of the gear.
+    pub shape: GearShape,
+    /// Bore radius r_h, in m; 0 without a bore.
+    pub bore_radius: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+}
+
+impl FieldGear {
+    /// The field of the gear, built if no recent solve has built it.
+    ///
+    /// # Errors
+    /// [`Refusal::NoField`] if the gear has no field, and the refusals of its circles.
+    pub fn field(&self) -> Result<Arc<Field>, Refusal> {
+        let entry = self.entry();
+        // The list is not locked while a field is built, so that other gears do not wait.
+        entry.field.get_or_init(|| self.build().map(Arc::new)).clone()
+    }
+
+    /// The field of the gear, built without the cache.
+    ///
+    /// # Errors
+    /// Those of [`FieldGear::field`].
+    pub fn build(&self) -> Result<Field, Refusal> {
+        Field::build(&self.input()?).map_err(|reason| self.refusal(reason))
+    }
+
+    /// Whether the gear has a field, without building it.
+    ///
+    /// # Errors
+    /// Those of [`FieldGear::field`].
+    pub fn check(&self) -> Result<(), Refusal> {
+        let check = || Field::check(&self.input()?).map_err(|reason| self.refusal(reason));
+        *self.entry().check.get_or_init(check)
+    }
+
+    /// Whether the field of the gear is built.
+    #[must_use]
+    pub fn is_built(&self) -> bool {
+        self.entry().field.get().is_some()
+    }
+
+    fn input(&self) -> Result<FieldInput, Refusal> {
+        let (module, alpha) = (self.rack.module, self.rack.pressure_angle);
+        let circles = geometry::circles(module, alpha, &self.shape)?;
+        Ok(FieldInput {
+            profile: Profile::of(&self.rack, &circles),
+            teeth: self.rack.teeth,
+            module,
+            bore_radius: self.bore_radius,
+            poisson: self.poisson,
+        })
+    }
+
+    fn refusal(&self, reason: FieldRefusal) -> Refusal {
+        Refusal::NoField { teeth: self.rack.teeth, reason }
+    }
+
+    /// The entry of the gear. Needs no lock for the two gears that this thread used last.
+    fn entry(&self) -> Arc<Entry> {
+        LAST_READ.with_borrow_mut(|last| {
+            let known = last.iter().position(|entry| entry.gear == *self);
+            if let Some(at) = known {
+                return Arc::clone(&last[at]);
+            }
+            let entry = self.shared_entry();
+            last.truncate(GEARS_OF_A_PAIR - 1);
+            last.insert(0, Arc::clone(&entry));
+            entry
+        })
+    }
+
+    fn shared_entry(&self) -> Arc<Entry> {
+        let mut entries = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(at) = entries.iter().rposition(|entry| entry.gear == *self) {
+            let last = entries.len() - 1;
+            entries[at..=last].rotate_left(1);
+            return Arc::clone(&entries[last]);
+        }
+        if entries.len() == MOST_GEARS {
+            entries.remove(0);
+        }
+        let entry = Arc::new(Entry { gear: *self, check: OnceLock::new(), field: OnceLock::new() });
+        entries.push(Arc::clone(&entry));
+        entry
+    }
+}
+
+/// A gear and its field after the first request.
+struct Entry {
+    gear: FieldGear,
+    check: OnceLock<Result<(), Refusal>>,
+    field: OnceLock<Result<Arc<Field>, Refusal>>,
+}
+
+/// Recent gears, the most recently used one last. A field depends only on its gear, and building
+/// takes thousands of times as long as reading.
+static RECENT: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
+
+/// Number of entries cached per thread.
+const GEARS_OF_A_PAIR: usize = 2;
+
+thread_local! {
+    /// The gears that this thread used last, the newest first.
+    static LAST_READ: RefCell<Vec<Arc<Entry>>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Least thickness of the rim, in modules.
+const LEAST_RIM: f64 = 1e-3;
+
+/// The boundary of a gear, checked for the mesh.
+fn boundary(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
+    let boundary = Boundary::of(input)?;
+    // The displacements are measured on the centre line, that of the lowest load at this radius.
+    let lowest = boundary.base / boundary.load_angle(boundary.junction_roll).cos();
+    let (thickness, least) = (
+        boundary.root * input.module - input.bore_radius,
+        ((boundary.root - lowest).max(0.0) + LEAST_RIM) * input.module,
+    );
+    if thickness.is_nan() || thickness < least {
+        return Err(FieldRefusal::ThinRim { thickness, least });
+    }
+    if !(POISSON.0..=POISSON.1).contains(&input.poisson) {
+        return Err(FieldRefusal::Poisson { poisson: input.poisson });
+    }
+    Ok(boundary)
+}
+
+/// Refuses a gear whose outline folds the elements.
+fn check(input: &FieldInput, grading: &Grading) -> Result<(), FieldRefusal> {
+    let boundary = boundary(input)?;
+    let bore = input.bore_radius / input.module;
+    let bores = if is_extrapolated(bore, &boundary) {
+        RATIOS.map(|ratio| boundary.root / ratio).to_vec()
+    } else {
+        vec![bore]
+    };
+    for bore in bores {
+        let mesh = Mesh::of(&boundary, bore, grading);
+        let elements = mesh.elements.iter();
+        let folds = |nodes: &mesh::Nodes| element::folds(&nodes.map(|node| mesh.places[node]));
+        if let Some((element, _)) = elements.enumerate().find(|(_, nodes)| folds(nodes)) {
+            return Err(folded(element, &mesh));
+        }
+    }
+    Ok(())
+}
+
+fn folded(element: usize, mesh: &Mesh) -> FieldRefusal {
+    FieldRefusal::FoldedMesh { element, count: mesh.elements.len() }
+}
+
+/// Two ratios r_f/r_h from which the field of a smaller bore is extrapolated.
+const RATIOS: [f64; 2] = [5.0, 7.0];
+
+/// Whether the field of a bore in modules is extrapolated from larger bores.
+fn is_extrapolated(bore: f64, boundary: &Boundary) -> bool {
+    bore * RATIOS[1] < boundary.root
+}
+
+/// The displacements without the twist of the body, and for a gear without a bore without its
+/// shift.
+///
+/// A small bore affects the field only by twist and shift, up to the square of its radius. Its
+/// field is extrapolated from two larger bores, because the twist would be most of the result.
+fn without_twist(
+    input: &FieldInput,
+    boundary: &Boundary,
+    grading: &Grading,
+) -> Result<(Vec<Load>, Displacements), FieldRefusal> {
+    let bore = input.bore_radius / input.module;
+    if !is_extrapolated(bore, boundary) {
+        return solved(input, boundary, bore, grading);
+    }
+    let (loads, mut far) = solved(input, boundary, boundary.root / RATIOS[0], grading)?;
+    let (_, mut near) = solved(input, boundary, boundary.root / RATIOS[1], grading)?;
+    add_shift(&mut far, &loads, input, -RATIOS[0].ln());
+    add_shift(&mut near, &loads, input, -RATIOS[1].ln());
+    let [outer, inner] = RATIOS.map(|ratio| 1.0 / (ratio * ratio));
+    let share = ((bore / boundary.root).powi(2) - inner) / (outer - inner);
+    let mut values = near;
+    for (value, far) in all(&mut values).zip(all(&mut far)) {
+        *value += share * (*far - *value);
+    }
+    if bore > 0.0 {
+        add_shift(&mut values, &loads, input, (boundary.root / bore).ln());
+    }
+    Ok((loads, values))
+}
+
+/// All displacements.
+fn all(values: &mut Displacements) -> impl Iterator<Item = &mut f64> {
+    let own = values.surface.iter_mut().chain(&mut values.centre);
+    own.chain(values.cross.iter_mut().flatten())
+}
+
+/// Adds the body's shift for ln(r_f/r_h).
+fn add_shift(values: &mut Displacements, loads: &[Load], input: &FieldInput, logarithm: f64) {
+    let shift = body_shift(input.poisson) * logarithm;
+    for value in values.surface.iter_mut().chain(&mut values.centre) {
+        *value += shift;
+    }
+    for (pitches, cross) in (1..).zip(&mut values.cross) {
+        let turn = 2.0 * PI * f64::from(pitches) / f64::from(input.teeth);
+        let pairs = loads.iter().flat_map(|load| loads.iter().map(move |other| (load, other)));
+        for (value, (load, measured)) in cross.iter_mut().zip(pairs) {
+            *value += shift * (turn + load.angle - measured.angle).cos();
+        }
+    }
+}
+
+/// The loads of the mesh, and the displacements under them for a bore in modules.
+fn solved(
+    input: &FieldInput,
+    boundary: &Boundary,
+    bore: f64,
+    grading: &Grading,
+) -> Result<(Vec<Load>, Displacements), FieldRefusal> {
+    let mesh = Mesh::of(boundary, bore, grading);
+    let places = mesh.loads.iter();
+    let loads: Vec<_> = places.map(|place| Load::at(&mesh, boundary, place)).collect();
+    let mut values = under_loads(input, boundary, &mesh, &loads)?;
+    let twist = body_twist(boundary.base, boundary.root, bore, input.poisson);
+    for value in all(&mut values) {
+        *value -= twist;
+    }
+    Ok((loads, values))
+}
+
+/// The displacements under the loads of the mesh, twist included.
+fn under_loads(
+    input: &FieldInput,
+    boundary: &Boundary,
+    mesh: &Mesh,
+    loads: &[Load],
+) -> Result<Displacements, FieldRefusal> {
+    let stiffnesses = stiffnesses(mesh, boundary, input.poisson)?;
+    let condense = |mode| mode::condense(mesh, &stiffnesses, loads, mode);
+    let solve = || {
+        let (even, odd) = (condense(Mode::Symmetric)?, condense(Mode::Antisymmetric)?);
+        mode::displacements(&even, &odd, loads, input.teeth)
+    };
+    solve().ok_or(FieldRefusal::NotPositive { unknowns: 2 * mesh.places.len() })
+}
+
+/// The stiffnesses of the elements, with radial and tangential components on the cut.
+fn stiffnesses(
+    mesh: &Mesh,
+    boundary: &Boundary,
+    poisson: f64,
+) -> Result<Vec<element::Stiffness>, FieldRefusal> {
+    let material = Material::of(poisson);
+    let cut = mesh.inner()..mesh.inner() + mesh.on_cut();
+    let mut stiffnesses = Vec::with_capacity(mesh.elements.len());
+    for (index, nodes) in mesh.elements.iter().enumerate() {
+        let places = nodes.map(|node| mesh.places[node]);
+        let mut stiffness =
+            element::stiffness(&places, material).ok_or_else(|| folded(index, mesh))?;
+        let is_on_cut = nodes.map(|node| cut.contains(&node));
+        mode::turn(&mut stiffness, is_on_cut, boundary.half_pitch);
+        element::take_middle_out(&mut stiffness);
+        stiffnesses.push(stiffness);
+    }
+    Ok(stiffnesses)
+}
+
+/// Displacement of all teeth along the line of action from the body's twist about its clamped
+/// bore, dimensionless: per force and face width, times Young's modulus. Radii in m.
+///
+/// # Formula
+/// ```text
+/// r_b² (1 + ν)/(2π) (1/r_h² − 1/r_f²)
+/// ```
+///
+/// # Source
+/// A ring under shear at its rim (Timoshenko & Goodier, "Theory of Elasticity").
+///
+/// # Valid for
+/// 0 < r_h < r_f.
+#[must_use]
+pub fn body_twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
+    base * base * (1.0 + poisson) / (2.0 * PI) * (root - bore) * (root + bore)
+        / (bore * root * bore * root)
+}
+
+/// Displacement of the body along the net force for each unit of ln(r_f/r_h), dimensionless: per
+/// force and face width, times Young's modulus.
+///
+/// # Formula
+/// ```text
+/// (3 − 4ν)(1 + ν)/(4π (1 − ν))
+/// ```
+///
+/// # Source
+/// A line load in plane strain (Kelvin's solution, Timoshenko & Goodier, "Theory of Elasticity").
+///
+/// # Valid for
+/// 0 <= ν < 1/2.
+#[must_use]
+pub fn body_shift(poisson: f64) -> f64 {
+    (3.0 - 4.0 * poisson) * (1.0 + poisson) / (4.0 * PI * (1.0 - poisson))
 }

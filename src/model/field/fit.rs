@@ -7,7 +7,7 @@ use crate::numeric::real::Lanes;
 /// Terms of a series in one radius.
 pub(super) const TERMS: usize = 14;
 /// Terms in each radius of a series in two radii.
-pub(super) const CROSS_TERMS: usize = 9;
+const CROSS_TERMS: usize = 9;
 
 /// The loaded part of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,11 @@
 //! Mapped nine-node elements on half a tooth, half a space and the rim below.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use nalgebra::Vector2;
 
-use super::boundary::Boundary;
-use super::grading::{FlankRows, Grading, ends, with_middles};
+use super::{FieldInput, FieldRefusal};
+use crate::model::profile::Profile;
 
 /// Nodes of an element: three from the centre line to the space, times three from the bore upwards.
 /// The second index runs faster.
@@ -258,4 +260,349 @@ fn elements(layout: &Layout) -> Vec<Nodes> {
         layout.rim(column, row)
     }));
     all
+}
+
+/// Number of intervals in the table of the fillet.
+const FILLET_STEPS: usize = 128;
+/// Least length of the loaded involute, in modules.
+const LEAST_FLANK: f64 = 0.15;
+/// Least thickness of the tooth at its tip and at its neck, in modules.
+const LEAST_THICKNESS: f64 = 0.004;
+
+/// Rounding tolerance of half a space's angle at the root circle, in rad.
+const LEAST_ANGLE: f64 = 1e-12;
+
+/// The boundary in modules: x across the tooth from its centre line, y along it from the gear's
+/// centre.
+#[derive(Debug, Clone)]
+pub(super) struct Boundary {
+    profile: Profile,
+    module: f64,
+    /// Radius of the base circle.
+    pub(super) base: f64,
+    /// Radius of the root circle.
+    pub(super) root: f64,
+    /// Radius of the tip circle.
+    pub(super) tip: f64,
+    /// Half of the pitch angle, in rad.
+    pub(super) half_pitch: f64,
+    /// Roll angle at the tip, in rad.
+    pub(super) tip_roll: f64,
+    /// Roll angle at the junction of involute and fillet, in rad.
+    pub(super) junction_roll: f64,
+    /// Length of the involute.
+    flank_length: f64,
+    /// Arc length of the fillet from the junction, and the angle of the rack's normal there.
+    fillet: Vec<(f64, f64)>,
+    /// Length from the junction down to the point where the fillet has turned by 45 degrees.
+    turned_length: f64,
+    /// Half of the tooth's angle at the root circle, in rad.
+    root_half_angle: f64,
+}
+
+impl Boundary {
+    /// The boundary of the gear's teeth.
+    ///
+    /// # Errors
+    /// A [`FieldRefusal`] if the tooth is pointed, cut through, or has nearly no involute.
+    pub(super) fn of(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
+        let (profile, module) = (input.profile, input.module);
+        let circles = profile.circles();
+        let base = circles.base / module;
+        let (tip_roll, junction_roll) =
+            (circles.tip_curvature / circles.base, profile.junction.roll);
+        let flank_length = base * (tip_roll - junction_roll) * (tip_roll + junction_roll) / 2.0;
+        let mut boundary = Boundary {
+            profile,
+            module,
+            base,
+            root: circles.root / module,
+            tip: circles.tip / module,
+            half_pitch: profile.half_pitch(),
+            tip_roll,
+            junction_roll,
+            flank_length,
+            fillet: Vec::new(),
+            turned_length: 0.0,
+            root_half_angle: profile.root_half_angle(),
+        };
+        if flank_length.is_nan() || flank_length < LEAST_FLANK {
+            return Err(FieldRefusal::ShortFlank {
+                length: flank_length * module,
+                least: LEAST_FLANK * module,
+            });
+        }
+        let space = boundary.half_pitch - boundary.root_half_angle;
+        if space.is_nan() || space < -LEAST_ANGLE {
+            return Err(FieldRefusal::NoSpace { width: 2.0 * space * circles.root });
+        }
+        boundary.walk_fillet()?;
+        boundary.check_tip()?;
+        Ok(boundary)
+    }
+
+    /// Length of the boundary from the tip's corner to the middle of the space.
+    pub(super) fn length(&self) -> f64 {
+        self.root_start() + self.root * (self.half_pitch - self.root_half_angle)
+    }
+
+    /// Length of the fillet.
+    fn fillet_length(&self) -> f64 {
+        self.fillet.last().map_or(0.0, |end| end.0)
+    }
+
+    /// Roll angle of the involute at an arc length from the tip, in rad.
+    pub(super) fn roll(&self, arc: f64) -> f64 {
+        let squared = self.tip_roll * self.tip_roll - 2.0 * arc / self.base;
+        squared.max(0.0).sqrt().max(self.junction_roll)
+    }
+
+    /// Angle between the force on the flank and the normal of the centre line, in rad.
+    pub(super) fn load_angle(&self, roll: f64) -> f64 {
+        self.profile.load_angle(roll)
+    }
+
+    /// The boundary at an arc length from the tip's corner.
+    pub(super) fn at(&self, arc: f64) -> Vector2<f64> {
+        if arc <= self.flank_length {
+            let section = self.profile.involute_at(self.roll(arc));
+            Vector2::new(section.half_thickness, section.along) / self.module
+        } else if arc < self.root_start() {
+            self.fillet_point(self.normal(arc - self.flank_length))
+        } else {
+            let angle = self.root_half_angle + (arc - self.root_start()) / self.root;
+            Vector2::new(angle.sin(), angle.cos()) * self.root
+        }
+    }
+
+    fn root_start(&self) -> f64 {
+        self.flank_length + self.fillet_length()
+    }
+
+    fn fillet_point(&self, normal: f64) -> Vector2<f64> {
+        let section = self.profile.fillet_at(normal);
+        Vector2::new(section.half_thickness, section.along) / self.module
+    }
+
+    /// Angle of the rack's normal at an arc length of the fillet, in rad.
+    fn normal(&self, arc: f64) -> f64 {
+        let next = self.fillet.partition_point(|entry| entry.0 < arc);
+        let (to, from) = (next.clamp(1, FILLET_STEPS), next.clamp(1, FILLET_STEPS) - 1);
+        let ((low, start), (high, end)) = (self.fillet[from], self.fillet[to]);
+        start + (end - start) * (arc - low) / (high - low)
+    }
+
+    /// Fills the table of the fillet and finds the point where it has turned by 45 degrees.
+    fn walk_fillet(&mut self) -> Result<(), FieldRefusal> {
+        const TURNED: (f64, f64) = (0.15, 0.9);
+        let first = self.profile.junction.normal;
+        let normals = (0..=FILLET_STEPS)
+            .map(|step| first + (FRAC_PI_2 - first) * step as f64 / FILLET_STEPS as f64);
+        let (mut arc, mut turned, mut neck) = (0.0, None, f64::INFINITY);
+        let mut last: Option<Vector2<f64>> = None;
+        for normal in normals {
+            let point = self.fillet_point(normal);
+            let chord = last.map_or(-Vector2::y(), |last| point - last);
+            if turned.is_none() && chord.x.atan2(-chord.y) >= FRAC_PI_4 {
+                turned = Some(arc);
+            }
+            arc += last.map_or(0.0, |_| chord.norm());
+            neck = neck.min(point.x);
+            self.fillet.push((arc, normal));
+            last = Some(point);
+        }
+        self.turned_length = turned.unwrap_or(arc).clamp(TURNED.0 * arc, TURNED.1 * arc);
+        if neck.is_nan() || 2.0 * neck < LEAST_THICKNESS {
+            return Err(FieldRefusal::CutThrough {
+                thickness: 2.0 * neck * self.module,
+                least: LEAST_THICKNESS * self.module,
+            });
+        }
+        Ok(())
+    }
+
+    fn check_tip(&self) -> Result<(), FieldRefusal> {
+        let thickness = self.profile.tip_thickness();
+        let least = LEAST_THICKNESS * self.module;
+        if thickness.is_nan() || thickness < least {
+            return Err(FieldRefusal::PointedTip { thickness, least });
+        }
+        Ok(())
+    }
+}
+
+/// Sizes of the elements; lengths in modules.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Grading {
+    /// Elements from the centre line of the tooth to its flank.
+    pub(super) columns: usize,
+    /// Ratio of the widths of neighbouring columns, the finest at the flank.
+    column_ratio: f64,
+    /// Elements along the boundary from the tooth block to the middle of the space.
+    space_columns: usize,
+    /// Height of the two rows below the tip's corner.
+    tip_row: f64,
+    /// Height of the row above the junction of involute and fillet.
+    junction_row: f64,
+    /// Ratio of the heights of neighbouring rows, or pairs of rows.
+    growth: f64,
+    /// Greatest height of a row on the involute.
+    flank_limit: f64,
+    /// Greatest height of a row on the fillet.
+    fillet_limit: f64,
+    /// Height of the first row of the rim.
+    rim_row: f64,
+    /// Greatest height of a row of the rim, over the radius there.
+    rim_share: f64,
+}
+
+/// Heights of the rows on the involute, from the tip down, in modules.
+#[derive(Debug, Clone, PartialEq)]
+struct FlankRows {
+    /// Heights of the rows.
+    pub(super) heights: Vec<f64>,
+    /// Numbers of the rows that end at a load.
+    pub(super) loads: Vec<usize>,
+}
+
+impl Grading {
+    /// The mesh of every field.
+    pub(super) const STANDARD: Grading = Grading {
+        columns: 6,
+        column_ratio: 1.6,
+        space_columns: 2,
+        tip_row: 0.02,
+        junction_row: 0.05,
+        growth: 1.5,
+        flank_limit: 0.15,
+        fillet_limit: 0.3,
+        rim_row: 0.2,
+        rim_share: 0.15,
+    };
+
+    /// Half of every size.
+    #[cfg(test)]
+    pub(super) fn halved(self) -> Grading {
+        Grading {
+            columns: 2 * self.columns,
+            column_ratio: self.column_ratio.sqrt(),
+            space_columns: 2 * self.space_columns,
+            tip_row: self.tip_row / 2.0,
+            junction_row: self.junction_row / 2.0,
+            growth: self.growth.sqrt(),
+            flank_limit: self.flank_limit / 2.0,
+            fillet_limit: self.fillet_limit / 2.0,
+            rim_row: self.rim_row / 2.0,
+            rim_share: self.rim_share / 2.0,
+        }
+    }
+
+    /// Twice as many loads between the outermost loads.
+    #[cfg(test)]
+    pub(super) fn with_more_loads(self) -> Grading {
+        Grading { growth: self.growth.sqrt(), flank_limit: self.flank_limit / 2.0, ..self }
+    }
+
+    /// Twice every size.
+    #[cfg(test)]
+    pub(super) fn doubled(self) -> Grading {
+        Grading {
+            columns: self.columns / 2,
+            column_ratio: self.column_ratio.powi(2),
+            space_columns: self.space_columns / 2,
+            tip_row: self.tip_row * 2.0,
+            junction_row: self.junction_row * 2.0,
+            growth: self.growth.powi(2),
+            flank_limit: self.flank_limit * 2.0,
+            fillet_limit: self.fillet_limit * 2.0,
+            rim_row: self.rim_row * 2.0,
+            rim_share: self.rim_share * 2.0,
+        }
+    }
+
+    /// Ends of the columns over the half thickness, from 0 at the centre line to 1 at the flank.
+    fn column_ends(&self) -> Vec<f64> {
+        let narrower = |width: &f64| Some(width / self.column_ratio);
+        let widths: Vec<_> =
+            std::iter::successors(Some(1.0), narrower).take(self.columns).collect();
+        ends(&scaled(&widths, 1.0))
+    }
+
+    /// Rows of an involute of the given length: pairs of equal rows with a load between them, and a
+    /// single row above the junction with the last load.
+    fn flank_rows(&self, length: f64) -> FlankRows {
+        let (mut upper, mut lower) = (vec![self.tip_row], Vec::new());
+        let mut lowest = self.junction_row;
+        let mut filled = 2.0 * self.tip_row + self.junction_row;
+        while filled < length {
+            let highest = upper[upper.len() - 1];
+            let next = (highest.min(lowest) * self.growth).min(self.flank_limit);
+            if highest < lowest {
+                upper.push(next);
+            } else {
+                lower.push(next);
+                lowest = next;
+            }
+            filled += 2.0 * next;
+        }
+        let rest = filled - 2.0 * self.tip_row;
+        let scale = (length - 2.0 * self.tip_row) / rest;
+        let mut heights = vec![self.tip_row; 2];
+        for height in upper[1..].iter().chain(lower.iter().rev()) {
+            heights.extend([height * scale; 2]);
+        }
+        heights.push(self.junction_row * scale);
+        let loads = (0..heights.len()).step_by(2).collect();
+        FlankRows { heights, loads }
+    }
+
+    /// Heights of the rows of a fillet of the given length, from the junction down. The first row
+    /// is as high as the row above the junction.
+    fn fillet_rows(&self, length: f64, first: f64) -> Vec<f64> {
+        let first = first.min(length / 2.0);
+        let mut heights = Vec::new();
+        let (mut filled, mut height) = (first, first);
+        while heights.is_empty() || filled < length {
+            height = (height * self.growth).min(self.fillet_limit);
+            filled += height;
+            heights.push(height);
+        }
+        let mut rows = vec![first];
+        rows.extend(scaled(&heights, length - first));
+        rows
+    }
+
+    /// Ends of the rows of the rim over its thickness, from 0 at the root circle to 1 at the bore.
+    fn rim_ends(&self, root: f64, bore: f64) -> Vec<f64> {
+        const LEAST_ROWS: usize = 3;
+        let mut heights = Vec::new();
+        let (mut radius, mut height) = (root, self.rim_row);
+        while radius > bore || heights.len() < LEAST_ROWS {
+            heights.push(height);
+            radius -= height;
+            height = (height * self.growth).min(self.rim_share * radius.max(bore));
+        }
+        ends(&scaled(&heights, 1.0))
+    }
+}
+
+/// The sizes, scaled to a sum.
+fn scaled(sizes: &[f64], sum: f64) -> Vec<f64> {
+    let scale = sum / sizes.iter().sum::<f64>();
+    sizes.iter().map(|size| size * scale).collect()
+}
+
+/// The end of each size, summed from 0.
+pub(super) fn ends(sizes: &[f64]) -> Vec<f64> {
+    let summed = sizes.iter().scan(0.0, |sum, size| {
+        *sum += size;
+        Some(*sum)
+    });
+    std::iter::once(0.0).chain(summed).collect()
+}
+
+/// The ends and their midpoints.
+fn with_middles(ends: &[f64]) -> Vec<f64> {
+    let halves = ends.windows(2).flat_map(|pair| [f64::midpoint(pair[0], pair[1]), pair[1]]);
+    ends.first().copied().into_iter().chain(halves).collect()
 }

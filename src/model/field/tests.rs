@@ -84,9 +84,9 @@ fn field_converges_as_the_mesh_is_halved() {
 #[test]
 fn series_agree_with_loads_between_their_sampled_loads() {
     for input in gears() {
-        let boundary = solve::boundary(&input).unwrap();
+        let boundary = boundary(&input).unwrap();
         let grading = Grading::STANDARD.with_more_loads();
-        let (loads, values) = solve::without_twist(&input, &boundary, &grading).unwrap();
+        let (loads, values) = without_twist(&input, &boundary, &grading).unwrap();
         let kept: Vec<_> =
             (0..loads.len()).filter(|load| load % 2 == 0 || load + 1 == loads.len()).collect();
         let pick = |all: &[f64]| kept.iter().map(|&load| all[load]).collect::<Vec<_>>();
@@ -138,7 +138,7 @@ fn neighbours_ahead_and_behind_agree_with_the_reference() {
             number("tip_rounding"),
         );
         (input.bore_radius, input.poisson) = (number("bore_radius"), number("poisson"));
-        let boundary = solve::boundary(&input).unwrap();
+        let boundary = boundary(&input).unwrap();
         let mesh = mesh::Mesh::of(&boundary, input.bore_radius, &Grading::STANDARD);
         let mut loads: Vec<_> =
             mesh.loads.iter().map(|place| Load::at(&mesh, &boundary, place)).collect();
@@ -146,7 +146,7 @@ fn neighbours_ahead_and_behind_agree_with_the_reference() {
         for load in 0..half {
             loads.push(Load { force: loads[load].centre.clone(), ..loads[load].clone() });
         }
-        let values = solve::under_loads(&input, &boundary, &mesh, &loads).unwrap();
+        let values = under_loads(&input, &boundary, &mesh, &loads).unwrap();
         let roll = (number("radius").powi(2) / boundary.base.powi(2) - 1.0).sqrt();
         let rolls: Vec<_> = loads[..half].iter().map(|load| load.roll).collect();
         let Some(nearest) =
@@ -172,16 +172,16 @@ fn neighbours_ahead_and_behind_agree_with_the_reference() {
 #[test]
 fn two_bores_differ_by_twist_and_shift_in_closed_form() {
     let input = gear(40, 0.0, 20.0, [1.0, 1.25], 0.38);
-    let boundary = solve::boundary(&input).unwrap();
+    let boundary = boundary(&input).unwrap();
     let at = |ratio: f64| {
         let mesh = mesh::Mesh::of(&boundary, boundary.root / ratio, &Grading::STANDARD);
         let places = mesh.loads.iter();
         let loads: Vec<_> = places.map(|place| Load::at(&mesh, &boundary, place)).collect();
-        solve::under_loads(&input, &boundary, &mesh, &loads).unwrap()
+        under_loads(&input, &boundary, &mesh, &loads).unwrap()
     };
     let (near, far) = (at(7.0), at(5.0));
-    let twist = |ratio: f64| body::twist(boundary.base, boundary.root, boundary.root / ratio, 0.3);
-    let shift = body::shift(0.3) * (7.0_f64 / 5.0).ln();
+    let twist = |ratio: f64| body_twist(boundary.base, boundary.root, boundary.root / ratio, 0.3);
+    let shift = body_shift(0.3) * (7.0_f64 / 5.0).ln();
     for (pitches, (near, far)) in (1..).zip(near.cross.iter().zip(&far.cross)) {
         let expected = twist(7.0) - twist(5.0) + shift * (PI * f64::from(pitches) / 20.0).cos();
         let rise = near[0] - far[0];
@@ -255,7 +255,7 @@ fn twist_is_the_integral_of_the_shear_strain_over_the_ring() {
         let turn = crate::numeric::quadrature::adaptive(bore, root, 1e-13, |radius| {
             base / (2.0 * PI * radius.powi(2)) / (shear_modulus * radius)
         });
-        let found = body::twist(base, root, bore, poisson);
+        let found = body_twist(base, root, bore, poisson);
         assert!((found / (base * turn) - 1.0).abs() < 1e-12, "{found} {turn}");
     }
 }
@@ -265,7 +265,7 @@ fn elimination_gives_the_schur_complement_and_the_reduced_border() {
     let dense =
         [[4.0, 1.0, 0.0, 0.5], [1.0, 5.0, 2.0, 0.0], [0.0, 2.0, 6.0, 1.0], [0.5, 0.0, 1.0, 7.0]];
     let border = [1.0, -2.0, 3.0, 0.5];
-    let mut matrix = envelope::Envelope::new(vec![0, 0, 1, 0, 0], 4);
+    let mut matrix = mode::Envelope::new(vec![0, 0, 1, 0, 0], 4);
     for (row, entries) in dense.iter().enumerate() {
         for (column, &entry) in entries.iter().enumerate().take(row + 1) {
             if entry != 0.0 {
@@ -299,7 +299,7 @@ fn elimination_gives_the_schur_complement_and_the_reduced_border() {
 
 #[test]
 fn a_matrix_that_is_not_positive_definite_is_not_eliminated() {
-    let mut matrix = envelope::Envelope::new(vec![0, 0], 2);
+    let mut matrix = mode::Envelope::new(vec![0, 0], 2);
     for (row, column, value) in [(0, 0, 1.0), (1, 0, 2.0), (1, 1, 3.0)] {
         matrix.add(row, column, value);
     }
@@ -313,12 +313,12 @@ fn a_matrix_that_is_not_positive_definite_is_not_eliminated() {
 fn the_series_of_the_surface_is_within_1e_4_of_the_loads_of_its_mesh() {
     let mut seen = 0;
     for input in gears() {
-        let boundary = solve::boundary(&input).unwrap();
+        let boundary = boundary(&input).unwrap();
         let bore = input.bore_radius.max(boundary.root / 5.0);
         let mesh = mesh::Mesh::of(&boundary, bore, &Grading::STANDARD);
         let places = mesh.all_load_places(&boundary, bore, &Grading::STANDARD);
         let loads: Vec<_> = places.iter().map(|place| Load::at(&mesh, &boundary, place)).collect();
-        let values = solve::under_loads(&input, &boundary, &mesh, &loads).unwrap();
+        let values = under_loads(&input, &boundary, &mesh, &loads).unwrap();
         let even = |all: &[f64]| all.iter().copied().step_by(2).collect::<Vec<_>>();
         let own: Vec<_> = loads.iter().step_by(2).cloned().collect();
         let fitted = Field::fitted(

@@ -3,14 +3,13 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{Compliance, ToothModel};
-use crate::model::Refusal;
 use crate::model::compliance::ElasticGear;
 use crate::model::explanation::Formula::Words;
 use crate::model::explanation::{Context, Finding, Step, four};
-use crate::model::field::body;
-use crate::model::geometry::{self, Circles, Geometry};
+use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Gear, Inputs, ToothCompliance};
 use crate::model::profile::{Profile, Rack, Section};
+use crate::model::{Refusal, field, geometry};
 use crate::numeric::{quadrature, root};
 
 /// The entry of the list.
@@ -307,8 +306,9 @@ fn foundation(profile: &Profile, gear: &ElasticGear, circles: &Circles, angle: f
     });
     let arm = (circles.base / cosine - circles.root) / (2.0 * half_angle * circles.root);
     let held = cosine * cosine * (l * arm * arm + m * arm + p) + p * q * sine * sine;
-    let twist = body::twist(circles.base, circles.root, circles.root / ratio, gear.poisson);
-    let shift = if gear.bore_radius > 0.0 { 0.0 } else { body::shift(gear.poisson) * ratio.ln() };
+    let twist = field::body_twist(circles.base, circles.root, circles.root / ratio, gear.poisson);
+    let shift =
+        if gear.bore_radius > 0.0 { 0.0 } else { field::body_shift(gear.poisson) * ratio.ln() };
     plane_strain(gear.poisson) / plane_strain(FOUNDATION_POISSON) * held - twist - shift
 }
 
