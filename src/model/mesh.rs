@@ -1,28 +1,27 @@
 //! Gap and stiffness of every tooth pair along the line of action, used by the methods `static` and
 //! `dynamic`.
 
-mod back;
 mod build;
-mod cache;
 pub(super) mod couplings;
-mod inputs;
-mod mean_stiffness;
-mod one_pair;
 mod sharing;
-mod within;
 mod zones;
 
 use std::sync::{Arc, OnceLock};
 
 use super::Refusal;
+use super::compliance::Elasticity;
 use super::compliance::flanks::Flanks;
+use super::geometry::PairShape;
+use super::inputs::Inputs;
 use super::pair_forces::{OfPairs, PITCHES, Pair, PairSet, Place};
-use cache::Cache;
+use super::relief::Reliefs;
+use crate::numeric::chebyshev::TERMS;
+use crate::numeric::polynomial::Polynomial;
+use crate::numeric::{quadrature, root};
 use couplings::Couplings;
-pub use inputs::MeshInputs;
 use sharing::Sharing;
 pub use sharing::{Line, Meeting, Of, Shares};
-use zones::{GAP, LEVER, SLIDING, Zone};
+use zones::{GAP, LEVER, SLIDING, STIFFNESS, Zone};
 
 /// The mesh as a function of s, the path of the incoming pair along the line of action since E, in
 /// m.
@@ -246,5 +245,236 @@ impl Mesh {
         found.sort_by(f64::total_cmp);
         found.dedup_by(|one, other| *one - *other <= same);
         found
+    }
+}
+
+/// Inputs of the mesh besides geometry, mesh force and error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshInputs {
+    /// Shape of the pair. For the run-out, the gears are swapped.
+    pub shape: PairShape,
+    /// Elasticity of the pair.
+    pub elasticity: Elasticity,
+    /// Reliefs of the pair.
+    pub reliefs: Reliefs,
+    /// Radii of the tip edges of driver and driven gear, in m.
+    pub tip_radii: [Option<f64>; 2],
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+    /// Friction coefficient; 0 if the case gives none.
+    pub friction: f64,
+}
+
+impl Inputs {
+    /// Inputs of the mesh.
+    #[must_use]
+    pub fn mesh(&self) -> MeshInputs {
+        MeshInputs {
+            shape: self.shape(),
+            elasticity: self.elasticity(),
+            reliefs: self.reliefs(),
+            tip_radii: [self.driver.tip_radius, self.driven.tip_radius],
+            speed: self.speed,
+            friction: self.friction_coefficient.unwrap_or(0.0),
+        }
+    }
+}
+
+impl MeshInputs {
+    /// Inputs of the mesh of a case at any speed.
+    #[must_use]
+    pub fn at_any_speed(inputs: &Inputs) -> MeshInputs {
+        inputs.mesh().at_speed(1.0)
+    }
+
+    fn driven_speed(&self) -> f64 {
+        self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
+    }
+
+    /// The inputs at another speed of the driver, in rad/s.
+    #[must_use]
+    pub fn at_speed(self, speed: f64) -> MeshInputs {
+        MeshInputs { speed, ..self }
+    }
+
+    /// The inputs with the gears swapped.
+    fn swapped(&self) -> MeshInputs {
+        let MeshInputs { shape, elasticity, reliefs, tip_radii: [driver_tip, driven_tip], .. } =
+            *self;
+        MeshInputs {
+            shape: PairShape { driver: shape.driven, driven: shape.driver, ..shape },
+            elasticity: Elasticity {
+                driver: elasticity.driven,
+                driven: elasticity.driver,
+                ..elasticity
+            },
+            reliefs: Reliefs { driver: reliefs.driven, driven: reliefs.driver, ..reliefs },
+            tip_radii: [driven_tip, driver_tip],
+            speed: self.driven_speed(),
+            friction: self.friction,
+        }
+    }
+}
+
+impl Mesh {
+    /// Stiffness and gap of a pair, including its error.
+    pub(super) fn spring(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let at = s + f64::from(ahead) * self.base_pitch;
+        let [stiffness, gap] = self.zones[zone].series.at(at);
+        (stiffness, gap - self.error_of(ahead))
+    }
+
+    /// Stiffness of the incoming pair just after E over its stiffness just before E.
+    #[must_use]
+    pub fn stiffness_step(&self) -> f64 {
+        let beside = 1e-9 * self.base_pitch;
+        let [before, after] = [-beside, beside].map(|s| self.spring(0, self.zone(s), 0.0).0);
+        after / before
+    }
+
+    /// Stiffness and gap of a pair from `s` to `s + length`, including its error, as polynomials
+    /// from 0 to 1.
+    pub(super) fn spring_along(
+        &self,
+        ahead: i32,
+        zone: usize,
+        s: f64,
+        length: f64,
+    ) -> [Polynomial<TERMS>; 2] {
+        let [stiffness, mut gap] =
+            self.zones[zone].series.local(STIFFNESS, self.above(ahead, s), length);
+        gap.0[0] -= self.error_of(ahead);
+        [stiffness, gap]
+    }
+
+    /// The gap of a pair, see [`Mesh::spring_along`].
+    pub(super) fn gap_along(
+        &self,
+        ahead: i32,
+        zone: usize,
+        s: f64,
+        length: f64,
+    ) -> Polynomial<TERMS> {
+        let [mut gap] = self.zones[zone].series.local(GAP, self.above(ahead, s), length);
+        gap.0[0] -= self.error_of(ahead);
+        gap
+    }
+
+    /// Between what values its gap is on the piece that serves from `s` up.
+    pub(super) fn gap_bounds(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let (low, high) = self.zones[zone].series.bounds(GAP, self.above(ahead, s));
+        let error = self.error_of(ahead);
+        (low - error, high - error)
+    }
+
+    /// Arm of the friction force over the driver's base radius, and sliding velocity, as
+    /// polynomials, see [`Mesh::spring_along`].
+    pub(super) fn slide_along(
+        &self,
+        ahead: i32,
+        zone: usize,
+        s: f64,
+        length: f64,
+    ) -> [Polynomial<TERMS>; 2] {
+        let [lever, sliding] = self.zones[zone].series.local(LEVER, self.above(ahead, s), length);
+        [lever, sliding.scaled(self.driver_speed)]
+    }
+
+    /// Length from `s` on in which these polynomials are valid, within the zone.
+    pub(super) fn serves_until(&self, ahead: i32, zone: usize, s: f64) -> f64 {
+        let (at, least) = self.above(ahead, s);
+        s + (self.zones[zone].series.serves_until(at, least) - at)
+    }
+
+    /// The place of a pair, and the distance below which two places are equal.
+    pub(super) fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
+        (s + f64::from(ahead) * self.base_pitch, 16.0 * f64::EPSILON * s.abs())
+    }
+
+    /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.
+    pub(super) fn slide(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let at = s + f64::from(ahead) * self.base_pitch;
+        let [_, _, lever, sliding] = self.zones[zone].series.at(at);
+        (lever, self.driver_speed * sliding)
+    }
+}
+
+impl Mesh {
+    /// The mesh without the places before E and after B where the gap exceeds `gap`, in m. Pairs
+    /// at these places are no longer part of it.
+    pub(super) fn within(&self, gap: f64) -> Mesh {
+        let (mut from, mut to) = self.ends();
+        for zone in self.zones.iter().filter(|zone| zone.to <= 0.0) {
+            from = zone.border(gap, (zone.from, zone.to)).unwrap_or(from);
+        }
+        let after = self.zones.iter().filter(|zone| zone.from >= self.length);
+        for zone in after.rev() {
+            to = zone.border(gap, (zone.to, zone.from)).unwrap_or(to);
+        }
+        let kept = self.zones.iter().filter(|zone| zone.to > from && zone.from < to);
+        let zones = kept.map(|zone| Zone {
+            from: zone.from.max(from),
+            to: zone.to.min(to),
+            ..zone.clone()
+        });
+        Mesh {
+            zones: Arc::new(zones.collect()),
+            sharing: Arc::default(),
+            back: Arc::default(),
+            is_whole: false,
+            ..self.clone()
+        }
+    }
+}
+
+impl Zone {
+    /// The place between the end far from the line of action and the near end where the gap is
+    /// `gap`. `None` if the gap does not pass this value.
+    fn border(&self, gap: f64, (far, near): (f64, f64)) -> Option<f64> {
+        let beyond = |s: f64| self.series.one(GAP, s) - gap;
+        (beyond(far) > 0.0 && beyond(near) <= 0.0).then(|| root::between(far, near, beyond))
+    }
+}
+
+impl Mesh {
+    /// Mean stiffness of the mesh over a base pitch, with the pairs on the line of action, in N/m.
+    #[must_use]
+    pub fn mean_stiffness(&self) -> f64 {
+        let mean = || self.stiffness_on_line() / self.base_pitch;
+        *self.mean_stiffness.0.get_or_init(mean)
+    }
+
+    /// ∫ of the stiffness of all pairs on the line of action over a base pitch, in N.
+    fn stiffness_on_line(&self) -> f64 {
+        /// Of the integral between two borders.
+        const TOLERANCE: f64 = 1e-12;
+        let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= self.length;
+        let zones = self.zones.iter().filter(on_line);
+        if self.couplings.is_none() {
+            return zones.map(|zone| zone.series.integral(STIFFNESS)).sum();
+        }
+        let line = Mesh { zones: Arc::new(zones.cloned().collect()), ..self.clone() };
+        let stiffness = |s: f64, inside: f64| {
+            let pairs = line.pair_set(s, inside).of_no_gap();
+            pairs.forces(1.0).iter().sum::<f64>()
+        };
+        // The borders of the line alone: the places beyond it depend on the computed range.
+        let borders = line.borders(0.0, self.base_pitch);
+        let over = |ends: &[f64]| {
+            let (from, to) = (ends[0], ends[1]);
+            let inside = f64::midpoint(from, to);
+            quadrature::adaptive(from, to, TOLERANCE, |s| stiffness(s, inside))
+        };
+        borders.windows(2).map(over).sum()
+    }
+}
+
+/// A cached value, which does not affect the equality of meshes.
+#[derive(Debug, Default)]
+struct Cache<T>(T);
+
+impl<T> PartialEq for Cache<T> {
+    fn eq(&self, _: &Cache<T>) -> bool {
+        true
     }
 }

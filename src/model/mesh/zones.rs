@@ -1,7 +1,7 @@
 //! The zones of a mesh: the line of action, and the ranges before and after it with contact of a
 //! tip.
 
-use super::inputs::MeshInputs;
+use super::MeshInputs;
 use crate::model::Refusal;
 use crate::model::compliance::ContactPlace;
 use crate::model::compliance::contact::HalfWidth;
