@@ -11,11 +11,11 @@ use std::cell::RefCell;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::Refusal;
-use super::geometry::{GearShape, circles};
+use super::geometry::GearShape;
 pub use super::limits::field::FieldRefusal;
 use super::limits::field::POISSON;
 use super::profile::{Profile, Rack};
+use super::{Refusal, geometry};
 use crate::numeric::real::Lanes;
 use element::{Load, Material};
 use fit::{Abscissa, CrossSeries, Flank, Interpolation, Series};

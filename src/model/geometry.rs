@@ -1,18 +1,12 @@
-//! Involute geometry of the pair: circles, line of action, start of contact.
-
-mod circles;
-mod shape;
-mod tip_losses;
+//! Involute geometry of the pair: circles, line of action, start of contact, and the force along the
+//! line of action.
 
 use nalgebra::{Matrix2, Rotation2, Vector2};
 use twofloat::TwoFloat;
 
 use super::Refusal;
+use super::inputs::{Gear, Inputs, Method};
 use crate::numeric::Real;
-pub use circles::{Circles, circles};
-pub use shape::{GearShape, GeometryInputs, PairShape};
-pub use tip_losses::TipLosses;
-use tip_losses::tip_losses;
 
 /// A difference below this part of its terms is computed in double-double arithmetic, because f64
 /// would lose two or more digits.
@@ -283,4 +277,328 @@ impl<T: Real> Geometry<T> {
             start_point: self.start_point.map(Real::rounded),
         }
     }
+}
+
+/// Inputs of the geometry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GeometryInputs {
+    /// Shape of the pair.
+    pub shape: PairShape,
+    /// Bore radii of driver and driven gear, in m. A thin wall needs double-double arithmetic.
+    pub bores: [f64; 2],
+    /// Whether the case requests double-double arithmetic.
+    pub is_accurate: bool,
+}
+
+impl GeometryInputs {
+    /// Selects the stage inputs from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> GeometryInputs {
+        GeometryInputs {
+            shape: inputs.shape(),
+            bores: inputs.bores(),
+            is_accurate: inputs.accurate,
+        }
+    }
+}
+
+/// Shape of the pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairShape {
+    /// Module m, in m.
+    pub module: f64,
+    /// Pressure angle α, in rad.
+    pub pressure_angle: f64,
+    /// Centre distance a, in m; `None` for a mesh without backlash.
+    pub centre_distance: Option<f64>,
+    /// Shape of the driver.
+    pub driver: GearShape,
+    /// Shape of the driven gear.
+    pub driven: GearShape,
+}
+
+/// Shape of one gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearShape {
+    /// Number of teeth z.
+    pub teeth: u32,
+    /// Profile shift coefficient x.
+    pub profile_shift: f64,
+    /// Addendum coefficient h_a*.
+    pub addendum: f64,
+    /// Tip diameter before the chamfer, in m, which replaces the coefficient.
+    pub tip_diameter: Option<f64>,
+    /// Dedendum coefficient h_fP*.
+    pub dedendum: f64,
+    /// Root diameter, in m, which replaces the coefficient.
+    pub root_diameter: Option<f64>,
+    /// Radial tip chamfer, in m.
+    pub tip_chamfer: f64,
+    /// Radius of the rounding of the tip's edge, in m; `None` for a sharp tip.
+    pub tip_radius: Option<f64>,
+}
+
+impl Gear {
+    /// Addendum coefficient: h_a* = d_a/(2 m) − z/2 − x if the tip diameter is given, otherwise the
+    /// given coefficient. The module is in m.
+    #[must_use]
+    pub fn addendum_coefficient(&self, module: f64) -> f64 {
+        self.tip_diameter
+            .map_or(self.addendum, |diameter| self.height_of(diameter, module) - self.profile_shift)
+    }
+
+    /// Dedendum coefficient: h_fP* = z/2 + x − d_f/(2 m) if the root diameter is given, otherwise
+    /// the given coefficient. The module is in m.
+    #[must_use]
+    pub fn dedendum_coefficient(&self, module: f64) -> f64 {
+        self.root_diameter
+            .map_or(self.dedendum, |diameter| self.profile_shift - self.height_of(diameter, module))
+    }
+
+    /// Height of a circle above the reference circle, times the module.
+    fn height_of(&self, diameter: f64, module: f64) -> f64 {
+        (diameter - module * f64::from(self.teeth)) / (2.0 * module)
+    }
+
+    /// Shape of the gear with a module in m.
+    #[must_use]
+    pub fn shape(&self, module: f64) -> GearShape {
+        GearShape {
+            teeth: self.teeth,
+            profile_shift: self.profile_shift,
+            addendum: self.addendum_coefficient(module),
+            tip_diameter: self.tip_diameter,
+            dedendum: self.dedendum_coefficient(module),
+            root_diameter: self.root_diameter,
+            tip_chamfer: self.tip_chamfer,
+            tip_radius: self.tip_radius,
+        }
+    }
+}
+
+impl Inputs {
+    /// Shape of the pair. The method `paper` has only sharp tips.
+    #[must_use]
+    pub fn shape(&self) -> PairShape {
+        let shape = |gear: &Gear| {
+            let shape = gear.shape(self.module);
+            let tip_radius = shape.tip_radius.filter(|_| self.method != Method::Paper);
+            GearShape { tip_radius, ..shape }
+        };
+        PairShape {
+            module: self.module,
+            pressure_angle: self.pressure_angle,
+            centre_distance: self.centre_distance,
+            driver: shape(&self.driver),
+            driven: shape(&self.driven),
+        }
+    }
+
+    /// Bore radii of driver and driven gear, in m.
+    #[must_use]
+    pub fn bores(&self) -> [f64; 2] {
+        [self.driver.bore_radius, self.driven.bore_radius]
+    }
+}
+
+/// Circles of one gear, in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Circles<T = f64> {
+    /// Reference radius r = m z/2.
+    pub reference: T,
+    /// Base radius r_b = r cos α.
+    pub base: T,
+    /// Active tip radius r_a after the chamfer.
+    pub tip: T,
+    /// Radius of curvature of the involute at its end, L_f: √(r_a² − r_b²) at a sharp tip.
+    pub tip_curvature: T,
+    /// Radius r_e of the rounding of the tip's edge; 0 for a sharp tip.
+    pub edge: T,
+    /// Root radius r_f = r + m (x − h_fP*).
+    pub root: T,
+}
+
+/// Circles of one gear, cut by a rack of a module in m and a pressure angle in rad.
+///
+/// # Errors
+/// [`Refusal::PointedRack`], [`Refusal::TipInsideBase`], and for the rounding of the tip
+/// [`Refusal::RoundingInsideBase`] and [`Refusal::RoundingTooWide`]. Each names the field of the
+/// driver.
+pub fn circles<T: Real>(
+    module: f64,
+    pressure_angle: f64,
+    gear: &GearShape,
+) -> Result<Circles<T>, Refusal> {
+    let (module, alpha): (T, T) = (module.into(), pressure_angle.into());
+    let (half, two): (T, T) = (0.5.into(), 2.0.into());
+    let shift: T = gear.profile_shift.into();
+    let reference = module * T::count(gear.teeth) * half;
+    let base = reference * alpha.sine_cosine().1;
+    let above_reference = |diameter: f64| <T as From<f64>>::from(diameter) * half - reference;
+    let height =
+        gear.tip_diameter.map_or_else(|| module * (shift + gear.addendum.into()), above_reference)
+            - gear.tip_chamfer.into();
+    let half_sine = (alpha * half).sine_cosine().0;
+    let most_dedendum = std::f64::consts::FRAC_PI_4 / pressure_angle.tan();
+    if gear.dedendum >= most_dedendum {
+        return Err(Refusal::PointedRack {
+            field: "driver.dedendum",
+            dedendum: gear.dedendum,
+            limit: most_dedendum,
+        });
+    }
+    let over_base = two * reference * half_sine * half_sine + height;
+    if over_base <= T::zero() {
+        let is_cut = over_base + gear.tip_chamfer.into() > T::zero();
+        return Err(Refusal::TipInsideBase {
+            field: if is_cut { "driver.tip_chamfer" } else { "driver.addendum" },
+            tip: (reference + height).rounded(),
+            base: base.rounded(),
+        });
+    }
+    let tip = reference + height;
+    let edge: T = gear.tip_radius.unwrap_or(0.0).into();
+    let centre_over_base = over_base - edge;
+    if centre_over_base <= T::zero() {
+        return Err(Refusal::RoundingInsideBase {
+            field: "driver.tip_radius",
+            radius: edge.rounded(),
+            limit: over_base.rounded(),
+        });
+    }
+    let centre_curvature = (centre_over_base * (tip - edge + base)).root();
+    if edge > T::zero() {
+        check_room(pressure_angle, gear, [base, centre_curvature, edge].map(Real::rounded))?;
+    }
+    Ok(Circles {
+        reference,
+        base,
+        tip,
+        tip_curvature: centre_curvature + edge,
+        edge,
+        root: reference
+            + gear
+                .root_diameter
+                .map_or_else(|| module * (shift - gear.dedendum.into()), above_reference),
+    })
+}
+
+/// Refuses a rounding that is too large for the tooth: its arc would begin beyond the centre line
+/// of the tooth.
+///
+/// # Formula
+/// ```text
+/// (π/2 + 2 x tan α)/z + inv α − inv acos(rb/rC) − re/rb >= 0
+/// ```
+fn check_room(
+    pressure_angle: f64,
+    gear: &GearShape,
+    [base, centre_curvature, radius]: [f64; 3],
+) -> Result<(), Refusal> {
+    let tangent = pressure_angle.tan();
+    let half_angle = (std::f64::consts::FRAC_PI_2 + 2.0 * gear.profile_shift * tangent)
+        / f64::from(gear.teeth)
+        + tangent
+        - pressure_angle;
+    let roll = centre_curvature / base;
+    let room = half_angle - (roll - roll.atan()) - radius / base;
+    if room < 0.0 {
+        return Err(Refusal::RoundingTooWide {
+            field: "driver.tip_radius",
+            radius,
+            lack: -room * base,
+        });
+    }
+    Ok(())
+}
+
+impl<T: Real> Circles<T> {
+    pub(super) fn rounded(self) -> Circles {
+        Circles {
+            reference: self.reference.rounded(),
+            base: self.base.rounded(),
+            tip: self.tip.rounded(),
+            tip_curvature: self.tip_curvature.rounded(),
+            edge: self.edge.rounded(),
+            root: self.root.rounded(),
+        }
+    }
+}
+
+impl Circles {
+    /// The circles of the gear with a sharp tip.
+    #[must_use]
+    pub fn sharp(&self) -> Circles {
+        if self.edge <= 0.0 {
+            return *self;
+        }
+        Circles {
+            tip_curvature: ((self.tip - self.base) * (self.tip + self.base)).sqrt(),
+            edge: 0.0,
+            ..*self
+        }
+    }
+
+    /// Radius at which the involute ends, in m: the tip radius for a sharp tip.
+    #[must_use]
+    pub fn involute_end(&self) -> f64 {
+        if self.edge <= 0.0 { self.tip } else { self.base.hypot(self.tip_curvature) }
+    }
+}
+
+/// The removed parts of the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TipLosses {
+    /// The sum of the removed parts, in m.
+    pub total: f64,
+    /// The key of the tip chamfer or tip radius that removes the greatest part; `None` for whole
+    /// tips.
+    pub greatest: Option<&'static str>,
+}
+
+/// The removed parts of the path of contact of a pair, with the circles of driver and driven gear.
+#[must_use]
+fn tip_losses(shape: &PairShape, driver: &Circles, driven: &Circles) -> TipLosses {
+    let [driver_chamfer, driver_radius] = losses(&shape.driver, driver);
+    let [driven_chamfer, driven_radius] = losses(&shape.driven, driven);
+    let all = [
+        (driver_chamfer, "driver.tip_chamfer"),
+        (driver_radius, "driver.tip_radius"),
+        (driven_chamfer, "driven.tip_chamfer"),
+        (driven_radius, "driven.tip_radius"),
+    ];
+    let greatest = all.iter().max_by(|one, other| one.0.total_cmp(&other.0));
+    TipLosses {
+        total: all.iter().map(|(loss, _)| loss).sum(),
+        greatest: greatest.filter(|(loss, _)| *loss > 0.0).map(|(_, key)| *key),
+    }
+}
+
+/// The parts that the chamfer and the rounding of one gear remove, in m.
+fn losses(gear: &GearShape, circles: &Circles) -> [f64; 2] {
+    let curvature = |radius: f64| ((radius - circles.base) * (radius + circles.base)).sqrt();
+    let chamfered = curvature(circles.tip);
+    [curvature(circles.tip + gear.tip_chamfer) - chamfered, chamfered - circles.tip_curvature]
+        .map(|loss| loss.max(0.0))
+}
+
+/// Inputs of the mesh force, besides the geometry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadInputs {
+    /// Torque on the driver T₁, in N m.
+    pub torque: f64,
+}
+
+impl LoadInputs {
+    /// Selects the stage inputs from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> LoadInputs {
+        LoadInputs { torque: inputs.torque() }
+    }
+}
+
+/// Mesh force F₀ = T₁/r_b1, in N.
+#[must_use]
+pub fn mesh_force(inputs: &LoadInputs, geometry: &Geometry) -> f64 {
+    inputs.torque / geometry.driver.base
 }

@@ -1,14 +1,11 @@
 //! The profile of a tooth: the involute and the trochoidal fillet of the cutting rack.
 
-mod rack;
-mod section;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use nalgebra::Point2;
+
 use super::geometry::Circles;
-use rack::RACK_ROUNDING;
-pub use rack::Rack;
-pub use section::Section;
+use super::inputs::{Gear, Inputs};
 
 /// A tooth's profile in a frame whose x axis is the tooth's centre line, from the gear's centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +54,7 @@ impl Profile {
 
     /// The profile without the search for the junction, for the involute alone.
     #[must_use]
-    pub(in crate::model) fn of_flank(rack: &Rack, circles: &Circles) -> Profile {
+    pub(super) fn of_flank(rack: &Rack, circles: &Circles) -> Profile {
         Profile::without_junction(rack, circles, RACK_ROUNDING)
     }
 
@@ -244,6 +241,77 @@ impl Profile {
 /// inv t = tan t − t.
 fn involute(angle: f64) -> f64 {
     angle.tan() - angle
+}
+
+/// Tip rounding of the standard basic rack, in modules (ISO 53, profile A), if the tip is wide
+/// enough.
+const RACK_ROUNDING: f64 = 0.38;
+
+/// The rack that cuts a gear: the inputs of the tooth profile besides its circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rack {
+    /// Module m, in m.
+    pub module: f64,
+    /// Pressure angle α, in rad.
+    pub pressure_angle: f64,
+    /// Number of teeth z of the gear.
+    pub teeth: u32,
+    /// Profile shift coefficient x.
+    pub profile_shift: f64,
+    /// Dedendum coefficient h_fP*.
+    pub dedendum: f64,
+}
+
+impl Rack {
+    /// The rack of a gear of the pair.
+    #[must_use]
+    pub fn of(inputs: &Inputs, gear: &Gear) -> Rack {
+        Rack {
+            module: inputs.module,
+            pressure_angle: inputs.pressure_angle,
+            teeth: gear.teeth,
+            profile_shift: gear.profile_shift,
+            dedendum: gear.dedendum_coefficient(inputs.module),
+        }
+    }
+
+    /// Radius of the rack's tip rounding, in modules.
+    fn rounding(&self) -> f64 {
+        self.fitting(RACK_ROUNDING)
+    }
+
+    /// The given rounding, or the largest one that fits the tip, in modules.
+    fn fitting(&self, rounding: f64) -> f64 {
+        let (sine, cosine) = self.pressure_angle.sin_cos();
+        let room = (PI / 4.0 * cosine - self.dedendum * sine) / (1.0 - sine);
+        rounding.min(room).max(0.0)
+    }
+
+    /// Least profile shift without undercut, h_fP* − ρ_fP* (1 − sin α) − z sin²α/2.
+    #[must_use]
+    pub fn least_shift(&self) -> f64 {
+        let sine = self.pressure_angle.sin();
+        self.dedendum - self.rounding() * (1.0 - sine) - f64::from(self.teeth) * sine * sine / 2.0
+    }
+}
+
+/// A section of the tooth across its centre line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// Distance from the gear's centre along the centre line, in m.
+    pub along: f64,
+    /// Half of the thickness, in m.
+    pub half_thickness: f64,
+    /// Change of `along` with the parameter.
+    pub slope: f64,
+}
+
+impl Section {
+    /// The end of the section on the flank, y above 0.
+    #[must_use]
+    pub fn point(&self) -> Point2<f64> {
+        Point2::new(self.along, self.half_thickness)
+    }
 }
 
 #[cfg(test)]

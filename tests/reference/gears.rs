@@ -3,7 +3,7 @@
 use serde_json::Value;
 use tipstrike::model::field::{Field, FieldInput};
 use tipstrike::model::geometry::Circles;
-use tipstrike::model::inertia::polar_moment;
+use tipstrike::model::masses::polar_moment;
 use tipstrike::model::profile::{Profile, Rack};
 
 const MILLIMETRE: f64 = 1e-3;

@@ -6,9 +6,8 @@ use twofloat::TwoFloat;
 
 use crate::model::clearing::{ClearingInputs, clearing};
 use crate::model::deviation::GivenDeviations;
-use crate::model::geometry::{GeometryInputs, precise};
+use crate::model::geometry::{GeometryInputs, LoadInputs, mesh_force, precise};
 use crate::model::inputs::Inputs;
-use crate::model::load::{LoadInputs, mesh_force};
 use crate::model::masses::{MassInputs, Masses};
 use crate::model::relief::check_reliefs;
 use crate::model::request::{Earlier, Request};
