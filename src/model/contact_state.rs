@@ -10,8 +10,8 @@ use super::gear_pose::{on_line_of_action, tip_point};
 use super::geometry::geometry;
 use super::inputs::Inputs;
 use super::interpolate::Interpolated;
+use super::position::{VelocityInputs, velocity};
 use super::tip_gap::{TipContact, gap_without, tip_at};
-use super::velocity::{VelocityInputs, velocity};
 use super::{Geometry, Solution};
 
 /// Greatest angle of a tip beyond its end of the path of contact, in rad of its gear.

@@ -1,4 +1,8 @@
-//! The deviation that makes the tooth early: equivalent error and combined deflection.
+//! The deviation that makes the tooth early: equivalent error and combined deflection. The base pitch
+//! deviation of a gear is given by the case or comes from its flank tolerance class.
+
+use std::f64::consts::SQRT_2;
+use std::ops::RangeInclusive;
 
 use smallvec::SmallVec;
 use twofloat::TwoFloat;
@@ -6,7 +10,7 @@ use twofloat::TwoFloat;
 use super::Refusal;
 use super::compliance::{ContactPlace, Elasticity, PairCompliance, Teeth};
 use super::geometry::Geometry;
-use super::inputs::{Combination, Inputs, Method};
+use super::inputs::{Combination, Gear, Inputs, Method};
 use super::pair_forces::{PITCHES, Pair, PairSet};
 use crate::numeric::Real;
 
@@ -153,7 +157,7 @@ fn modification(inputs: &GivenDeviations) -> TwoFloat {
 ///
 /// # Source
 /// Zhou & Chen 2014, Eq. 1, for independent deviations. Deviations that are known add.
-pub(super) fn pitch_error([driver, driven]: [f64; 2], combination: Combination) -> TwoFloat {
+fn pitch_error([driver, driven]: [f64; 2], combination: Combination) -> TwoFloat {
     match combination {
         Combination::Sum => TwoFloat::new_add(driver, driven),
         Combination::Independent if driver.to_bits() == driven.to_bits() => {
@@ -374,6 +378,159 @@ impl<T: Real> Deviation<T> {
             combined_deflection: self.combined_deflection.rounded(),
             neighbour_deflection: self.neighbour_deflection.rounded(),
             total: self.total.rounded(),
+        }
+    }
+}
+
+/// Source of a gear's base pitch deviation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// The gear's own value.
+    Own,
+    /// The gear's flank tolerance class.
+    Grade,
+    /// The value that both gears share.
+    Common,
+}
+
+/// Why ISO 1328-1:2013 does not cover a gear, or `None` if it does.
+#[must_use]
+pub fn out_of_range(module: f64, teeth: u32) -> Option<&'static str> {
+    let diameter = module * f64::from(teeth);
+    if !(0.5e-3..=70e-3).contains(&module) {
+        Some("modules from 0.5 to 70 mm")
+    } else if !(5e-3..=15.0).contains(&diameter) {
+        Some("reference diameters from 5 to 15000 mm")
+    } else {
+        None
+    }
+}
+
+impl Inputs {
+    /// Base pitch deviation f_pb of a gear of the pair, in m, and its source. The gear's own value
+    /// has priority over its flank tolerance class, and the class over the common value.
+    ///
+    /// # Formula
+    /// ```text
+    /// f_pb = f_pT cos α  for a flank tolerance class
+    /// ```
+    #[must_use]
+    pub fn base_pitch_of(&self, gear: &Gear) -> (f64, Origin) {
+        match (gear.base_pitch, gear.grade) {
+            (Some(own), _) => (own, Origin::Own),
+            (None, Some(grade)) => {
+                let diameter = self.module * f64::from(gear.teeth);
+                let allowed =
+                    base_pitch_tolerance(grade, self.module, diameter, self.pressure_angle);
+                (allowed, Origin::Grade)
+            }
+            (None, None) => (self.base_pitch_deviation, Origin::Common),
+        }
+    }
+
+    /// Single pitch deviation f_pT of a gear's flank tolerance class, in m.
+    #[must_use]
+    pub fn graded_pitch(&self, gear: &Gear) -> Option<f64> {
+        let diameter = self.module * f64::from(gear.teeth);
+        Some(pitch_tolerance(gear.grade?, self.module, diameter))
+    }
+
+    /// Base pitch deviations of driver and driven gear, in m.
+    #[must_use]
+    pub fn base_pitches(&self) -> [f64; 2] {
+        [&self.driver, &self.driven].map(|gear| self.base_pitch_of(gear).0)
+    }
+
+    /// How the base pitch deviations add. Deviations of unlike sign are known with their signs, so
+    /// that they add.
+    #[must_use]
+    pub fn effective_combination(&self) -> Combination {
+        let [driver, driven] = self.base_pitches();
+        if driver * driven < 0.0 { Combination::Sum } else { self.combination }
+    }
+
+    /// The common base pitch deviation of both gears whose combined deviation is that of this pair
+    /// plus `more`, in m.
+    #[must_use]
+    pub fn common_base_pitch(&self, more: f64) -> f64 {
+        let error = pitch_error(self.base_pitches(), self.effective_combination()).rounded();
+        let times = match self.combination {
+            Combination::Independent => SQRT_2,
+            Combination::Sum => 2.0,
+        };
+        (error + more) / times
+    }
+
+    /// Whether a gear has its own base pitch deviation or flank tolerance class.
+    #[must_use]
+    pub fn has_own_base_pitch(&self) -> bool {
+        [&self.driver, &self.driven]
+            .into_iter()
+            .any(|gear| self.base_pitch_of(gear).1 != Origin::Common)
+    }
+}
+
+/// The flank tolerance classes of the standard.
+pub const CLASSES: RangeInclusive<u32> = 1..=11;
+
+const MICROMETRES: f64 = 1e6;
+const MILLIMETRES: f64 = 1e3;
+
+/// Single pitch tolerance f_pT of a gear with the module m and the reference diameter d, both in m.
+/// The result is in m.
+///
+/// # Formula
+/// ```text
+/// f_pT = (0.001 d + 0.4 m + 5) 2^((A − 5)/2)   in µm, with d and m in mm
+/// ```
+/// A is the class. The result is rounded to 1 µm above 10 µm, to 0.5 µm from 5 µm on, otherwise to
+/// 0.1 µm.
+///
+/// # Source
+/// ISO 1328-1:2013, section 5.
+#[must_use]
+pub fn pitch_tolerance(class: u32, module: f64, diameter: f64) -> f64 {
+    let fifth = 0.001 * diameter * MILLIMETRES + 0.4 * module * MILLIMETRES + 5.0;
+    let exact = fifth * (0.5 * (f64::from(class) - 5.0)).exp2();
+    let step = match exact {
+        _ if exact > 10.0 => 1.0,
+        _ if exact >= 5.0 => 2.0,
+        _ => 10.0,
+    };
+    (exact * step).round() / step / MICROMETRES
+}
+
+/// Base pitch tolerance f_pb = f_pT cos α, in m.
+#[must_use]
+pub fn base_pitch_tolerance(class: u32, module: f64, diameter: f64, pressure_angle: f64) -> f64 {
+    pitch_tolerance(class, module, diameter) * pressure_angle.cos()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_own_value_replaces_the_class_and_the_class_replaces_the_common_value() {
+        let mut inputs = crate::model::sample::standard_pair(20, 20, 5e-3);
+        inputs.base_pitch_deviation = 3e-6;
+        let bits = |inputs: &crate::model::Inputs| inputs.base_pitches().map(f64::to_bits);
+        let of = |values: [f64; 2]| values.map(f64::to_bits);
+        assert_eq!(bits(&inputs), of([3e-6, 3e-6]));
+        inputs.driver.grade = Some(7);
+        let by_grade = 14e-6 * 20f64.to_radians().cos();
+        assert_eq!(bits(&inputs), of([by_grade, 3e-6]));
+        inputs.driver.base_pitch = Some(5e-6);
+        assert_eq!(bits(&inputs), of([5e-6, 3e-6]));
+    }
+
+    #[test]
+    fn tolerances_agree_with_the_standard() {
+        for (class, module, diameter, micrometres) in
+            [(5, 2e-3, 0.1, 6.0), (6, 2e-3, 0.1, 8.5), (7, 5e-3, 0.1, 14.0), (1, 1e-3, 0.02, 1.4)]
+        {
+            let allowed = pitch_tolerance(class, module, diameter);
+            assert!((allowed * 1e6 - micrometres).abs() < 1e-9, "{class}: {allowed}");
         }
     }
 }

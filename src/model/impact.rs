@@ -1,14 +1,17 @@
-//! Force, energy and duration of the impact.
+//! Force, energy and duration of the impact, its friction, and the spread of its force over the
+//! stiffness models.
 
 use std::f64::consts::PI;
 
-use super::compliance::ComplianceInputs;
-use super::compliance::contact::{ContactSpring, plane_strain_compliance};
+use super::compliance::contact::{ContactModel, ContactSpring, plane_strain_compliance};
+use super::compliance::tooth::ToothModel;
+use super::compliance::{ComplianceInputs, contact, model_of, tooth};
+use super::deviation::DeviationInputs;
 use super::geometry::Geometry;
-use super::inputs::{Inputs, Method};
+use super::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
 use super::masses::Masses;
-use super::position::reduced_curvature;
-use super::tip_gap::TipContact;
+use super::position::{PositionInputs, VelocityInputs, reduced_curvature};
+use super::tip_gap::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Refusal, TeethCompliance, Velocity};
 
 /// The impact at D.
@@ -170,3 +173,288 @@ pub fn impact(
 /// The factor of Hertz's duration that Eq. 32 omits: 2.868265699 π^(2/5). The first factor is 2
 /// (15/16)^(2/5) ∫₀¹ dx/√(1 − x^(5/2)).
 pub const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;
+
+/// Inputs of the friction ratio, besides geometry, masses and the impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionInputs {
+    /// `paper` uses Eq. 34 as printed.
+    pub method: Method,
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+}
+
+impl FrictionInputs {
+    /// Selects the stage inputs from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> FrictionInputs {
+        FrictionInputs { method: inputs.method, speed: inputs.speed }
+    }
+}
+
+/// Change of the velocities between D and D'.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// |change of ΔV_τ|/|change of ΔV_n|, Eqs. 44, 45, 64. `None` if D' does not exist.
+    pub ratio: Option<f64>,
+}
+
+/// The ratio of the changes of sliding and approach velocity between D and D'.
+///
+/// # Formula
+/// ```text
+/// f = |ΔV_D'τ − ΔV_Dτ|/|ΔV_D'n − ΔV_Dn|,   V_D2' = V_D2 + FS TS/m_red,   TS by Eq. 32 as printed
+/// ```
+///
+/// # Source
+/// Zhou & Chen 2014, Eqs. 29-45 and 64. Corrected: m_red in kg in Eq. 31; in Eq. 34, O₁D' follows
+/// from the chord instead of the arc of Eq. 36; Eq. 42 is the law of cosines; Eqs. 44 and 45 are
+/// the changes between D and D'. The method `paper` uses D' of Eq. 34, although the angle at O₁ in
+/// its triangle is not Δθ. `exact` uses the driven tip at u − ω₂ T_S, at most at E.
+///
+/// # Valid for
+/// The ratio is kinematic. Coulomb's coefficient does not limit it.
+#[must_use]
+pub fn friction(
+    inputs: &FrictionInputs,
+    geometry: &Geometry,
+    tip: &TipContact,
+    velocity: &Velocity,
+    impact: &Impact,
+    reduced_mass: f64,
+) -> Friction {
+    let speeds = (inputs.speed, inputs.speed / geometry.ratio);
+    let turn = speeds.1 * impact.duration_printed();
+    let from_contact = seen_from(geometry, tip);
+    let end = match inputs.method {
+        Method::Paper => printed_end(&from_contact, tip, turn),
+        _ => Some(tip_after(geometry, &from_contact, tip, turn)),
+    };
+    let gained = impact.force * impact.duration_printed() / (reduced_mass * tip.radius_driven);
+    let ratio = end
+        .map(|end| changes_ratio(speeds, &end, gained))
+        .filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
+    Friction { ratio }
+}
+
+/// |change of ΔV_τ|/|change of ΔV_n| to the end of the impact. The driven gear gains `gained`
+/// rad/s.
+fn changes_ratio((driver_speed, driven_speed): (f64, f64), end: &TipContact, gained: f64) -> f64 {
+    let normal = driven_speed * end.normal_radius_drop - gained * end.normal_radius_driven;
+    let sliding = driven_speed * end.normal_length_growth - driver_speed * end.curvature_growth
+        + gained * end.normal_length_driven;
+    (sliding / normal).abs()
+}
+
+/// D' after a rotation of the tip by `turn` from D, at most at E, with the changes since D. For a
+/// short path they are increments from D, for a long path differences of two increments from E.
+fn tip_after(
+    geometry: &Geometry,
+    from_contact: &Geometry,
+    tip: &TipContact,
+    turn: f64,
+) -> TipContact {
+    let rest = tip.angle - turn;
+    if rest > 0.5 * tip.angle {
+        return tip_at(from_contact, -turn);
+    }
+    let end = tip_at(geometry, rest.max(0.0));
+    TipContact {
+        normal_radius_drop: end.normal_radius_drop - tip.normal_radius_drop,
+        normal_length_growth: end.normal_length_growth - tip.normal_length_growth,
+        curvature_growth: end.curvature_growth - tip.curvature_growth,
+        ..end
+    }
+}
+
+/// D' by Eq. 34, relative to D: the driven tip where O₁D' closes the triangle O₁DD' with the angle
+/// Δθ = i `turn` at O₁ and the chord of `turn` as DD'. `None` if the triangle does not close.
+///
+/// Near the pitch point r_a2 is nearly i O₁D, and the chord nearly the needed length across O₁D.
+/// Small terms give their difference without cancellation.
+fn printed_end(from_contact: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
+    let at_driver = turn * from_contact.ratio;
+    let chord = 2.0 * from_contact.driven.tip * (turn / 2.0).sin();
+    let lateral = tip.radius_driver * at_driver.sin();
+    let rest = tip_excess(from_contact, tip) * turn
+        - 2.0 * from_contact.driven.tip * below_angle(turn / 2.0)
+        + tip.radius_driver * below_angle(at_driver);
+    let closing = rest * (chord + lateral);
+    let shortened = -2.0 * tip.radius_driver * (at_driver / 2.0).sin().powi(2) - closing.sqrt();
+    let end_radius = tip.radius_driver + shortened;
+    let end = tip_at(
+        from_contact,
+        angle_by_growth(from_contact, shortened * (tip.radius_driver + end_radius)),
+    );
+    (end_radius > 0.0 && end.radius_driver.is_finite()).then_some(end)
+}
+
+/// r_a2 − i O₁D, in m, from the arms of the velocities: `r_a2² − i² O₁D² = (N2'D² − i² ρ1²) −
+/// (r_b2² − r_b2'²)`.
+fn tip_excess(from_contact: &Geometry, tip: &TipContact) -> f64 {
+    let (ratio, base) = (from_contact.ratio, from_contact.driver.base);
+    let along = tip.sliding_arm * (tip.normal_length_driven + ratio * tip.curvature_driver);
+    let across = tip.normal_radius_drop * (ratio * base + tip.normal_radius_driven);
+    (along - across) / (from_contact.driven.tip + ratio * tip.radius_driver)
+}
+
+/// x − sin x. Uses the series if the difference would lose digits.
+fn below_angle(angle: f64) -> f64 {
+    const SMALL: f64 = 0.5;
+    if angle.abs() > SMALL {
+        return angle - angle.sin();
+    }
+    let square = angle * angle;
+    let rest = (2..=7).rev().fold(1.0, |rest, half| {
+        let order = f64::from(2 * half);
+        1.0 - square / (order * (order + 1.0)) * rest
+    });
+    angle * square / 6.0 * rest
+}
+
+/// Inputs of the stages that [`band`] repeats with other models, besides geometry, load and masses,
+/// which are the same for all models.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BandInputs {
+    /// Deviation and deflection.
+    pub deviation: DeviationInputs,
+    /// First contact.
+    pub position: PositionInputs,
+    /// Velocities at D.
+    pub velocity: VelocityInputs,
+    /// The impact.
+    pub impact: ImpactInputs,
+}
+
+impl BandInputs {
+    /// Selects the stage inputs from the inputs of a solve.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> BandInputs {
+        BandInputs {
+            deviation: DeviationInputs::of(inputs),
+            position: PositionInputs::of(inputs),
+            velocity: VelocityInputs::of(inputs),
+            impact: ImpactInputs::of(inputs),
+        }
+    }
+}
+
+/// Least and greatest impact force over the stiffness models that cover the pair, in N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// By the most compliant models.
+    pub low: f64,
+    /// By the stiffest models.
+    pub high: f64,
+}
+
+/// A tooth model with a contact model.
+#[derive(Debug, Clone, Copy)]
+pub struct StiffnessModels {
+    /// Model of the teeth.
+    pub tooth: &'static ToothModel,
+    /// Model of the contact; `None` if the model of the teeth includes the contact.
+    pub contact: Option<&'static ContactModel>,
+}
+
+impl PartialEq for StiffnessModels {
+    fn eq(&self, other: &StiffnessModels) -> bool {
+        let contact = |models: &StiffnessModels| models.contact.map(|contact| contact.name);
+        self.tooth.name == other.tooth.name && contact(self) == contact(other)
+    }
+}
+
+impl StiffnessModels {
+    /// The models of a pair: given by the case, otherwise by range and method.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> StiffnessModels {
+        let tooth = model_of(inputs).model();
+        StiffnessModels {
+            tooth,
+            contact: (!tooth.has_contact).then(|| inputs.contact_compliance.model()),
+        }
+    }
+
+    /// The models that cover the pair, without the models of the case.
+    pub fn others(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
+        let own = StiffnessModels::of(inputs);
+        StiffnessModels::covering(inputs).filter(move |models| *models != own)
+    }
+
+    /// The models of a pair whose case names no tooth compliance.
+    #[must_use]
+    pub fn by_default(inputs: &Inputs) -> StiffnessModels {
+        StiffnessModels::of(&Inputs { tooth_compliance: None, ..inputs.clone() })
+    }
+
+    /// Every tooth model with every contact model that it needs.
+    pub fn all() -> impl Iterator<Item = StiffnessModels> {
+        tooth::MODELS.into_iter().flat_map(|tooth| {
+            let own = tooth.has_contact.then_some(None);
+            let others = contact::MODELS.map(Some);
+            let others = others.into_iter().filter(|_| !tooth.has_contact);
+            own.into_iter().chain(others).map(move |contact| StiffnessModels { tooth, contact })
+        })
+    }
+
+    /// The models whose tooth model covers the pair.
+    pub fn covering(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
+        let covers = tooth::MODELS.map(|model| (model.covers)(inputs));
+        let covering = move |models: &StiffnessModels| {
+            let all = tooth::MODELS.iter().zip(covers);
+            all.into_iter().any(|(model, covers)| covers && model.name == models.tooth.name)
+        };
+        StiffnessModels::all().filter(covering)
+    }
+
+    /// The inputs with these models.
+    #[must_use]
+    pub fn in_place_of(&self, inputs: &Inputs) -> Inputs {
+        let contact = self
+            .contact
+            .map_or(inputs.contact_compliance, |contact| ContactCompliance::named(contact.name));
+        Inputs {
+            tooth_compliance: Some(ToothCompliance::named(self.tooth.name)),
+            contact_compliance: contact,
+            ..inputs.clone()
+        }
+    }
+
+    /// The symbol of the impact force by these models.
+    #[must_use]
+    pub fn symbol(&self) -> String {
+        let contact = self.contact.map_or(String::new(), |contact| format!(",{}", contact.index));
+        format!("F_{}{contact}", self.tooth.index)
+    }
+
+    /// The names of the models.
+    #[must_use]
+    pub fn names(&self) -> String {
+        let contact =
+            self.contact.map_or(String::new(), |contact| format!(" and {}", contact.name));
+        format!("{}{contact}", self.tooth.name)
+    }
+}
+
+/// The range of the impact force over every pair of stiffness models that covers the pair, and the
+/// models of the case. Each force uses its own deflection unless the case gives the deflection.
+/// `force` is the result of the case's models. `solved` computes the others, or `None` if a model
+/// has no result.
+#[must_use]
+pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
+    StiffnessModels::others(inputs).filter_map(|models| solved(&models.in_place_of(inputs))).fold(
+        Band { low: force, high: force },
+        |band, force| Band { low: band.low.min(force), high: band.high.max(force) },
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_series_agrees_with_the_difference() {
+        assert!((below_angle(0.5) / (0.5 - 0.5f64.sin()) - 1.0).abs() < 1e-14);
+        assert!((below_angle(0.5000001) / below_angle(0.4999999) - 1.0).abs() < 2e-6);
+        assert!((below_angle(1e-3) / (1e-9 / 6.0) - 1.0 + 5e-8).abs() < 1e-12);
+    }
+}

@@ -9,11 +9,10 @@ use super::dynamic::steady::{Steady, steady};
 use super::dynamic::{Dynamic, MotionInputs, dynamic};
 use super::mesh::{Mesh, MeshInputs};
 use super::request::Request;
-use super::resonance::{Resonance, ResonanceInputs};
 use super::spacing::Resolution;
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticInputs, StaticLoad, static_load};
-use super::static_spectrum::{StaticSpectrum, static_spectrum};
+use super::static_spectrum::{Resonance, ResonanceInputs, StaticSpectrum, static_spectrum};
 use super::{Outcome, Refusal, Solution};
 
 /// The results of the wanted methods.

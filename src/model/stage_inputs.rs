@@ -9,19 +9,16 @@ use super::compliance::ComplianceInputs;
 use super::deviation::DeviationInputs;
 use super::dynamic::MotionInputs;
 use super::dynamic::speeds::SpeedInputs;
-use super::friction::FrictionInputs;
 use super::geometry::{GeometryInputs, LoadInputs};
-use super::impact::ImpactInputs;
+use super::impact::{BandInputs, FrictionInputs, ImpactInputs};
 use super::inputs::Inputs;
 use super::masses::MassInputs;
 use super::mesh::MeshInputs;
-use super::position::PositionInputs;
-use super::resonance::ResonanceInputs;
+use super::position::{PositionInputs, VelocityInputs};
 use super::stage::Stage;
 use super::static_load::StaticInputs;
+use super::static_spectrum::ResonanceInputs;
 use super::stations::StationsInputs;
-use super::stiffness_spread::BandInputs;
-use super::velocity::VelocityInputs;
 
 impl Stage {
     /// Whether the inputs of the stage are equal in two cases.

@@ -8,10 +8,9 @@ use super::impact::{ImpactInputs, impact};
 use super::inputs::Inputs;
 use super::masses::Masses;
 use super::mesh::Mesh;
-use super::position::Position;
+use super::position::{Position, VelocityInputs, velocity};
 use super::spacing::{Resolution, Spacing};
 use super::tip_gap::{gap_without, tip_at};
-use super::velocity::{VelocityInputs, velocity};
 
 /// Greatest loss of precision of the closed-form gap, as a factor. Beyond it the quadrature
 /// computes the gap.

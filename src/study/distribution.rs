@@ -7,8 +7,8 @@ use crate::case::fields::{FIELDS, Kind, Value, index_of};
 use crate::case::spread::Shape;
 use crate::case::{Case, Problem, Spread, field_range, units};
 use crate::model::Inputs;
+use crate::model::deviation::base_pitch_tolerance;
 use crate::model::inputs::Gear;
-use crate::model::iso_1328::base_pitch_tolerance;
 use crate::numeric::decimal::{shortest, significant};
 
 /// Standard deviations at which a truncated normal distribution ends.

@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use tipstrike::case::file::Document;
-use tipstrike::model::friction::{FrictionInputs, friction};
 use tipstrike::model::geometry::geometry;
+use tipstrike::model::impact::{FrictionInputs, friction};
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, solve};
 

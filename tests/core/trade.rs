@@ -10,8 +10,8 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 use tipstrike::case::Case;
+use tipstrike::model::impact::StiffnessModels;
 use tipstrike::model::inputs::{Method, ToothCompliance};
-use tipstrike::model::stiffness_spread::StiffnessModels;
 use tipstrike::model::{Inputs, Refusal, Stage, Stages, solve};
 use tipstrike::report::trade::{TradeReport, write, write_json};
 use tipstrike::study::trade::{

@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 
 use tipstrike::case::Document;
 use tipstrike::model::dynamic::speeds::SPEEDS;
-use tipstrike::model::harmonics::HARMONICS;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::solve::speeds;
 use tipstrike::model::static_load::balance;
+use tipstrike::model::static_spectrum::HARMONICS;
 use tipstrike::model::{Inputs, Note, QUANTITIES, Refusal, Solution, Stages, Steady, notes, solve};
 
 fn case(name: &str) -> Inputs {

@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 
 use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
+use tipstrike::model::impact::StiffnessModels;
 use tipstrike::model::inputs::Method;
-use tipstrike::model::stiffness_spread::StiffnessModels;
 use tipstrike::report::trade::{duration, percent};
 use tipstrike::study::trade::{
     Differences, METHODS, Patience, Setting, Subject, Trade, TradeParameters, greatest, trade,

@@ -7,8 +7,7 @@ use super::{MotionInputs, Settings};
 use crate::model::budget::Meter;
 use crate::model::inputs::Drive;
 use crate::model::mesh::Mesh;
-use crate::model::resonance::ResonanceInputs;
-use crate::model::static_spectrum::static_spectrum;
+use crate::model::static_spectrum::{ResonanceInputs, static_spectrum};
 use crate::model::{Inputs, Refusal, Resonance, Solution};
 
 /// Number of speeds of a run.

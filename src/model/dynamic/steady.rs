@@ -9,9 +9,9 @@ use super::watch::{Rattle, RattleWatch, Watch};
 use super::{Effort, Run, SHARE_OF_A_STEP, Settings, across_backlash};
 use crate::model::Refusal;
 use crate::model::budget::Meter;
-use crate::model::harmonics::{Fourier, Spectrum};
 use crate::model::mesh::Mesh;
 use crate::model::pair_forces::Touching;
+use crate::model::static_spectrum::{Fourier, Spectrum};
 use crate::numeric::polynomial::{Polynomial, extremes};
 
 /// Greatest number of base pitches in a period. Loss of contact can double the period.

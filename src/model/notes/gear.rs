@@ -1,8 +1,8 @@
 //! Notes on the gears: their inertia and their own base pitch deviations.
 
 use super::{Note, four};
+use crate::model::deviation::{Origin, out_of_range};
 use crate::model::explanation::tidy;
-use crate::model::grade::{Origin, out_of_range};
 use crate::model::inputs::{Gear, InertiaModel};
 use crate::model::{Inputs, Solution};
 

@@ -1,6 +1,6 @@
 //! Conditions on the inputs that select formulas and texts of rows.
 
-use crate::model::grade::Origin;
+use crate::model::deviation::Origin;
 use crate::model::inputs::{Combination, Drive, InertiaModel, Inputs, Method};
 
 /// Always true.

@@ -5,8 +5,7 @@ use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Stage::{Band, Impact};
 use crate::model::explanation::Formula::{Cases, Made, Text};
 use crate::model::explanation::{Context, Step, step};
-use crate::model::impact::HERTZ_PREFACTOR;
-use crate::model::stiffness_spread::StiffnessModels;
+use crate::model::impact::{HERTZ_PREFACTOR, StiffnessModels};
 use crate::model::{self, Inputs, Stages};
 
 const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes a spring, without \

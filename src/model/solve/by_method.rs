@@ -14,8 +14,8 @@ use crate::model::request::{Earlier, Request};
 use crate::model::stage::{Stage, Stages};
 use crate::model::stations::{StationsInputs, stations};
 use crate::model::{
-    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, deviation, friction, geometry,
-    impact, load_sharing, position, stiffness_spread, velocity,
+    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, deviation, geometry, impact,
+    load_sharing, position,
 };
 use crate::numeric::Real;
 
@@ -272,7 +272,7 @@ impl Solving<'_> {
             &mut done,
             Stage::Velocity,
             |s| s.velocity,
-            || Ok(velocity::velocity(&setup.velocity, tip)),
+            || Ok(position::velocity(&setup.velocity, tip)),
         )?;
         let place = setup.impact.compliance.place(geometry, tip);
         let borne = || setup.teeth(geometry)?.at(&place);
@@ -291,14 +291,14 @@ impl Solving<'_> {
         };
         let rubbed = || {
             let reduced = masses.reduced();
-            Ok(friction::friction(&setup.friction, geometry, tip, &velocity, impact, reduced))
+            Ok(impact::friction(&setup.friction, geometry, tip, &velocity, impact, reduced))
         };
         solution.friction = self.stage(&mut done, Stage::Friction, |s| s.friction, rubbed)?;
         solution.band = self.stage(
             &mut done,
             Stage::Band,
             |s| s.band,
-            || Ok(stiffness_spread::band(inputs, impact.force, force)),
+            || Ok(impact::band(inputs, impact.force, force)),
         )?;
         let stood = || {
             let inputs = StationsInputs::of(inputs);

@@ -6,11 +6,9 @@ use twofloat::TwoFloat;
 
 use crate::model::compliance::Teeth;
 use crate::model::deviation::{Deflected, GivenDeviations, LoadedPairs};
-use crate::model::friction::FrictionInputs;
-use crate::model::impact::ImpactInputs;
+use crate::model::impact::{FrictionInputs, ImpactInputs};
 use crate::model::inputs::Inputs;
-use crate::model::position::{GapSeries, PositionInputs};
-use crate::model::velocity::VelocityInputs;
+use crate::model::position::{GapSeries, PositionInputs, VelocityInputs};
 use crate::model::{Geometry, Refusal};
 
 /// Values that a closed-form solve computes before load and deviations. All belong to one geometry,

@@ -8,8 +8,8 @@ use crate::case::fields::Kind;
 use crate::case::{Case, FIELDS, units};
 use crate::model::compliance::{contact_of, model_of};
 use crate::model::explanation::{Context, Formula, Step, tidy};
+use crate::model::impact::StiffnessModels;
 use crate::model::quantities::{spread_force, steps};
-use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::value;
 

@@ -2,8 +2,8 @@
 
 use super::context::Known;
 use crate::case::dependencies::value_of;
+use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::report::{shown, value, value_as_in};
 

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::{duration, model_off, percent};
+use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::model::stiffness_spread::StiffnessModels;
 use crate::report::layout::{WIDTH, flow, item};
 use crate::study::trade::{
     Differences, METHODS, MeasuredSetting, Model, Setting, Subject, Trade, greatest,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::rounded;
 use crate::model::Solution;
 use crate::model::dynamic::speeds::{AtSpeed, SpeedCurve};
-use crate::model::harmonics::Spectrum;
+use crate::model::static_spectrum::Spectrum;
 use crate::numeric::decimal::significant;
 use crate::report::Report;
 use crate::report::charts::SolvedCase;

@@ -4,8 +4,8 @@ use super::answer::Subject;
 use super::build::Build;
 use super::clock::Time;
 use super::setting::Setting;
+use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{Outcome, Refusal, auto};
 
 /// The methods and their settings, measured on one case.

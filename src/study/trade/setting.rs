@@ -6,8 +6,8 @@ use std::fmt;
 use crate::case::Case;
 use crate::case::fields::{AUTO, index_of};
 use crate::model::Inputs;
+use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::model::stiffness_spread::StiffnessModels;
 
 /// The compared methods, fastest first.
 pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];

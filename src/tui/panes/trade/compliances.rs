@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use crate::model::stiffness_spread::StiffnessModels;
+use crate::model::impact::StiffnessModels;
 use crate::report::trade::{Cell, compliance_name, compliances};
 use crate::study::trade::{METHODS, Setting, Trade};
 use crate::tui::theme::Theme;
