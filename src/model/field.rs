@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::geometry::GearShape;
-pub use super::limits::field::FieldRefusal;
-use super::limits::field::POISSON;
+pub use super::limits::FieldRefusal;
+use super::limits::POISSON;
 use super::profile::{Profile, Rack};
 use super::{Refusal, geometry};
 use crate::numeric::real::Lanes;
