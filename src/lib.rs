@@ -25,7 +25,7 @@
 //! |---|---|
 //! | [`system`] | interfaces that differ between operating systems |
 //! | [`numeric`] | root finding, series and quadrature, independent of gears |
-//! | [`model`] | the computation: one stage per file, without files, threads or printing |
+//! | [`model`] | the computation, stage by stage, without files, threads or printing |
 //! | [`case`](mod@case) | the case file: fields, units, reading, checking, saving |
 //! | [`study`] | many solves of one case: sweeps, crossings, tolerances, speed against accuracy |
 //! | [`report`] | results as text, JSON, CSV and explanations |

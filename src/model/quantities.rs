@@ -9,15 +9,12 @@
 mod at_rest;
 mod checks;
 pub mod conditions;
-mod deflection;
 mod deviation;
 mod friction;
 mod geometry;
 mod impact;
-mod impact_terms;
 mod motion;
 mod position;
-mod resonance;
 mod whine;
 
 pub use impact::spread_force;
@@ -214,16 +211,14 @@ const FREE_IMPACT: [Stage; 7] = [
 ];
 
 /// The rows by groups, in the order of the results.
-const GROUPS: [&[Quantity]; 10] = [
+const GROUPS: [&[Quantity]; 8] = [
     geometry::TABLE,
     deviation::TABLE,
     position::TABLE,
     impact::TABLE,
-    impact_terms::TABLE,
     friction::TABLE,
     at_rest::TABLE,
     motion::TABLE,
-    resonance::TABLE,
     whine::TABLE,
 ];
 
@@ -256,9 +251,7 @@ pub fn steps() -> impl Iterator<Item = &'static Step> {
     [
         geometry::STEPS,
         deviation::STEPS,
-        deflection::STEPS,
         position::STEPS,
-        impact_terms::STEPS,
         impact::STEPS,
         friction::STEPS,
         at_rest::STEPS,
