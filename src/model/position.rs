@@ -7,7 +7,7 @@ use super::inputs::{Inputs, Method};
 pub use super::tip_gap::{TipContact, gap, gap_by_quadrature, tip_at};
 use super::tip_gap::{angle_at_curvature, gap_without, largest_term};
 use super::{Deviation, Refusal, geometry};
-use crate::numeric::real::{exponential, logarithm};
+use crate::numeric::real::{exponential_near_zero, logarithm_near_one};
 use crate::numeric::{Real, root};
 
 /// Greatest loss of precision of the closed-form gap in double-double arithmetic, as a factor.
@@ -252,15 +252,14 @@ pub(super) fn first_contact(
         if !step.is_finite() || angle > LARGEST_ANGLE {
             break;
         }
-        angle *= exponential(step.clamp(-2.0, 2.0));
+        angle *= exponential_near_zero(step.clamp(-2.0, 2.0));
         if has_digits && step.abs() < EXACT {
             return Ok(angle);
         }
         if step.abs() < SETTLED {
             let tip = tip_at(geometry, angle);
-            return Ok(
-                angle * exponential(logarithmic_step(geometry, &tip, deviation, KEPT_DIGITS))
-            );
+            return Ok(angle
+                * exponential_near_zero(logarithmic_step(geometry, &tip, deviation, KEPT_DIGITS)));
         }
     }
     Err(Refusal::NoFirstContact { deviation })
@@ -348,7 +347,7 @@ fn logarithmic_step(geometry: &Geometry, tip: &TipContact, deviation: f64, loss:
     let closed = gap_without(loss, geometry, tip);
     let (angle, slope) = (tip.angle, tip.normal_radius_drop);
     let growth = angle * slope / closed;
-    let newton = logarithm((deviation - closed) / closed) / growth;
+    let newton = logarithm_near_one((deviation - closed) / closed) / growth;
     if newton.abs() > NEAR {
         return newton;
     }

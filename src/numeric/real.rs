@@ -139,7 +139,7 @@ const NEAR: f64 = 0.05;
 /// # Source
 /// The arrangement of `log1p` in Sun's fdlibm, with series terms instead of fitted coefficients.
 #[must_use]
-pub fn logarithm(x: f64) -> f64 {
+pub fn logarithm_near_one(x: f64) -> f64 {
     if x.abs() < SMALL {
         let rest = 1.0 / 3.0 - x * (0.25 - x * (0.2 - x * (1.0 / 6.0)));
         x * (1.0 - x * (0.5 - x * rest))
@@ -156,7 +156,7 @@ pub fn logarithm(x: f64) -> f64 {
 
 /// e^x.
 #[must_use]
-pub fn exponential(x: f64) -> f64 {
+pub fn exponential_near_zero(x: f64) -> f64 {
     if x.abs() < SMALL {
         let rest = 1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0));
         1.0 + x * (1.0 + x * (0.5 + x * rest))
@@ -246,9 +246,9 @@ mod tests {
         for power in 0..200 {
             let size = 0.5 * 0.9_f64.powi(power);
             for x in [size, -size] {
-                let logarithm = logarithm(x) / x.ln_1p() - 1.0;
+                let logarithm = logarithm_near_one(x) / x.ln_1p() - 1.0;
                 assert!(logarithm.abs() < 1e-15, "ln(1 + {x}): {logarithm:e}");
-                let exponential = exponential(x) / x.exp() - 1.0;
+                let exponential = exponential_near_zero(x) / x.exp() - 1.0;
                 assert!(exponential.abs() < 1e-15, "exp {x}: {exponential:e}");
             }
         }

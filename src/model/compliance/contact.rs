@@ -14,7 +14,7 @@ use crate::model::Refusal;
 use crate::model::explanation::{Context, Step};
 use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
-use crate::numeric::real::logarithm;
+use crate::numeric::real::logarithm_near_one;
 
 /// Every model; the first is the default of a case.
 pub const MODELS: [&ContactModel; 3] = [&logarithmic::MODEL, &constant::MODEL, &weber::MODEL];
@@ -139,7 +139,7 @@ impl ContactSpring {
                     Err(self.too_wide(self.half_width(force)))
                 };
             }
-            compliance_logarithm += logarithm(0.5 * relative_slope * step);
+            compliance_logarithm += logarithm_near_one(0.5 * relative_slope * step);
         }
         Err(self.too_wide(self.half_width(stiffest)))
     }
