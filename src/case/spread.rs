@@ -5,7 +5,7 @@ use super::fields::{FIELDS, Field, Kind, index_of};
 use super::sanitize::quoted;
 use super::units::Dimension;
 use super::{check, suggest, units};
-use crate::model::deviation;
+use crate::model::deviation::TOLERANCE_CLASSES;
 
 /// The shape of a distribution around the value of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -151,8 +151,8 @@ fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
         ));
     }
     let class = text.trim().parse().ok();
-    class.filter(|class| deviation::CLASSES.contains(class)).map(f64::from).ok_or_else(|| {
-        let (from, to) = (deviation::CLASSES.start(), deviation::CLASSES.end());
+    class.filter(|class| TOLERANCE_CLASSES.contains(class)).map(f64::from).ok_or_else(|| {
+        let (from, to) = (TOLERANCE_CLASSES.start(), TOLERANCE_CLASSES.end());
         Problem::new(
             place,
             format!("{} is no flank tolerance class", quoted(text)),

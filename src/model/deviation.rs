@@ -471,7 +471,7 @@ impl Inputs {
 }
 
 /// The flank tolerance classes of the standard.
-pub const CLASSES: RangeInclusive<u32> = 1..=11;
+pub const TOLERANCE_CLASSES: RangeInclusive<u32> = 1..=11;
 
 const MICROMETRES: f64 = 1e6;
 const MILLIMETRES: f64 = 1e3;
