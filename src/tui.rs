@@ -8,16 +8,17 @@
 mod actions;
 mod app;
 mod ascii;
-mod benchmark;
 mod commands;
 mod dialogs;
-mod effects;
 mod events;
+mod fault;
 mod form_aids;
-mod help;
+mod header;
+mod input;
 mod jobs;
+mod keys;
 mod layout;
-mod pane;
+mod line;
 mod panes;
 mod rows;
 mod session;
@@ -26,29 +27,15 @@ mod solver;
 mod store;
 mod study;
 mod tab;
-mod theme;
-mod update;
-mod variants;
-mod view;
-mod worker;
-mod worker_chart;
-
-mod baseline;
-mod capped_backend;
-mod cursor_range;
-mod ending;
-mod fault;
-mod header;
-mod history;
-mod input;
-mod keys;
-mod line;
-mod scale;
 mod terminal;
 #[doc(hidden)]
 pub mod testing;
 mod text;
+mod theme;
+mod update;
+mod view;
 mod workbench;
+mod worker;
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -57,11 +44,11 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use crate::system::signals;
+
 use actions::Action;
-use ending::TERMINAL_LOST;
 use events::Events;
 use session::journal_writer::JournalWriter;
-use terminal::Screen;
+use terminal::{Screen, TERMINAL_LOST};
 use workbench::{End, session};
 
 const NO_TERMINAL: u8 = 2;
@@ -116,7 +103,7 @@ fn begin(events: &Events) -> io::Result<Arc<JournalWriter>> {
         send(Action::Failed(reason));
     })?;
     let last_words = Arc::clone(&journal_writer);
-    ending::listen(signals, &events.sender(), move || {
+    terminal::listen(signals, &events.sender(), move || {
         drop(last_words.write(false));
     })?;
     Ok(journal_writer)

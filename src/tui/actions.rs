@@ -6,21 +6,21 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::{Position, Size};
 
-use super::benchmark::{BenchmarkProgress, Measuring};
 use super::commands::{self, Command};
-use super::jobs::{Explained, ExportFault, Job, ReliefAnswer};
+use super::jobs::{
+    BenchmarkProgress, ChartPart, ChartRequest, Explained, ExportFault, Job, Measuring,
+    ReliefAnswer,
+};
 use super::keys::{Chord, Place};
 use super::session::recovery::Claim;
 use super::session::save::{Next, SaveFault, Saving, Written};
 use super::settings::Settings;
-use super::solver::{Answer, Request};
+use super::solver::{Answer, Request, Variants};
 use super::store::case_search::SearchResult;
 use super::store::folder::Listing;
 use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
 use super::study::{StudyPart, StudyRequest};
-use super::variants::Variants;
-use super::worker_chart::{ChartPart, ChartRequest};
 use crate::case::Document;
 use crate::report::digest::Digest;
 

@@ -1,33 +1,37 @@
-//! The state of the workbench: plain data that only `update` changes.
-
-mod requests;
-mod shown;
+//! The state of the workbench: plain data that only `update` changes, its requests to the solver,
+//! and the panes with the state that they show.
 
 use std::path::PathBuf;
 
 use ratatui::layout::Size;
 
 use super::actions::Progress;
-use super::baseline::Baseline;
-use super::benchmark::TradeView;
 use super::commands::{Command, key_in};
-use super::dialogs::Prompt;
-use super::jobs::RunningExport;
+use super::dialogs::cursor_to::CursorScope;
+use super::dialogs::{Prompt, Surroundings};
+use super::jobs::{RunningExport, TradeView, Traded};
 use super::keys::Place;
-use super::layout::Layout;
-use super::pane::Pane;
-use super::panes::chart::ChartPane;
-use super::panes::study::StudyState;
-use super::panes::teeth::TeethView;
+use super::layout::{Layout, Pane};
+use super::panes::chart::{ChartPane, Charts};
+use super::panes::form::Form;
+use super::panes::results::Results;
+use super::panes::study::{StudyPane, StudyState};
+use super::panes::teeth::{Picture, TeethView};
+use super::panes::title::Title;
+use super::panes::trade::TradePane;
 use super::rows;
 use super::session::recovery::{Access, NEWER, OpenCase};
 use super::settings::Settings;
-use super::solver::{self, Answer, Request};
+use super::solver::{self, Answer, Baseline, Request};
 use super::store::WatchedFile;
+use super::study::StudyResults;
 use super::tab::Tab;
 use super::theme::Look;
-use crate::case::Document;
 use crate::case::fields::Kind;
+use crate::case::{Case, Document, Problem};
+use crate::model::{Stage, Stages};
+use crate::report;
+use crate::report::graphs::GRAPHS;
 
 /// The whole state of the screen.
 #[derive(Debug, Clone)]
@@ -269,5 +273,309 @@ impl App {
     /// Makes form and results scroll until the focused row and its problem are visible.
     pub(super) fn follow(&mut self) {
         self.needs_scroll = true;
+    }
+
+    /// The title line of a pane.
+    #[must_use]
+    pub(crate) fn title(&self, pane: Pane) -> Title {
+        let plan = self.layout.plan();
+        let hidden =
+            if plan.names_hidden() == Some(pane) { plan.hidden().collect() } else { Vec::new() };
+        Title {
+            pane,
+            has_focus: self.layout.focus() == pane && self.prompts.is_empty(),
+            is_editing: self.has_line(),
+            hidden,
+            theme: self.look.theme,
+        }
+    }
+
+    /// The visible charts and the pane in which the cursor moves.
+    pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
+        let plan = self.layout.plan();
+        let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
+        CursorScope {
+            charts: self.charts(),
+            is_in_teeth: self.layout.focus() == Pane::Teeth || is_alone,
+        }
+    }
+
+    /// The context of a dialog.
+    pub(crate) fn surroundings(&self) -> Surroundings<'_> {
+        Surroundings { screen: self.layout.size(), look: self.look, cursor: self.cursor_scope() }
+    }
+
+    /// The form with its case.
+    #[must_use]
+    pub(crate) fn form(&self) -> Form<'_> {
+        let tab = &self.tab;
+        Form {
+            case: &tab.case,
+            saved: &tab.saved,
+            inputs: &tab.inputs_so_far,
+            problems: &tab.problems,
+            refused: tab.refused_row(),
+            answer: tab.answer.as_ref(),
+            is_stale: tab.is_stale(),
+            focus: tab.form.focus,
+            line: self.has_line().then_some(&tab.form.input),
+            ending: self.ending(),
+            top: tab.form.top,
+            lines: &tab.form.lines,
+            look: self.look,
+            title: self.title(Pane::Form),
+            area: self.layout.plan().form,
+        }
+    }
+
+    /// The results pane with its results.
+    #[must_use]
+    pub fn results(&self) -> Results<'_> {
+        let tab = &self.tab;
+        Results {
+            state: tab.results,
+            answer: tab.answer.as_ref(),
+            baseline: self.baseline.as_ref(),
+            variants: tab.variants.as_ref().filter(|_| self.first_variant.is_some()),
+            first_variant: self.first_variant.unwrap_or(0),
+            earlier: tab.earlier.as_ref(),
+            refusal: tab.refusal.as_ref(),
+            problems: &tab.problems,
+            missing: self.missing(),
+            case: &tab.case,
+            is_stale: tab.is_stale(),
+            shows_last_valid: tab.shows_last_valid(),
+            shows_cost: self.shows_cost,
+            is_focused: self.layout.focus() == Pane::Results,
+            next_fault: || key_in(Place::FORM, Command::NextFault),
+            notes_key: self.notes_key(),
+            units: self.settings.units,
+            look: self.look,
+            title: self.title(Pane::Results),
+            area: self.layout.plan().results,
+        }
+    }
+
+    fn notes_key(&self) -> fn() -> String {
+        if self.has_line() {
+            || key_in(Place::FORM, Command::Notes)
+        } else {
+            || key_in(Place::FIELD, Command::Notes)
+        }
+    }
+
+    /// The trade pane with its benchmark.
+    #[must_use]
+    pub(crate) fn trade(&self) -> TradePane<'_> {
+        TradePane {
+            traded: self.tab.traded.as_ref(),
+            inputs: self.tab.inputs(),
+            view: self.trade_view,
+            look: self.look,
+            title: self.title(Pane::Trade),
+            area: self.layout.plan().trade,
+        }
+    }
+
+    /// The study pane with its study.
+    #[must_use]
+    pub(crate) fn study(&self) -> StudyPane<'_> {
+        let tab = &self.tab;
+        let answer = tab.answer.as_ref().filter(|_| !tab.is_stale());
+        let shown = tab.study.shown.as_ref();
+        let present = shown
+            .and_then(StudyResults::quantity)
+            .zip(answer)
+            .and_then(|(quantity, answer)| report::value(quantity, answer.of(answer.active)?));
+        StudyPane {
+            state: self.study,
+            study: &tab.study,
+            case: &tab.case,
+            present,
+            units: self.settings.units,
+            marker: self.settings.marker,
+            look: self.look,
+            title: self.title(Pane::Study),
+            area: self.layout.plan().study,
+        }
+    }
+
+    /// The chart pane with its results.
+    #[must_use]
+    pub fn charts(&self) -> Charts<'_> {
+        Charts {
+            pane: &self.chart,
+            scale: &self.tab.scale,
+            answer: self.tab.answer.as_ref(),
+            baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
+            cursor: self.cursor,
+            is_stale: self.tab.shows_last_valid(),
+            notes_key: self.notes_key(),
+            work: &self.tab.chart_work,
+            undone: self.tab.undone,
+            units: self.settings.units,
+            marker: self.settings.marker,
+            look: self.look,
+            area: self.layout.plan().chart,
+        }
+    }
+
+    /// The picture of the teeth, if the active method has results.
+    #[must_use]
+    pub(crate) fn picture(&self) -> Option<Picture<'_>> {
+        let answer = self.tab.answer.as_ref()?;
+        Some(Picture {
+            inputs: &answer.inputs,
+            solution: answer.of(answer.active)?,
+            cursor: self.cursor,
+            view: &self.teeth,
+            look: self.look,
+            marker: self.settings.marker,
+            units: self.settings.units,
+            is_stale: self.tab.shows_last_valid(),
+        })
+    }
+
+    /// The stages of the visible results.
+    #[must_use]
+    pub(crate) fn wanted(&self) -> Stages {
+        if self.is_pinning {
+            return Stages::EVERY;
+        }
+        let plan = self.layout.plan();
+        let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
+        // The verdict with its notes is visible even if only the chart is: it needs all stages
+        // except the stiffness spread and the late stages.
+        let verdict = Pane::Results.needs().without(Stage::Band).except(Stages::LATE);
+        seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
+    }
+
+    /// Whether the chart of the mesh stiffness is visible.
+    fn wants_stiffness(&self) -> bool {
+        let is_visible = !self.layout.plan().area(Pane::Chart).is_empty();
+        is_visible && GRAPHS[self.chart.graph].by_model.is_some()
+    }
+
+    /// Replaces the case of the form and returns the request for its results.
+    pub(super) fn replace_case(&mut self, case: Case, focus: usize) -> Option<Request> {
+        self.tab.case = case;
+        let request = self.request();
+        self.focus_on(focus);
+        request
+    }
+
+    /// Checks the form and returns the request for its results if the form is valid.
+    pub(super) fn request(&mut self) -> Option<Request> {
+        let (stages, wants_stiffness) = (self.wanted(), self.wants_stiffness());
+        let (inputs, problems) = self.tab.case.read();
+        self.tab.inputs_so_far = inputs.clone();
+        if problems.is_empty() {
+            self.last_serial += 1;
+            let tab = &mut self.tab;
+            tab.requested_stiffness = wants_stiffness;
+            (tab.serial, tab.requested, tab.is_settled, tab.solving) =
+                (self.last_serial, stages, false, None);
+            tab.problems.clear();
+            return Some(Request {
+                serial: tab.serial,
+                case: tab.case.clone(),
+                inputs,
+                stages,
+                stiffness: wants_stiffness,
+            });
+        }
+        self.tab.refusal = None;
+        let (case, focus) = (&self.tab.case, self.tab.form.focus);
+        let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
+        self.tab.problems =
+            problems.into_iter().map(|problem| (place_of(&problem), problem.for_form())).collect();
+        None
+    }
+
+    /// The request for the results that the first frame leaves out.
+    pub(super) fn unanswered(&mut self) -> Option<Request> {
+        let requested = self.tab.requested;
+        let lacks_stiffness = self.wants_stiffness();
+        let is_partial = |answer: &Answer| {
+            answer.stages != requested || (lacks_stiffness && answer.stiffness.is_none())
+        };
+        let waits = !self.tab.is_settled || self.tab.answer.as_ref().is_some_and(is_partial);
+        if waits { self.request() } else { None }
+    }
+
+    /// A request for the stages that became visible after the last request.
+    pub(super) fn catch_up(&mut self) -> Option<Request> {
+        let lacks = !self.wanted().iter().all(|stage| self.tab.requested.has(stage));
+        let lacks = lacks || (self.wants_stiffness() && !self.tab.requested_stiffness);
+        if lacks && self.tab.problems.is_empty() { self.request() } else { None }
+    }
+
+    /// Shows an answer in its tab, unless a later request is running.
+    pub(super) fn take(&mut self, answer: Answer) {
+        if let Some(tab) = self.tab_of(answer.serial) {
+            tab.take(answer);
+        }
+        self.follow();
+    }
+
+    /// The benchmark with this serial.
+    pub(super) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
+        let all = std::iter::once(&mut self.tab).chain(&mut self.others);
+        all.filter_map(|tab| tab.traded.as_mut()).find(|traded| traded.serial == serial)
+    }
+
+    /// The tab that waits for the answer with this serial.
+    pub(super) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
+        std::iter::once(&mut self.tab).chain(&mut self.others).find(|tab| tab.serial == serial)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::inputs::Method;
+    use crate::model::{Refusal, Solution};
+    use crate::tui::store;
+
+    fn on_dynamic(first_frame: impl Fn(&Request) -> Option<Answer>) -> App {
+        let mut document = store::built_in();
+        let mut case = Case::table_1();
+        case.set("model.method", "dynamic").expect("a method");
+        document.case = case;
+        App::answered(document, None, (Look::FULL, Size::new(140, 45)), first_frame)
+    }
+
+    #[test]
+    fn the_worker_solves_the_results_that_the_first_frame_leaves_out() {
+        let whole = |request: &Request| Some(solver::answer(request));
+        assert_eq!(on_dynamic(whole).unanswered(), None);
+
+        let without_relief = |request: &Request| {
+            let answer = solver::answer(request);
+            let stages = answer.stages.without(Stage::Clearing);
+            Some(Answer { stages, ..answer })
+        };
+        let closed_form = |exact: Result<Solution, Refusal>| {
+            move |request: &Request| {
+                Some(Answer {
+                    active: Method::Exact,
+                    pending: Some(Method::Dynamic),
+                    methods: vec![(Method::Exact, exact.clone())],
+                    ..solver::answer(request)
+                })
+            }
+        };
+        let inputs = Case::table_1().inputs().expect("Table 1 is valid");
+        let found = crate::model::solve(&inputs, Stages::EVERY);
+        let assert_asks = |mut app: App| {
+            let request = app.unanswered().expect("a request for the worker");
+            assert_eq!(request.inputs.method, Method::Dynamic);
+            assert_eq!(request.serial, app.tab.serial);
+            assert!(!app.tab.is_settled);
+        };
+        assert_asks(on_dynamic(|_| None));
+        assert_asks(on_dynamic(without_relief));
+        assert_asks(on_dynamic(closed_form(found)));
+        assert_asks(on_dynamic(closed_form(Err(Refusal::Stopped))));
     }
 }

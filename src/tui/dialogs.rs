@@ -19,7 +19,6 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::actions::{Action, Effect};
-use super::cursor_range::CursorScope;
 use super::keys::Place;
 use super::line::Line;
 use super::session::save::Next;
@@ -27,7 +26,7 @@ use super::theme::Look;
 use crate::case::units::System;
 
 use browser::Browser;
-use cursor_to::CursorTo;
+use cursor_to::{CursorScope, CursorTo};
 use explanation::Explanation;
 use export::ExportTo;
 use page::Page;

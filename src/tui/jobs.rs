@@ -3,15 +3,22 @@
 
 use std::path::PathBuf;
 
+use super::solver::VariantsRequest;
 use super::store::preview::Viewport;
-use super::variants::VariantsRequest;
 use crate::case::units::System;
 use crate::case::{Case, Document};
+use crate::model::dynamic::speeds::SpeedCurve;
+use crate::model::inputs::ToothCompliance;
 use crate::model::{Inputs, Quantity};
 use crate::report::Report;
 use crate::report::explain::Page;
 use crate::report::pictures::Picture;
+use crate::report::svg::Chart;
+use crate::report::tooth_chart::{self, tooth_chart};
+use crate::report::whine::charts::{self, NamedSpectra};
 use crate::study::relief::{Demand, Specification};
+use crate::study::stiffness::Flanks;
+use crate::study::trade::{Patience, Setting, Trade};
 
 /// A job of the worker. Its result is an action.
 #[derive(Debug, Clone)]
@@ -131,6 +138,285 @@ impl Job {
             Job::Variants(_) => (7, "variants"),
             Job::Relief(_) => (Job::RELIEF, "relief"),
             Job::Markdown(_) => (9, "report"),
+        }
+    }
+}
+
+/// A request for a benchmark.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measuring {
+    /// The serial of the request.
+    pub serial: u64,
+    /// The pair.
+    pub inputs: Inputs,
+    /// How long each setting is timed.
+    pub patience: Patience,
+}
+
+/// Results of a running or finished benchmark.
+#[derive(Debug, Clone)]
+pub struct BenchmarkProgress {
+    /// The serial of the benchmark.
+    pub serial: u64,
+    /// The results so far; `None` if they have not changed.
+    pub trade: Option<Box<Trade>>,
+    /// How the benchmark ended, if it has ended.
+    pub end: Option<End>,
+}
+
+/// How a benchmark ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum End {
+    /// All settings are measured.
+    Whole,
+    /// The user stopped it.
+    Stopped,
+    /// The model refuses the case, or the program failed.
+    Failed(String),
+}
+
+/// The benchmark of a case, with error and time of every setting.
+#[derive(Debug, Clone)]
+pub struct Traded {
+    /// The serial of the benchmark.
+    pub(crate) serial: u64,
+    /// The pair at the time of the request.
+    pub(crate) inputs: Inputs,
+    /// The results so far.
+    pub trade: Option<Trade>,
+    /// The selected setting.
+    pub marked: Option<Setting>,
+}
+
+/// The view of the trade pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum TradeView {
+    /// Error against time of every setting.
+    #[default]
+    Chart,
+    /// Time and error of every method with every compliance.
+    Table,
+}
+
+impl TradeView {
+    /// The other view.
+    #[must_use]
+    pub(crate) fn other(self) -> TradeView {
+        match self {
+            TradeView::Chart => TradeView::Table,
+            TradeView::Table => TradeView::Chart,
+        }
+    }
+}
+
+impl Traded {
+    /// Whether the case has changed since the benchmark, apart from its setting.
+    #[must_use]
+    pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
+        let Inputs {
+            method,
+            tooth_compliance,
+            contact_compliance,
+            tolerance,
+            within,
+            stations,
+            station_tolerance,
+            accurate,
+            ..
+        } = inputs.clone();
+        Inputs {
+            method,
+            tooth_compliance,
+            contact_compliance,
+            tolerance,
+            within,
+            stations,
+            station_tolerance,
+            accurate,
+            ..self.inputs.clone()
+        } != *inputs
+    }
+}
+
+/// A chart with its own axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WorkerChart {
+    /// Compliance of a tooth of the driver (0) or of the driven gear (1) over its flank.
+    ToothCompliance(usize),
+    /// Harmonics of the transmission error.
+    Spectrum,
+    /// Dynamic factor over speed.
+    Speed,
+}
+
+impl WorkerChart {
+    /// Every chart, in their order after the charts of the stations.
+    pub const ALL: [WorkerChart; 4] = [
+        WorkerChart::ToothCompliance(0),
+        WorkerChart::ToothCompliance(1),
+        WorkerChart::Spectrum,
+        WorkerChart::Speed,
+    ];
+
+    /// The key, as in `plot --chart`.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            WorkerChart::ToothCompliance(gear) => tooth_chart::KEYS[gear],
+            WorkerChart::Spectrum => charts::SPECTRUM,
+            WorkerChart::Speed => charts::SPEED,
+        }
+    }
+
+    /// The description in lists.
+    #[must_use]
+    pub fn about(self) -> &'static str {
+        match self {
+            WorkerChart::ToothCompliance(0) => {
+                "Show the compliance of a tooth of the driver over its flank, by every model."
+            }
+            WorkerChart::ToothCompliance(_) => {
+                "Show the compliance of a tooth of the driven gear over its flank, by every model."
+            }
+            WorkerChart::Spectrum => {
+                "Show the harmonics of the transmission error at rest and in motion."
+            }
+            WorkerChart::Speed => {
+                "Show the dynamic factor over speed, up and down, with the resonances."
+            }
+        }
+    }
+
+    /// Titles with their units for axes without labels, the longest first.
+    #[must_use]
+    pub fn short_titles(self) -> &'static [&'static str] {
+        match self {
+            WorkerChart::ToothCompliance(0) => &[
+                "Driver tooth compliance in um mm/N over radius in mm",
+                "Driver q in um mm/N over r in mm",
+                "Driver q in um mm/N",
+            ],
+            WorkerChart::ToothCompliance(_) => &[
+                "Driven tooth compliance in um mm/N over radius in mm",
+                "Driven q in um mm/N over r in mm",
+                "Driven q in um mm/N",
+            ],
+            WorkerChart::Spectrum => &["Transmission error harmonics in um", "TE harmonics in um"],
+            WorkerChart::Speed => &["Dynamic factor over speed in rpm", "Dynamic factor over rpm"],
+        }
+    }
+
+    /// The description in the status line.
+    #[must_use]
+    pub fn hint(self) -> &'static str {
+        match self {
+            WorkerChart::ToothCompliance(_) => {
+                "The deflection of the loaded tooth per unit load; surface includes the contact. C \
+                    is the pitch circle."
+            }
+            WorkerChart::Spectrum => {
+                "The amplitude of each harmonic of the mesh frequency, at rest and in motion."
+            }
+            WorkerChart::Speed => {
+                "N is the mesh frequency over the natural frequency. N = 1, 1/2 and 1/3 mark the \
+                    resonances."
+            }
+        }
+    }
+
+    /// The name in lists.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            WorkerChart::ToothCompliance(0) => "Driver tooth compliance",
+            WorkerChart::ToothCompliance(_) => "Driven tooth compliance",
+            WorkerChart::Spectrum => "Spectrum",
+            WorkerChart::Speed => "Dynamic factor over speed",
+        }
+    }
+}
+
+/// A request for a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChartRequest {
+    /// Unique serial of the request.
+    pub serial: u64,
+    /// The chart.
+    pub chart: WorkerChart,
+    /// The pair.
+    pub inputs: Inputs,
+}
+
+/// The values of a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ChartValues {
+    /// The tooth compliances of both gears, and the model of the case.
+    Flanks(Box<Flanks>, ToothCompliance),
+    /// The spectra, by name.
+    Spectra(NamedSpectra),
+    /// The computed part of the curve over speed.
+    Speeds(Box<SpeedCurve>),
+    /// The reason why there is no chart.
+    Refused(String),
+}
+
+/// A part of the result of a request.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChartPart {
+    /// The serial of the request.
+    pub serial: u64,
+    /// The values so far; `None` if the computation ends without values.
+    pub found: Option<ChartValues>,
+    /// Whether the computation has ended.
+    pub is_over: bool,
+}
+
+/// The chart of a case: the last request and its values.
+#[derive(Debug, Clone, Default)]
+pub struct ChartWork {
+    /// The last request.
+    pub request: Option<ChartRequest>,
+    /// The values; those of an earlier request until the first values of the last one arrive.
+    pub found: Option<(WorkerChart, ChartValues)>,
+    /// Whether the worker still computes the last request.
+    pub is_running: bool,
+}
+
+impl ChartWork {
+    /// Adds a part of the result of the last request.
+    pub fn take(&mut self, part: ChartPart) {
+        let Some(request) = self.request.as_ref().filter(|request| request.serial == part.serial)
+        else {
+            return;
+        };
+        if let Some(found) = part.found {
+            self.found = Some((request.chart, found));
+        }
+        self.is_running = !part.is_over;
+    }
+
+    /// The computed part of the chart.
+    #[must_use]
+    pub fn drawn(&self, chart: WorkerChart) -> Option<Chart> {
+        let (_, found) = self.found.as_ref().filter(|(own, _)| *own == chart)?;
+        match (found, chart) {
+            (ChartValues::Flanks(flanks, own), WorkerChart::ToothCompliance(gear)) => {
+                tooth_chart(gear, flanks, *own)
+            }
+            (ChartValues::Spectra(spectra), _) => charts::spectrum_chart(spectra.clone()),
+            (ChartValues::Speeds(curve), _) => charts::speed_chart(&[("", curve)]),
+            (ChartValues::Flanks(..) | ChartValues::Refused(_), _) => None,
+        }
+    }
+
+    /// The reason why there is no chart.
+    #[must_use]
+    pub fn missing(&self, chart: WorkerChart) -> String {
+        match &self.found {
+            Some((own, ChartValues::Refused(reason))) if *own == chart => reason.clone(),
+            _ if self.is_running => "computing".to_owned(),
+            Some(_) => "The motion does not become steady: increase the damping ratio.".to_owned(),
+            None => "The form is not valid: no chart.".to_owned(),
         }
     }
 }

@@ -1,12 +1,116 @@
 //! The visible panes and their areas.
 
-mod plan;
+use ratatui::layout::{Rect, Size};
 
-use ratatui::layout::Size;
+use super::keys::Place;
+use crate::model::{Stage, Stages};
 
-use super::pane::Pane;
-use plan::{Panes, Plan, plan};
-pub(crate) use plan::{SMALLEST, is_too_small};
+/// The smallest useful terminal.
+pub(crate) const SMALLEST: Size = Size { width: 60, height: 16 };
+/// Least height of a terminal with a lower area in addition to form and results.
+const LOWER_FROM: u16 = 20;
+/// Least size with the teeth beside the chart.
+const BESIDE_FROM: Size = Size { width: 120, height: 36 };
+/// Least size with form, results and the lower panes side by side.
+const THREE_FROM: Size = Size { width: 200, height: 50 };
+/// Greatest useful width of the form, and of the results beside other panes.
+const WIDEST: u16 = 66;
+const WIDEST_RESULTS: u16 = 90;
+/// Width of the form between the results and the edge of a wide screen.
+const FORM_OF_THREE: u16 = 56;
+
+/// A part of the screen with its own title and keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pane {
+    /// Every field of the case.
+    Form,
+    /// Every quantity of the model.
+    Results,
+    /// Curves over the driver's roll angle.
+    Chart,
+    /// The teeth as they touch.
+    Teeth,
+    /// Accuracy of every method against its run time.
+    Trade,
+    /// A result over the range of a field, a map of two fields, or the tolerance.
+    Study,
+}
+
+impl Pane {
+    /// Every pane, in the order of its number.
+    pub const ALL: [Pane; 6] =
+        [Pane::Form, Pane::Results, Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
+    /// The panes that share the lower area.
+    pub(crate) const LOWER: [Pane; 4] = [Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
+
+    /// The name of the pane.
+    #[must_use]
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Pane::Form => "Form",
+            Pane::Results => "Results",
+            Pane::Chart => "Chart",
+            Pane::Teeth => "Teeth",
+            Pane::Trade => "Trade",
+            Pane::Study => "Study",
+        }
+    }
+
+    /// The digit that selects the pane, from 1.
+    #[must_use]
+    pub const fn number(self) -> usize {
+        self as usize + 1
+    }
+
+    /// The pane of a digit.
+    pub(crate) fn of_digit(digit: char) -> Option<Pane> {
+        let number = digit.to_digit(10)?;
+        Pane::ALL.into_iter().find(|pane| pane.number() == number as usize)
+    }
+
+    /// Whether it shares the lower area.
+    pub(crate) const fn is_lower(self) -> bool {
+        matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade | Pane::Study)
+    }
+
+    /// The stages of a solve that the pane shows, if the method has them.
+    #[must_use]
+    pub(crate) const fn needs(self) -> Stages {
+        match self {
+            Pane::Form | Pane::Trade | Pane::Study => Stages::NONE,
+            Pane::Results => Stages::CLOSED_FORM
+                .with(Stage::Band)
+                .and(Stages::of(Stage::Resonance))
+                .and(Stages::of(Stage::SteadyMotion))
+                .and(Stages::of(Stage::SpeedRun))
+                .and(Stages::of(Stage::Clearing)),
+            Pane::Chart => Stages::STATIONS,
+            Pane::Teeth => {
+                Stages::of(Stage::Impact).and(Stages::of(Stage::Static)).with(Stage::Dynamic)
+            }
+        }
+    }
+
+    /// The place of keys while the pane has the focus and no field is edited.
+    #[must_use]
+    pub(crate) const fn place(self) -> Place {
+        match self {
+            Pane::Form => Place::FIELD,
+            Pane::Results => Place::RESULTS,
+            Pane::Chart => Place::CHART,
+            Pane::Teeth => Place::TEETH,
+            Pane::Trade => Place::TRADE,
+            Pane::Study => Place::STUDY,
+        }
+    }
+
+    /// The pane `by` places further, wrapping around.
+    #[must_use]
+    pub(crate) fn beside(self, by: isize) -> Pane {
+        let count = Pane::ALL.len();
+        Pane::ALL[(self as usize + count).saturating_add_signed(by) % count]
+    }
+}
 
 /// The visible panes, and the areas that follow from them and the size of the terminal. The areas
 /// are computed once per change.
@@ -83,5 +187,233 @@ impl Layout {
 
     fn update(&mut self) {
         self.plan = plan(self.size, self.panes);
+    }
+}
+
+/// The areas of the screen. A hidden part has an empty area.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Plan {
+    /// The name of the case.
+    pub(crate) header: Rect,
+    /// The form, its title and its scroll bar.
+    pub(crate) form: Rect,
+    /// The results and their title.
+    pub(crate) results: Rect,
+    /// The chart and its title.
+    pub(crate) chart: Rect,
+    /// The teeth and their title.
+    pub(crate) teeth: Rect,
+    /// Accuracy against run time with its title.
+    pub trade: Rect,
+    /// The study and its title.
+    pub(crate) study: Rect,
+    /// The hint of the focused field, and messages.
+    pub(crate) hint: Rect,
+    pub(crate) keys: Rect,
+}
+
+/// Whether a terminal is too small to use.
+pub(crate) fn is_too_small(size: Size) -> bool {
+    !holds(size, SMALLEST)
+}
+
+impl Plan {
+    /// The area of a pane; empty if the pane is hidden.
+    #[must_use]
+    pub fn area(&self, pane: Pane) -> Rect {
+        match pane {
+            Pane::Form => self.form,
+            Pane::Results => self.results,
+            Pane::Chart => self.chart,
+            Pane::Teeth => self.teeth,
+            Pane::Trade => self.trade,
+            Pane::Study => self.study,
+        }
+    }
+
+    /// The hidden panes.
+    pub(crate) fn hidden(&self) -> impl Iterator<Item = Pane> {
+        let plan = *self;
+        Pane::ALL.into_iter().filter(move |&pane| plan.area(pane).is_empty())
+    }
+
+    /// The pane whose title lists the hidden panes: the lowest visible pane whose area they can
+    /// use.
+    pub(crate) fn names_hidden(&self) -> Option<Pane> {
+        let lowest =
+            [Pane::Study, Pane::Trade, Pane::Chart, Pane::Teeth, Pane::Results, Pane::Form];
+        lowest.into_iter().find(|&pane| !self.area(pane).is_empty())
+    }
+
+    fn area_mut(&mut self, pane: Pane) -> &mut Rect {
+        match pane {
+            Pane::Form => &mut self.form,
+            Pane::Results => &mut self.results,
+            Pane::Chart => &mut self.chart,
+            Pane::Teeth => &mut self.teeth,
+            Pane::Trade => &mut self.trade,
+            Pane::Study => &mut self.study,
+        }
+    }
+
+    fn split_upper(&mut self, area: Rect) {
+        let form = (area.width * 57 / 100).clamp(34, WIDEST);
+        [self.form, self.results] = side_by_side(area, form);
+    }
+
+    fn two_rows(&mut self, body: Rect, panes: Panes, has_teeth_beside: bool) {
+        let lower = (body.height.saturating_add(4) / 3).clamp(7, 20);
+        let upper = body.height - lower;
+        self.split_upper(Rect { height: upper, ..body });
+        let area = Rect { y: body.y + upper, height: lower, ..body };
+        if !has_teeth_beside {
+            *self.area_mut(panes.lower) = area;
+            return;
+        }
+        let left = area.width * 60 / 100;
+        let [beside, teeth] = side_by_side(area, left);
+        (*self.area_mut(beside_teeth(panes)), self.teeth) = (beside, teeth);
+    }
+
+    fn three_columns(&mut self, body: Rect, panes: Panes) {
+        let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
+        let right = FORM_OF_THREE + results;
+        self.form = Rect { width: FORM_OF_THREE, ..body };
+        self.results = Rect { x: FORM_OF_THREE, width: results, ..body };
+        let area = Rect { x: right, width: body.width - right, ..body };
+        let upper = area.height / 2;
+        self.teeth = Rect { height: upper, ..area };
+        *self.area_mut(beside_teeth(panes)) =
+            Rect { y: area.y + upper, height: area.height - upper, ..area };
+    }
+}
+
+/// The state that decides the visible panes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Panes {
+    /// The focused pane.
+    focus: Pane,
+    /// The pane of the lower area that is shown if they do not all fit.
+    lower: Pane,
+    /// Whether the focused pane fills the screen.
+    is_zoomed: bool,
+}
+
+impl Default for Panes {
+    fn default() -> Panes {
+        Panes { focus: Pane::Form, lower: Pane::Chart, is_zoomed: false }
+    }
+}
+
+/// The areas on a terminal of a size.
+fn plan(size: Size, panes: Panes) -> Plan {
+    if is_too_small(size) {
+        return Plan::default();
+    }
+    let Size { width, height } = size;
+    let row = |y, height| Rect::new(0, y, width, height);
+    let mut plan = Plan {
+        header: row(0, 1),
+        hint: row(height - 3, 2),
+        keys: row(height - 1, 1),
+        ..Plan::default()
+    };
+    let body = row(1, height - 4);
+    if panes.is_zoomed || (height < LOWER_FROM && panes.focus.is_lower()) {
+        *plan.area_mut(panes.focus) = body;
+    } else if height < LOWER_FROM {
+        plan.split_upper(body);
+    } else if holds(size, THREE_FROM) {
+        plan.three_columns(body, panes);
+    } else {
+        plan.two_rows(body, panes, holds(size, BESIDE_FROM));
+    }
+    plan
+}
+
+fn holds(size: Size, least: Size) -> bool {
+    size.width >= least.width && size.height >= least.height
+}
+
+// The pane of the lower area beside the teeth, if these have an area of their own.
+fn beside_teeth(panes: Panes) -> Pane {
+    match panes.lower {
+        Pane::Trade | Pane::Study => panes.lower,
+        _ => Pane::Chart,
+    }
+}
+
+/// The left part of an area with a width, and the rest.
+fn side_by_side(area: Rect, width: u16) -> [Rect; 2] {
+    let left = Rect { width, ..area };
+    let right = Rect { x: area.x + width, width: area.width - width, ..area };
+    [left, right]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seen(width: u16, height: u16, panes: Panes) -> Vec<Pane> {
+        let plan = plan(Size { width, height }, panes);
+        Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty()).collect()
+    }
+
+    #[test]
+    fn the_visible_panes_at_common_sizes() {
+        use Pane::{Chart, Form, Results, Teeth, Trade};
+        let usual = Panes::default();
+        assert_eq!(seen(59, 16, usual), []);
+        assert_eq!(seen(60, 16, usual), [Form, Results]);
+        assert_eq!(seen(60, 16, Panes { focus: Teeth, ..usual }), [Teeth]);
+        assert_eq!(seen(80, 24, usual), [Form, Results, Chart]);
+        assert_eq!(seen(80, 24, Panes { lower: Teeth, ..usual }), [Form, Results, Teeth]);
+        assert_eq!(seen(140, 45, usual), [Form, Results, Chart, Teeth]);
+        assert_eq!(seen(140, 45, Panes { lower: Trade, ..usual }), [Form, Results, Teeth, Trade]);
+        assert_eq!(seen(240, 70, usual), [Form, Results, Chart, Teeth]);
+        assert_eq!(seen(240, 70, Panes { is_zoomed: true, ..usual }), [Form]);
+        assert_eq!(seen(80, 24, Panes { is_zoomed: true, focus: Results, ..usual }), [Results]);
+        assert_eq!(seen(240, 70, Panes { is_zoomed: true, focus: Trade, ..usual }), [Trade]);
+    }
+
+    #[test]
+    fn at_every_size_the_areas_are_on_the_screen_and_apart() {
+        for (width, height) in
+            (0..=260).flat_map(|width| (0..=80).map(move |height| (width, height)))
+        {
+            for focus in Pane::ALL {
+                for (lower, is_zoomed) in
+                    Pane::LOWER.into_iter().flat_map(|lower| [(lower, false), (lower, true)])
+                {
+                    let plan = plan(Size { width, height }, Panes { focus, lower, is_zoomed });
+                    let areas = [
+                        plan.header,
+                        plan.form,
+                        plan.results,
+                        plan.chart,
+                        plan.teeth,
+                        plan.trade,
+                        plan.study,
+                        plan.hint,
+                        plan.keys,
+                    ];
+                    let used: u32 = areas.iter().map(|area| area.area()).sum();
+                    let screen = Rect::new(0, 0, width, height);
+                    assert!(
+                        areas
+                            .iter()
+                            .all(|area| area.is_empty() || screen.intersection(*area) == *area)
+                    );
+                    let apart = |(at, one): (usize, &Rect)| {
+                        areas[at + 1..].iter().all(|two| !one.intersects(*two))
+                    };
+                    assert!(areas.iter().enumerate().all(apart), "{plan:?}");
+                    assert!(
+                        used == screen.area() || is_too_small(Size { width, height }),
+                        "{plan:?}"
+                    );
+                }
+            }
+        }
     }
 }

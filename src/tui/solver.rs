@@ -1,18 +1,14 @@
 //! A request to solve a case, and the answer with every method.
 
-mod methods;
-
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-pub use methods::answer;
-pub(crate) use methods::answer_without_fields;
-pub(super) use methods::{cleared, solved, with_stiffness};
-
-use crate::case::Case;
+use crate::case::{Case, Evaluator};
+use crate::model::compliance::model_of;
+use crate::model::compliance::tooth::Compliance;
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
-use crate::study::stiffness::PathComparison;
+use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
+use crate::study::stiffness::{PATH_POINTS, PathComparison, compare_path};
 
 /// After this time the workbench shows the closed form until the slower method is finished.
 pub(super) const PATIENCE: Duration = Duration::from_millis(30);
@@ -123,5 +119,221 @@ impl Answer {
             .iter()
             .find(|(own, _)| *own == self.active)
             .and_then(|(_, result)| result.as_ref().err())
+    }
+}
+
+/// Pinned results.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Baseline {
+    /// The tab of the results while it is open.
+    pub(crate) tab: usize,
+    /// The name of the case.
+    pub name: String,
+    /// Whether the name is the name of a file.
+    pub(crate) is_file: bool,
+    pub(crate) case: Case,
+    /// Its results.
+    pub answer: Answer,
+}
+
+/// A request to solve variants.
+#[derive(Debug, Clone)]
+pub struct VariantsRequest {
+    /// The serial of the request for the case.
+    pub(crate) serial: u64,
+    /// The name of each variant, and its pair or the error in it.
+    pub(crate) columns: Vec<(String, Result<Inputs, String>)>,
+    /// The stages to solve.
+    pub(crate) stages: Stages,
+}
+
+/// Solved variants.
+#[derive(Debug, Clone)]
+pub struct Variants {
+    /// The serial of the request.
+    pub(crate) serial: u64,
+    /// The name of each variant, and its results or the reason of their absence.
+    pub(crate) columns: Vec<(String, Result<Solution, String>)>,
+}
+
+/// Solves with the closed forms and with the method of the case, which may take long.
+#[must_use]
+pub fn answer(request: &Request) -> Answer {
+    answer_while(request, &|| true)
+}
+
+/// The answer for the first frame of the program, which does not wait for elastic fields: without
+/// the stiffness spread, and `None` if the compliance of the pair needs a field.
+#[must_use]
+pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
+    let methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
+    let needs_field = methods.into_iter().any(|method| {
+        let inputs = Inputs { method, ..request.inputs.clone() };
+        matches!(model_of(&inputs).model().compliance, Compliance::PerGear(_))
+    });
+    if needs_field {
+        return None;
+    }
+    let quick = Request {
+        stages: request.stages.without(Stage::Band),
+        stiffness: false,
+        ..request.clone()
+    };
+    let start = Instant::now();
+    let answer = answer_while(&quick, &|| start.elapsed() < PATIENCE);
+    Some(Answer { requested: request.stages, ..answer })
+}
+
+/// The answer with the mesh stiffness by every model, if it is requested.
+pub(super) fn with_stiffness(request: &Request, answer: Answer) -> Answer {
+    if !request.stiffness {
+        return answer;
+    }
+    let found = compare_path(&request.inputs, PATH_POINTS).map(Arc::new);
+    Answer { stiffness: Some(found), ..answer }
+}
+
+/// The results of the closed forms, of the method of the case and, for `dynamic`, of the load at
+/// rest; a slow method is solved without its late stages. `go_on` may show the present answer;
+/// returns `None` if it returns false.
+pub(super) fn solved(
+    evaluator: &mut Evaluator,
+    request: &Request,
+    begun: Instant,
+    go_on: &dyn Fn(f64, &dyn Fn() -> Answer) -> bool,
+) -> Option<Answer> {
+    let first = at_once(evaluator, request, begun);
+    let Some(method) = first.pending else {
+        return Some(first);
+    };
+    let stages = request.stages.except(Stages::LATE);
+    let found =
+        evaluator.solve(&request.inputs, method, stages, &|part| go_on(part, &|| first.clone()));
+    if matches!(found, Err(Refusal::Stopped)) {
+        return None;
+    }
+    // If the program chose the method, the chosen method is active.
+    let active = found.as_ref().map_or(method, |solution| solution.method);
+    let mut answer = Answer { active, pending: None, stages, ..first.clone() };
+    answer.methods.retain(|(known, _)| *known != active);
+    if active == Method::Dynamic {
+        // The required relief of the load at rest is fast to compute and is compared with that of
+        // the motion.
+        let stages = request.stages.without(Stage::StaticSpectrum);
+        let shared = evaluator
+            .solve(&request.inputs, Method::Static, stages, &|_| go_on(1.0, &|| first.clone()));
+        if matches!(shared, Err(Refusal::Stopped)) {
+            return None;
+        }
+        answer.methods.push((Method::Static, shared));
+    }
+    answer.methods.push((active, found));
+    answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
+    answer.notes = answer
+        .of(active)
+        .map(|solution| model::notes(&request.inputs, solution))
+        .unwrap_or_default();
+    Some(answer)
+}
+
+/// The answer with the late stages, if they are requested and missing; `None` if `go_on` returns
+/// false.
+pub(super) fn cleared(
+    evaluator: &mut Evaluator,
+    request: &Request,
+    mut answer: Answer,
+    begun: Instant,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Option<Answer> {
+    if answer.is_whole() {
+        return Some(answer);
+    }
+    if answer.refusal().is_some() {
+        return Some(Answer { stages: request.stages, ..answer });
+    }
+    let found = evaluator.solve(&request.inputs, request.inputs.method, request.stages, go_on);
+    if matches!(found, Err(Refusal::Stopped)) {
+        return None;
+    }
+    answer.stages = request.stages;
+    answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
+    answer.cost.micros = micros(begun);
+    answer.methods.retain(|(known, _)| *known != answer.active);
+    answer.methods.push((answer.active, found));
+    answer.notes = answer
+        .of(answer.active)
+        .map(|solution| model::notes(&request.inputs, solution))
+        .unwrap_or_default();
+    Some(answer)
+}
+
+fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
+    let (begun, evaluator) = (Instant::now(), &mut Evaluator::default());
+    let Some(found) = solved(evaluator, request, begun, &|_, _| go_on()) else {
+        return at_once(evaluator, request, begun);
+    };
+    let found = cleared(evaluator, request, found.clone(), begun, &|_| go_on()).unwrap_or(found);
+    with_stiffness(request, found)
+}
+
+/// The answer of the closed forms.
+fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
+    let asked = request.inputs.method;
+    let methods: Vec<_> = Method::CLOSED_FORM
+        .into_iter()
+        .map(|method| (method, evaluator.solve(&request.inputs, method, request.stages, &|_| true)))
+        .collect();
+    let pending = Some(asked).filter(|method| !Method::CLOSED_FORM.contains(method));
+    let mut answer = Answer {
+        serial: request.serial,
+        stages: request.stages,
+        requested: request.stages,
+        inputs: request.inputs.clone(),
+        active: if pending.is_some() { Method::Exact } else { asked },
+        pending,
+        cost: Cost { stages: stages_run(&methods), micros: micros(begun) },
+        methods,
+        notes: Vec::new(),
+        stiffness: None,
+    };
+    answer.notes = answer
+        .of(answer.active)
+        .map(|solution| model::notes(&request.inputs, solution))
+        .unwrap_or_default();
+    answer
+}
+
+fn stages_run(methods: &[(Method, Result<Solution, Refusal>)]) -> usize {
+    methods
+        .iter()
+        .filter_map(|(_, found)| found.as_ref().ok())
+        .map(|solution| solution.ran.iter().count())
+        .sum()
+}
+
+fn micros(begun: Instant) -> u64 {
+    u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_method_of_the_case_is_active_and_auto_gives_its_choice() {
+        for (method, active) in [
+            (Method::Paper, Method::Paper),
+            (Method::Static, Method::Static),
+            (Method::Auto, Method::Dynamic),
+        ] {
+            let case = Case::table_1();
+            let mut inputs = case.inputs().expect("Table 1 is valid");
+            inputs.method = method;
+            let asked =
+                Request { serial: 1, inputs, case, stages: Stages::EVERY, stiffness: false };
+            let found = answer(&asked);
+            assert_eq!((found.active, found.pending), (active, None));
+            assert!(found.of(active).is_some() && found.of(Method::Exact).is_some());
+        }
     }
 }

@@ -1,10 +1,13 @@
 //! The terminal: its modes, and their restoration on every exit.
 
+use std::cell::Cell;
 use std::ffi::OsString;
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
 use std::panic::{self, PanicHookInfo};
+use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::mpsc::SyncSender;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -18,15 +21,15 @@ use crossterm::style::{ResetColor, force_color_output};
 use crossterm::terminal::{
     Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
-use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
-use ratatui::layout::Size;
+use ratatui::backend::{Backend, ClearType as Clearing, CrosstermBackend, WindowSize};
+use ratatui::layout::{Position, Size};
+use ratatui::{Terminal, buffer};
 
 use super::app::App;
-use super::capped_backend::CappedBackend;
+use super::events::Event;
 use super::view;
-use crate::system::signals;
-use crate::system::terminal::{is_in_foreground, write_if_ready};
+use crate::system::signals::{self, BlockedSignals, die_of};
+use crate::system::terminal::{is_in_foreground, wait_for_hang_up, write_if_ready};
 
 /// Large enough for one write per frame; the standard buffer would make ten.
 const FRAME: usize = 64 * 1024;
@@ -38,6 +41,19 @@ static IS_ENDING: AtomicBool = AtomicBool::new(false);
 const NOTICE: Duration = Duration::from_millis(50);
 
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+/// Time for the main loop to end by itself.
+const GRACE: Duration = Duration::from_millis(700);
+/// The exit code if the terminal is closed.
+pub(super) const TERMINAL_LOST: u8 = 5;
+
+/// The largest drawn area.
+const LARGEST: Size = Size { width: 1000, height: 500 };
+/// The smallest drawn area if memory is short.
+const SMALLEST: Size = Size { width: 80, height: 24 };
+/// Memory that must be free for a frame, in buffers of all its cells: two buffers, twice while they
+/// grow, and a reserve for the threads that start later.
+const BUFFERS: usize = 12;
 
 /// The screen of the terminal. Dropping it restores the terminal.
 pub(super) struct Screen {
@@ -74,47 +90,6 @@ pub(super) fn hold_panics() {
 #[must_use]
 pub(super) fn last_panic() -> Option<String> {
     LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
-}
-
-/// Marks that a signal will end the process soon.
-pub(super) fn expect_end() {
-    IS_ENDING.store(true, Ordering::Relaxed);
-}
-
-/// Whether the process ends without a terminal: the `kill` of a shell sends a signal to a stopped
-/// job and continues it in the background. Entering the terminal would stop it again.
-fn ends_in_background() -> bool {
-    if is_in_foreground() {
-        return false;
-    }
-    thread::sleep(NOTICE);
-    IS_ENDING.load(Ordering::Relaxed)
-}
-
-// In the background the terminal has the modes of the shell.
-fn restore_modes() -> io::Result<()> {
-    if is_in_foreground() { disable_raw_mode() } else { Ok(()) }
-}
-
-/// Restores the terminal while the main loop is blocked. If the terminal accepts no bytes, only its
-/// modes are restored.
-pub(super) fn force_restore() {
-    if !IS_TAKEN.load(Ordering::Relaxed) {
-        return;
-    }
-    drop(restore_modes());
-    let mut sequences = Vec::new();
-    let is_made = execute!(
-        sequences,
-        DisableMouseCapture,
-        DisableBracketedPaste,
-        ResetColor,
-        Show,
-        LeaveAlternateScreen
-    );
-    if is_made.is_ok() {
-        write_if_ready(&io::stdout(), &sequences);
-    }
 }
 
 impl Screen {
@@ -268,6 +243,173 @@ impl Drop for Screen {
     }
 }
 
+/// Waits for signals and for the end of the terminal, each in a sleeping thread. Calls `last_words`
+/// first when the process ends.
+pub(super) fn listen(
+    signals: BlockedSignals,
+    sender: &SyncSender<Event>,
+    last_words: impl Fn() + Send + Sync + 'static,
+) -> io::Result<()> {
+    let last_words: LastWords = Arc::new(last_words);
+    let (words, to_end) = (Arc::clone(&last_words), sender.clone());
+    signals.for_each_deadly(move |signal| end(&words, &to_end, &Event::Signal(signal)))?;
+    let to_pass = sender.clone();
+    // A separate thread, because a blocked main loop takes no events and must still end.
+    signals.for_each_passing(move |signal| to_pass.send(Event::Signal(signal)).is_ok())?;
+    let gone = sender.clone();
+    // A process outside the session of the terminal receives no signal when the terminal closes.
+    thread::Builder::new().name("line".to_owned()).spawn(move || {
+        if wait_for_hang_up(&io::stdin()) {
+            end(&last_words, &gone, &Event::Lost);
+        }
+    })?;
+    Ok(())
+}
+
+/// A backend with the last size of its terminal and the drawn part.
+pub(super) struct CappedBackend<B> {
+    pub(super) backend: B,
+    last: Cell<Option<(Size, Size)>>,
+}
+
+impl<B> CappedBackend<B> {
+    pub(super) fn new(backend: B) -> CappedBackend<B> {
+        CappedBackend { backend, last: Cell::new(None) }
+    }
+}
+
+/// Marks that a signal will end the process soon.
+fn expect_end() {
+    IS_ENDING.store(true, Ordering::Relaxed);
+}
+
+/// Whether the process ends without a terminal: the `kill` of a shell sends a signal to a stopped
+/// job and continues it in the background. Entering the terminal would stop it again.
+fn ends_in_background() -> bool {
+    if is_in_foreground() {
+        return false;
+    }
+    thread::sleep(NOTICE);
+    IS_ENDING.load(Ordering::Relaxed)
+}
+
+// In the background the terminal has the modes of the shell.
+fn restore_modes() -> io::Result<()> {
+    if is_in_foreground() { disable_raw_mode() } else { Ok(()) }
+}
+
+/// Restores the terminal while the main loop is blocked. If the terminal accepts no bytes, only its
+/// modes are restored.
+fn force_restore() {
+    if !IS_TAKEN.load(Ordering::Relaxed) {
+        return;
+    }
+    drop(restore_modes());
+    let mut sequences = Vec::new();
+    let is_made = execute!(
+        sequences,
+        DisableMouseCapture,
+        DisableBracketedPaste,
+        ResetColor,
+        Show,
+        LeaveAlternateScreen
+    );
+    if is_made.is_ok() {
+        write_if_ready(&io::stdout(), &sequences);
+    }
+}
+
+type LastWords = Arc<dyn Fn() + Send + Sync>;
+
+// The main loop ends by itself, unless it is blocked, such as in a write to a terminal that accepts
+// no more bytes.
+fn end(last_words: &LastWords, sender: &SyncSender<Event>, cause: &Event) -> ! {
+    expect_end();
+    last_words();
+    drop(sender.try_send(cause.clone()));
+    thread::sleep(GRACE);
+    force_restore();
+    match cause {
+        Event::Signal(signal) => die_of(*signal),
+        _ => process::exit(TERMINAL_LOST.into()),
+    }
+}
+
+/// The drawn part of a terminal of a size: a failed allocation of its cells would end the process.
+fn capped(size: Size, has_room: impl Fn(Size) -> bool) -> Size {
+    let mut drawn =
+        Size { width: size.width.min(LARGEST.width), height: size.height.min(LARGEST.height) };
+    while !has_room(drawn) && (drawn.width > SMALLEST.width || drawn.height > SMALLEST.height) {
+        drawn = Size {
+            width: (drawn.width / 2).max(SMALLEST.width.min(drawn.width)),
+            height: (drawn.height / 2).max(SMALLEST.height.min(drawn.height)),
+        };
+    }
+    drawn
+}
+
+fn has_memory(size: Size) -> bool {
+    let cells = usize::from(size.width) * usize::from(size.height);
+    Vec::<buffer::Cell>::new().try_reserve_exact(cells * BUFFERS).is_ok()
+}
+
+impl<B: Backend<Error = io::Error>> Backend for CappedBackend<B> {
+    type Error = io::Error;
+
+    fn size(&self) -> io::Result<Size> {
+        let size = self.backend.size()?;
+        let drawn = match self.last.get() {
+            Some((last, drawn)) if last == size => drawn,
+            _ => capped(size, has_memory),
+        };
+        self.last.set(Some((size, drawn)));
+        Ok(drawn)
+    }
+
+    fn draw<'a, I>(&mut self, content: I) -> io::Result<()>
+    where
+        I: Iterator<Item = (u16, u16, &'a buffer::Cell)>,
+    {
+        self.backend.draw(content)
+    }
+
+    fn append_lines(&mut self, count: u16) -> io::Result<()> {
+        self.backend.append_lines(count)
+    }
+
+    fn hide_cursor(&mut self) -> io::Result<()> {
+        self.backend.hide_cursor()
+    }
+
+    fn show_cursor(&mut self) -> io::Result<()> {
+        self.backend.show_cursor()
+    }
+
+    fn get_cursor_position(&mut self) -> io::Result<Position> {
+        self.backend.get_cursor_position()
+    }
+
+    fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> io::Result<()> {
+        self.backend.set_cursor_position(position)
+    }
+
+    fn clear(&mut self) -> io::Result<()> {
+        self.backend.clear()
+    }
+
+    fn clear_region(&mut self, region: Clearing) -> io::Result<()> {
+        self.backend.clear_region(region)
+    }
+
+    fn window_size(&mut self) -> io::Result<WindowSize> {
+        self.backend.window_size()
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.backend.flush()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,5 +418,21 @@ mod tests {
     fn a_dumb_or_unnamed_terminal_is_none() {
         assert_eq!(missing(|_| None), Some("TERM is not set"));
         assert_eq!(missing(|_| Some("dumb".into())), Some("TERM is dumb"));
+    }
+
+    #[test]
+    fn the_drawn_area_fits_the_terminal_its_cap_and_the_memory() {
+        let drawn = |width, height, most: u32| {
+            let has_room = |size: Size| u32::from(size.width) * u32::from(size.height) <= most;
+            let size = capped(Size { width, height }, has_room);
+            (size.width, size.height)
+        };
+        assert_eq!(drawn(140, 45, u32::MAX), (140, 45));
+        assert_eq!(drawn(u16::MAX, u16::MAX, u32::MAX), (1000, 500));
+        assert_eq!(drawn(1500, 1500, 200_000), (500, 250));
+        assert_eq!(drawn(1500, 10, 1000), (80, 10));
+        assert_eq!(drawn(300, 300, 0), (80, 24));
+        assert_eq!(drawn(0, 0, 0), (0, 0));
+        assert!(has_memory(LARGEST));
     }
 }

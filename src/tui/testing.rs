@@ -13,7 +13,7 @@ pub mod ascii {
 }
 
 pub mod benchmark {
-    pub use crate::tui::benchmark::{BenchmarkProgress, End, Measuring};
+    pub use crate::tui::jobs::{BenchmarkProgress, End, Measuring};
 }
 
 pub mod commands {
@@ -28,7 +28,7 @@ pub mod dialogs {
 }
 
 pub mod effects {
-    pub use crate::tui::effects::{claimed, perform};
+    pub use crate::tui::workbench::{claimed, perform};
 }
 
 pub mod events {
@@ -36,7 +36,7 @@ pub mod events {
 }
 
 pub mod help {
-    pub use crate::tui::help::lines;
+    pub use crate::tui::commands::help as lines;
 }
 
 pub mod jobs {
@@ -44,7 +44,7 @@ pub mod jobs {
 }
 
 pub mod pane {
-    pub use crate::tui::pane::Pane;
+    pub use crate::tui::layout::Pane;
 }
 
 pub mod chart {
@@ -135,7 +135,7 @@ pub mod view {
 }
 
 pub mod worker_chart {
-    pub use crate::tui::worker_chart::{ChartPart, ChartRequest, ChartValues};
+    pub use crate::tui::jobs::{ChartPart, ChartRequest, ChartValues};
 }
 
 pub mod worker {

@@ -39,8 +39,7 @@ use super::commands::{self, Command, Scope};
 use super::dialogs::Prompt;
 use super::dialogs::page::Page;
 use super::dialogs::picker::{Context, List, Picker};
-use super::help;
-use super::pane::Pane;
+use super::layout::Pane;
 use super::panes::{form, results};
 use super::rows;
 use super::session::save::Next;
@@ -216,7 +215,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
 // Commands that change only the view.
 fn show(app: &mut App, command: Command) {
     match command {
-        Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", help::lines()))),
+        Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", commands::help()))),
         Command::Palette => find(app, List::Commands),
         Command::SearchField => find(app, List::Places),
         Command::Material => catalogue::materials(app),
@@ -329,10 +328,11 @@ fn solve(request: Option<Request>) -> Vec<Effect> {
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::{KeyCode, KeyEvent};
+
     use super::*;
     use crate::tui::actions::of_key;
     use crate::tui::store;
-    use crossterm::event::{KeyCode, KeyEvent};
 
     #[test]
     fn after_every_event_the_lines_of_the_form_are_those_of_its_state() {

@@ -1,24 +1,36 @@
 //! Draws the screen from the state.
 
-pub(crate) mod status;
-
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+use unicode_width::UnicodeWidthStr;
 
+use super::actions::Progress;
 use super::app::App;
-use super::ascii;
-use super::header;
-use super::layout::{self, SMALLEST};
-use super::pane::Pane;
-use super::panes::chart::{Charts, panels};
+use super::ascii::{self, symbol};
+use super::commands::{BINDINGS, Binding};
+use super::form_aids::materials;
+use super::keys::Chord;
+use super::layout::{self, Pane, SMALLEST};
+use super::panes::chart::{self, Charts, panels};
 use super::panes::form::{self, Form};
 use super::panes::results::{self, Results};
 use super::panes::study::{self, StudyPane};
 use super::panes::teeth;
 use super::panes::trade::{self, TradePane};
+use super::rows::{self, Row};
+use super::{header, text};
+use crate::case::fields::{Absent, Field, Kind};
+use crate::case::units::System;
+use crate::case::{Acting, FIELDS, Limit, partial_relevance, relevance};
+use crate::model::inputs::Method;
+use crate::numeric::decimal::shortest;
+use crate::report::verdict::verdicts;
 
-use super::text;
+/// Width of a progress bar.
+const BAR: usize = 20;
 
 /// Draws the whole screen. Returns the position of the text cursor, if any.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -30,6 +42,89 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     };
     ascii::finish(buffer, app.look.ascii);
     cursor.filter(|&cursor| area.contains(cursor))
+}
+
+/// Draws a message or the progress of long work, otherwise the hint of the focused item.
+pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = app.look.theme;
+    let width = usize::from(area.width);
+    let (mut lines, mut is_long) = (Vec::new(), false);
+    if let Some(progress) = app.progress.clone().or_else(|| solving(app)) {
+        // Esc first leaves the field.
+        let cancel = if app.has_line() { "Ctrl-C" } else { "Esc" };
+        let bar = format!("{}; {cancel} cancels", bar(&progress));
+        lines.push(Line::styled(text::cut(&bar, width), theme.note));
+    }
+    if let Some(message) = &app.message {
+        let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
+        let wrapped = text::wrap(&format!("{mark}{}", message.text), width);
+        // The fix is at the end of a message: a long message replaces the hint.
+        is_long = wrapped.len() > 1;
+        if is_long {
+            lines.clear();
+        }
+        lines.splice(0..0, wrapped.into_iter().map(|line| Line::styled(line, style)));
+    }
+    let room = usize::from(area.height);
+    if !is_long {
+        let left = room.saturating_sub(lines.len());
+        lines.extend(text::sentences(&focused(app), width, left).into_iter().map(Line::raw));
+    }
+    if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
+        lines[at] = Line::styled(
+            text::cut(&format!("{} {}", lines[at], lines[room]), width),
+            lines[at].style,
+        );
+    }
+    text::draw_lines(&lines, area, buffer);
+}
+
+/// As many keys as fit, from the table of bindings.
+pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = app.look.theme;
+    let place = app.place();
+    let mut spans = Vec::new();
+    let mut shown: Vec<&str> = Vec::new();
+    let mut left = usize::from(area.width);
+    for binding in
+        BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.footer.meets(place))
+    {
+        let key = short(binding);
+        let used = key.width() + binding.name.width() + 3;
+        if used > left + 2 {
+            break;
+        }
+        if shown.contains(&binding.name) {
+            continue;
+        }
+        shown.push(binding.name);
+        left = left.saturating_sub(used);
+        spans.extend([Span::styled(key, theme.key), Span::raw(format!(" {}  ", binding.name))]);
+    }
+    Line::from(spans).render(area, buffer);
+}
+
+/// The description of a field.
+#[must_use]
+pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
+    let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
+    let bounds = match field.kind {
+        Kind::Text => String::new(),
+        Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => {
+            format!(", {}..{} {}", shortest(range.from), shortest(range.to), range.unit)
+                .trim_end()
+                .to_owned()
+        }
+        Kind::Number(..) => format!(", {}", field.range_in(units)),
+        Kind::Count(from, to, _) => format!(", {from}..{to}"),
+        Kind::Choice(names, _) => format!(", {}", names.join(" | ")),
+    };
+    let absent = match field.absent {
+        Absent::Default("") | Absent::Refused | Absent::Either => String::new(),
+        Absent::Default(_) => format!(" (default {})", field.default_in(units)),
+        Absent::Without(_) => " (may be empty)".to_owned(),
+    };
+    format!("{}{bounds}{absent}. {}", name.trim_start(), field.help)
 }
 
 // Shows the longest message that fits.
@@ -67,8 +162,8 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
             draw_pane(app, pane, area, buffer);
         }
     }
-    status::hint(app, plan.hint, buffer);
-    status::keys(app, plan.keys, buffer);
+    hint(app, plan.hint, buffer);
+    keys(app, plan.keys, buffer);
     match app.prompts.last() {
         Some(prompt) => prompt.dialog().draw(&app.surroundings(), area, buffer),
         None => in_form,
@@ -118,4 +213,134 @@ fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
         };
         buffer.set_stringn(inner.x, inner.y, message, inner.width.into(), Style::new());
     }
+}
+
+fn focused(app: &App) -> String {
+    match app.layout.focus() {
+        Pane::Form => {
+            let about = match rows::row(&app.tab.case, app.tab.form.focus) {
+                Row::Field(field) => about_field(app, field),
+                Row::Limit(limit) => about_limit(app, limit),
+            };
+            typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
+        }
+        Pane::Results => results::marked(&app.results()).map_or_else(String::new, |quantity| {
+            let method = app.tab.answer.as_ref().map_or(Method::Exact, |answer| answer.active);
+            let name = symbol(quantity.symbol_in(method), app.look.ascii);
+            let about = format!(
+                "{name} {}, {} ({}).",
+                quantity.label_in(method).trim(),
+                symbol(quantity.equation, app.look.ascii),
+                quantity.key
+            );
+            let compared = results::compared(&app.results(), quantity)
+                .map_or_else(String::new, |compared| format!("{compared} "));
+            compared + &about
+        }),
+        Pane::Chart | Pane::Teeth => match app.chart.worker_chart {
+            Some(chart) if app.layout.focus() == Pane::Chart => chart.hint().to_owned(),
+            _ => at_cursor(app),
+        },
+        Pane::Trade => trade::signs(&app.trade()),
+        Pane::Study => study::hint(&app.study()),
+    }
+}
+
+// The unit that a bare number gets, or why the typed text is not yet valid. The text does not
+// change while digits are typed, which saves output.
+fn typed(app: &App) -> Option<String> {
+    if rows::lacks(&app.tab.case, app.tab.form.focus) {
+        let example = rows::field(&app.tab.case, app.tab.form.focus).map_or("", Field::example);
+        return Some(format!("Required, such as {example}."));
+    }
+    if app.form().is_unfinished(app.tab.form.focus)
+        && let Some((_, problem)) =
+            app.tab.problems.iter().find(|(at, _)| *at == app.tab.form.focus)
+    {
+        return Some(format!("Not yet: {}: {}.", problem.cause, problem.fix));
+    }
+    app.ending()?;
+    rows::written_unit(&app.tab.case, app.tab.form.focus).map(|unit| format!("Unit added: {unit}."))
+}
+
+// The typed value in another unit, why the field has no effect, and its description.
+fn about_field(app: &App, index: usize) -> String {
+    let field = &FIELDS[index];
+    let converted =
+        app.tab.case.text(index).and_then(|text| field.converted(text, app.settings.units));
+    let inputs = &app.tab.inputs_so_far;
+    let idle = match relevance(index, inputs) {
+        Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
+            Some(format!("Not used: {why}."))
+        }
+        _ => partial_relevance(index, inputs).map(|why| format!("Limited effect: {why}.")),
+    };
+    let about = about(field, app.look.ascii, app.settings.units);
+    [converted.map(|value| value + "."), idle, material(app, field), Some(about)]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+// The source of a value, if it is that of a material.
+fn material(app: &App, field: &Field) -> Option<String> {
+    let is_of_material = matches!(field.name(), "young" | "poisson" | "density");
+    match materials::of_gear(&app.tab.case, field.table())[..] {
+        [material] if is_of_material => Some(format!("{}: {}.", material.name, material.source)),
+        _ => None,
+    }
+}
+
+fn about_limit(app: &App, limit: &Limit) -> String {
+    let solution = app
+        .tab
+        .answer
+        .as_ref()
+        .and_then(|answer| answer.of(answer.active))
+        .filter(|_| !app.tab.is_stale());
+    let of_case = |solution| {
+        verdicts(&app.tab.case, solution)
+            .into_iter()
+            .find(|verdict| verdict.limit.quantity == limit.quantity)
+    };
+    let verdict = solution.filter(|_| !limit.text.is_empty()).and_then(of_case);
+    let sentence = verdict.map(|verdict| {
+        format!("{} {}. ", verdict.standing.word(), verdict.sentence(app.settings.units))
+    });
+    format!(
+        "{}Upper limit of {}; empty: no limit.",
+        sentence.unwrap_or_default(),
+        rows::label(&app.tab.case, app.tab.form.focus)
+    )
+}
+
+fn at_cursor(app: &App) -> String {
+    const NONE: &str = "Cursor hidden. h and l show the cursor; Space plays the motion.";
+    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's \
+            D.";
+    const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base \
+            circles, tip's path.";
+    match app.cursor {
+        Some(cursor) => chart::readout(&app.charts(), cursor),
+        None if app.layout.focus() == Pane::Chart => format!("{NONE} {MARKS}"),
+        None => format!("{NONE} {LINES}"),
+    }
+}
+
+// Progress of a slow solve.
+fn solving(app: &App) -> Option<Progress> {
+    let method = app.tab.answer.as_ref().and_then(|answer| answer.pending).map_or("", Method::name);
+    app.tab.solving.map(|part| Progress { what: format!("solving {method}"), part })
+}
+
+fn bar(progress: &Progress) -> String {
+    let part = if progress.part.is_finite() { progress.part.clamp(0.0, 1.0) } else { 0.0 };
+    let full = (part * BAR as f64).floor() as usize;
+    let bar = "█".repeat(full) + &"░".repeat(BAR - full);
+    format!("{bar} {:3.0} % {}", part * 100.0, progress.what)
+}
+
+fn short(binding: &Binding) -> String {
+    binding.chords.first().map(Chord::short_name).unwrap_or_default()
 }

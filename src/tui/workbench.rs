@@ -1,5 +1,6 @@
 //! The main loop of the workbench: takes events, changes the state, carries out the effects, draws.
 
+use std::fs;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,14 +8,14 @@ use std::time::{Duration, Instant};
 
 use super::actions::{Action, Effect};
 use super::app::App;
-use super::effects::{claimed, perform};
 use super::events::{self, Event, Events};
 use super::fault;
 use super::session::autosave::Autosave;
 use super::session::journal_writer::JournalWriter;
+use super::session::recovery::Claim;
 use super::settings::Settings;
 use super::store::state::State;
-use super::store::{self, Opening, Trouble};
+use super::store::{self, Opening, Trouble, recents};
 use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
@@ -24,19 +25,6 @@ use crate::system::signals::{SIGCONT, SIGTSTP, SIGWINCH};
 
 /// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);
-
-/// The running workbench.
-struct Workbench {
-    app: App,
-    screen: Screen,
-    events: Events,
-    workers: Workers,
-    autosave: Autosave,
-    /// Time of the next frame of the animation.
-    alarm: Option<Instant>,
-    /// Settings to save after all waiting events.
-    chosen: Option<Settings>,
-}
 
 /// How the workbench ended.
 pub(super) enum End {
@@ -77,6 +65,77 @@ pub(super) fn session(
     }
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
     Workbench { app, screen, events, workers, autosave, alarm: None, chosen: None }.stay()
+}
+
+/// Carries out an effect on files and returns its result as an action. Ignores other effects.
+#[must_use]
+pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
+    match effect {
+        Effect::Load(path) => {
+            let path = store::at_home(&path);
+            let result = store::load(&path);
+            Some(Action::Loaded(path, result))
+        }
+        Effect::Save(saving, next) => {
+            let (path, result) = autosave.save(*saving);
+            Some(Action::Saved(path, next, result))
+        }
+        Effect::Adopt(journal) => {
+            autosave.adopt(journal);
+            None
+        }
+        Effect::Remember(path) => {
+            recents::add(&path);
+            None
+        }
+        Effect::Keep(settings) => {
+            let kept = settings.keep();
+            kept.err().map(|reason| Action::Failed(format!("the settings are not saved: {reason}")))
+        }
+        Effect::Forget(journals) => {
+            // A journal that cannot be deleted is offered again at the next start.
+            for journal in journals {
+                drop(fs::remove_file(journal));
+            }
+            None
+        }
+        Effect::Journals => Some(Action::Journals(autosave.ended_sessions())),
+        Effect::Solve(_)
+        | Effect::Job(_)
+        | Effect::Copy(_)
+        | Effect::Mouse(_)
+        | Effect::Play(_)
+        | Effect::Measure(_)
+        | Effect::CancelWork
+        | Effect::CancelSolve
+        | Effect::Study(_)
+        | Effect::CancelStudy
+        | Effect::Chart(_)
+        | Effect::CancelChart
+        | Effect::CancelRelief
+        | Effect::Redraw
+        | Effect::Suspend
+        | Effect::Quit => None,
+    }
+}
+
+/// The result of opening a case under autosave, as an action.
+#[must_use]
+pub fn claimed(claim: Result<Claim, String>) -> Action {
+    claim.map_or_else(Action::Failed, |claim| Action::Claimed(Box::new(claim)))
+}
+
+/// The running workbench.
+struct Workbench {
+    app: App,
+    screen: Screen,
+    events: Events,
+    workers: Workers,
+    autosave: Autosave,
+    /// Time of the next frame of the animation.
+    alarm: Option<Instant>,
+    /// Settings to save after all waiting events.
+    chosen: Option<Settings>,
 }
 
 fn report(app: &mut App, trouble: Trouble) {

@@ -11,15 +11,13 @@ mod watching;
 
 use std::io;
 
-use latest::{Send, Worker};
-use watching::Watcher;
-
-use super::benchmark::Measuring;
-use super::jobs::Job;
+use super::jobs::{ChartRequest, Job, Measuring};
 use super::solver::Request;
 use super::store::WatchedFile;
 use super::study::StudyRequest;
-use super::worker_chart::ChartRequest;
+
+use latest::{Send, Worker};
+use watching::Watcher;
 
 /// The worker threads. The solver and the file watcher start at once, the others with their first
 /// request.

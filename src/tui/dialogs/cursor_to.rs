@@ -6,13 +6,30 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::{Dialog, Outcome, Surroundings, boxes};
-use crate::tui::cursor_range::{HOW, describe, ending, parse_cursor};
+use crate::case::units::{self, Dimension};
+use crate::model::Solution;
+use crate::numeric::decimal::{shortest, significant};
+use crate::report::graphs::GRAPHS;
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
+use crate::tui::panes::chart::axes::Ruler;
+use crate::tui::panes::chart::curves::{CurveSource, curves};
+use crate::tui::panes::chart::{Charts, first_contact, last_contact, panels};
 use crate::tui::text;
 
 /// The width at which the instruction has two lines.
 const WIDTH: u16 = 62;
+
+/// The instruction of the prompt.
+const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
+    or a point (D, E, B, L, peak).";
+
+/// Digits of an angle and of a time.
+const DIGITS: (usize, usize) = (5, 4);
+/// Frames of the animation: four seconds at twelve frames a second.
+const PICTURES: f64 = 48.0;
+/// The start of the animation in the teeth pane, before D, as a multiple of the angle from D to E.
+const APPROACH: f64 = 1.6;
 
 /// The dialog with its typed text.
 #[derive(Debug, Clone, Default)]
@@ -81,5 +98,232 @@ impl Dialog for CursorTo {
             buffer,
         );
         cursor
+    }
+}
+
+/// The charts and the pane in which the cursor moves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CursorScope<'a> {
+    pub(crate) charts: Charts<'a>,
+    /// Whether it moves in the teeth pane.
+    pub(crate) is_in_teeth: bool,
+}
+
+/// The range of the cursor, in rad before E.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::tui) struct Reach {
+    /// The first contact D, or E without corner contact.
+    pub(crate) start: f64,
+    /// The start of the animation.
+    pub(crate) run_from: f64,
+    /// The end of the animation.
+    pub(crate) run_to: f64,
+    /// The leftmost angle.
+    pub(crate) most: f64,
+    /// The rightmost angle, negative after E.
+    pub(crate) least: f64,
+    /// The angle per column.
+    pub(crate) column: f64,
+}
+
+impl Reach {
+    /// The angle after a move by `columns` towards E; D if there is no cursor yet.
+    #[must_use]
+    pub(in crate::tui) fn moved(self, cursor: Option<f64>, columns: i16) -> f64 {
+        let Some(cursor) = cursor else {
+            return self.held(self.start);
+        };
+        self.held(cursor - f64::from(columns) * self.column)
+    }
+
+    /// The angle of the next frame; `None` at the end.
+    #[must_use]
+    pub(in crate::tui) fn played(self, cursor: f64) -> Option<f64> {
+        let next = cursor - (self.run_from - self.run_to) / PICTURES;
+        (next > self.run_to && next < cursor).then_some(next)
+    }
+
+    fn held(self, angle: f64) -> f64 {
+        let angle = angle.clamp(self.least, self.most);
+        // Rounding must not keep the cursor from E.
+        if angle.abs() < 1e-9 * self.column { 0.0 } else { angle }
+    }
+}
+
+/// The completion of a typed angle or time.
+#[must_use]
+pub(in crate::tui) fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
+    let ruler = ruler(scope);
+    let dimensions = [Dimension::Angle, Dimension::Time];
+    if units::parse(typed, Dimension::Number, "").is_ok() {
+        return units::ending(typed, Dimension::of_unit(ruler.unit)?, ruler.unit);
+    }
+    let mut endings =
+        dimensions.into_iter().filter_map(|dimension| units::ending(typed, dimension, ""));
+    let is_whole =
+        dimensions.into_iter().any(|dimension| units::parse(typed, dimension, "").is_ok());
+    endings.next().filter(|_| endings.next().is_none() && !is_whole)
+}
+
+/// The range of the cursor in the focused pane, or in the visible pane. In a chart it is the range
+/// of the axis. In the teeth pane it extends to one base pitch after E.
+#[must_use]
+pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
+    let solution = scope.charts.solution()?;
+    let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
+    let start = first_contact(solution).unwrap_or(0.0);
+    let end = last_contact(solution).unwrap_or(0.0).min(0.0);
+    let axis = scope.charts.scale.across;
+    let before =
+        if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
+    let columns = f64::from(panels::columns(&scope.charts).max(2) - 1);
+    if scope.is_in_teeth {
+        let (most, least) = (before.max(2.0 * start), end.min(-pitch));
+        return Some(Reach {
+            start,
+            run_from: APPROACH * start,
+            run_to: 0.0,
+            most,
+            least,
+            column: before / columns,
+        });
+    }
+    let window = scope.charts.window();
+    let (least, shown) = if axis.is_empty() {
+        (end, before)
+    } else {
+        (end.min(-axis.to.to_radians()), window.length().to_radians())
+    };
+    // The animation covers the visible part of the contact.
+    let visible = (start.min(-window.from.to_radians()), end.max(-window.to.to_radians()));
+    let (run_from, run_to) = if visible.0 > visible.1 { visible } else { (start, end) };
+    Some(Reach { start, run_from, run_to, most: before, least, column: shown / columns })
+}
+
+/// Parses an angle before E, a time or a point; returns the driver's angle before E, in rad.
+///
+/// # Errors
+/// Returns an error if the text is not valid, or if the angle is out of range.
+fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
+    let solution = scope.charts.solution().ok_or("no valid results for a cursor")?;
+    let reach = cursor_range(scope).ok_or("no valid results for a cursor")?;
+    let angle = match place(scope, solution, typed.trim()) {
+        Some(place) => place?,
+        None => measured(scope, typed)?,
+    };
+    let slack = 1e-9 * reach.column;
+    if (reach.least - slack..=reach.most + slack).contains(&angle) {
+        return Ok(reach.held(angle));
+    }
+    let ends = [reach.most, reach.least].map(|end| describe(scope, end));
+    Err(format!("{} is out of range: from {} to {}", describe(scope, angle), ends[0], ends[1]))
+}
+
+/// An angle as text, with its time from E.
+#[must_use]
+fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
+    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
+    let side = if angle < 0.0 { "after" } else { "before" };
+    let micros = 1e6 * angle.abs() / speed;
+    let time = if micros.is_finite() {
+        format!(" ({} us)", short(micros, DIGITS.1))
+    } else {
+        String::new()
+    };
+    format!("{} deg{time} {side} E", short(angle.abs().to_degrees(), DIGITS.0))
+}
+
+fn short(number: f64, digits: usize) -> String {
+    let rounded = significant(number, digits);
+    rounded.parse().map_or(rounded, shortest)
+}
+
+// A point by its name; `None` if the text is not a name.
+fn place(scope: &CursorScope<'_>, solution: &Solution, name: &str) -> Option<Result<f64, String>> {
+    let geometry = &solution.geometry;
+    let found = |angle: Option<f64>, why: &str| angle.ok_or_else(|| why.to_owned());
+    Some(match name.to_lowercase().as_str() {
+        "d" => found(first_contact(solution), "no corner contact, so no D"),
+        "e" => Ok(0.0),
+        "b" => Ok((geometry.start - geometry.end) / geometry.driver.base),
+        "l" => found(last_contact(solution), "only static and dynamic compute the last contact L"),
+        "peak" => found(peak(scope), "the chart has no curve, so no peak"),
+        _ => return None,
+    })
+}
+
+// The angle at which the curve of the active method in the selected chart is farthest from 0.
+fn peak(scope: &CursorScope<'_>) -> Option<f64> {
+    let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph]);
+    let own = curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
+    let highest =
+        own.pieces.iter().flatten().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
+    Some(0.0 - highest.0.to_radians())
+}
+
+// Angles count before E and times after E, as on the axes.
+fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
+    let whole = [typed, &ending(scope, typed).unwrap_or_default()].concat();
+    let angle = units::parse(&whole, Dimension::Angle, "deg");
+    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
+    let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed);
+    angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
+        Err(misread) if typed.contains(',') => misread.fix,
+        _ => format!("{} is not an angle, time or point", typed.trim()),
+    })
+}
+
+fn ruler(scope: &CursorScope<'_>) -> Ruler {
+    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
+    Ruler::of(scope.charts.pane.by_time, speed, scope.charts.window())
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "the ends of the range are exact")]
+mod tests {
+    use super::*;
+
+    const REACH: Reach = Reach {
+        start: 0.024,
+        run_from: 0.024,
+        run_to: 0.0,
+        most: 0.03,
+        least: 0.0,
+        column: 0.0003,
+    };
+
+    #[test]
+    fn the_first_key_moves_the_cursor_to_d() {
+        assert!(REACH.moved(None, 1) == 0.024 && REACH.moved(None, -10) == 0.024);
+    }
+
+    #[test]
+    fn a_column_there_and_back_is_the_same_place() {
+        let there = REACH.moved(Some(0.012), 7);
+        assert!((there - (0.012 - 7.0 * 0.0003)).abs() < 1e-15);
+        assert!((REACH.moved(Some(there), -7) - 0.012).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_cursor_stays_on_the_axis_and_meets_e_itself() {
+        assert!(REACH.moved(Some(0.029), -10) == 0.03);
+        assert!(REACH.moved(Some(0.0002), 1) == 0.0);
+        let after = Reach { least: -0.3, ..REACH };
+        let cursor = (0..80).fold(0.024, |cursor, _| after.moved(Some(cursor), 1));
+        assert!(cursor == 0.0, "{cursor}");
+        assert!(after.moved(Some(0.0), 1) < 0.0);
+    }
+
+    #[test]
+    fn the_approach_is_over_after_its_pictures() {
+        let mut cursor = Some(REACH.run_from);
+        let mut pictures = 0;
+        while let Some(now) = cursor {
+            cursor = REACH.played(now);
+            pictures += 1;
+            assert!(pictures < 100);
+        }
+        assert!((47..=49).contains(&pictures), "{pictures}");
+        assert_eq!(Reach { start: 0.0, run_from: 0.0, ..REACH }.played(0.0), None);
     }
 }

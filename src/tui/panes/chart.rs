@@ -16,18 +16,17 @@ use std::sync::Arc;
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
 
+use super::plot::Span;
 use crate::case::units::System;
 use crate::model::Solution;
+pub use crate::model::contact_state::first_contact_of_driver as first_contact;
 use crate::report::graphs::GRAPHS;
-use crate::tui::scale::Span;
+use crate::tui::jobs::{ChartWork, WorkerChart};
 use crate::tui::solver::Answer;
 use crate::tui::theme::Look;
-use crate::tui::worker_chart::{ChartWork, WorkerChart};
 
 use curves::curves;
 use range::{ChartView, Frame, Occasion, Refit, Scale};
-
-pub use crate::model::contact_state::first_contact_of_driver as first_contact;
 pub use readout::readout;
 pub(crate) use way::last_contact;
 use way::{angle_range_of, path, way};

@@ -6,7 +6,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 

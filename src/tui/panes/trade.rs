@@ -10,8 +10,9 @@ use ratatui::layout::Rect;
 
 use crate::report::trade::{NO_CONTACT, build, parts, percent, summary};
 use crate::study::trade::Trade;
-use crate::tui::benchmark::{TradeView, Traded};
+use crate::tui::jobs::{TradeView, Traded};
 use crate::tui::text;
+
 use pane::own;
 pub(crate) use pane::{TradePane, nearest, stepped};
 use plot::{LEVEL, draw_legend, draw_plot};

@@ -1,7 +1,7 @@
 //! The baseline: pinned results for comparison.
 
 use crate::tui::app::App;
-use crate::tui::baseline::Baseline;
+use crate::tui::solver::Baseline;
 
 /// Pins the results of the current case, or unpins the pinned ones.
 pub(super) fn toggle(app: &mut App) {

@@ -4,7 +4,7 @@ use super::{cursor, files, panes, study};
 use crate::model::Stage;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::tab::Tab;
 
 /// Message of Ctrl-C if there is nothing to cancel and nothing unsaved.

@@ -13,7 +13,7 @@ use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::step_limit;
 use crate::tui::jobs::Job;
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::panes::results;
 use crate::tui::rows::{self, Row};
 

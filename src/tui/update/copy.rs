@@ -6,9 +6,8 @@ use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::jobs::{Job, Reporting};
 use crate::tui::keys::Place;
-use crate::tui::pane::Pane;
-use crate::tui::panes::chart;
-use crate::tui::panes::results;
+use crate::tui::layout::Pane;
+use crate::tui::panes::{chart, results};
 use crate::tui::rows::{self, Row};
 
 /// Terminals refuse or cut a longer text.

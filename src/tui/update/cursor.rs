@@ -3,10 +3,9 @@
 use super::panes;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::cursor_range::{Reach, cursor_range};
 use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::cursor_to::CursorTo;
-use crate::tui::pane::Pane;
+use crate::tui::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
+use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{self, first_contact};
 
 /// Moves the cursor by columns towards E.

@@ -4,15 +4,14 @@ use std::borrow::Cow;
 
 use tui_input::InputRequest;
 
-use super::solve;
+use super::{browse, solve};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{Case, FIELDS, Field};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::layout::Pane;
 use crate::tui::line::Line;
-use crate::tui::pane::Pane;
 use crate::tui::session::recovery;
-use crate::tui::update::browse;
 use crate::tui::{ascii, rows};
 
 /// Greatest length of a text; a longer one is not a value, title or path.

@@ -12,8 +12,8 @@ use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::export::ExportTo;
 use crate::tui::dialogs::question::Question;
 use crate::tui::jobs::{ExportFault, Exporting, Job, RunningExport};
+use crate::tui::layout::Pane;
 use crate::tui::line::Line;
-use crate::tui::pane::Pane;
 
 /// Asks for the file: a picture if a chart or the teeth have the focus, otherwise the report.
 pub(super) fn ask(app: &mut App) -> Vec<Effect> {

@@ -4,7 +4,7 @@ use super::{dialogs, trade};
 use crate::case::Case;
 use crate::tui::app::App;
 use crate::tui::commands::Command;
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::panes::results;
 use crate::tui::rows;
 

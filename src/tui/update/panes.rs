@@ -3,7 +3,7 @@
 use super::edit;
 use crate::tui::app::App;
 use crate::tui::ascii;
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::panes::results;
 
 /// Moves the focus to a pane and makes it visible. In the form, letters are commands until the user

@@ -6,7 +6,7 @@ use super::{chart, cursor, dialogs, edit, page, panes, study, tabs, teeth};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::header;
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{ChartCommand, panels};
 use crate::tui::panes::study::{self as study_pane, StudyCommand};
 use crate::tui::panes::teeth::TeethCommand;

@@ -9,7 +9,7 @@ use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::panes::results;
 use crate::tui::panes::study::range::{MOST_ZOOM, RangeOf, Steps};
 use crate::tui::panes::study::{self, CURVE_POINTS, StudyCommand, map_points};

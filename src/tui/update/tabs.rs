@@ -6,7 +6,7 @@ use crate::case::{Case, Document, Example};
 use crate::model::Stages;
 use crate::tui::app::App;
 use crate::tui::commands::Command;
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::solver::Request;
 use crate::tui::store;
 use crate::tui::tab::{Origin, Tab};

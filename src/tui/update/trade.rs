@@ -3,12 +3,10 @@
 use super::edit;
 use crate::report::trade::conclusion;
 use crate::study::trade::Patience;
-use crate::tui::actions::Effect;
-use crate::tui::actions::Progress;
+use crate::tui::actions::{Effect, Progress};
 use crate::tui::app::App;
-use crate::tui::benchmark::{BenchmarkProgress, End, Measuring, Traded};
-use crate::tui::layout::is_too_small;
-use crate::tui::pane::Pane;
+use crate::tui::jobs::{BenchmarkProgress, End, Measuring, Traded};
+use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::panes::trade::{nearest, stepped};
 
 /// The name of the work in the progress.

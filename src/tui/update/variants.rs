@@ -9,9 +9,9 @@ use crate::tui::commands::Command;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker, VARIANT};
 use crate::tui::jobs::Job;
-use crate::tui::pane::Pane;
+use crate::tui::layout::Pane;
 use crate::tui::panes::results;
-use crate::tui::variants::{Variants, VariantsRequest};
+use crate::tui::solver::{Variants, VariantsRequest};
 
 /// Asks for the name of the variant.
 pub(super) fn ask(app: &mut App) {

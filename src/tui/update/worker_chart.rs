@@ -2,8 +2,8 @@
 
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::pane::Pane;
-use crate::tui::worker_chart::{ChartPart, ChartRequest};
+use crate::tui::jobs::{ChartPart, ChartRequest};
+use crate::tui::layout::Pane;
 
 /// Requests the visible chart, unless it is the last request; stops a hidden one.
 pub(super) fn request(app: &mut App) -> Vec<Effect> {

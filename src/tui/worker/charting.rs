@@ -12,7 +12,7 @@ use crate::report::tooth_chart::{absence, tooth_chart};
 use crate::report::whine::charts::spectra;
 use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::tui::actions::Action;
-use crate::tui::worker_chart::{ChartPart, ChartRequest, ChartValues, WorkerChart};
+use crate::tui::jobs::{ChartPart, ChartRequest, ChartValues, WorkerChart};
 
 /// Time between two messages of a growing curve.
 const STEP: Duration = Duration::from_millis(150);

@@ -15,8 +15,8 @@ use crate::tui::actions::Action;
 use crate::tui::jobs::{
     Explained, Explaining, ExportFault, Job, ReliefAnswer, ReliefRequest, Reporting,
 };
+use crate::tui::solver::{Variants, VariantsRequest};
 use crate::tui::store::{case_search, folder, preview, recents};
-use crate::tui::variants::{Variants, VariantsRequest};
 
 /// Starts the worker of a kind of jobs.
 ///

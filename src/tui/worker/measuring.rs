@@ -6,7 +6,7 @@ use super::latest::{Running, Send, Worker};
 use crate::model::Refusal;
 use crate::study::trade::{Trade, TradeParameters, trade};
 use crate::tui::actions::Action;
-use crate::tui::benchmark::{BenchmarkProgress, End, Measuring};
+use crate::tui::jobs::{BenchmarkProgress, End, Measuring};
 
 /// Starts the worker.
 ///

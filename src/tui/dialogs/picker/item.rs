@@ -7,8 +7,8 @@ use crate::report::graphs::Graph;
 use crate::tui::ascii::symbol;
 use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::materials::Material;
+use crate::tui::jobs::WorkerChart;
 use crate::tui::panes::chart::ChartCommand;
-use crate::tui::worker_chart::WorkerChart;
 
 /// Prefix of the name of a variant in the list of commands.
 pub(crate) const VARIANT: &str = "variant";

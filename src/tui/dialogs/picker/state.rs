@@ -1,10 +1,11 @@
 //! Lists with a filter: the palette of commands, the fields, materials, limits and examples.
 
-#[cfg(test)]
-mod tests;
-
 use std::cmp::Reverse;
 
+use super::item::{
+    DESCRIBED, Item, Pick, VARIANT, command, example, field, graph, of_material, quantity, rank,
+    result, variant, worker_chart,
+};
 use crate::case::fields::Kind;
 use crate::case::{EXAMPLES, FIELDS};
 use crate::model::{QUANTITIES, Quantity};
@@ -12,13 +13,8 @@ use crate::report::digest::Digest;
 use crate::report::graphs::GRAPHS;
 use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::{materials, search, search_results};
+use crate::tui::jobs::WorkerChart;
 use crate::tui::line::Line;
-use crate::tui::worker_chart::WorkerChart;
-
-use super::item::{
-    DESCRIBED, Item, Pick, VARIANT, command, example, field, graph, of_material, quantity, rank,
-    result, variant, worker_chart,
-};
 
 /// Least similarity of a name that is listed when no name contains the typed words.
 const LIKENESS: f64 = 0.75;
@@ -254,3 +250,6 @@ impl Place {
         Place { score, rank, item }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,8 +8,7 @@ use super::Charts;
 use super::way::last_contact;
 use crate::model::Solution;
 use crate::model::contact_state::first_contact_of_driver as first_contact;
-use crate::tui::panes::plot::put_where_free;
-use crate::tui::scale::{Span, Ticks};
+use crate::tui::panes::plot::{Span, Ticks, put_where_free};
 
 /// Least width of the labels beside the plot, in columns.
 const LABEL: usize = 6;

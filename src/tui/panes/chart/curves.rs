@@ -8,7 +8,7 @@ use crate::model::{Inputs, Solution};
 use crate::report::charts::{Point, curve_of, pieces};
 use crate::report::graphs::Graph;
 use crate::report::stations::{Column, Row};
-use crate::tui::scale::Span;
+use crate::tui::panes::plot::Span;
 use crate::tui::solver::Answer;
 
 /// Curves coincide if they differ by at most this fraction of the values.

@@ -3,7 +3,7 @@
 use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::report::graphs::GRAPHS;
-use crate::tui::scale::Span;
+use crate::tui::panes::plot::Span;
 
 /// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.
 const LAST_STEP_IN: i32 = 20;

@@ -9,8 +9,7 @@ use super::Charts;
 use super::curves::{Curve, CurveSource, is_field};
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::report::charts::Point;
-use crate::tui::panes::plot::PlotArea;
-use crate::tui::scale::Span;
+use crate::tui::panes::plot::{PlotArea, Span};
 
 /// If a column has more points than this, only the first, last, least and greatest are drawn.
 const MANY: usize = 8;

@@ -3,7 +3,7 @@
 use crate::model::Solution;
 use crate::model::inputs::Method;
 use crate::report::stations::{Row, rows};
-use crate::tui::scale::Span;
+use crate::tui::panes::plot::Span;
 use crate::tui::solver::Answer;
 
 /// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and

@@ -8,10 +8,9 @@ use unicode_width::UnicodeWidthStr;
 
 use super::Charts;
 use crate::report::svg::{Chart, Kind, Series};
-use crate::tui::panes::plot::{PlotArea, draw_axes, put_where_free};
-use crate::tui::scale::Span;
+use crate::tui::jobs::WorkerChart;
+use crate::tui::panes::plot::{PlotArea, Span, draw_axes, put_where_free};
 use crate::tui::text;
-use crate::tui::worker_chart::WorkerChart;
 
 /// The smallest plot.
 const LEAST: (u16, u16) = (12, 2);

@@ -5,11 +5,9 @@ use ratatui::layout::Rect;
 use crate::case::units::System;
 use crate::case::{Case, Problem};
 use crate::model::Refusal;
-use crate::tui::baseline::Baseline;
 use crate::tui::panes::title::Title;
-use crate::tui::solver::{Answer, Values};
+use crate::tui::solver::{Answer, Baseline, Values, Variants};
 use crate::tui::theme::Look;
-use crate::tui::variants::Variants;
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

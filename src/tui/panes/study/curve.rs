@@ -13,8 +13,7 @@ use crate::model::inputs::Method;
 use crate::report::common_unit;
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
-use crate::tui::panes::plot::{PlotArea, draw_axes, put_where_free};
-use crate::tui::scale::Span;
+use crate::tui::panes::plot::{PlotArea, Span, draw_axes, put_where_free};
 use crate::tui::study::{Layer, LayerFound, LayerSource, StudyParameters, StudyResults};
 
 /// The smallest plot.

@@ -10,8 +10,7 @@ use crate::model::{Outcome, Quantity};
 use crate::report::{common_unit, shown_with};
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
-use crate::tui::panes::plot::draw_axes;
-use crate::tui::scale::Span;
+use crate::tui::panes::plot::{Span, draw_axes};
 use crate::tui::study::{LayerFound, StudyResults};
 
 /// Shades from the least to the greatest value.

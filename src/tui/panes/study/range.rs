@@ -7,8 +7,8 @@ use crate::case::{Case, Problem, field_range};
 use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::significant;
 use crate::study::axis::{Axis, AxisRange, Sampling};
+use crate::tui::panes::plot::Span;
 use crate::tui::rows;
-use crate::tui::scale::Span;
 
 /// Greatest number of halvings or doublings of a range.
 pub(crate) const MOST_ZOOM: i32 = 12;

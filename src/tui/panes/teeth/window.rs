@@ -9,7 +9,7 @@ use crate::case::units::System;
 use crate::model::contact_state::first_contact_point;
 use crate::model::gear_pose::on_line_of_action;
 use crate::model::{Inputs, Solution};
-use crate::tui::scale::bounds;
+use crate::tui::panes::plot::bounds;
 
 /// The height of a cell over its width.
 const CELL_HEIGHT: f64 = 2.0;
@@ -198,14 +198,15 @@ fn dots(marker: Marker) -> (u16, u16) {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::case::Case;
-    use crate::model::{self, Stages};
     use ratatui::buffer::Buffer;
     use ratatui::layout::Rect;
     use ratatui::style::Color;
     use ratatui::widgets::Widget;
     use ratatui::widgets::canvas::{Canvas, Line};
+
+    use super::*;
+    use crate::case::Case;
+    use crate::model::{self, Stages};
 
     const MARKERS: [Marker; 3] = [Marker::Braille, Marker::HalfBlock, Marker::Dot];
 

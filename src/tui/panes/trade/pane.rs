@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use crate::model::Inputs;
 use crate::report::trade::compliances;
 use crate::study::trade::{MeasuredSetting, Setting, Trade};
-use crate::tui::benchmark::{TradeView, Traded};
+use crate::tui::jobs::{TradeView, Traded};
 use crate::tui::panes::title::Title;
 use crate::tui::theme::Look;
 

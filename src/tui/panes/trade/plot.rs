@@ -9,7 +9,7 @@ use crate::model::inputs::Method;
 use crate::report::trade::percent;
 use crate::report::trade::plot::{Axis, shown, time};
 use crate::study::trade::{METHODS, MeasuredSetting, Trade};
-use crate::tui::benchmark::Traded;
+use crate::tui::jobs::Traded;
 
 /// Width of a number beside the vertical axis.
 const LABEL: u16 = 9;

@@ -11,10 +11,9 @@ use crate::report::groups::FREE_IMPACT;
 use crate::report::{common_unit, shown_with, value_as_in};
 use crate::tui::ascii::symbol;
 use crate::tui::panes::results::pane::Results;
-use crate::tui::solver::Answer;
+use crate::tui::solver::{Answer, Variants};
 use crate::tui::text;
 use crate::tui::theme::Theme;
-use crate::tui::variants::Variants;
 
 /// Least width of a value and of a difference.
 const LEAST: usize = 7;
