@@ -2,31 +2,42 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
 use super::title::Title;
 use crate::case::fields::{GROUPS, Kind};
-use crate::case::{Acting, Case, FIELDS, Problem, relevance};
-use crate::model::Inputs;
+use crate::case::{Acting, Case, FIELDS, Limit, Problem, relevance};
+use crate::model::{Inputs, Quantity};
+use crate::report::verdict::verdict;
 use crate::tui::ascii::{self, symbol};
 use crate::tui::form_aids::materials;
 use crate::tui::line::Line as Text;
-use crate::tui::rows;
 use crate::tui::solver::Answer;
-use crate::tui::text;
 use crate::tui::theme::Look;
-
-mod limit;
-mod line;
-
-use limit::draw_limit;
-use line::{MARK, SYMBOL, draw_mark, draw_name, draw_text, label_width};
+use crate::tui::{rows, text};
 
 /// The mark of a field without effect.
 const IDLE: &str = "-";
 /// The least width of a label beside a symbol.
 const LEAST_LABEL: u16 = 6;
+
+const MARK: u16 = 2;
+/// The mark of a field that differs from the file.
+const EDITED: &str = "*";
+
+const SYMBOL: u16 = 6;
+const LABEL: u16 = 20;
+const VALUE: u16 = 15;
+/// The width of a value on a narrow screen.
+const NARROW_VALUE: u16 = 11;
+const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
+
+/// Text between the symbol of a quantity and its limit, if the label does not fit.
+const AT_MOST: &str = " <= ";
+
+/// The sign of a free impact within the limit while the impact of the method exceeds it.
+const ABOVE_BESIDE: &str = " (!)";
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone)]
@@ -109,16 +120,6 @@ impl Form<'_> {
     }
 }
 
-/// A line of the form.
-#[derive(Debug, Clone, PartialEq, Eq)]
-enum Row {
-    /// The title of the group whose first line has this index.
-    Group(usize),
-    /// A field or a limit, by its index among the focusable rows.
-    Line(usize),
-    Reason(String),
-}
-
 /// The lines of the form in a pane of a width.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Lines {
@@ -195,6 +196,16 @@ pub(crate) fn scrolled(pane: &Form<'_>, by: isize) -> usize {
     let height = usize::from(area.height.saturating_sub(1));
     let most = pane.lines.rows.len().saturating_sub(height);
     pane.top.saturating_add_signed(by).min(most)
+}
+
+/// A line of the form.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Row {
+    /// The title of the group whose first line has this index.
+    Group(usize),
+    /// A field or a limit, by its index among the focusable rows.
+    Line(usize),
+    Reason(String),
 }
 
 fn rows(pane: &Form<'_>, width: u16) -> Vec<Row> {
@@ -325,4 +336,152 @@ fn draw_value(
         return None;
     }
     draw_text(pane, index, written, &unwritten, area, style, buffer)
+}
+
+fn draw_mark(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) {
+    let theme = pane.look.theme;
+    if rows::differs(pane.case, pane.saved, index) {
+        buffer.set_stringn(line.x + 1, line.y, EDITED, usize::from(line.width > 1), theme.note);
+    }
+    // The reason below the row has a mark of its own.
+    if pane.focus == index {
+        buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
+    } else if pane.is_faulty(index) {
+        buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
+    }
+}
+
+// Width of the labels beside values of the default width.
+fn label_width(area: Rect) -> u16 {
+    let value = if area.width + MARK < WHOLE { NARROW_VALUE } else { VALUE };
+    LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value))
+}
+
+// Draws symbol and label. Returns their width.
+fn draw_name(
+    symbol: &str,
+    label: &str,
+    area: Rect,
+    width: u16,
+    style: Style,
+    buffer: &mut Buffer,
+) -> u16 {
+    let name = text::cut(symbol, usize::from(SYMBOL) - 1);
+    buffer.set_stringn(area.x, area.y, name, SYMBOL.into(), style);
+    buffer.set_stringn(
+        area.x + SYMBOL,
+        area.y,
+        text::cut(label, width.into()),
+        width.into(),
+        style,
+    );
+    MARK + SYMBOL + width + 1
+}
+
+// Draws the text of a row: an input line if the row is edited, otherwise its value or its default.
+fn draw_text(
+    pane: &Form<'_>,
+    index: usize,
+    written: Option<&str>,
+    unwritten: &str,
+    area: Rect,
+    style: Style,
+    buffer: &mut Buffer,
+) -> Option<Position> {
+    let width = usize::from(area.width);
+    let line = pane.line.filter(|_| pane.focus == index);
+    if let Some(line) = line.filter(|_| written.is_some()) {
+        let style = style.add_modifier(Modifier::UNDERLINED);
+        let cursor = text::edited(line, area, style, buffer);
+        text::ending(pane.ending.as_deref(), line.value().width(), area, pane.look.theme, buffer);
+        return cursor;
+    }
+    let shown = written.map_or(unwritten.into(), ascii::printable);
+    let faint = if written.is_none() && !pane.lacks(index) { pane.look.theme.faint } else { style };
+    buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
+    line.is_some().then_some(Position::new(area.x, area.y))
+}
+
+// Draws the limit as it is written, with its verdict.
+fn draw_limit(
+    pane: &Form<'_>,
+    index: usize,
+    limit: &Limit,
+    line: Rect,
+    buffer: &mut Buffer,
+) -> Option<Position> {
+    let theme = pane.look.theme;
+    let style = if pane.focus == index { theme.focus } else { Style::new() };
+    draw_mark(pane, index, line, buffer);
+    let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
+    let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
+    let symbol = ascii::symbol(symbol, pane.look.ascii);
+    let label = rows::label(pane.case, index);
+    let (words, of_word) = standing(pane, limit);
+    let usual = label_width(name);
+    let needed = limit.text.width() + words.get(1).map_or(0, |word| word.width() + 2);
+    let is_whole = symbol.width() < SYMBOL.into()
+        && label.width() <= usual.into()
+        && usize::from(MARK + SYMBOL + 1) + label.width() + needed <= line.width.into();
+    let offset = if is_whole {
+        draw_name(&symbol, label, name, usual, style, buffer)
+    } else {
+        let named = format!("{symbol} {label}{AT_MOST}");
+        let has_room = usize::from(MARK) + named.width() + needed <= line.width.into();
+        let brief = if has_room { named } else { format!("{symbol}{AT_MOST}") };
+        buffer.set_stringn(name.x, name.y, &brief, name.width.into(), style);
+        (MARK + brief.width() as u16).min(line.width)
+    };
+    let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
+    // The label gives its unused columns to the verdict, so that a word fits rather than a sign.
+    let spare = if is_whole { usize::from(usual).saturating_sub(label.width()) } else { 0 };
+    let in_words = words.iter().take(2).find(|word| word.width() <= left + spare);
+    let word = in_words
+        .or_else(|| words.iter().find(|word| word.width() <= left))
+        .cloned()
+        .unwrap_or_default();
+    let offset = offset - word.width().saturating_sub(left).min(spare) as u16;
+    let room = line.width.saturating_sub(offset);
+    let width = word.width() as u16;
+    buffer.set_string(line.right() - width, line.y, &word, of_word);
+    let value = Rect {
+        x: line.x + offset,
+        width: room.saturating_sub(width + u16::from(width > 0)),
+        ..line
+    };
+    draw_text(
+        pane,
+        index,
+        Some(&limit.text).filter(|text| !text.is_empty()).map(String::as_str),
+        "(no limit)",
+        value,
+        style,
+        buffer,
+    )
+}
+
+// The verdict of the last valid result, from the full text to a sign, with its style.
+fn standing(pane: &Form<'_>, limit: &Limit) -> (Vec<String>, Style) {
+    let theme = pane.look.theme;
+    let is_known = !pane.is_stale && !limit.text.is_empty();
+    let solution = pane.answer.and_then(|answer| answer.of(answer.active)).filter(|_| is_known);
+    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {
+        return (Vec::new(), Style::new());
+    };
+    let is_above_beside = verdict.is_exceeded_beside();
+    let style =
+        if verdict.standing.holds() && !is_above_beside { theme.note } else { theme.problem };
+    let part = verdict.part().map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
+    let beside = if is_above_beside { ABOVE_BESIDE } else { "" };
+    let word = verdict.standing.word();
+    let sign = if verdict.standing.holds() { word } else { "!" };
+    (
+        vec![
+            format!("{word}{part}{beside}"),
+            format!("{word}{beside}"),
+            format!("{sign}{part}{beside}"),
+            sign.to_owned(),
+        ],
+        style,
+    )
 }
