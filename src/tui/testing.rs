@@ -56,7 +56,7 @@ pub mod chart {
     }
 
     pub mod raster {
-        pub use crate::tui::panes::chart::raster::draw;
+        pub use crate::tui::panes::chart::curves::draw_curve;
     }
 }
 

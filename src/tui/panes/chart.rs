@@ -3,12 +3,8 @@
 
 pub(crate) mod axes;
 pub(crate) mod curves;
-pub(crate) mod legend;
 pub(crate) mod panels;
 pub(crate) mod range;
-pub(crate) mod raster;
-pub(crate) mod readout;
-mod way;
 mod worker_chart;
 
 use std::sync::Arc;
@@ -26,10 +22,9 @@ use crate::tui::solver::Answer;
 use crate::tui::theme::Look;
 
 use curves::curves;
-use range::{ChartView, Frame, Occasion, Refit, Scale};
-pub use readout::readout;
-pub(crate) use way::last_contact;
-use way::{angle_range_of, path, way};
+pub use curves::readout;
+pub(crate) use range::last_contact;
+use range::{ChartView, Frame, Occasion, Refit, Scale, angle_range_of, path, way};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;

@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
 use super::Charts;
-use super::way::last_contact;
+use super::range::last_contact;
 use crate::model::Solution;
 use crate::model::contact_state::first_contact_of_driver as first_contact;
 use crate::tui::panes::plot::{Span, Ticks, put_where_free};
