@@ -65,14 +65,14 @@ pub mod results {
 }
 
 pub mod teeth {
-    pub use crate::tui::panes::teeth::labels::Labels;
-    pub use crate::tui::panes::teeth::readings::readings;
+    pub use crate::tui::panes::teeth::readings;
+    pub use crate::tui::panes::teeth::scene::Labels;
     pub use crate::tui::panes::teeth::scene::Scene;
-    pub use crate::tui::panes::teeth::zoom::{Centre, Exaggeration, TeethView};
+    pub use crate::tui::panes::teeth::window::{Centre, Exaggeration, TeethView};
     pub use crate::tui::panes::teeth::{Picture, draw};
 
     pub mod raster {
-        pub use crate::tui::panes::teeth::raster::draw;
+        pub use crate::tui::panes::teeth::scene::draw_strokes;
     }
 }
 
