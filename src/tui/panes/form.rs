@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::title::Title;
+use super::Title;
 use crate::case::fields::{GROUPS, Kind};
 use crate::case::{Acting, Case, FIELDS, Limit, Problem, relevance};
 use crate::model::{Inputs, Quantity};

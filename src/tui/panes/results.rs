@@ -10,7 +10,7 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use unicode_width::UnicodeWidthStr;
 
-use super::title::Title;
+use super::Title;
 use crate::case::units::System;
 use crate::case::{Case, Problem};
 use crate::model::{Quantity, Refusal};

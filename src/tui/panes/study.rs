@@ -11,7 +11,7 @@ use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use unicode_width::UnicodeWidthStr;
 
-use super::title::Title;
+use super::Title;
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::Outcome;
