@@ -4,14 +4,11 @@
 mod boxes;
 pub(crate) mod browser;
 pub(crate) mod cursor_to;
-mod digest;
-pub(crate) mod explanation;
-pub(crate) mod export;
 pub(crate) mod page;
+pub(crate) mod path;
 pub(crate) mod picker;
 pub(crate) mod question;
 mod relief;
-pub(crate) mod save_as;
 
 use std::path::PathBuf;
 
@@ -27,13 +24,11 @@ use crate::case::units::System;
 
 use browser::Browser;
 use cursor_to::{CursorScope, CursorTo};
-use explanation::Explanation;
-use export::ExportTo;
-use page::Page;
+use page::{Explanation, Page};
+use path::{ExportTo, SaveAs};
 use picker::{Pick, Picker};
 use question::{Choice, Question};
 pub(crate) use relief::ReliefDialog;
-use save_as::SaveAs;
 
 /// The interface of a dialog. By default it ignores a key.
 pub(crate) trait Dialog {

@@ -22,7 +22,7 @@ pub mod commands {
 
 pub mod dialogs {
     pub use crate::tui::dialogs::Prompt;
-    pub use crate::tui::dialogs::explanation::Explanation;
+    pub use crate::tui::dialogs::page::Explanation;
     pub use crate::tui::dialogs::picker::Item;
     pub use crate::tui::dialogs::question::Question;
 }

@@ -1,15 +1,16 @@
-//! A box in the middle of the screen, with its lists.
+//! A box in the middle of the screen, with its lists, and the digest of a case as lines.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Position, Rect, Size};
 use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Block, Clear, Widget};
+use unicode_width::UnicodeWidthStr;
 
+use crate::report::digest::Digest;
 use crate::tui::line::Line as Input;
 use crate::tui::text;
 use crate::tui::theme::Theme;
-use unicode_width::UnicodeWidthStr;
 
 /// Greatest width of a box.
 pub(super) const WIDEST: u16 = 100;
@@ -70,13 +71,6 @@ pub(super) fn path_box(
     }
     let line = Rect { height: inner.height.min(1), ..inner };
     text::edited(input, line, theme.focus, buffer)
-}
-
-fn outside(wanted: Size, screen: Rect) -> Rect {
-    let room = room(screen.as_size());
-    let height = wanted.height.clamp(1, room.height.max(1)) + 2;
-    let width = wanted.width.max(NARROWEST).min(room.width) + 4;
-    screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen)
 }
 
 /// The area inside a box.
@@ -141,13 +135,52 @@ pub(super) fn line_at(
     line.filter(|&line| line < count)
 }
 
-fn top_of(marked: Option<usize>, area: Rect) -> usize {
-    marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()))
-}
-
 /// The size of the lines with `more` additional lines.
 pub(super) fn extent(lines: &[String], more: usize) -> Size {
     let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
     let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
     Size { width: size(width), height: size(lines.len() + more) }
+}
+
+/// The lines in `width` columns, each with its style.
+#[must_use]
+pub(super) fn digest_lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style)> {
+    let plain = Style::new();
+    let title = if digest.title.is_empty() { "without a title" } else { &digest.title };
+    let said = |text: &str, style: Style| {
+        text::wrap(text, width).into_iter().map(move |line| (line, style))
+    };
+    let empty = || std::iter::once((String::new(), plain));
+    let mut lines: Vec<_> = said(title, theme.title).collect();
+    lines.extend(
+        [&digest.pair, &digest.load, &format!("method {}", digest.method)]
+            .into_iter()
+            .flat_map(|text| said(text, plain)),
+    );
+    lines.extend(empty().chain(said(&digest.outcome, theme.focus)));
+    for (standing, text) in &digest.limits {
+        let style = if standing.holds() { plain } else { theme.problem };
+        lines.extend(said(&format!("{} {text}", standing.word()), style));
+    }
+    if digest.limits.is_empty() {
+        lines.extend(said("No limits.", plain));
+    }
+    lines.extend(
+        digest
+            .notes
+            .iter()
+            .flat_map(|note| empty().chain(said(&format!("Note: {note}"), theme.note))),
+    );
+    lines
+}
+
+fn outside(wanted: Size, screen: Rect) -> Rect {
+    let room = room(screen.as_size());
+    let height = wanted.height.clamp(1, room.height.max(1)) + 2;
+    let width = wanted.width.max(NARROWEST).min(room.width) + 4;
+    screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen)
+}
+
+fn top_of(marked: Option<usize>, area: Rect) -> usize {
+    marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()))
 }

@@ -1,27 +1,27 @@
 //! The file browser: a folder on the left, the recent cases below it, the preview of the selected
 //! line on the right.
 
-use std::path::Path;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 
 use super::picker::Pick;
-use super::{Dialog, Outcome, Surroundings, boxes, digest};
+use super::{Dialog, Outcome, Surroundings, boxes};
 use crate::case::units::System;
+use crate::case::{EXAMPLES, Example};
 use crate::tui::actions::{Action, Effect};
 use crate::tui::jobs::Job;
 use crate::tui::keys::Place;
 use crate::tui::line::Line as Text;
+use crate::tui::store::case_search::{self, SearchResult};
+use crate::tui::store::folder::{Entry, Listing, beneath};
 use crate::tui::store::preview::{Preview, Viewport};
+use crate::tui::store::recents::Recent;
 use crate::tui::text;
 use crate::tui::theme::Theme;
-
-mod state;
-
-pub(crate) use state::Browser;
-use state::Line;
 
 /// The full width, and a limited number of lines.
 const SIZE: Size = Size { width: u16::MAX, height: 34 };
@@ -48,6 +48,280 @@ impl Browser {
             None => return Vec::new(),
         }
         self.typed()
+    }
+
+    /// A browser in the folder of the present case; selects the recent cases if they are preferred.
+    #[must_use]
+    pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
+        let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
+        let came_from = path.and_then(Path::file_name).map(ToOwned::to_owned);
+        Browser { base, prefers_recents, came_from, ..Browser::default() }
+    }
+
+    /// The folder and the typed part of the requested listing.
+    #[must_use]
+    fn asks(&self) -> (PathBuf, String) {
+        (self.base.clone(), self.typed_folder.clone())
+    }
+
+    /// The typed path up to its last slash, and the rest. A lone `~` is the home folder.
+    #[must_use]
+    pub(crate) fn split(&self) -> (&str, &str) {
+        let typed = self.input.value();
+        if typed == "~" {
+            (typed, "")
+        } else {
+            typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1))
+        }
+    }
+
+    /// Updates the matches after typing. Returns whether the text names another folder.
+    pub(crate) fn follow(&mut self) -> bool {
+        let (folder, _) = self.split();
+        let is_other = folder != self.typed_folder;
+        if is_other {
+            folder.to_owned().clone_into(&mut self.typed_folder);
+            self.listing = None;
+        }
+        self.refit();
+        is_other
+    }
+
+    /// Shows a listing if it belongs to the present folder.
+    pub(crate) fn take(&mut self, listing: Listing) {
+        if listing.asked == self.asks() {
+            self.listing = Some(listing);
+            self.refit();
+            let came_from = self.came_from.take();
+            let is_it = |entry: &Entry| Some(&entry.file) == came_from.as_ref();
+            let at = self.entries().position(is_it).map(|at| at + usize::from(self.has_up()));
+            self.marked = at.filter(|_| !self.prefers_recents).unwrap_or(self.marked);
+        }
+    }
+
+    /// The folder in which to search for cases below; at most one search for each folder.
+    fn seek(&mut self) -> Option<(PathBuf, String)> {
+        let is_sought = self.sought.as_ref() == Some(&self.asks());
+        if is_sought || self.wanted().is_none() {
+            return None;
+        }
+        self.sought = Some(self.asks());
+        self.sought.clone()
+    }
+
+    /// Whether the search in the folders below is still running.
+    fn is_seeking(&self) -> bool {
+        self.wanted().is_some() && self.own_below().is_none()
+    }
+
+    /// Shows the cases in the folders below; a selection before them does not change.
+    fn take_below(&mut self, below: SearchResult) {
+        self.below = Some(below);
+        let marked = self.marked;
+        let is_above = marked < self.count_of_folder() && !self.fitting.is_empty();
+        self.refit();
+        self.marked = if is_above { marked } else { self.marked };
+    }
+
+    /// Shows the recent cases.
+    pub(crate) fn remember(&mut self, recents: Vec<Recent>) {
+        self.recents = recents;
+        self.refit();
+    }
+
+    /// Selects the first recent case, or goes back to the folder.
+    pub(crate) fn select_recents(&mut self) {
+        self.prefers_recents = !self.marks_recent();
+        self.mark_first();
+    }
+
+    /// Whether the list includes the parent folder.
+    fn has_up(&self) -> bool {
+        self.listing.is_some() && self.split().1.is_empty()
+    }
+
+    /// The matching entries of the folder.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
+        let entries = self.listing.as_ref().and_then(|listing| listing.entries.as_ref().ok());
+        self.fitting.iter().filter_map(move |&at| entries?.get(at))
+    }
+
+    /// The number of lines of the folder.
+    fn count_of_folder(&self) -> usize {
+        self.fitting.len()
+            + self.fitting_below.len()
+            + self.fitting_examples.len()
+            + usize::from(self.has_up())
+    }
+
+    /// The number of matching recent cases.
+    fn count_of_recents(&self) -> usize {
+        self.fitting_recents.len()
+    }
+
+    /// Whether a recent case is selected.
+    fn marks_recent(&self) -> bool {
+        self.count_of_recents() > 0 && self.marked >= self.count_of_folder()
+    }
+
+    /// A line by its index, those of the folder first.
+    #[must_use]
+    pub(crate) fn line(&self, at: usize) -> Option<Line<'_>> {
+        if self.has_up() && at == 0 {
+            return Some(Line::Up);
+        }
+        let in_folder = at - usize::from(self.has_up());
+        if let Some(&entry) = self.fitting.get(in_folder) {
+            return self.listing.as_ref()?.entries.as_ref().ok()?.get(entry).map(Line::Entry);
+        }
+        let beyond = in_folder - self.fitting.len();
+        if let Some(&case) = self.fitting_below.get(beyond) {
+            return self.below.as_ref()?.cases.get(case).map(Line::Found);
+        }
+        let beyond = beyond - self.fitting_below.len();
+        if let Some(&example) = self.fitting_examples.get(beyond) {
+            return EXAMPLES.get(example).map(Line::Example);
+        }
+        let recent = *self.fitting_recents.get(beyond - self.fitting_examples.len())?;
+        self.recents.get(recent).map(Line::Recent)
+    }
+
+    /// The preview target of a line.
+    #[must_use]
+    pub(crate) fn sight(&self, line: Line<'_>) -> Viewport {
+        match line {
+            Line::Up => Viewport::Folder(self.above()),
+            Line::Recent(recent) => Viewport::File(recent.path.clone()),
+            Line::Example(example) => Viewport::Example(example),
+            Line::Found(case) => Viewport::File(
+                self.below.as_ref().map_or_else(|| case.way.clone(), |below| below.path(case)),
+            ),
+            Line::Entry(entry) => {
+                let path = beneath(&self.base, &self.typed_folder).join(&entry.file);
+                if entry.is_folder { Viewport::Folder(path) } else { Viewport::File(path) }
+            }
+        }
+    }
+
+    /// The preview target of the selected line.
+    fn marked_sight(&self) -> Option<Viewport> {
+        self.line(self.marked).map(|line| self.sight(line))
+    }
+
+    /// The typed path.
+    fn typed_path(&self) -> PathBuf {
+        beneath(&self.base, self.input.value())
+    }
+
+    /// Moves the selection by `by` lines, within the list.
+    pub(crate) fn mark(&mut self, by: isize) {
+        let last = (self.count_of_folder() + self.count_of_recents()).saturating_sub(1);
+        self.marked = self.marked.saturating_add_signed(by).min(last);
+    }
+
+    /// Enters a folder.
+    pub(crate) fn enter(&mut self, folder: PathBuf) {
+        self.came_from = (folder == self.above())
+            .then(|| self.listing.as_ref()?.folder.file_name().map(ToOwned::to_owned))
+            .flatten();
+        self.base = folder;
+        (self.input, self.typed_folder, self.listing) = (Text::default(), String::new(), None);
+        self.prefers_recents = false;
+        self.refit();
+    }
+
+    /// The parent folder, as a full path if known.
+    #[must_use]
+    pub(crate) fn above(&self) -> PathBuf {
+        let known = self
+            .listing
+            .as_ref()
+            .map(|listing| listing.folder.parent().unwrap_or(&listing.folder).to_owned());
+        known.unwrap_or_else(|| beneath(&self.base, &self.typed_folder).join(".."))
+    }
+
+    /// The preview to request, once for each selection.
+    pub(crate) fn look(&mut self) -> Option<Viewport> {
+        let sight = self.marked_sight();
+        if sight == self.looked_at {
+            return None;
+        }
+        self.looked_at.clone_from(&sight);
+        sight
+    }
+
+    /// Shows a preview if it belongs to the last request.
+    pub(crate) fn show(&mut self, sight: Viewport, preview: Preview) {
+        if self.looked_at.as_ref() == Some(&sight) {
+            self.preview = Some((sight, preview));
+        }
+    }
+
+    // Hidden entries match only if the user types their dot.
+    fn refit(&mut self) {
+        let wanted = self.split().1.to_lowercase();
+        let fits = |entry: &Entry| {
+            (wanted.starts_with('.') || !entry.name.starts_with('.'))
+                && entry.folded.contains(&wanted)
+        };
+        let entries = self
+            .listing
+            .as_ref()
+            .and_then(|listing| listing.entries.as_ref().ok())
+            .map(Vec::as_slice);
+        let places = |fits: &mut dyn Iterator<Item = bool>| {
+            fits.enumerate().filter_map(|(at, fits)| fits.then_some(at)).collect()
+        };
+        let fitting = places(&mut entries.unwrap_or_default().iter().map(fits));
+        let typed = self.input.value().to_lowercase();
+        let fitting_recents =
+            places(&mut self.recents.iter().map(|recent| recent.folded.contains(&typed)));
+        let (fitting_below, fitting_examples) = match self.wanted() {
+            None => (Vec::new(), Vec::new()),
+            Some(wanted) => {
+                let cases =
+                    self.own_below().map(|below| below.cases.as_slice()).unwrap_or_default();
+                let below = places(&mut cases.iter().map(|case| case.folded.contains(&wanted)));
+                (below, places(&mut EXAMPLES.iter().map(|example| example.name.contains(&typed))))
+            }
+        };
+        (self.fitting, self.fitting_recents) = (fitting, fitting_recents);
+        (self.fitting_below, self.fitting_examples) = (fitting_below, fitting_examples);
+        self.mark_first();
+    }
+
+    // The part of a name to search for below and among the examples; hidden names are only searched
+    // in this folder.
+    fn wanted(&self) -> Option<String> {
+        let wanted = self.split().1;
+        (!wanted.is_empty() && !wanted.starts_with(['.', '~'])).then(|| wanted.to_lowercase())
+    }
+
+    fn own_below(&self) -> Option<&SearchResult> {
+        self.below.as_ref().filter(|below| below.asked == self.asks())
+    }
+
+    // Selects the first line that is not the parent folder, if any.
+    fn mark_first(&mut self) {
+        let folder = self.count_of_folder();
+        let is_recent = self.count_of_recents() > 0 && (self.prefers_recents || folder == 0);
+        self.marked = if is_recent {
+            folder
+        } else {
+            usize::from(self.has_up() && !self.fitting.is_empty()) + self.best()
+        };
+    }
+
+    // The index of the entry with the typed name, otherwise of one that begins with it.
+    fn best(&self) -> usize {
+        let wanted = self.split().1.to_lowercase();
+        let at = |is_it: &dyn Fn(&Entry) -> bool| self.entries().position(is_it);
+        let begins = || at(&|entry| entry.folded.starts_with(&wanted));
+        if wanted.is_empty() {
+            0
+        } else {
+            at(&|entry| entry.folded == wanted).or_else(begins).unwrap_or(0)
+        }
     }
 }
 
@@ -107,6 +381,59 @@ impl Dialog for Browser {
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         draw(self, area, around.look.theme, buffer)
     }
+}
+
+/// A folder and the recent cases.
+#[derive(Debug, Clone, Default)]
+pub struct Browser {
+    /// The typed text: a part of a name, or a path.
+    pub(crate) input: Text,
+    /// The content of the folder; `None` while it is being read.
+    pub(crate) listing: Option<Listing>,
+    /// The recent cases.
+    pub(crate) recents: Vec<Recent>,
+    /// The index of the selected line among the matches: first those of the folder, then the recent
+    /// cases.
+    pub(crate) marked: usize,
+    /// The preview of the selected line, once it is read.
+    pub(crate) preview: Option<(Viewport, Preview)>,
+    /// The start folder or the entered folder, relative to the working directory if possible.
+    base: PathBuf,
+    /// The folder part of the typed path, which the listing belongs to.
+    typed_folder: String,
+    /// Indices of the matching entries of the listing.
+    fitting: Vec<usize>,
+    /// The cases in the folders below, once a search is requested.
+    below: Option<SearchResult>,
+    /// The folder of that search.
+    sought: Option<(PathBuf, String)>,
+    /// Indices of the matching cases in the folders below.
+    fitting_below: Vec<usize>,
+    /// Indices of the matching examples.
+    fitting_examples: Vec<usize>,
+    /// Indices of the matching recent cases.
+    fitting_recents: Vec<usize>,
+    /// Whether to select a recent case rather than one of the folder.
+    prefers_recents: bool,
+    /// The entry to select: the present case, or the folder from which the user went up.
+    came_from: Option<OsString>,
+    /// The last requested preview.
+    looked_at: Option<Viewport>,
+}
+
+/// A line that can be selected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Line<'b> {
+    /// The parent folder.
+    Up,
+    /// An entry of the folder.
+    Entry(&'b Entry),
+    /// A case in a folder below.
+    Found(&'b case_search::Case),
+    /// An example.
+    Example(&'static Example),
+    /// A recent case.
+    Recent(&'b Recent),
 }
 
 fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
@@ -259,7 +586,7 @@ fn lines_of(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Styl
         Preview::Case(case, is_newer) => {
             let newer =
                 is_newer.then(|| ("Newer format: opens read-only.".to_owned(), theme.problem));
-            newer.into_iter().chain(digest::lines(case, width, theme)).collect()
+            newer.into_iter().chain(boxes::digest_lines(case, width, theme)).collect()
         }
         Preview::Folder(cases, folders) => {
             let counted = |count: usize, one: &str| {

@@ -9,7 +9,7 @@ use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::commands::Command;
 use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::export::ExportTo;
+use crate::tui::dialogs::path::ExportTo;
 use crate::tui::dialogs::question::Question;
 use crate::tui::jobs::{ExportFault, Exporting, Job, RunningExport};
 use crate::tui::layout::Pane;

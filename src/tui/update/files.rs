@@ -3,21 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use super::{baseline, export, recovery, solve, tabs};
-use crate::case::Document;
 use crate::case::file::Saved;
-use crate::case::rexs;
+use crate::case::{Document, rexs};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::ascii;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::page::Page;
+use crate::tui::dialogs::path::SaveAs;
 use crate::tui::dialogs::question::{Choice, Question};
-use crate::tui::dialogs::save_as::SaveAs;
 use crate::tui::line::{CASE_ENDING, Line};
-use crate::tui::rows;
 use crate::tui::session::recovery::{Access, NEWER};
 use crate::tui::session::save::{Next, Over, SaveFault, Saving, Written};
 use crate::tui::tab::{Origin, Tab};
+use crate::tui::{ascii, rows};
 
 /// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {

@@ -6,8 +6,7 @@ use crate::report;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::explanation::Explanation;
-use crate::tui::dialogs::page::Page;
+use crate::tui::dialogs::page::{Explanation, Page};
 use crate::tui::jobs::{Explaining, Job};
 use crate::tui::panes::results;
 
