@@ -47,7 +47,7 @@ use crate::system::signals;
 
 use actions::Action;
 use events::Events;
-use session::journal_writer::JournalWriter;
+use session::journal::JournalWriter;
 use terminal::{Screen, TERMINAL_LOST};
 use workbench::{End, session};
 

@@ -11,7 +11,7 @@ use super::app::App;
 use super::events::{self, Event, Events};
 use super::fault;
 use super::session::autosave::Autosave;
-use super::session::journal_writer::JournalWriter;
+use super::session::journal::JournalWriter;
 use super::session::recovery::Claim;
 use super::settings::Settings;
 use super::store::state::State;

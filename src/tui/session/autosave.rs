@@ -9,18 +9,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::clock;
-use super::journal::Journal;
-use super::journal_writer::JournalWriter;
-use super::journals::{Found, Journals};
-use super::lock::Lock;
-use super::locks::Locks;
+use super::journal::{Found, Journal, JournalWriter, Journals};
+use super::lock::{Lock, Locks};
 use super::recovery::{Access, Claim, Offer, OpenCase};
 use super::save::{SaveFault, Saving, Written};
 use crate::case::Case;
 use crate::case::changes::{self, Change};
 use crate::case::file::followed;
 use crate::case::stamp::Stamp;
+use crate::tui::session;
 use crate::tui::store::state::State;
 
 /// Delay of the journal after the last edit.
@@ -134,7 +131,7 @@ impl Autosave {
         saving.expand();
         let lock = followed(&saving.path).map(|path| self.locks.take(&path));
         let result = match lock {
-            Ok(Ok(Some(holder))) => Err(SaveFault::Held(holder.words(clock::now()))),
+            Ok(Ok(Some(holder))) => Err(SaveFault::Held(holder.words(session::now()))),
             _ => saving.write(),
         };
         (saving.path, result)
@@ -188,7 +185,7 @@ impl Autosave {
         self.tracked.insert(open.id, case);
         let claim = match lock {
             // Edits of earlier sessions are offered to the session that may save them.
-            Ok(Some(holder)) => Claim::of(open.id, Access::Held(holder.words(clock::now()))),
+            Ok(Some(holder)) => Claim::of(open.id, Access::Held(holder.words(session::now()))),
             Ok(None) => self.found(open, None),
             Err(reason) => self.found(open, Some(reason)),
         };
@@ -207,7 +204,7 @@ impl Autosave {
         let mut claim = Claim::of(open.id, Access::Own);
         match lock {
             Ok(None) => {}
-            Ok(Some(holder)) => claim.access = Access::Held(holder.words(clock::now())),
+            Ok(Some(holder)) => claim.access = Access::Held(holder.words(session::now())),
             Err(reason) => claim.notices.push(reason),
         }
         if let Some(case) = self.tracked.get_mut(&open.id) {
@@ -306,7 +303,7 @@ fn offer(open: &OpenCase<'_>, place: PathBuf, journal: &Journal) -> Option<Offer
         drop(fs::remove_file(place));
         return None;
     }
-    let age = clock::age(clock::now().saturating_sub(journal.written));
+    let age = session::age(session::now().saturating_sub(journal.written));
     Some(Offer {
         journal: place,
         age,

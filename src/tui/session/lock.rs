@@ -1,12 +1,18 @@
-//! Locks that end with their process, whatever ends it, and that name their process to others.
+//! Locks of the open cases: they end with their process, whatever ends it, and name it to others.
 
+use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Seek, Write};
+use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::holder::Holder;
-use crate::system::locks;
+use toml_edit::{DocumentMut, Item, value};
+
+use crate::case::file::followed;
+use crate::case::sanitize::sanitize;
+use crate::system::{locks, users};
+use crate::tui::session;
 
 /// Attempts to lock: another process may delete the lock file between opening and locking it.
 const ATTEMPTS: usize = 5;
@@ -14,6 +20,9 @@ const ATTEMPTS: usize = 5;
 const UNLOCKED: &str = ".";
 /// Age above which an unlocked new file is certainly abandoned.
 const STALE: Duration = Duration::from_secs(600);
+
+/// Greatest size of a lock file.
+const MOST_BYTES: u64 = 4096;
 
 /// A lock; dropping it releases the lock.
 #[derive(Debug)]
@@ -115,6 +124,135 @@ impl Drop for Lock {
     }
 }
 
+/// The holder of a lock; the process is 0 if the file does not name it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Holder {
+    /// The host name.
+    pub(crate) host: String,
+    /// The process id.
+    pub(crate) process: u32,
+    /// Start time of the process, in clock ticks since boot: process ids are reused.
+    pub(crate) started: u64,
+    /// The boot id of the machine.
+    pub(crate) boot: String,
+    /// Time of the lock, in seconds since 1970.
+    pub(crate) since: u64,
+}
+
+impl Holder {
+    /// This process.
+    #[must_use]
+    fn ourselves() -> Holder {
+        let process = std::process::id();
+        Holder {
+            host: host(),
+            process,
+            started: started(process).unwrap_or(0),
+            boot: boot(),
+            since: session::now(),
+        }
+    }
+
+    /// The holder as text for a message.
+    #[must_use]
+    pub(crate) fn words(&self, now: u64) -> String {
+        if self.process == 0 {
+            return "an unknown process".to_owned();
+        }
+        format!(
+            "process {} on {} for {}",
+            self.process,
+            self.host,
+            session::age(now.saturating_sub(self.since))
+        )
+    }
+
+    /// Whether the same process is still running, as far as this machine can tell.
+    fn is_alive(&self) -> bool {
+        self.host == host() && self.boot == boot() && started(self.process) == Some(self.started)
+    }
+
+    /// The text of the lock file.
+    pub(crate) fn to_text(&self) -> String {
+        let mut toml = DocumentMut::new();
+        toml["host"] = value(&self.host);
+        toml["process"] = value(i64::from(self.process));
+        toml["started"] = value(self.started.cast_signed());
+        toml["boot"] = value(&self.boot);
+        toml["since"] = value(self.since.cast_signed());
+        format!("# tipstrike has this case open.\n{toml}")
+    }
+
+    pub(super) fn read(file: &mut File) -> Option<Holder> {
+        let mut text = String::new();
+        file.rewind().ok()?;
+        file.take(MOST_BYTES).read_to_string(&mut text).ok()?;
+        let toml: DocumentMut = text.parse().ok()?;
+        let text = |key| toml.get(key).and_then(Item::as_str).map(str::to_owned);
+        let number = |key| {
+            toml.get(key).and_then(Item::as_integer).and_then(|number| u64::try_from(number).ok())
+        };
+        Some(Holder {
+            host: text("host")?,
+            process: number("process")?.try_into().ok()?,
+            started: number("started")?,
+            boot: text("boot")?,
+            since: number("since")?,
+        })
+    }
+}
+
+/// The locks by the canonical places of the cases.
+#[derive(Debug, Default)]
+pub(super) struct Locks(BTreeMap<PathBuf, Held>);
+
+impl Locks {
+    /// Takes the lock of a case. Returns the process that has the case open, or `None` if this
+    /// session now has the lock. The error is the reason why the case has no lock.
+    pub(super) fn take(&mut self, path: &Path) -> Result<Option<Holder>, String> {
+        let Some(named) = lock_of(path).filter(|named| !self.0.contains_key(named)) else {
+            return Ok(None);
+        };
+        let whole = followed(path).ok().and_then(|path| lock_of(&path));
+        let place = whole.unwrap_or_else(|| named.clone());
+        if self.0.values().any(|held| held.place == place) {
+            return Ok(None);
+        }
+        let hold = |lock: Lock| {
+            let place = place.clone();
+            self.0.insert(named, Held { place, _lock: lock });
+        };
+        match Lock::take(&place) {
+            Ok(LockOutcome::Held(holder)) => Ok(Some(holder)),
+            Ok(LockOutcome::Ours(lock)) => {
+                hold(lock);
+                Ok(None)
+            }
+            Ok(LockOutcome::Unguarded(lock, error)) => {
+                hold(lock);
+                Err(format!(
+                    "{}: the lock is valid on this machine only: {}: do not open this case on \
+                        another machine",
+                    name_of(path),
+                    brief(&error)
+                ))
+            }
+            Err(error) => Err(unlocked(path, &place, &error)),
+        }
+    }
+
+    /// Whether this session has the lock of the case.
+    pub(super) fn has(&self, path: &Path) -> bool {
+        lock_of(path).is_some_and(|place| self.0.contains_key(&place))
+    }
+
+    /// Releases the locks of all other cases.
+    pub(super) fn keep_only<'a>(&mut self, cases: impl Iterator<Item = &'a Path>) {
+        let wanted: Vec<_> = cases.filter_map(lock_of).collect();
+        self.0.retain(|named, _| wanted.contains(named));
+    }
+}
+
 enum Hold {
     Ours,
     /// The file system has no locks, and the text names no running process.
@@ -169,14 +307,77 @@ fn regular(file: io::Result<File>, path: &Path) -> io::Result<File> {
     }
 }
 
+fn host() -> String {
+    users::host()
+}
+
+fn boot() -> String {
+    fs::read_to_string("/proc/sys/kernel/random/boot_id")
+        .map(|text| text.trim().to_owned())
+        .unwrap_or_default()
+}
+
+// Field 22 of `/proc/PID/stat`. Field 2, the name, may contain blanks and brackets.
+fn started(process: u32) -> Option<u64> {
+    let state = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    state.rsplit_once(')')?.1.split_whitespace().nth(19)?.parse().ok()
+}
+
+/// A lock of this session.
+#[derive(Debug)]
+struct Held {
+    /// The lock file, with the full path of its folder: two paths may name one file.
+    place: PathBuf,
+    _lock: Lock,
+}
+
+// The lock file is beside the case, so that other users and other machines also see it: whoever may
+// save there may lock there.
+fn lock_of(path: &Path) -> Option<PathBuf> {
+    let mut name = OsString::from(".");
+    name.push(path.file_name()?);
+    name.push(".tipstrike");
+    Some(path.with_file_name(name))
+}
+
+/// Why a case has no lock, and the fix.
+fn unlocked(path: &Path, place: &Path, error: &io::Error) -> String {
+    let lock = name_of(place);
+    let (cause, fix) = match error.kind() {
+        ErrorKind::PermissionDenied if place.symlink_metadata().is_ok() => (
+            format!("another user created its lock {lock}, which you cannot read"),
+            "ask whether that user has the case open",
+        ),
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            ("its folder is read-only".to_owned(), "save it elsewhere")
+        }
+        ErrorKind::IsADirectory => (format!("{lock} is a folder"), "remove that"),
+        ErrorKind::Other => (format!("{lock} {error}"), "remove that"),
+        _ => (format!("{lock}: {}", brief(error)), "open it only once"),
+    };
+    let name = name_of(path);
+    format!("{name} is not locked, so other sessions may save it too: {cause}: {fix}")
+}
+
+/// The error text of the system without the error number.
+fn brief(error: &io::Error) -> String {
+    let words = error.to_string();
+    let end = words.find(" (os error").unwrap_or(words.len());
+    words[..end].to_owned()
+}
+
+fn name_of(path: &Path) -> String {
+    sanitize(&path.file_name().unwrap_or_default().to_string_lossy())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::tui::session::holder::host;
     use std::os::unix::fs::PermissionsExt;
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread;
     use std::time::SystemTime;
+
+    use super::*;
 
     /// Ends a thread even if the test fails.
     struct End<'a>(&'a AtomicBool);
@@ -304,5 +505,18 @@ mod tests {
             .map(|entry| entry.file_name())
             .collect();
         assert_eq!(left, [".begins"]);
+    }
+
+    #[test]
+    fn a_lock_that_cannot_be_read_is_not_called_a_read_only_folder() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let case = folder.path().join("case.toml");
+        let lock = lock_of(&case).expect("a name");
+        let denied = io::Error::from(ErrorKind::PermissionDenied);
+        assert!(unlocked(&case, &lock, &denied).contains("its folder is read-only"));
+        std::fs::write(&lock, "").expect("room on the disk");
+        let words = unlocked(&case, &lock, &denied);
+        assert!(!words.contains("read-only"), "{words}");
+        assert!(words.contains("created its lock .case.toml.tipstrike"), "{words}");
     }
 }
