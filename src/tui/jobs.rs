@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use super::solver::VariantsRequest;
-use super::store::preview::Viewport;
+use super::store::folder::Viewport;
 use crate::case::units::System;
 use crate::case::{Case, Document};
 use crate::model::dynamic::speeds::SpeedCurve;

@@ -1,19 +1,16 @@
 //! Files that the workbench reads: cases, folders, and the list of recent cases.
 
-pub(crate) mod case_search;
 pub(crate) mod folder;
-pub(crate) mod preview;
 pub(crate) mod recents;
 pub(crate) mod state;
 
 use std::env;
 use std::path::{Path, PathBuf};
 
-use crate::case::Document;
 use crate::case::file::ReadError;
-use crate::case::rexs;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::Stamp;
+use crate::case::{Document, rexs};
 
 /// The case that the workbench opens at the start.
 #[derive(Debug)]

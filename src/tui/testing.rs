@@ -98,11 +98,11 @@ pub mod solver {
 
 pub mod store {
     pub use crate::tui::store::built_in;
-    pub use crate::tui::store::preview::Viewport;
+    pub use crate::tui::store::folder::Viewport;
     pub use crate::tui::store::state::State;
 
     pub mod case_search {
-        pub use crate::tui::store::case_search::{SearchResult, find};
+        pub use crate::tui::store::folder::{SearchResult, find};
     }
 
     pub mod folder {

@@ -16,9 +16,7 @@ use crate::tui::actions::{Action, Effect};
 use crate::tui::jobs::Job;
 use crate::tui::keys::Place;
 use crate::tui::line::Line as Text;
-use crate::tui::store::case_search::{self, SearchResult};
-use crate::tui::store::folder::{Entry, Listing, beneath};
-use crate::tui::store::preview::{Preview, Viewport};
+use crate::tui::store::folder::{self, Entry, Listing, Preview, SearchResult, Viewport, beneath};
 use crate::tui::store::recents::Recent;
 use crate::tui::text;
 use crate::tui::theme::Theme;
@@ -429,7 +427,7 @@ pub(crate) enum Line<'b> {
     /// An entry of the folder.
     Entry(&'b Entry),
     /// A case in a folder below.
-    Found(&'b case_search::Case),
+    Found(&'b folder::FoundCase),
     /// An example.
     Example(&'static Example),
     /// A recent case.

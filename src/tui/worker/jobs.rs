@@ -16,7 +16,7 @@ use crate::tui::jobs::{
     Explained, Explaining, ExportFault, Job, ReliefAnswer, ReliefRequest, Reporting,
 };
 use crate::tui::solver::{Variants, VariantsRequest};
-use crate::tui::store::{case_search, folder, preview, recents};
+use crate::tui::store::{folder, recents};
 
 /// Starts the worker of a kind of jobs.
 ///
@@ -50,9 +50,9 @@ fn failed(job: &Job) -> Action {
 pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
     Some(match job {
         Job::Folder(base, typed) => Action::Listed(Box::new(folder::list(base, typed))),
-        Job::Search(base, typed) => Action::Found(Box::new(case_search::find(base, typed, go_on)?)),
+        Job::Search(base, typed) => Action::Found(Box::new(folder::find(base, typed, go_on)?)),
         Job::Preview(sight, system) => {
-            let preview = preview::of(&sight, system, go_on)?;
+            let preview = folder::preview(&sight, system, go_on)?;
             Action::Previewed(sight, Box::new(preview))
         }
         Job::Recents => Action::Recents(recents::looked_at(recents::list())),
