@@ -11,7 +11,6 @@ mod ascii;
 mod commands;
 mod dialogs;
 mod events;
-mod fault;
 mod form_aids;
 mod header;
 mod input;

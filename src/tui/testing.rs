@@ -139,10 +139,10 @@ pub mod worker_chart {
 }
 
 pub mod worker {
+    pub use crate::tui::worker::Running;
     pub use crate::tui::worker::Workers;
-    pub use crate::tui::worker::charting::draw as draw_chart;
-    pub use crate::tui::worker::latest::Running;
-    pub use crate::tui::worker::measuring::measure;
+    pub use crate::tui::worker::studying::draw_chart;
+    pub use crate::tui::worker::studying::measure;
     pub use crate::tui::worker::studying::study;
 
     pub mod jobs {

@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 use super::actions::{Action, Effect};
 use super::app::App;
 use super::events::{self, Event, Events};
-use super::fault;
 use super::session::autosave::Autosave;
 use super::session::journal::JournalWriter;
 use super::session::recovery::Claim;
@@ -20,7 +19,7 @@ use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
 use super::update::{self, update};
-use super::worker::Workers;
+use super::worker::{self, Workers};
 use crate::system::signals::{SIGCONT, SIGTSTP, SIGWINCH};
 
 /// Time between two frames of the animation.
@@ -221,7 +220,7 @@ impl Workbench {
                 match effect {
                     Effect::Quit => return Ok(true),
                     Effect::Redraw => {
-                        fault::on_demand("screen");
+                        worker::on_demand("screen");
                         self.screen.clear()?;
                     }
                     Effect::Suspend => self.suspend()?,

@@ -1,22 +1,25 @@
-//! Workers of the jobs, one thread for each kind.
+//! Workers of the jobs, one thread for each kind, and the export of results to a file.
 
 use std::io;
+use std::path::{Path, PathBuf};
 
-use super::export;
-use super::latest::{Send, Worker};
+use super::{Send, Worker};
+use crate::case::file::{self, SaveError};
 use crate::case::units::System;
 use crate::case::{Case, EXAMPLES, Evaluator};
 use crate::model::{self, Inputs, Refusal, Stages};
 use crate::report::digest::Digest;
 use crate::report::explain;
+use crate::report::export::{self, ReportFormat};
 use crate::report::page::{Page, Studies, Subject};
+use crate::report::pictures::{NoPicture, Picture, Unsolved};
 use crate::study::relief::{NoRelief, specify};
 use crate::tui::actions::Action;
 use crate::tui::jobs::{
-    Explained, Explaining, ExportFault, Job, ReliefAnswer, ReliefRequest, Reporting,
+    Explained, Explaining, ExportFault, Exporting, Job, ReliefAnswer, ReliefRequest, Reporting,
 };
 use crate::tui::solver::{Variants, VariantsRequest};
-use crate::tui::store::{folder, recents};
+use crate::tui::store::{at_home, folder, recents};
 
 /// Starts the worker of a kind of jobs.
 ///
@@ -35,16 +38,6 @@ pub(crate) fn start(name: &'static str, send: Send) -> io::Result<Worker<Job>> {
     )
 }
 
-fn failed(job: &Job) -> Action {
-    const FAULT: &str = "internal error";
-    if let Job::Export(exporting) = job {
-        let fault = ExportFault::Failed(FAULT.to_owned());
-        return Action::Exported(exporting.path.clone(), Err(fault));
-    }
-    let (_, name) = job.kind();
-    Action::Failed(format!("{FAULT}: {name} cannot be shown"))
-}
-
 /// Runs a job. Returns `None` if `go_on` returns false.
 #[must_use]
 pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
@@ -58,7 +51,7 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
         Job::Recents => Action::Recents(recents::looked_at(recents::list())),
         Job::Examples(system) => Action::Examples(examples(system, go_on)?),
         Job::Export(exporting) => {
-            let (path, result) = export::write(&exporting, go_on);
+            let (path, result) = write_export(&exporting, go_on);
             Action::Exported(path, result)
         }
         Job::Explain(explaining) => Action::Explained(Box::new(explained(*explaining))),
@@ -66,6 +59,16 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
         Job::Markdown(reporting) => Action::Reported(markdown(*reporting)),
         Job::Variants(request) => Action::Compared(Box::new(compared(*request, go_on)?)),
     })
+}
+
+fn failed(job: &Job) -> Action {
+    const FAULT: &str = "internal error";
+    if let Job::Export(exporting) = job {
+        let fault = ExportFault::Failed(FAULT.to_owned());
+        return Action::Exported(exporting.path.clone(), Err(fault));
+    }
+    let (_, name) = job.kind();
+    Action::Failed(format!("{FAULT}: {name} cannot be shown"))
 }
 
 fn markdown(reporting: Reporting) -> String {
@@ -123,4 +126,76 @@ fn explained(explaining: Explaining) -> Explained {
         Err(refusal) => Err(format!("Not solved: {refusal}. Correction: {}.", refusal.fix())),
     };
     Explained { quantity, page }
+}
+
+/// The content of the file.
+enum ExportSubject {
+    Picture(Picture),
+    Report(ReportFormat),
+}
+
+/// Solves the case and writes the file. Returns the full path.
+fn write_export(
+    exporting: &Exporting,
+    go_on: &dyn Fn(f64) -> bool,
+) -> (PathBuf, Result<(), ExportFault>) {
+    let path = at_home(&exporting.path);
+    let path = std::path::absolute(&path).unwrap_or(path);
+    if !exporting.replaces && path.symlink_metadata().is_ok() {
+        return (path, Err(ExportFault::Exists));
+    }
+    let written = export_text(exporting, &path, go_on).map_err(ExportFault::Failed);
+    let written = written.and_then(|text| {
+        file::write(&path, text.as_bytes(), exporting.replaces).map_err(|error| match error {
+            SaveError::AlreadyThere(_) => ExportFault::Exists,
+            error => ExportFault::Failed(error.to_string()),
+        })
+    });
+    (path, written)
+}
+
+fn export_text(
+    exporting: &Exporting,
+    path: &Path,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<String, String> {
+    let format = ReportFormat::of(path);
+    let subject = match (exporting.picture, format) {
+        (Some(picture), _) => ExportSubject::Picture(picture),
+        (None, Some(format)) => ExportSubject::Report(format),
+        (None, None) => {
+            return Err(format!(
+                "unknown file extension: use {} for the report, or .svg for the picture",
+                ReportFormat::ENDINGS
+            ));
+        }
+    };
+    let source = Unsolved {
+        name: &exporting.name,
+        case: &exporting.document.case,
+        inputs: &exporting.inputs,
+    };
+    let go_on = |done: usize, of: usize| go_on(done as f64 / of.max(1) as f64);
+    let format = match subject {
+        ExportSubject::Picture(picture) => {
+            return picture.of_case(source, &go_on).map_err(|reason| match reason {
+                NoPicture::Refused(refusal) => refused(&refusal),
+                NoPicture::Absent(reason) => reason,
+            });
+        }
+        ExportSubject::Report(format) => format,
+    };
+    let report = source.solve(format.has_stations());
+    let report = report.map_err(|refusal| refused(&refusal))?;
+    let file = exporting.document.render();
+    let subject = export::subject(report, file, format, &go_on);
+    let subject = subject.map_err(|refusal| refused(&refusal))?;
+    format.render(&[subject]).map_err(|error| error.to_string())
+}
+
+fn refused(refusal: &Refusal) -> String {
+    match refusal {
+        Refusal::Stopped => "the export is stopped".to_owned(),
+        refusal => format!("{refusal}: {}", refusal.fix()),
+    }
 }

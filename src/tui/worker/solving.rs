@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::io;
 use std::time::{Duration, Instant};
 
-use super::latest::{Running, Send, Worker};
+use super::{Running, Send, Worker};
 use crate::case::Evaluator;
 use crate::model::Stage;
 use crate::tui::actions::Action;

@@ -1,19 +1,31 @@
-//! The worker of the studies: sends their results as they arrive.
+//! The workers that send their results as they arrive: of the studies, of the charts with their own
+//! axes, and of the benchmark.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use super::latest::{Running, Send, Worker};
+use super::{Running, Send, Worker};
 use crate::case::Problem;
-use crate::model::Quantity;
+use crate::model::compliance::model_of;
+use crate::model::inputs::Method;
+use crate::model::solve::speeds;
+use crate::model::{Inputs, Quantity, Refusal, Stage, Stages, solve_while};
 use crate::report::tolerance::ToleranceReport;
+use crate::report::tooth_chart::{absence, tooth_chart};
+use crate::report::whine::charts::spectra;
 use crate::study::batch::{self, Batch, Control, Points, Rows, Stopped, solve_all};
 use crate::study::design::Design;
 use crate::study::refusals::Refusals;
+use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Size, Tolerance};
+use crate::study::trade::{Trade, TradeParameters, trade};
 use crate::tui::actions::Action;
+use crate::tui::jobs::{
+    BenchmarkProgress, ChartPart, ChartRequest, ChartValues, End as BenchmarkEnd, Measuring,
+    WorkerChart,
+};
 use crate::tui::study::{
     End, Found, GridParameters, Layer, LayerFound, SAMPLES, StudyParameters, StudyPart,
     StudyRequest, ToleranceParameters,
@@ -23,6 +35,9 @@ use crate::tui::study::{
 const STEP: Duration = Duration::from_millis(40);
 /// Time between two messages of a tolerance study, whose summary takes longer.
 const PAGE_STEP: Duration = Duration::from_millis(250);
+
+/// Time between two messages of a growing curve.
+const CHART_STEP: Duration = Duration::from_millis(150);
 
 /// Starts the worker.
 ///
@@ -49,6 +64,58 @@ pub fn study(request: &StudyRequest, running: Running<'_>) {
         }
     };
     (running.send)(action(request, Found::Nothing, Some(end)));
+}
+
+/// Starts the worker.
+///
+/// # Errors
+/// Returns an error if the system cannot start a thread.
+pub(crate) fn start_charts(send: Send) -> io::Result<Worker<ChartRequest>> {
+    Worker::start("charts", send, draw_chart, |request| {
+        let reason = "internal error: the chart failed".to_owned();
+        chart_action(request, Some(ChartValues::Refused(reason)), true)
+    })
+}
+
+/// Computes a chart to its end and sends its values.
+pub fn draw_chart(request: &ChartRequest, running: Running<'_>) {
+    let found = match request.chart {
+        WorkerChart::ToothCompliance(gear) => tooth_compliance(gear, &request.inputs),
+        WorkerChart::Spectrum => spectrum(&request.inputs, running),
+        WorkerChart::Speed => over_speed(request, running),
+    };
+    let found = match found {
+        Ok(found) => Some(found),
+        Err(Refusal::Stopped) => None,
+        Err(refusal) => Some(ChartValues::Refused(format!("{refusal}: {}", refusal.fix()))),
+    };
+    (running.send)(chart_action(request, found, true));
+}
+
+/// Starts the worker.
+///
+/// # Errors
+/// Returns an error if the system cannot start a thread.
+pub(crate) fn start_benchmark(send: Send) -> io::Result<Worker<Measuring>> {
+    Worker::start("benchmark", send, measure, |measuring| {
+        benchmark_action(measuring, None, Some(BenchmarkEnd::Failed("internal error".to_owned())))
+    })
+}
+
+/// Runs the benchmark to its end and sends each step.
+pub fn measure(measuring: &Measuring, running: Running<'_>) {
+    let parameters =
+        TradeParameters { within: measuring.inputs.within, patience: measuring.patience };
+    let mut report = |sofar: &Trade| {
+        (running.send)(benchmark_action(measuring, Some(sofar.clone()), None));
+    };
+    let found = trade(&measuring.inputs, &parameters, running.is_wanted, &mut report);
+    let (trade, end) = match found {
+        Ok(trade) => (Some(trade), BenchmarkEnd::Whole),
+        Err(Refusal::Stopped) => (None, BenchmarkEnd::Stopped),
+        Err(refusal) => (None, BenchmarkEnd::Failed(refusal.to_string())),
+    };
+    (running.send)(benchmark_action(measuring, trade, Some(end)));
 }
 
 enum Unfinished {
@@ -181,4 +248,128 @@ fn page(parameters: &ToleranceParameters, study: &Tolerance, samples: &Samples) 
     let refused = samples.refusals.0.iter().map(|refused| report.refused(refused));
     lines.extend(refused);
     Found::Page(lines, solved as f64 / count as f64)
+}
+
+fn chart_action(request: &ChartRequest, found: Option<ChartValues>, is_over: bool) -> Action {
+    let serial = request.serial;
+    Action::Charted(Box::new(ChartPart { serial, found, is_over }))
+}
+
+fn tooth_compliance(gear: usize, inputs: &Inputs) -> Result<ChartValues, Refusal> {
+    let flanks = compare_flanks(inputs, FLANK_POINTS)?;
+    let own = model_of(inputs);
+    Ok(match tooth_chart(gear, &flanks, own) {
+        Some(_) => ChartValues::Flanks(Box::new(flanks), own),
+        None => ChartValues::Refused(format!("No chart: {}.", absence(gear, &flanks))),
+    })
+}
+
+/// The spectra at rest and, for method `dynamic`, in steady motion. A closed form has no mesh;
+/// method `static` replaces it.
+fn spectrum(inputs: &Inputs, running: Running<'_>) -> Result<ChartValues, Refusal> {
+    let method = match inputs.method {
+        Method::Dynamic => Method::Dynamic,
+        _ => Method::Static,
+    };
+    let inputs = Inputs { method, ..inputs.clone() };
+    let late = Stages::of(Stage::StaticSpectrum).and(Stages::of(Stage::SteadyMotion));
+    let solution = solve_while(&inputs, late, &|_| (running.is_wanted)())?;
+    Ok(ChartValues::Spectra(spectra("", &solution)))
+}
+
+fn over_speed(request: &ChartRequest, running: Running<'_>) -> Result<ChartValues, Refusal> {
+    let mut sent = Instant::now();
+    let curve = speeds(&request.inputs, &mut |curve| {
+        if sent.elapsed() >= CHART_STEP {
+            sent = Instant::now();
+            let so_far = ChartValues::Speeds(Box::new(curve.clone()));
+            (running.send)(chart_action(request, Some(so_far), false));
+        }
+        (running.is_wanted)()
+    })?;
+    Ok(ChartValues::Speeds(Box::new(curve)))
+}
+
+fn benchmark_action(
+    measuring: &Measuring,
+    trade: Option<Trade>,
+    end: Option<BenchmarkEnd>,
+) -> Action {
+    Action::Measured(Box::new(BenchmarkProgress {
+        serial: measuring.serial,
+        trade: trade.map(Box::new),
+        end,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::{Cell, RefCell};
+    use std::sync::Arc;
+    use std::sync::mpsc::channel;
+
+    use super::*;
+    use crate::case::Case;
+    use crate::study::trade::Patience;
+
+    fn measuring(serial: u64) -> Measuring {
+        Measuring { serial, inputs: Case::table_1().inputs().unwrap(), patience: Patience::ONCE }
+    }
+
+    /// The messages of a benchmark while `go_on` returns true.
+    fn sent(
+        measuring: &Measuring,
+        go_on: &dyn Fn(&BenchmarkProgress) -> bool,
+    ) -> Vec<BenchmarkProgress> {
+        let (all, is_wanted) = (RefCell::new(Vec::new()), Cell::new(true));
+        let send = |action| {
+            if let Action::Measured(measured) = action {
+                is_wanted.set(go_on(&measured));
+                all.borrow_mut().push(*measured);
+            }
+        };
+        let running = Running { is_wanted: &|| is_wanted.get(), send: &send };
+        measure(measuring, running);
+        all.into_inner()
+    }
+
+    #[test]
+    fn the_measured_settings_grow_until_the_end() {
+        let (sender, receiver) = channel();
+        let worker = start_benchmark(Arc::new(move |action| sender.send(action).is_ok())).unwrap();
+        worker.request(measuring(7));
+        let mut known = 0;
+        for action in receiver {
+            let Action::Measured(measured) = action else { panic!("{action:?}") };
+            assert_eq!(measured.serial, 7);
+            let trade = measured.trade.expect("a trade");
+            assert!(trade.settings.len() >= known);
+            known = trade.settings.len();
+            if let Some(end) = measured.end {
+                assert_eq!((end, known), (BenchmarkEnd::Whole, trade.planned));
+                return;
+            }
+        }
+    }
+
+    #[test]
+    fn a_stop_keeps_the_settings_measured_so_far() {
+        let count = |measured: &BenchmarkProgress| {
+            let trade = measured.trade.as_ref();
+            trade.map_or(0, |trade| trade.settings.len())
+        };
+        let all = sent(&measuring(1), &|measured| count(measured) != 3);
+        assert_eq!(all.last().map(|last| last.end.clone()), Some(Some(BenchmarkEnd::Stopped)));
+        assert_eq!(all.iter().map(count).max(), Some(3));
+    }
+
+    #[test]
+    fn a_case_that_no_method_solves_reports_the_reason() {
+        let mut refused = measuring(2);
+        refused.inputs.centre_distance = Some(0.01);
+        let end = sent(&refused, &|_| true).into_iter().find_map(|measured| measured.end);
+        assert!(
+            matches!(end, Some(BenchmarkEnd::Failed(reason)) if reason.contains("centre distance"))
+        );
+    }
 }

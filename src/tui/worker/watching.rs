@@ -8,10 +8,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
+use super::Send;
 use crate::system::changes::{Bell, Changes, Places};
 use crate::system::files;
-
-use super::latest::Send;
 use crate::tui::actions::Action;
 use crate::tui::store::{self, WatchedFile};
 
