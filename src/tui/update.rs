@@ -17,12 +17,9 @@ mod options;
 mod page;
 mod panes;
 mod pointer;
-mod recovery;
 mod relief;
-mod reload;
 mod selection;
 mod study;
-mod tabs;
 mod teeth;
 mod trade;
 mod variants;
@@ -130,12 +127,12 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         }
         Action::Progress(progress) => app.progress = progress,
         Action::Loaded(path, result) => return files::loaded(app, path, result),
-        Action::FileChanged(path, result) => return reload::changed(app, &path, result),
+        Action::FileChanged(path, result) => return files::file_changed(app, &path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
         Action::Exported(path, result) => export::done(app, &path, result),
         Action::Reported(text) => return copy::report(app, text),
-        Action::Claimed(claim) => recovery::claimed(app, *claim),
-        Action::Journals(journals) => recovery::list(app, journals),
+        Action::Claimed(claim) => files::claimed(app, *claim),
+        Action::Journals(journals) => files::list_journals(app, journals),
         Action::Failed(reason) => app.complain(reason),
         result @ (Action::Listed(_)
         | Action::Found(_)
@@ -153,7 +150,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Edit(request) => edit::handle(app, request),
         Command::Save => files::save(app, Next::Stay),
         Command::SaveAs => files::ask_where(app, Next::Stay),
-        Command::Reload => reload::ask(app),
+        Command::Reload => files::ask_reload(app),
         Command::Journals => vec![Effect::Journals],
         Command::Relief => relief::ask(app),
         Command::Export => export::ask(app),
@@ -162,8 +159,8 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::FolderUp => browse::up(app),
         Command::Example => catalogue::examples(app),
         Command::Explain => page::explain(app),
-        Command::New => solve(tabs::fresh(app)),
-        Command::BuiltIn => solve(tabs::built_in(app)),
+        Command::New => solve(files::fresh_tab(app)),
+        Command::BuiltIn => solve(files::built_in(app)),
         Command::CloseTab => files::close(app),
         Command::Quit => files::quit(app),
         Command::Cancel => cancel::cancel(app),
@@ -226,9 +223,9 @@ fn show(app: &mut App, command: Command) {
         Command::NextReason => page::step(app, 1),
         Command::PreviousReason => page::step(app, -1),
         Command::PinBaseline => baseline::toggle(app),
-        Command::NextTab => tabs::step(app, 1),
-        Command::PreviousTab => tabs::step(app, -1),
-        Command::Tab(at) => tabs::go_to(app, at),
+        Command::NextTab => files::step_tab(app, 1),
+        Command::PreviousTab => files::step_tab(app, -1),
+        Command::Tab(at) => files::go_to_tab(app, at),
         Command::Show(pane) => panes::show(app, pane),
         Command::NextPane => panes::step(app, 1),
         Command::PreviousPane => panes::step(app, -1),

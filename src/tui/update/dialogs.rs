@@ -1,6 +1,6 @@
 //! Keys, mouse and results for the topmost dialog, and the effects of its outcome.
 
-use super::{catalogue, cursor, export, files, panes, relief, run, solve, study, tabs, variants};
+use super::{catalogue, cursor, export, files, panes, relief, run, solve, study, variants};
 use crate::model::Quantity;
 use crate::tui::actions::{Action, Effect};
 use crate::tui::app::App;
@@ -72,7 +72,7 @@ fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
             variants::keep(app, name)
         }
         Pick::Run(command) => run(app, command),
-        Pick::Begin(example) => solve(tabs::begin(app, example)),
+        Pick::Begin(example) => solve(files::begin_example(app, example)),
         Pick::Make(gears, material) => catalogue::make(app, gears, material),
         Pick::Limit(key) => {
             Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity))

@@ -1,21 +1,26 @@
-//! Opening, saving and quitting, with a question before edits are discarded.
+//! The open cases: opening, reading again, saving, their tabs and claims, and quitting, with a
+//! question before edits are discarded.
 
 use std::path::{Path, PathBuf};
 
-use super::{baseline, export, recovery, solve, tabs};
+use super::{baseline, edit, export, solve};
 use crate::case::file::Saved;
-use crate::case::{Document, rexs};
+use crate::case::{Case, Document, Example, rexs};
+use crate::model::Stages;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::commands::Command;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::page::Page;
 use crate::tui::dialogs::path::SaveAs;
 use crate::tui::dialogs::question::{Choice, Question};
+use crate::tui::layout::Pane;
 use crate::tui::line::{CASE_ENDING, Line};
-use crate::tui::session::recovery::{Access, NEWER};
+use crate::tui::session::recovery::{Access, Claim, NEWER, Offer};
 use crate::tui::session::save::{Next, Over, SaveFault, Saving, Written};
+use crate::tui::solver::Request;
 use crate::tui::tab::{Origin, Tab};
-use crate::tui::{ascii, rows};
+use crate::tui::{ascii, rows, store};
 
 /// Quits, or asks if there are unsaved edits.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {
@@ -24,7 +29,7 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
     match unsaved[..] {
         [] => leave(app),
         [only] => {
-            tabs::go_to(app, only);
+            go_to_tab(app, only);
             app.prompts.push(Prompt::Ask(Question::unsaved(&app.tab.name(), &Next::Quit)));
             Vec::new()
         }
@@ -34,16 +39,6 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
             Vec::new()
         }
     }
-}
-
-/// Ends the workbench, or asks if an export is running.
-fn leave(app: &mut App) -> Vec<Effect> {
-    let Some(running) = &app.exporting else {
-        return vec![Effect::Quit];
-    };
-    let question = Question::export_runs(&running.path);
-    app.prompts.push(Prompt::Ask(question));
-    Vec::new()
 }
 
 /// Closes the current case, or asks if it has unsaved edits.
@@ -91,7 +86,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Overwrite(path, seen, next) => vec![saving(app, path, Over::Seen(seen), next)],
         Choice::Leave => vec![Effect::Quit],
         Choice::ExportOver(path) => export::begin(app, path, true),
-        Choice::Recover(offer) => recovery::recover(app, &offer),
+        Choice::Recover(offer) => recover(app, &offer),
         Choice::Forget(journals) => vec![Effect::Forget(journals)],
         Choice::SaveAs(next) => {
             if !app.prompts.last().is_some_and(Prompt::is_save_as) {
@@ -114,7 +109,7 @@ pub(super) fn loaded(
             app.prompts.clear();
             let case_path = rexs::case_path(&path);
             let mut effects = vec![Effect::Remember(path)];
-            effects.extend(solve(tabs::show(app, *document, case_path)));
+            effects.extend(solve(show_tab(app, *document, case_path)));
             if app.tab.access == Access::Newer {
                 app.complain(NEWER);
             } else {
@@ -184,13 +179,233 @@ pub(super) fn saved(
     Vec::new()
 }
 
+/// Opens a file. If the case is already open, goes to its tab with its unsaved edits.
+pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
+    let Some(at) = place_of(app, &path) else {
+        return vec![Effect::Load(path)];
+    };
+    app.prompts.clear();
+    go_to_tab(app, at);
+    app.say(format!("{} is open already", ascii::printable(&app.tab.name())));
+    Vec::new()
+}
+
+/// Saves under the typed name.
+pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
+    if name.trim().is_empty() {
+        app.complain("type a name for the file");
+        return Vec::new();
+    }
+    let is_own = app.tab.path.as_deref() == Some(Path::new(name));
+    let (path, over) =
+        if is_own { (PathBuf::from(name), Over::Own) } else { (named(name.trim()), Over::Nothing) };
+    vec![saving(app, path, over, next)]
+}
+
+/// Switches to the tab with an index, if it exists.
+pub(super) fn go_to_tab(app: &mut App, at: usize) {
+    let now = app.place_of_tab;
+    if at == now || at > app.others.len() {
+        return;
+    }
+    app.tab.history.end_visit();
+    let taken = if at > now { at - 1 } else { at };
+    let next = app.others.remove(taken);
+    let before = std::mem::replace(&mut app.tab, next);
+    app.others.insert(if at > now { now } else { now - 1 }, before);
+    app.place_of_tab = at;
+    // The worker may have dropped a request of this tab for a later one.
+    if !app.tab.is_settled {
+        app.tab.requested = Stages::NONE;
+    }
+    app.follow();
+}
+
+/// Switches to the next or previous tab, wrapping around.
+pub(super) fn step_tab(app: &mut App, by: isize) {
+    let count = app.others.len() + 1;
+    if count == 1 {
+        app.say("only one case is open");
+    }
+    go_to_tab(app, (app.place_of_tab + count).saturating_add_signed(by) % count);
+}
+
+/// Shows the built-in case, in a new tab if another case is in use.
+pub(super) fn built_in(app: &mut App) -> Option<Request> {
+    let at = app.tabs().position(Tab::is_built_in);
+    if let Some(at) = at {
+        go_to_tab(app, at);
+        return None;
+    }
+    let replaces = app.tab.is_untouched();
+    put_tab(app, Tab::new(store::built_in(), None), replaces)
+}
+
+/// Starts an empty case in a new tab.
+pub(super) fn fresh_tab(app: &mut App) -> Option<Request> {
+    let replaces = app.tab.is_untouched();
+    let request = put_tab(
+        app,
+        Tab { origin: Origin::New, ..Tab::new(Document::new(Case::fresh()), None) },
+        replaces,
+    );
+    let missing = app.tab.problems.len();
+    app.say(format!(
+        "new case: {missing} required fields are empty, the others show their defaults; \
+         {} starts from an example",
+        app.key_of(Command::Example)
+    ));
+    request
+}
+
+/// Starts a case from an example in a new tab.
+pub(super) fn begin_example(app: &mut App, example: &'static Example) -> Option<Request> {
+    let replaces = app.tab.is_untouched();
+    let request = put_tab(
+        app,
+        Tab { origin: Origin::Example(example.name), ..Tab::new(example.document(), None) },
+        replaces,
+    );
+    app.say(format!("new case from {}; it has no file yet", example.name));
+    request
+}
+
+/// Shows the result of opening a case.
+pub(super) fn claimed(app: &mut App, claim: Claim) {
+    let Some(at) = app.tabs().position(|tab| tab.id == claim.id) else {
+        return;
+    };
+    if !claim.is_silent() {
+        go_to_tab(app, at);
+    }
+    let Claim { id, access, offers, notices } = claim;
+    if let Access::Held(holder) = &access {
+        app.complain(format!("read-only: open in {holder}; F2 saves under another name"));
+    }
+    if let Some(tab) = std::iter::once(&mut app.tab)
+        .chain(&mut app.others)
+        .find(|tab| tab.id == id && tab.access != Access::Newer)
+    {
+        tab.access = access;
+    }
+    if !notices.is_empty() {
+        let said = app.message.take().map(|message| message.text);
+        app.complain(said.into_iter().chain(notices).collect::<Vec<_>>().join("; "));
+    }
+    let name = app.tab.name();
+    // The latest is on top.
+    app.prompts
+        .extend(offers.into_iter().rev().map(|offer| Prompt::Ask(Question::recover(&name, offer))));
+}
+
+/// Shows the journals of ended sessions.
+pub(super) fn list_journals(app: &mut App, journals: Vec<(PathBuf, String)>) {
+    if journals.is_empty() {
+        app.say("no ended session left unsaved edits");
+    } else {
+        app.prompts.push(Prompt::Ask(Question::journals(journals)));
+    }
+}
+
+/// Restores the kept edits into the form as one edit, which undo reverts.
+pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
+    let mut case = app.tab.case.clone();
+    let refused: Vec<_> = offer
+        .changes
+        .iter()
+        .filter_map(|change| case.apply(&change.key, change.to.as_deref()).err())
+        .collect();
+    app.tab.history.end_visit();
+    app.tab.before_edit(app.tab.form.focus);
+    let mut effects = solve(app.replace_case(case, app.tab.form.focus));
+    if let Some(problem) = refused.first() {
+        app.complain(format!("some edits are not restored, and the journal stays: {problem}"));
+    } else {
+        app.say("the edits are restored, not saved yet");
+        effects.push(Effect::Adopt(offer.journal.clone()));
+    }
+    effects
+}
+
+/// Reads the file again, or asks if edits would be discarded.
+pub(super) fn ask_reload(app: &mut App) -> Vec<Effect> {
+    let Some(path) = app.tab.path.clone() else {
+        app.say("this case has no file to read again");
+        return Vec::new();
+    };
+    let next = Next::Load(path.clone());
+    if app.tab.is_unsaved() {
+        let question = Question::unsaved(&app.tab.name(), &next);
+        app.prompts.push(Prompt::Ask(question));
+        return Vec::new();
+    }
+    vec![Effect::Load(path)]
+}
+
+/// Handles a possible change of the file of an open case: a case without edits is replaced.
+pub(super) fn file_changed(
+    app: &mut App,
+    path: &Path,
+    found: Result<Box<Document>, Vec<String>>,
+) -> Vec<Effect> {
+    let mut tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
+    let Some(tab) = tabs.find(|tab| tab.path.as_deref() == Some(path)) else {
+        return Vec::new();
+    };
+    let (id, name) = (tab.id, ascii::printable(&tab.short_name()).into_owned());
+    tab.is_outdated = true;
+    let document = match found {
+        Ok(document) if document.stamp() == tab.document.stamp() => {
+            // A link may lead to a copy now.
+            (tab.document, tab.is_outdated) = (*document, false);
+            return Vec::new();
+        }
+        Ok(document) => document,
+        Err(faults) => {
+            let fault = faults.into_iter().next().unwrap_or_default();
+            let fault = ascii::printable(&fault).into_owned();
+            app.complain(format!("{name} changed on disk and cannot be read: {fault}"));
+            return Vec::new();
+        }
+    };
+    if tab.is_unsaved() {
+        let reload = app.key_of(Command::Reload);
+        app.complain(format!(
+            "{name} changed on disk: {reload} reads it and asks about your edits"
+        ));
+        return Vec::new();
+    }
+    app.say(format!("read {name} again: it changed on disk"));
+    if app.tab.id == id {
+        let case = document.case.clone();
+        take_over(&mut app.tab, *document);
+        return edit::replace(app, case);
+    }
+    app.last_serial += 1;
+    let serial = app.last_serial;
+    if let Some(tab) = app.others.iter_mut().find(|tab| tab.id == id) {
+        replace_unseen(tab, *document, serial);
+    }
+    Vec::new()
+}
+
+/// Ends the workbench, or asks if an export is running.
+fn leave(app: &mut App) -> Vec<Effect> {
+    let Some(running) = &app.exporting else {
+        return vec![Effect::Quit];
+    };
+    let question = Question::export_runs(&running.path);
+    app.prompts.push(Prompt::Ask(question));
+    Vec::new()
+}
+
 /// Carries out the step after a save.
 fn go(app: &mut App, next: Next) -> Vec<Effect> {
     match next {
         Next::Stay => Vec::new(),
         Next::Quit => leave(app),
         Next::Load(path) => vec![Effect::Load(path)],
-        Next::Close => solve(tabs::close(app)),
+        Next::Close => solve(close_tab(app)),
         Next::SaveRest => save_rest(app),
     }
 }
@@ -200,19 +415,8 @@ fn save_rest(app: &mut App) -> Vec<Effect> {
     let Some(unsaved) = unsaved else {
         return leave(app);
     };
-    tabs::go_to(app, unsaved);
+    go_to_tab(app, unsaved);
     save(app, Next::SaveRest)
-}
-
-/// Opens a file. If the case is already open, goes to its tab with its unsaved edits.
-pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
-    let Some(at) = place_of(app, &path) else {
-        return vec![Effect::Load(path)];
-    };
-    app.prompts.clear();
-    tabs::go_to(app, at);
-    app.say(format!("{} is open already", ascii::printable(&app.tab.name())));
-    Vec::new()
 }
 
 // A path through a link names the same file, and hence the same case.
@@ -226,7 +430,7 @@ fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
         return false;
     };
     app.prompts.clear();
-    tabs::go_to(app, at);
+    go_to_tab(app, at);
     app.say(format!(
         "{} is open already, as {}",
         ascii::printable(&path.display().to_string()),
@@ -269,14 +473,71 @@ fn named(name: &str) -> PathBuf {
     })
 }
 
-/// Saves under the typed name.
-pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
-    if name.trim().is_empty() {
-        app.complain("type a name for the file");
-        return Vec::new();
+/// Shows a document: in the tab of its path, instead of the unchanged built-in case, or in a new
+/// tab.
+fn show_tab(app: &mut App, document: Document, path: PathBuf) -> Option<Request> {
+    let own = app.tabs().position(|tab| tab.path.as_ref() == Some(&path));
+    if let Some(own) = own {
+        go_to_tab(app, own);
     }
-    let is_own = app.tab.path.as_deref() == Some(Path::new(name));
-    let (path, over) =
-        if is_own { (PathBuf::from(name), Over::Own) } else { (named(name.trim()), Over::Nothing) };
-    vec![saving(app, path, over, next)]
+    let replaces = own.is_some() || app.tab.is_untouched();
+    let before = own.map(|_| app.tab.id);
+    let request = put_tab(app, Tab::new(document, Some(path)), replaces);
+    // A file that is read again keeps its tab.
+    app.tab.id = before.unwrap_or(app.tab.id);
+    request
+}
+
+/// Closes the current case; after the last one the built-in case is shown.
+fn close_tab(app: &mut App) -> Option<Request> {
+    let name = app.tab.name();
+    if app.others.is_empty() {
+        let request = put_tab(app, Tab::new(store::built_in(), None), true);
+        app.say(format!("closed {name}: this is the built-in Table 1"));
+        return request;
+    }
+    let closed = app.place_of_tab;
+    go_to_tab(app, if closed == 0 { 1 } else { closed - 1 });
+    app.others.remove(if closed == 0 { 0 } else { closed - 1 });
+    app.place_of_tab = closed.saturating_sub(1);
+    app.say(format!("closed {name}"));
+    None
+}
+
+fn put_tab(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
+    let focus = app.tab.form.focus;
+    app.last_id += 1;
+    let before = std::mem::replace(&mut app.tab, Tab { id: app.last_id, ..tab });
+    if !replaces {
+        app.others.insert(app.place_of_tab, before);
+        app.place_of_tab += 1;
+    }
+    app.layout.focus_on(Pane::Form);
+    app.cursor = None;
+    let request = app.request();
+    app.focus_on(focus);
+    request
+}
+
+/// Replaces document and saved case by the content of the file.
+fn take_over(tab: &mut Tab, document: Document) {
+    if !matches!(tab.access, Access::Held(_)) {
+        tab.access = Access::of(&document);
+    }
+    tab.saved = document.case.clone();
+    tab.document = document;
+    tab.is_outdated = false;
+}
+
+/// Replaces the case of a hidden tab; the worker solves it once the tab is shown.
+fn replace_unseen(tab: &mut Tab, document: Document, serial: u64) {
+    tab.history.end_visit();
+    let focus = tab.form.focus;
+    tab.before_edit(focus);
+    tab.case = document.case.clone();
+    tab.inputs_so_far = tab.case.read().0;
+    take_over(tab, document);
+    tab.problems.clear();
+    (tab.serial, tab.is_settled, tab.solving) = (serial, false, None);
+    tab.focus_on(focus);
 }

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Position;
 
-use super::{chart, cursor, dialogs, edit, page, panes, study, tabs, teeth};
+use super::{chart, cursor, dialogs, edit, files, page, panes, study, teeth};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::header;
@@ -30,7 +30,7 @@ fn mark(marked: &mut usize, line: usize) -> bool {
 fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
     let plan = app.layout.plan();
     if let Some(tab) = header::tab_at(app, plan.header, at) {
-        tabs::go_to(app, tab);
+        files::go_to_tab(app, tab);
     } else if let Some(pane) = hidden_at(app, at) {
         panes::show(app, pane);
     } else if let Some(pane) = pane_at(app, at) {
