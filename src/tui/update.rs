@@ -4,7 +4,6 @@
 mod baseline;
 mod browse;
 mod cancel;
-mod catalogue;
 mod chart;
 mod copy;
 mod cursor;
@@ -17,7 +16,6 @@ mod options;
 mod page;
 mod panes;
 mod pointer;
-mod relief;
 mod selection;
 mod study;
 mod teeth;
@@ -152,12 +150,12 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::SaveAs => files::ask_where(app, Next::Stay),
         Command::Reload => files::ask_reload(app),
         Command::Journals => vec![Effect::Journals],
-        Command::Relief => relief::ask(app),
+        Command::Relief => edit::ask_relief(app),
         Command::Export => export::ask(app),
         Command::Open => browse::open(app, false),
         Command::Recent => browse::recent(app),
         Command::FolderUp => browse::up(app),
-        Command::Example => catalogue::examples(app),
+        Command::Example => edit::ask_example(app),
         Command::Explain => page::explain(app),
         Command::New => solve(files::fresh_tab(app)),
         Command::BuiltIn => solve(files::built_in(app)),
@@ -199,7 +197,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::ToggleAscii => options::toggle_ascii(app),
         Command::CycleUnits => options::cycle_units(app),
         Command::Step(by) => edit::step(app, by),
-        Command::Limit => catalogue::limit(app),
+        Command::Limit => edit::ask_limit(app),
         Command::Study(command) => study::run(app, command),
         Command::ToggleMouse => options::toggle_mouse(app),
         other => {
@@ -215,7 +213,7 @@ fn show(app: &mut App, command: Command) {
         Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", commands::help()))),
         Command::Palette => find(app, List::Commands),
         Command::SearchField => find(app, List::Places),
-        Command::Material => catalogue::materials(app),
+        Command::Material => edit::ask_material(app),
         Command::Notes => page::notes(app),
         Command::CursorTo => cursor::ask(app),
         Command::Variant => variants::ask(app),

@@ -1,6 +1,6 @@
 //! Keys, mouse and results for the topmost dialog, and the effects of its outcome.
 
-use super::{catalogue, cursor, export, files, panes, relief, run, solve, study, variants};
+use super::{cursor, edit, export, files, panes, run, solve, study, variants};
 use crate::model::Quantity;
 use crate::tui::actions::{Action, Effect};
 use crate::tui::app::App;
@@ -49,7 +49,7 @@ fn decided(app: &mut App, outcome: Outcome) -> Vec<Effect> {
         Outcome::Open(path) => files::open(app, path),
         Outcome::Choose(choice) => files::choose(app, choice),
         Outcome::SaveAs(name, next) => files::save_under(app, &name, next),
-        Outcome::Relief(values) => relief::take(app, &values),
+        Outcome::Relief(values) => edit::take_relief(app, &values),
         Outcome::Export(name) => export::begin(app, name.trim().into(), false),
         Outcome::CursorTo(angle) => cursor::move_to(app, angle),
         Outcome::Pick(chosen) => pick(app, chosen),
@@ -73,9 +73,9 @@ fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
         }
         Pick::Run(command) => run(app, command),
         Pick::Begin(example) => solve(files::begin_example(app, example)),
-        Pick::Make(gears, material) => catalogue::make(app, gears, material),
+        Pick::Make(gears, material) => edit::make_of_material(app, gears, material),
         Pick::Limit(key) => {
-            Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity))
+            Quantity::find(key).map_or_else(Vec::new, |quantity| edit::hold_limit(app, quantity))
         }
         Pick::Second(field) => {
             study::choose(app, field);

@@ -1,18 +1,28 @@
-//! Typing: every edit of a field changes the case immediately.
+//! Edits: typing, which changes the case immediately, selections from lists (a material for a gear,
+//! a limit for a result), and the tip relief to specify.
 
 use std::borrow::Cow;
 
 use tui_input::InputRequest;
 
 use super::{browse, solve};
-use crate::case::fields::{Absent, Kind};
-use crate::case::{Case, FIELDS, Field};
+use crate::case::fields::{Absent, Kind, index_of};
+use crate::case::{Case, FIELDS, Field, Limit};
+use crate::model::Quantity;
+use crate::report;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::ascii::{self, symbol};
+use crate::tui::dialogs::picker::{List, Picker};
+use crate::tui::dialogs::{Prompt, ReliefDialog};
+use crate::tui::form_aids::materials::{self, Material};
+use crate::tui::form_aids::step_limit;
+use crate::tui::jobs::Job;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
+use crate::tui::panes::results;
+use crate::tui::rows::{self, Row};
 use crate::tui::session::recovery;
-use crate::tui::{ascii, rows};
 
 /// Greatest length of a text; a longer one is not a value, title or path.
 const LONGEST: usize = 4096;
@@ -29,23 +39,6 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
         announce(app, letter, before.as_deref());
     }
     effects
-}
-
-// Reports the effect of a digit, because outside a field the same digit shows a pane.
-fn announce(app: &mut App, digit: char, before: Option<&str>) {
-    let earlier = app.message.take();
-    let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
-    let label = rows::full_label(&app.tab.case, app.tab.form.focus);
-    let edit = match before {
-        Some(_) => {
-            let text = recovery::shown(before);
-            format!("{label}: {digit} replaces {text}. Ctrl-Z restores {text}")
-        }
-        None => format!("{label}: {digit} starts a value. Ctrl-Z removes {digit}"),
-    };
-    let pane = Pane::of_digit(digit)
-        .map_or_else(String::new, |pane| format!("; Esc {digit} shows {}", pane.name()));
-    app.say(format!("{earlier}{edit}{pane}"));
 }
 
 /// Inserts a pasted text into a line of text, without control characters. Several lines become one.
@@ -66,19 +59,6 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let typed: String = letters.collect();
     line.insert(&typed);
     if editing_case { write(app) } else { line_changed(app) }
-}
-
-fn in_a_line(text: &str) -> Cow<'_, str> {
-    const BREAKS: [char; 3] = ['\n', '\r', '\t'];
-    if !text.contains(BREAKS) {
-        return text.into();
-    }
-    text.split(BREAKS)
-        .map(str::trim)
-        .filter(|part| !part.is_empty())
-        .collect::<Vec<_>>()
-        .join(" ")
-        .into()
 }
 
 /// Handles a key that moves the cursor or deletes text.
@@ -123,11 +103,6 @@ pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> 
     set(app, field, name)
 }
 
-/// The choices of the focused row.
-fn names(app: &App) -> &'static [&'static str] {
-    rows::names(&app.tab.case, app.tab.form.focus)
-}
-
 /// Steps the value of the focused row by units of its last digit.
 pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
     let Some(text) = rows::stepped(&app.tab.case, app.tab.form.focus, by) else {
@@ -147,19 +122,6 @@ pub(super) fn chosen(app: &App, field: usize) -> &str {
         (Some(text), _) | (None, Absent::Default(text)) => text,
         _ => "",
     }
-}
-
-fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
-    let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
-    match (name, Pane::of_digit(letter)) {
-        (Some(name), _) => return set(app, app.tab.form.focus, name),
-        (None, Some(pane)) => app.say(format!(
-            "no choice begins with {letter}. Esc leaves the field; then {letter} shows {}",
-            pane.name()
-        )),
-        (None, None) => (),
-    }
-    Vec::new()
 }
 
 /// Selects a choice, in any field with choices.
@@ -189,6 +151,145 @@ pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
     let focus = app.tab.form.focus;
     app.tab.before_edit(focus);
     solve(app.replace_case(case, focus))
+}
+
+/// Opens the list of materials for the gear of the focused field, otherwise for both gears.
+pub(super) fn ask_material(app: &mut App) {
+    let gears: &[&str] = match rows::row(&app.tab.case, app.tab.form.focus) {
+        Row::Field(field) if FIELDS[field].table() == "driver" => &["driver"],
+        Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
+        _ => &["driver", "driven"],
+    };
+    app.prompts.push(Prompt::Pick(Picker::new(List::Materials(gears))));
+}
+
+/// Opens the list of examples.
+pub(super) fn ask_example(app: &mut App) -> Vec<Effect> {
+    app.prompts.push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
+    vec![Effect::Job(Job::Examples(app.settings.units))]
+}
+
+/// Sets the material of the gears as one edit, which undo reverts.
+pub(super) fn make_of_material(app: &mut App, gears: &[&str], material: &Material) -> Vec<Effect> {
+    let mut case = app.tab.case.clone();
+    let made = gears.iter().try_for_each(|gear| materials::apply(&mut case, gear, material));
+    if let Err(problem) = made {
+        app.complain(problem.for_form().to_string());
+        return Vec::new();
+    }
+    let is_other = case != app.tab.case;
+    let effects = replace(app, case);
+    let whose = if let [gear] = gears { gear } else { "both gears" };
+    let verb = if is_other { "from" } else { "unchanged, from" };
+    app.say(format!("{whose}: {} {verb} {}", assignments(app, material), material.name));
+    effects
+}
+
+/// Sets a limit on the selected result if the results have the focus, otherwise opens the list of
+/// results.
+pub(super) fn ask_limit(app: &mut App) -> Vec<Effect> {
+    if let Some(quantity) =
+        results::marked(&app.results()).filter(|_| app.layout.focus() == Pane::Results)
+    {
+        return hold_limit(app, quantity);
+    }
+    app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));
+    Vec::new()
+}
+
+/// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.
+pub(super) fn hold_limit(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
+    let mut effects = Vec::new();
+    if rows::of_limit(&app.tab.case, quantity.key).is_none() {
+        let mut case = app.tab.case.clone();
+        case.write_limit(quantity.key, &beginning_of_limit(app, quantity));
+        effects = replace(app, case);
+    }
+    app.layout.focus_on(Pane::Form);
+    app.is_editing = true;
+    let row = rows::of_limit(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
+    app.focus_on(row.unwrap_or(app.tab.form.focus));
+    effects
+}
+
+/// Opens the dialog and starts the search with the default demand.
+pub(super) fn ask_relief(app: &mut App) -> Vec<Effect> {
+    let Some(inputs) = app.tab.inputs().cloned() else {
+        app.complain("no search: fix the fields marked with ! first");
+        return Vec::new();
+    };
+    let title = index_of("title").and_then(|field| app.tab.case.text(field));
+    let title = title.unwrap_or_default().to_owned();
+    let mut dialog = ReliefDialog::new(app.tab.name(), title, inputs);
+    let effects = dialog.search();
+    app.prompts.push(Prompt::Relief(Box::new(dialog)));
+    effects
+}
+
+/// Writes the relief into the form as one edit.
+pub(super) fn take_relief(app: &mut App, values: &[(&'static str, String)]) -> Vec<Effect> {
+    app.prompts.pop();
+    let mut case = app.tab.case.clone();
+    for (key, text) in values {
+        if let Err(problem) = case.set(key, text) {
+            app.complain(problem.to_string());
+            return Vec::new();
+        }
+    }
+    let effects = replace(app, case);
+    let amounts = values.iter().filter(|(key, _)| key.ends_with(".tip_relief"));
+    let words: Vec<String> =
+        amounts.map(|(key, text)| format!("{} {text}", key.replace(['.', '_'], " "))).collect();
+    app.say(format!("{}; Ctrl-Z undoes", words.join(", ")));
+    effects
+}
+
+// Reports the effect of a digit, because outside a field the same digit shows a pane.
+fn announce(app: &mut App, digit: char, before: Option<&str>) {
+    let earlier = app.message.take();
+    let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
+    let label = rows::full_label(&app.tab.case, app.tab.form.focus);
+    let edit = match before {
+        Some(_) => {
+            let text = recovery::shown(before);
+            format!("{label}: {digit} replaces {text}. Ctrl-Z restores {text}")
+        }
+        None => format!("{label}: {digit} starts a value. Ctrl-Z removes {digit}"),
+    };
+    let pane = Pane::of_digit(digit)
+        .map_or_else(String::new, |pane| format!("; Esc {digit} shows {}", pane.name()));
+    app.say(format!("{earlier}{edit}{pane}"));
+}
+
+fn in_a_line(text: &str) -> Cow<'_, str> {
+    const BREAKS: [char; 3] = ['\n', '\r', '\t'];
+    if !text.contains(BREAKS) {
+        return text.into();
+    }
+    text.split(BREAKS)
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
+        .into()
+}
+
+/// The choices of the focused row.
+fn names(app: &App) -> &'static [&'static str] {
+    rows::names(&app.tab.case, app.tab.form.focus)
+}
+
+fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
+    let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
+    match (name, Pane::of_digit(letter)) {
+        (Some(name), _) => return set(app, app.tab.form.focus, name),
+        (None, Some(pane)) => app.say(format!(
+            "no choice begins with {letter}. Esc leaves the field; then {letter} shows {}",
+            pane.name()
+        )),
+        (None, None) => (),
+    }
+    Vec::new()
 }
 
 fn write(app: &mut App) -> Vec<Effect> {
@@ -241,4 +342,31 @@ fn checked(app: &mut App) -> Vec<Effect> {
 fn line_changed(app: &mut App) -> Vec<Effect> {
     let prompt = app.prompts.last_mut();
     prompt.map_or_else(Vec::new, |prompt| prompt.dialog_mut().typed())
+}
+
+// The values that a material sets, with their symbols.
+fn assignments(app: &App, material: &Material) -> String {
+    let values = material.texts().map(|(name, text)| {
+        let field = FIELDS.iter().find(|field| field.name() == name);
+        let name =
+            field.map_or("", |field| field.symbol.trim_end_matches(|c: char| c.is_ascii_digit()));
+        format!("{} {text}", symbol(name, app.look.ascii))
+    });
+    values.join(", ")
+}
+
+// The printed value of the quantity, rounded up so that the limit is met.
+fn beginning_of_limit(app: &App, quantity: &'static Quantity) -> String {
+    let value = app
+        .tab
+        .answer
+        .as_ref()
+        .and_then(|answer| report::value(quantity, answer.of(answer.active)?));
+    let Some(value) = value else {
+        return String::new();
+    };
+    let text = report::shown_in(quantity, value, app.settings.units).to_string();
+    let is_below = Limit::new(quantity.key, &text).is_ok_and(|limit| limit.value < value);
+    let raised = step_limit(&text, quantity.key, 1).filter(|_| is_below);
+    raised.unwrap_or(text)
 }
