@@ -1,7 +1,6 @@
 //! The only place where the state changes. It uses no files, no clock and no threads, but requests
 //! them as effects.
 
-mod baseline;
 mod browse;
 mod cancel;
 mod chart;
@@ -111,7 +110,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         }
         Action::Solved(answer) => {
             selection::take(app, *answer);
-            baseline::pin(app);
+            variants::pin_baseline(app);
         }
         Action::Measured(measured) => trade::measured(app, *measured),
         Action::Studied(part) => study::take(app, *part),
@@ -220,7 +219,7 @@ fn show(app: &mut App, command: Command) {
         Command::NextVariants => variants::next(app),
         Command::NextReason => page::step(app, 1),
         Command::PreviousReason => page::step(app, -1),
-        Command::PinBaseline => baseline::toggle(app),
+        Command::PinBaseline => variants::toggle_baseline(app),
         Command::NextTab => files::step_tab(app, 1),
         Command::PreviousTab => files::step_tab(app, -1),
         Command::Tab(at) => files::go_to_tab(app, at),

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{baseline, edit, export, solve};
+use super::{edit, export, solve, variants};
 use crate::case::file::Saved;
 use crate::case::{Case, Document, Example, rexs};
 use crate::model::Stages;
@@ -160,7 +160,7 @@ pub(super) fn saved(
             };
             app.say(format!("saved {}{how}{missing}", path.display()));
             app.tab.path = Some(path.clone());
-            baseline::rename(app);
+            variants::rename_baseline(app);
             let mut effects = vec![Effect::Remember(path)];
             effects.extend(go(app, next));
             return effects;

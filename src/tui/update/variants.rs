@@ -1,4 +1,5 @@
-//! Variants of the case: saving the edits as a variant, and loading a variant into the form.
+//! Comparisons: the variants of the case, saved from the edits and loaded into the form, and the
+//! baseline.
 
 use super::edit;
 use crate::case::{Case, Variant};
@@ -11,7 +12,7 @@ use crate::tui::dialogs::picker::{List, Picker, VARIANT};
 use crate::tui::jobs::Job;
 use crate::tui::layout::Pane;
 use crate::tui::panes::results;
-use crate::tui::solver::{Variants, VariantsRequest};
+use crate::tui::solver::{Baseline, Variants, VariantsRequest};
 
 /// Asks for the name of the variant.
 pub(super) fn ask(app: &mut App) {
@@ -44,19 +45,6 @@ pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
     app.say(format!(
         "variant {name} now has {count} {edits}; the form shows the case without them; Ctrl-Z undoes"
     ));
-    effects
-}
-
-fn recall(app: &mut App, name: &str) -> Vec<Effect> {
-    let Ok(variant) = app.tab.case.variant(name).cloned() else {
-        let key = app.key_of(Command::Variant);
-        app.say(format!("no edits since the last save: change a field, then type {key} NAME"));
-        return Vec::new();
-    };
-    let case = app.tab.case.with(&variant);
-    let outcome = edit::undone_by(app, &case);
-    let effects = edit::replace(app, case);
-    app.say(format!("the form shows variant {name}{outcome}"));
     effects
 }
 
@@ -97,17 +85,79 @@ pub(super) fn request(app: &mut App) -> Option<Effect> {
     Some(Effect::Job(Job::Variants(Box::new(request))))
 }
 
-fn inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
-    case.with(variant).inputs().map_err(|problems| {
-        let first = problems.into_iter().next();
-        first.map_or_else(String::new, |problem| problem.to_string())
-    })
-}
-
 /// Shows the solved variants.
 pub(super) fn take(app: &mut App, found: Variants) {
     app.comparing = app.comparing.filter(|serial| *serial != found.serial);
     if let Some(tab) = app.tab_of(found.serial) {
         tab.variants = Some(found);
     }
+}
+
+/// Pins the results of the current case, or unpins the pinned ones.
+pub(super) fn toggle_baseline(app: &mut App) {
+    if let Some(baseline) = app.baseline.take() {
+        app.say(format!("baseline {} unpinned", baseline.name));
+    } else if app.tab.is_stale() || app.tab.answer.is_none() {
+        app.complain("there are no valid results to pin: fix the form first");
+    } else {
+        app.is_pinning = true;
+        pin_baseline(app);
+    }
+}
+
+/// Pins the requested results as soon as they are complete.
+pub(super) fn pin_baseline(app: &mut App) {
+    let Some(answer) = app
+        .tab
+        .answer
+        .as_ref()
+        .filter(|answer| app.is_pinning && answer.stages.covers(crate::model::Stages::EVERY))
+    else {
+        return;
+    };
+    let (name, is_file) = (app.tab.short_name(), app.tab.path.is_some());
+    let baseline = Baseline {
+        tab: app.tab.id,
+        name,
+        is_file,
+        case: app.tab.case.clone(),
+        answer: answer.clone(),
+    };
+    let words = format!("baseline: {} as it is now, for this session", baseline.name);
+    app.is_pinning = false;
+    app.baseline = Some(baseline);
+    app.say(words);
+}
+
+/// A case that had no file when it was pinned gets the name of the file to which these values were
+/// saved.
+pub(super) fn rename_baseline(app: &mut App) {
+    let (tab, name) = (app.tab.id, app.tab.short_name());
+    let saved = &app.tab.saved;
+    let is_it = |baseline: &&mut Baseline| {
+        baseline.tab == tab && !baseline.is_file && baseline.case == *saved
+    };
+    if let Some(baseline) = app.baseline.as_mut().filter(is_it) {
+        (baseline.name, baseline.is_file) = (name, true);
+    }
+}
+
+fn recall(app: &mut App, name: &str) -> Vec<Effect> {
+    let Ok(variant) = app.tab.case.variant(name).cloned() else {
+        let key = app.key_of(Command::Variant);
+        app.say(format!("no edits since the last save: change a field, then type {key} NAME"));
+        return Vec::new();
+    };
+    let case = app.tab.case.with(&variant);
+    let outcome = edit::undone_by(app, &case);
+    let effects = edit::replace(app, case);
+    app.say(format!("the form shows variant {name}{outcome}"));
+    effects
+}
+
+fn inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
+    case.with(variant).inputs().map_err(|problems| {
+        let first = problems.into_iter().next();
+        first.map_or_else(String::new, |problem| problem.to_string())
+    })
 }
