@@ -3,9 +3,7 @@
 
 mod browse;
 mod cancel;
-mod chart;
 mod copy;
-mod cursor;
 mod dialogs;
 mod edit;
 mod export;
@@ -15,12 +13,9 @@ mod options;
 mod page;
 mod panes;
 mod pointer;
-mod selection;
 mod study;
-mod teeth;
 mod trade;
 mod variants;
-mod worker_chart;
 
 use std::mem;
 use std::path::PathBuf;
@@ -63,10 +58,10 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     effects.extend(solve(app.catch_up()));
     settle(app);
     page::refresh(app);
-    chart::follow_cursor(app, cursor);
+    panes::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
     effects.extend(study::request(app));
-    effects.extend(worker_chart::request(app));
+    effects.extend(panes::request_chart(app));
     effects.extend(variants::request(app));
     effects.extend(trade::stop_unseen(app));
     effects
@@ -80,7 +75,7 @@ pub(crate) fn settle(app: &mut App) {
         app.tab.form.top = form::top_for(&app.form());
         app.tab.results.top = results::top_for(&app.results());
     }
-    chart::fit(app);
+    panes::fit_chart(app);
 }
 
 /// The workbench after it opens a document.
@@ -101,7 +96,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Stray(letter) => panes::stray(app, letter),
         Action::Click(at) => return pointer::click(app, at),
         Action::Wheel(at, by) => pointer::wheel(app, at, by),
-        Action::Tick => return cursor::tick(app),
+        Action::Tick => return panes::tick(app),
         Action::Resize(size) => {
             app.layout.resize(size);
             app.follow();
@@ -109,12 +104,12 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
             return vec![Effect::Redraw];
         }
         Action::Solved(answer) => {
-            selection::take(app, *answer);
+            panes::take_answer(app, *answer);
             variants::pin_baseline(app);
         }
         Action::Measured(measured) => trade::measured(app, *measured),
         Action::Studied(part) => study::take(app, *part),
-        Action::Charted(part) => worker_chart::take(app, &part),
+        Action::Charted(part) => panes::take_chart(app, &part),
         Action::Compared(found) => variants::take(app, *found),
         Action::SolverFailed(serial) => solver_failed(app, serial),
         Action::Solving(serial, part) => {
@@ -179,13 +174,13 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
             trade::switch_view(app);
             Vec::new()
         }
-        Command::CursorBy(columns) => cursor::step(app, columns),
-        Command::CursorToD => cursor::to_start(app),
-        Command::CursorToE => cursor::to_end(app),
-        Command::Play => cursor::play(app),
+        Command::CursorBy(columns) => panes::step_cursor(app, columns),
+        Command::CursorToD => panes::cursor_to_start(app),
+        Command::CursorToE => panes::cursor_to_end(app),
+        Command::Play => panes::play(app),
         Command::CursorAway => {
             app.cursor = None;
-            cursor::stop(app)
+            panes::stop_playing(app)
         }
         Command::CycleMarker => options::cycle_marker(app),
         Command::ShowCost => {
@@ -214,7 +209,7 @@ fn show(app: &mut App, command: Command) {
         Command::SearchField => find(app, List::Places),
         Command::Material => edit::ask_material(app),
         Command::Notes => page::notes(app),
-        Command::CursorTo => cursor::ask(app),
+        Command::CursorTo => panes::ask_cursor(app),
         Command::Variant => variants::ask(app),
         Command::NextVariants => variants::next(app),
         Command::NextReason => page::step(app, 1),
@@ -229,8 +224,8 @@ fn show(app: &mut App, command: Command) {
         Command::CycleLower => panes::cycle_lower(app),
         Command::Zoom => panes::zoom(app),
         Command::StartEdit => edit::begin(app),
-        Command::Chart(command) => chart::run(app, command),
-        Command::Teeth(command) => teeth::run(app, command),
+        Command::Chart(command) => panes::run_chart(app, command),
+        Command::Teeth(command) => panes::run_teeth(app, command),
         other => navigation::walk(app, other),
     }
 }

@@ -1,6 +1,6 @@
 //! Esc and Ctrl-C: they end the topmost dialog or work first.
 
-use super::{cursor, files, panes, study};
+use super::{files, panes, study};
 use crate::model::Stage;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
@@ -27,7 +27,7 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
         return stopped;
     }
     if app.is_playing {
-        return cursor::stop(app);
+        return panes::stop_playing(app);
     }
     if app.cursor.is_some() && app.layout.focus().is_lower() {
         app.cursor = None;
@@ -50,7 +50,7 @@ pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
         return stopped;
     }
     if app.is_playing {
-        return cursor::stop(app);
+        return panes::stop_playing(app);
     }
     if app.tabs().any(Tab::is_unsaved) {
         return files::quit(app);

@@ -1,6 +1,6 @@
 //! Keys, mouse and results for the topmost dialog, and the effects of its outcome.
 
-use super::{cursor, edit, export, files, panes, run, solve, study, variants};
+use super::{edit, export, files, panes, run, solve, study, variants};
 use crate::model::Quantity;
 use crate::tui::actions::{Action, Effect};
 use crate::tui::app::App;
@@ -51,7 +51,7 @@ fn decided(app: &mut App, outcome: Outcome) -> Vec<Effect> {
         Outcome::SaveAs(name, next) => files::save_under(app, &name, next),
         Outcome::Relief(values) => edit::take_relief(app, &values),
         Outcome::Export(name) => export::begin(app, name.trim().into(), false),
-        Outcome::CursorTo(angle) => cursor::move_to(app, angle),
+        Outcome::CursorTo(angle) => panes::move_cursor(app, angle),
         Outcome::Pick(chosen) => pick(app, chosen),
         Outcome::GoTo(field) => {
             app.prompts.clear();

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Position;
 
-use super::{chart, cursor, dialogs, edit, files, page, panes, study, teeth};
+use super::{dialogs, edit, files, page, panes, study};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::header;
@@ -54,7 +54,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
             panes::show(app, pane);
             if let Some(angle) = panels::angle_at(&app.charts(), at) {
                 app.cursor = Some(angle);
-                return cursor::stop(app);
+                return panes::stop_playing(app);
             }
         }
         Pane::Teeth | Pane::Trade | Pane::Study => panes::show(app, pane),
@@ -85,8 +85,8 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
     match pane_at(app, at) {
         Some(Pane::Form) => app.tab.form.top = form::scrolled(&app.form(), by),
         Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
-        Some(Pane::Chart) => chart::run(app, ChartCommand::Zoom(nearer)),
-        Some(Pane::Teeth) => teeth::run(app, TeethCommand::Zoom(nearer)),
+        Some(Pane::Chart) => panes::run_chart(app, ChartCommand::Zoom(nearer)),
+        Some(Pane::Teeth) => panes::run_teeth(app, TeethCommand::Zoom(nearer)),
         Some(Pane::Study) if app.study.is_tolerance => {
             app.study.top = study_pane::scrolled(&app.study(), by);
         }
