@@ -2,7 +2,6 @@
 //! them as effects.
 
 mod browse;
-mod cancel;
 mod copy;
 mod dialogs;
 mod edit;
@@ -12,7 +11,6 @@ mod navigation;
 mod options;
 mod page;
 mod panes;
-mod pointer;
 mod study;
 mod trade;
 mod variants;
@@ -44,7 +42,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Do(_) | Action::Insert(_) | Action::Stray(_) | Action::Paste(_) | Action::Click(_)
     ) {
         let is_again = matches!(action, Action::Do(Command::Cancel))
-            && app.message.take().is_some_and(|said| said.text == cancel::LEAVING);
+            && app.message.take().is_some_and(|said| said.text == navigation::LEAVING);
         if is_again {
             return files::quit(app);
         }
@@ -94,8 +92,8 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         }
         Action::Paste(text) => return edit::paste(app, &text),
         Action::Stray(letter) => panes::stray(app, letter),
-        Action::Click(at) => return pointer::click(app, at),
-        Action::Wheel(at, by) => pointer::wheel(app, at, by),
+        Action::Click(at) => return navigation::click(app, at),
+        Action::Wheel(at, by) => navigation::wheel(app, at, by),
         Action::Tick => return panes::tick(app),
         Action::Resize(size) => {
             app.layout.resize(size);
@@ -155,7 +153,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::BuiltIn => solve(files::built_in(app)),
         Command::CloseTab => files::close(app),
         Command::Quit => files::quit(app),
-        Command::Cancel => cancel::cancel(app),
+        Command::Cancel => navigation::cancel(app),
         Command::Accept => dialogs::accept(app),
         Command::Complete => browse::complete(app),
         Command::Undo | Command::Redo => travel(app, command),
@@ -165,7 +163,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::PreviousChoice => edit::cycle(app, -1),
         Command::Redraw => vec![Effect::Redraw],
         Command::Suspend => vec![Effect::Suspend],
-        Command::Leave => cancel::leave(app),
+        Command::Leave => navigation::leave(app),
         Command::CopyValue => copy::value(app),
         Command::CopyResults => copy::results(app),
         Command::Measure => trade::measure(app),
