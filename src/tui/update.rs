@@ -2,14 +2,12 @@
 //! them as effects.
 
 mod browse;
-mod copy;
 mod dialogs;
 mod edit;
 mod export;
 pub(super) mod files;
 mod navigation;
 mod options;
-mod page;
 mod panes;
 mod study;
 mod trade;
@@ -55,7 +53,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     }
     effects.extend(solve(app.catch_up()));
     settle(app);
-    page::refresh(app);
+    dialogs::refresh_page(app);
     panes::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
     effects.extend(study::request(app));
@@ -120,7 +118,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::FileChanged(path, result) => return files::file_changed(app, &path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
         Action::Exported(path, result) => export::done(app, &path, result),
-        Action::Reported(text) => return copy::report(app, text),
+        Action::Reported(text) => return export::copy_report(app, text),
         Action::Claimed(claim) => files::claimed(app, *claim),
         Action::Journals(journals) => files::list_journals(app, journals),
         Action::Failed(reason) => app.complain(reason),
@@ -148,7 +146,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Recent => browse::recent(app),
         Command::FolderUp => browse::up(app),
         Command::Example => edit::ask_example(app),
-        Command::Explain => page::explain(app),
+        Command::Explain => dialogs::explain(app),
         Command::New => solve(files::fresh_tab(app)),
         Command::BuiltIn => solve(files::built_in(app)),
         Command::CloseTab => files::close(app),
@@ -164,8 +162,8 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Redraw => vec![Effect::Redraw],
         Command::Suspend => vec![Effect::Suspend],
         Command::Leave => navigation::leave(app),
-        Command::CopyValue => copy::value(app),
-        Command::CopyResults => copy::results(app),
+        Command::CopyValue => export::copy_value(app),
+        Command::CopyResults => export::copy_results(app),
         Command::Measure => trade::measure(app),
         Command::TakeSetting => trade::take(app),
         Command::SwitchTradeView => {
@@ -206,12 +204,12 @@ fn show(app: &mut App, command: Command) {
         Command::Palette => find(app, List::Commands),
         Command::SearchField => find(app, List::Places),
         Command::Material => edit::ask_material(app),
-        Command::Notes => page::notes(app),
+        Command::Notes => dialogs::notes(app),
         Command::CursorTo => panes::ask_cursor(app),
         Command::Variant => variants::ask(app),
         Command::NextVariants => variants::next(app),
-        Command::NextReason => page::step(app, 1),
-        Command::PreviousReason => page::step(app, -1),
+        Command::NextReason => dialogs::step_page(app, 1),
+        Command::PreviousReason => dialogs::step_page(app, -1),
         Command::PinBaseline => variants::toggle_baseline(app),
         Command::NextTab => files::step_tab(app, 1),
         Command::PreviousTab => files::step_tab(app, -1),

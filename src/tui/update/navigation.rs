@@ -3,7 +3,7 @@
 
 use ratatui::layout::Position;
 
-use super::{dialogs, edit, files, page, panes, study, trade};
+use super::{dialogs, edit, files, panes, study, trade};
 use crate::case::Case;
 use crate::model::Stage;
 use crate::tui::actions::Effect;
@@ -204,7 +204,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
             panes::show(app, pane);
             let row = results::row_at(&app.results(), at);
             if row.is_some_and(|row| mark_line(&mut app.tab.results.row, row) && had_focus) {
-                return page::explain(app);
+                return dialogs::explain(app);
             }
         }
         Pane::Chart => {
