@@ -1,13 +1,11 @@
 //! The only place where the state changes. It uses no files, no clock and no threads, but requests
 //! them as effects.
 
-mod browse;
 mod dialogs;
 mod edit;
 mod export;
 pub(super) mod files;
 mod navigation;
-mod options;
 mod panes;
 mod study;
 mod trade;
@@ -17,21 +15,27 @@ use std::mem;
 use std::path::PathBuf;
 
 use ratatui::layout::Size;
+use ratatui::symbols::Marker;
 
 use super::actions::{Action, Effect};
 use super::app::App;
 use super::commands::{self, Command, Scope};
 use super::dialogs::Prompt;
+use super::dialogs::browser::Browser;
 use super::dialogs::page::Page;
 use super::dialogs::picker::{Context, List, Picker};
+use super::jobs::Job;
 use super::layout::Pane;
 use super::panes::{form, results};
 use super::rows;
 use super::session::save::Next;
+use super::settings::marker_name;
 use super::solver::Request;
-use super::theme::Look;
+use super::theme::{Look, ThemeName};
 use crate::case::{Acting, Document, FIELDS, Field, changes, fields, relevance};
 use crate::model::inputs::Method;
+
+const UNICODE: &str = "drawn in Unicode; a locale without UTF-8 keeps it for this session only";
 
 /// Applies an action to the state. Returns the effects to carry out.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
@@ -142,9 +146,9 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Journals => vec![Effect::Journals],
         Command::Relief => edit::ask_relief(app),
         Command::Export => export::ask(app),
-        Command::Open => browse::open(app, false),
-        Command::Recent => browse::recent(app),
-        Command::FolderUp => browse::up(app),
+        Command::Open => open_browser(app, false),
+        Command::Recent => open_recent(app),
+        Command::FolderUp => browse_up(app),
         Command::Example => edit::ask_example(app),
         Command::Explain => dialogs::explain(app),
         Command::New => solve(files::fresh_tab(app)),
@@ -153,7 +157,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Quit => files::quit(app),
         Command::Cancel => navigation::cancel(app),
         Command::Accept => dialogs::accept(app),
-        Command::Complete => browse::complete(app),
+        Command::Complete => complete_path(app),
         Command::Undo | Command::Redo => travel(app, command),
         Command::ToggleMethod => set_method(app, None),
         Command::Method(method) => set_method(app, Some(method)),
@@ -178,18 +182,18 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
             app.cursor = None;
             panes::stop_playing(app)
         }
-        Command::CycleMarker => options::cycle_marker(app),
+        Command::CycleMarker => cycle_marker(app),
         Command::ShowCost => {
             app.shows_cost = !app.shows_cost;
             Vec::new()
         }
-        Command::CycleTheme => options::cycle_theme(app),
-        Command::ToggleAscii => options::toggle_ascii(app),
-        Command::CycleUnits => options::cycle_units(app),
+        Command::CycleTheme => cycle_theme(app),
+        Command::ToggleAscii => toggle_ascii(app),
+        Command::CycleUnits => cycle_units(app),
         Command::Step(by) => edit::step(app, by),
         Command::Limit => edit::ask_limit(app),
         Command::Study(command) => study::run(app, command),
-        Command::ToggleMouse => options::toggle_mouse(app),
+        Command::ToggleMouse => toggle_mouse(app),
         other => {
             show(app, other);
             Vec::new()
@@ -309,6 +313,113 @@ fn set_method(app: &mut App, method: Option<Method>) -> Vec<Effect> {
 
 fn solve(request: Option<Request>) -> Vec<Effect> {
     request.map(|request| Effect::Solve(Box::new(request))).into_iter().collect()
+}
+
+/// Switches to the next marker.
+fn cycle_marker(app: &mut App) -> Vec<Effect> {
+    if app.look.ascii {
+        app.say("the marker has no effect: the chart is drawn in ASCII");
+        return Vec::new();
+    }
+    app.settings.marker = match app.settings.marker {
+        Marker::Braille => Marker::HalfBlock,
+        Marker::HalfBlock => Marker::Dot,
+        _ => Marker::Braille,
+    };
+    app.say(format!("chart in {}", marker_name(app.settings.marker)));
+    keep_settings(app)
+}
+
+/// Switches to the next theme.
+fn cycle_theme(app: &mut App) -> Vec<Effect> {
+    let name = match ThemeName::of(app.look.theme) {
+        ThemeName::Quiet => ThemeName::Contrast,
+        ThemeName::Contrast => ThemeName::Mono,
+        ThemeName::Mono => ThemeName::Quiet,
+    };
+    app.settings.theme = Some(name);
+    app.look.theme = name.theme();
+    app.say(format!("theme {}", name.name()));
+    keep_settings(app)
+}
+
+/// Switches between ASCII and Unicode; Unicode only for this session if the environment lacks it.
+fn toggle_ascii(app: &mut App) -> Vec<Effect> {
+    app.look.ascii = !app.look.ascii;
+    app.settings.ascii = app.look.ascii;
+    app.say(if app.look.ascii { "drawn in ASCII" } else { UNICODE });
+    keep_settings(app)
+}
+
+/// Switches the display units between metric and inch.
+fn cycle_units(app: &mut App) -> Vec<Effect> {
+    app.settings.units = app.settings.units.other();
+    app.say(format!(
+        "results, hints, charts and teeth in {} units; the file keeps its own units",
+        app.settings.units.name()
+    ));
+    keep_settings(app)
+}
+
+/// Turns mouse reports on or off.
+fn toggle_mouse(app: &mut App) -> Vec<Effect> {
+    app.settings.mouse = !app.settings.mouse;
+    app.say(if app.settings.mouse {
+        "the workbench uses the mouse; most terminals still select text with Shift held"
+    } else {
+        "the terminal uses the mouse"
+    });
+    let mut effects = keep_settings(app);
+    effects.push(Effect::Mouse(app.settings.mouse));
+    effects
+}
+
+/// Saves the settings.
+fn keep_settings(app: &App) -> Vec<Effect> {
+    vec![Effect::Keep(app.settings)]
+}
+
+/// Opens the browser in the folder of the present case or on the recent cases.
+fn open_browser(app: &mut App, prefers_recents: bool) -> Vec<Effect> {
+    let browser = Browser::beside(app.tab.path.as_deref(), prefers_recents);
+    let effects = vec![browser.list(), Effect::Job(Job::Recents)];
+    app.prompts.push(Prompt::Browse(Box::new(browser)));
+    effects
+}
+
+/// Goes to the recent cases, in an open browser or in a new one.
+fn open_recent(app: &mut App) -> Vec<Effect> {
+    match browser(app) {
+        Some(browser) => {
+            browser.select_recents();
+            Vec::new()
+        }
+        None => open_browser(app, true),
+    }
+}
+
+/// Goes to the parent folder.
+fn browse_up(app: &mut App) -> Vec<Effect> {
+    let Some(browser) = browser(app) else {
+        return Vec::new();
+    };
+    let above = browser.above();
+    browser.enter(above);
+    vec![browser.list()]
+}
+
+/// Whether the line of a browser is empty, so that there is nothing to delete.
+fn is_in_empty_line(app: &mut App) -> bool {
+    browser(app).is_some_and(|browser| browser.input.value().is_empty())
+}
+
+/// Enters the selected folder, or writes the selected name into the line.
+fn complete_path(app: &mut App) -> Vec<Effect> {
+    browser(app).map_or_else(Vec::new, Browser::complete)
+}
+
+fn browser(app: &mut App) -> Option<&mut Browser> {
+    app.prompts.last_mut().and_then(Prompt::browser)
 }
 
 #[cfg(test)]

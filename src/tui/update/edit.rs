@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use tui_input::InputRequest;
 
-use super::{browse, solve};
+use super::{browse_up, is_in_empty_line, solve};
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit};
 use crate::model::Quantity;
@@ -63,8 +63,8 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
 
 /// Handles a key that moves the cursor or deletes text.
 pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
-    if request == InputRequest::DeletePrevChar && browse::is_in_empty_line(app) {
-        return browse::up(app);
+    if request == InputRequest::DeletePrevChar && is_in_empty_line(app) {
+        return browse_up(app);
     }
     if let Some(prompt) = app.prompts.last_mut() {
         let changed = prompt.dialog_mut().input().and_then(|input| input.handle(request));
