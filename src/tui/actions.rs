@@ -12,8 +12,7 @@ use super::jobs::{
     ReliefAnswer,
 };
 use super::keys::{Chord, Place};
-use super::session::recovery::Claim;
-use super::session::save::{Next, SaveFault, Saving, Written};
+use super::session::save::{Claim, Next, SaveFault, Saving, Written};
 use super::settings::Settings;
 use super::solver::{Answer, Request, Variants};
 use super::store::folder::{Listing, Preview, SearchResult, Viewport};

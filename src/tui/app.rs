@@ -20,7 +20,7 @@ use super::panes::study::{StudyPane, StudyState};
 use super::panes::teeth::{Picture, TeethView};
 use super::panes::trade::TradePane;
 use super::rows;
-use super::session::recovery::{Access, NEWER, OpenCase};
+use super::session::save::{Access, NEWER, OpenCase};
 use super::settings::Settings;
 use super::solver::{self, Answer, Baseline, Request};
 use super::store::WatchedFile;

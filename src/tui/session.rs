@@ -3,7 +3,6 @@
 pub(crate) mod autosave;
 pub(crate) mod journal;
 pub(crate) mod lock;
-pub(crate) mod recovery;
 pub(crate) mod save;
 
 use std::time::{SystemTime, UNIX_EPOCH};

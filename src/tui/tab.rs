@@ -8,7 +8,7 @@ use super::panes::chart::range::{Occasion, Scale};
 use super::panes::form::FormState;
 use super::panes::results::ResultsState;
 use super::rows::{self, Row};
-use super::session::recovery::{Access, OpenCase};
+use super::session::save::{Access, OpenCase};
 use super::solver::{Answer, Values, Variants};
 use super::study::Study;
 use crate::case::{Case, Document, FIELDS, Limit, Problem, Spread, Variant, fields};

@@ -84,7 +84,7 @@ pub mod session {
     pub use crate::tui::session::autosave::Autosave;
     pub use crate::tui::session::journal::Journal;
     pub use crate::tui::session::journal::JournalWriter;
-    pub use crate::tui::session::recovery::{Access, Claim, Offer};
+    pub use crate::tui::session::save::{Access, Claim, Offer};
     pub use crate::tui::session::save::{Found, Next, SaveFault};
 }
 

@@ -289,7 +289,7 @@ fn travel(app: &mut App, command: Command) -> Vec<Effect> {
         return Vec::new();
     };
     tab.remember();
-    let summary = super::session::recovery::summary(&changes::between(&tab.case, &case));
+    let summary = super::session::save::summary(&changes::between(&tab.case, &case));
     let effects = solve(app.replace_case(case, focus));
     app.tab.undone = app.tab.serial;
     app.say(format!("{verb}: {summary}"));

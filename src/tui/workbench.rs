@@ -11,7 +11,7 @@ use super::app::App;
 use super::events::{self, Event, Events};
 use super::session::autosave::Autosave;
 use super::session::journal::JournalWriter;
-use super::session::recovery::Claim;
+use super::session::save::Claim;
 use super::settings::Settings;
 use super::store::state::State;
 use super::store::{self, Opening, Trouble, recents};

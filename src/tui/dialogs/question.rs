@@ -13,8 +13,7 @@ use super::boxes::{extent, frame, inside, room};
 use super::{Dialog, Outcome, Surroundings};
 use crate::case::stamp::Stamp;
 use crate::tui::keys::Place;
-use crate::tui::session::recovery::{self, Offer};
-use crate::tui::session::save::{Found, Next};
+use crate::tui::session::save::{self, Found, Next, Offer};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -189,7 +188,7 @@ impl Question {
                 "Unsaved edits of {name}, {} old.{changed} Value in the file -> edited value:",
                 offer.age
             ),
-            details: offer.changes.iter().map(recovery::line).collect(),
+            details: offer.changes.iter().map(save::line).collect(),
             buttons: vec![
                 ("Discard", Choice::Forget(vec![offer.journal.clone()])),
                 ("Recover", Choice::Recover(Box::new(offer))),

@@ -11,8 +11,7 @@ use std::time::{Duration, Instant};
 
 use super::journal::{Found, Journal, JournalWriter, Journals};
 use super::lock::{Lock, Locks};
-use super::recovery::{Access, Claim, Offer, OpenCase};
-use super::save::{SaveFault, Saving, Written};
+use super::save::{Access, Claim, Offer, OpenCase, SaveFault, Saving, Written};
 use crate::case::Case;
 use crate::case::changes::{self, Change};
 use crate::case::file::followed;

@@ -22,7 +22,7 @@ use crate::tui::layout::Pane;
 use crate::tui::line::Line;
 use crate::tui::panes::results;
 use crate::tui::rows::{self, Row};
-use crate::tui::session::recovery;
+use crate::tui::session::save;
 
 /// Greatest length of a text; a longer one is not a value, title or path.
 const LONGEST: usize = 4096;
@@ -251,7 +251,7 @@ fn announce(app: &mut App, digit: char, before: Option<&str>) {
     let label = rows::full_label(&app.tab.case, app.tab.form.focus);
     let edit = match before {
         Some(_) => {
-            let text = recovery::shown(before);
+            let text = save::shown(before);
             format!("{label}: {digit} replaces {text}. Ctrl-Z restores {text}")
         }
         None => format!("{label}: {digit} starts a value. Ctrl-Z removes {digit}"),

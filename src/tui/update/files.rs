@@ -16,8 +16,9 @@ use crate::tui::dialogs::path::SaveAs;
 use crate::tui::dialogs::question::{Choice, Question};
 use crate::tui::layout::Pane;
 use crate::tui::line::{CASE_ENDING, Line};
-use crate::tui::session::recovery::{Access, Claim, NEWER, Offer};
-use crate::tui::session::save::{Next, Over, SaveFault, Saving, Written};
+use crate::tui::session::save::{
+    Access, Claim, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
+};
 use crate::tui::solver::Request;
 use crate::tui::tab::{Origin, Tab};
 use crate::tui::{ascii, rows, store};
