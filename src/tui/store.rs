@@ -1,16 +1,30 @@
-//! Files that the workbench reads: cases, folders, and the list of recent cases.
+//! Files that the workbench reads: cases, folders, and the list of recent cases in the state
+//! folder, the latest first.
 
 pub(crate) mod folder;
-pub(crate) mod recents;
 pub(crate) mod state;
 
 use std::env;
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 use crate::case::file::ReadError;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::Stamp;
 use crate::case::{Document, rexs};
+use crate::system::paths;
+
+use state::State;
+
+/// Greatest number of recent cases.
+const MOST_RECENTS: usize = 20;
+/// Greatest size of the file.
+const MOST_BYTES: u64 = 256 * 1024;
+/// Separator of paths: the only byte that no path contains.
+const END: u8 = 0;
 
 /// The case that the workbench opens at the start.
 #[derive(Debug)]
@@ -50,6 +64,16 @@ impl WatchedFile {
     }
 }
 
+/// A case that was opened before.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recent {
+    pub(crate) path: PathBuf,
+    /// The path as text in lower case.
+    pub(crate) folded: String,
+    /// Whether the file is missing.
+    pub(crate) is_missing: bool,
+}
+
 /// The document of the built-in case.
 #[must_use]
 pub fn built_in() -> Document {
@@ -60,12 +84,12 @@ pub fn built_in() -> Document {
 #[must_use]
 pub(crate) fn opening(asked: Option<PathBuf>) -> Opening {
     let was_asked = asked.is_some();
-    let Some(path) = asked.or_else(recents::last) else {
+    let Some(path) = asked.or_else(last_recent) else {
         return Opening { document: built_in(), path: None, trouble: None };
     };
     match load(&path) {
         Ok(document) => {
-            recents::add(&path);
+            add_recent(&path);
             Opening { document: *document, path: Some(rexs::case_path(&path)), trouble: None }
         }
         Err(faults) => {
@@ -95,16 +119,103 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
         .map_err(|faults| faults.lines().map(|fault| without_name(path, fault)).collect())
 }
 
+pub(super) fn at_home(path: &Path) -> PathBuf {
+    let home = env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
+    match (path.strip_prefix("~"), home) {
+        (Ok(rest), Some(home)) => home.join(rest),
+        _ => path.to_owned(),
+    }
+}
+
+/// Checks which files still exist.
+#[must_use]
+pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
+    let look = |path: PathBuf| {
+        let is_missing =
+            fs::metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
+        Recent { folded: sanitize(&path.to_string_lossy()).to_lowercase(), is_missing, path }
+    };
+    paths.into_iter().map(look).collect()
+}
+
+/// The recent cases.
+#[must_use]
+pub(crate) fn recents() -> Vec<PathBuf> {
+    let Some(file) = list_file() else {
+        return Vec::new();
+    };
+    let is_ours =
+        fs::metadata(&file).is_ok_and(|about| about.is_file() && about.len() <= MOST_BYTES);
+    if is_ours { parse_list(&fs::read(file).unwrap_or_default()) } else { Vec::new() }
+}
+
+/// Adds a case as the latest.
+pub(crate) fn add_recent(path: &Path) {
+    let write = || -> io::Result<()> {
+        let file = list_file().ok_or(io::ErrorKind::NotFound)?;
+        let folder = file.parent().ok_or(io::ErrorKind::NotFound)?;
+        state::make(folder)?;
+        let mut new = NamedTempFile::new_in(folder)?;
+        new.write_all(&render_list(&with_latest(recents(), std::path::absolute(path)?)))?;
+        new.persist(&file).map_err(|error| error.error).map(drop)
+    };
+    // An error is ignored, because the list is only a convenience.
+    drop(write());
+}
+
 // The title above the faults already has the name.
 fn without_name(path: &Path, fault: &str) -> String {
     let name = format!("{}:", sanitize(&path.display().to_string()));
     fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned()
 }
 
-pub(super) fn at_home(path: &Path) -> PathBuf {
-    let home = env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
-    match (path.strip_prefix("~"), home) {
-        (Ok(rest), Some(home)) => home.join(rest),
-        _ => path.to_owned(),
+/// The latest case.
+#[must_use]
+fn last_recent() -> Option<PathBuf> {
+    recents().into_iter().next()
+}
+
+fn with_latest(mut paths: Vec<PathBuf>, latest: PathBuf) -> Vec<PathBuf> {
+    paths.retain(|path| *path != latest);
+    paths.insert(0, latest);
+    paths.truncate(MOST_RECENTS);
+    paths
+}
+
+fn parse_list(bytes: &[u8]) -> Vec<PathBuf> {
+    let paths = bytes.split(|&byte| byte == END).filter(|path| !path.is_empty());
+    paths.map(|path| paths::from_bytes(path.to_vec())).take(MOST_RECENTS).collect()
+}
+
+fn render_list(paths: &[PathBuf]) -> Vec<u8> {
+    paths.iter().flat_map(|path| paths::bytes(path).iter().copied().chain([END])).collect()
+}
+
+fn list_file() -> Option<PathBuf> {
+    // Earlier versions stored the last case as a single path without a separator.
+    State::find().folder.map(|folder| folder.join("last-case"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_latest_case_is_first_and_no_case_is_listed_twice() {
+        let paths = ["a", "b", "c"].map(PathBuf::from).to_vec();
+        assert_eq!(with_latest(paths.clone(), "c".into()), ["c", "a", "b"].map(PathBuf::from));
+        let many: Vec<PathBuf> =
+            (0..MOST_RECENTS).map(|number| number.to_string().into()).collect();
+        let more = with_latest(many, "new".into());
+        assert_eq!((more.len(), &more[0]), (MOST_RECENTS, &PathBuf::from("new")));
+    }
+
+    #[test]
+    fn every_path_is_saved_and_read() {
+        let odd = paths::from_bytes(vec![b'/', 0xff, b'\n', b' ']);
+        let paths = vec![odd, "/plain.toml".into()];
+        assert_eq!(parse_list(&render_list(&paths)), paths);
+        assert_eq!(parse_list(b"/kept/before.toml"), [PathBuf::from("/kept/before.toml")]);
+        assert!(parse_list(b"").is_empty());
     }
 }

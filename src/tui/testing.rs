@@ -110,7 +110,7 @@ pub mod store {
     }
 
     pub mod recents {
-        pub use crate::tui::store::recents::looked_at;
+        pub use crate::tui::store::looked_at;
     }
 }
 

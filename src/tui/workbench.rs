@@ -14,7 +14,7 @@ use super::session::journal::JournalWriter;
 use super::session::save::Claim;
 use super::settings::Settings;
 use super::store::state::State;
-use super::store::{self, Opening, Trouble, recents};
+use super::store::{self, Opening, Trouble};
 use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
@@ -84,7 +84,7 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
             None
         }
         Effect::Remember(path) => {
-            recents::add(&path);
+            store::add_recent(&path);
             None
         }
         Effect::Keep(settings) => {

@@ -16,8 +16,8 @@ use crate::tui::actions::{Action, Effect};
 use crate::tui::jobs::Job;
 use crate::tui::keys::Place;
 use crate::tui::line::Line as Text;
+use crate::tui::store::Recent;
 use crate::tui::store::folder::{self, Entry, Listing, Preview, SearchResult, Viewport, beneath};
-use crate::tui::store::recents::Recent;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 

@@ -19,7 +19,7 @@ use crate::tui::jobs::{
     Explained, Explaining, ExportFault, Exporting, Job, ReliefAnswer, ReliefRequest, Reporting,
 };
 use crate::tui::solver::{Variants, VariantsRequest};
-use crate::tui::store::{at_home, folder, recents};
+use crate::tui::store::{self, at_home, folder};
 
 /// Starts the worker of a kind of jobs.
 ///
@@ -48,7 +48,7 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
             let preview = folder::preview(&sight, system, go_on)?;
             Action::Previewed(sight, Box::new(preview))
         }
-        Job::Recents => Action::Recents(recents::looked_at(recents::list())),
+        Job::Recents => Action::Recents(store::looked_at(store::recents())),
         Job::Examples(system) => Action::Examples(examples(system, go_on)?),
         Job::Export(exporting) => {
             let (path, result) = write_export(&exporting, go_on);
