@@ -2,24 +2,22 @@
 //! and compared with one reference.
 
 mod answer;
-mod build;
 mod clock;
 mod results;
-mod rounds;
 mod second;
-mod setting;
 
 use std::sync::Arc;
 
 pub use answer::{Answer, Subject, stages};
-pub use build::Build;
-pub use clock::{Patience, Time};
-pub use results::{Differences, Figures, MeasuredSetting, Model, Reference, Trade, greatest};
-pub use setting::{METHODS, STATIONS, Setting};
+pub use clock::{Build, Patience, Time};
+pub use results::{
+    Differences, Figures, METHODS, MeasuredSetting, Model, Reference, STATIONS, Setting, Trade,
+    greatest,
+};
 
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Refusal};
-use rounds::Rounds;
+use clock::Rounds;
 
 /// The parameters of a trade study.
 #[derive(Debug, Clone, Copy, PartialEq)]

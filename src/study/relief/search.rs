@@ -51,7 +51,7 @@ impl Grid {
     }
 
     /// The greatest amount of either gear, in m.
-    pub(super) fn most_amount(&self) -> f64 {
+    fn most_amount(&self) -> f64 {
         AMOUNT_STEP * f64::from(self.most_amounts[0].max(self.most_amounts[1]))
     }
 
