@@ -9,7 +9,6 @@ pub mod distribution;
 pub mod headline;
 pub mod refusals;
 pub mod relief;
-pub mod request;
 pub mod seek;
 pub mod shard;
 pub mod sobol;

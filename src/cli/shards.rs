@@ -6,8 +6,7 @@ use super::options::StudyOptions;
 use super::output::Sink;
 use super::progress::Running;
 use crate::study::batch::{Batch, solve_all};
-use crate::study::request::Request;
-use crate::study::shard::{Shard, ShardWriter};
+use crate::study::shard::{Request, Shard, ShardWriter};
 use std::io;
 
 /// Solves the points of a shard and writes them.

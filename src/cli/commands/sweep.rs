@@ -17,7 +17,7 @@ use crate::study::axis::Axis;
 use crate::study::batch::{Batch, Points, solve_all};
 use crate::study::headline::{distinct, headline};
 use crate::study::refusals::Refusals;
-use crate::study::request::{PointsRequest, Request};
+use crate::study::shard::{PointsRequest, Request};
 use crate::study::sweep::Grid;
 use clap::Args;
 

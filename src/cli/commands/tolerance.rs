@@ -11,7 +11,7 @@ use crate::cli::shards;
 use crate::model::Quantity;
 use crate::report::tolerance::{ToleranceReport, is_all_refused};
 use crate::study::batch::{Batch, Control};
-use crate::study::request::{PointsRequest, Request};
+use crate::study::shard::{PointsRequest, Request};
 use crate::study::tolerance::USUAL_SAMPLES;
 use crate::study::tolerance::{MOST_SAMPLES, Size, Tolerance};
 use clap::{Args, ValueHint};

@@ -44,7 +44,7 @@ pub struct Time {
 
 /// The batches of a solve.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Batches {
+struct Batches {
     /// Seconds per solve of each batch.
     seconds: Vec<f64>,
     runs: u64,
@@ -53,7 +53,7 @@ pub(super) struct Batches {
 impl Batches {
     /// Repeats `once` for the time `batch`, at least once, while it returns true; returns whether
     /// all runs returned true.
-    pub(super) fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
+    fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
         let solves = self.seconds.last().map_or(1, |&last| {
             (batch.as_secs_f64() / last.max(1e-9)).ceil().clamp(1.0, 1e6) as u64
         });
@@ -71,7 +71,7 @@ impl Batches {
     }
 
     /// Whether more batches would hardly change the median.
-    pub(super) fn are_steady(&self) -> bool {
+    fn are_steady(&self) -> bool {
         /// Width of the interval of the median, relative to the median.
         const FEW_PERCENT: f64 = 0.03;
         /// With fewer batches the interval is not defined.
