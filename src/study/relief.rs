@@ -1,22 +1,20 @@
 //! The tip relief to specify: amounts and lengths on both gears without corner contact at the
 //! greatest load and with the least transmission error over the loads.
 
-mod bench;
-pub mod demand;
-mod figures;
-mod refusal;
 mod search;
 
 use std::cell::Cell;
+use std::fmt;
 
+use crate::case::units::{self, Dimension};
 use crate::model::budget::Meter;
 use crate::model::geometry::Geometry;
-use crate::model::inputs::{Drive, Method, ReliefShape};
+use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
-use crate::model::{Inputs, Solution, Stage, Stages, solve, solve_while};
-use bench::PreparedMesh;
-pub use refusal::NoRelief;
-use search::{Grid, Search};
+use crate::model::static_load::{lead_after_end, lead_before_start};
+use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
+use crate::numeric::decimal::shortest;
+use search::{Grid, PreparedMesh, Search, tolerances};
 
 /// Step of an amount, in m: half a micrometre.
 pub const AMOUNT_STEP: f64 = 0.5e-6;
@@ -166,16 +164,16 @@ pub fn specify(
     let by_method = |method| Inputs { method, stations: Some(1), ..inputs.clone() };
     let at_rest = by_method(Method::Static);
     let in_motion = (method == Method::Dynamic).then(|| by_method(Method::Dynamic));
-    let at_most = figures::loaded(&at_rest, demand.loads.1);
+    let at_most = loaded(&at_rest, demand.loads.1);
     let solution = solve(&at_most, Stages::of(Stage::Static))?;
     let grid = grid(&at_rest, &solution, demand)?;
-    let loads = loads(demand.loads);
+    let loads = load_factors(demand.loads);
     let meter = Meter::new(WORK);
     let bench = PreparedMesh::new(&at_rest, &solution, demand, &loads, grid.most_relief())?;
     let searching = |part: f64| go_on(SEARCH * (part / USUAL_WORK).min(1.0));
     let search = Search::new(&bench, &grid, &meter, &searching);
     let found = search.best_of_each_kind()?;
-    let figures = figures::Figures {
+    let figures = Figures {
         inputs: &at_rest,
         motion: in_motion.as_ref(),
         at_most: (&at_most, &solution),
@@ -239,7 +237,7 @@ fn governing(inputs: &Inputs, go_on: &dyn Fn(f64) -> bool) -> Result<Method, NoR
 }
 
 /// Loads over the range, including both ends.
-fn loads((from, to): (f64, f64)) -> Vec<f64> {
+fn load_factors((from, to): (f64, f64)) -> Vec<f64> {
     let steps = if to > from { LOADS } else { 1 };
     let last = (steps - 1).max(1) as f64;
     (0..steps).map(|at| decimal(from + (to - from) * at as f64 / last)).collect()
@@ -298,4 +296,326 @@ fn round_step(length: f64) -> f64 {
     let round = [1.0, 2.0, 5.0, 10.0].into_iter();
     let step = round.map(|part| part * decade).find(|step| *step >= length);
     step.unwrap_or(length)
+}
+
+/// Parses a range of loads in percent, such as `25..110%`, or one load.
+///
+/// # Errors
+/// Returns the syntax of a load range.
+pub fn loads(text: &str) -> Result<(f64, f64), String> {
+    const FIX: &str = "write a range above 0 % and up to 1000 %, such as 25..110%";
+    let number = |text: &str| {
+        let number = text.trim().trim_end_matches('%').trim_end();
+        let percent: f64 = number.parse().map_err(|_| FIX.to_owned())?;
+        let is_possible = percent > 0.0 && percent <= 1000.0;
+        is_possible.then_some(percent / 100.0).ok_or(FIX.to_owned())
+    };
+    let (from, to) = text.split_once("..").unwrap_or((text, text));
+    let (from, to) = (number(from)?, number(to)?);
+    if from > to {
+        return Err(format!("the range is reversed: {FIX}"));
+    }
+    Ok((from, to))
+}
+
+/// Parses a length from 0 to 1 mm.
+///
+/// # Errors
+/// Returns the syntax of a tolerance.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    const MOST: f64 = 1e-3;
+    let length = units::parse(text, Dimension::Length, "um")
+        .map_err(|error| format!("{}: {}", error.cause, error.fix))?;
+    if (0.0..=MOST).contains(&length) {
+        Ok(length)
+    } else {
+        Err("write a length from 0 um to 1 mm, such as '5 um'".to_owned())
+    }
+}
+
+impl Demand {
+    /// Parses a text such as `25..110 %, 5 um`; the tolerance is optional.
+    ///
+    /// # Errors
+    /// Returns the correct syntax.
+    pub fn parse(text: &str) -> Result<Demand, String> {
+        let (range, width) = text.split_once(',').unwrap_or((text, ""));
+        let tolerance = match width.trim() {
+            "" => Demand::USUAL.tolerance,
+            width => tolerance(width)?,
+        };
+        let loads = loads(range)?;
+        Ok(Demand { loads, tolerance })
+    }
+
+    /// The text that [`Demand::parse`] reads.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let percent = |part: f64| shortest((part * 1e4).round() / 100.0);
+        let (from, to) = self.loads;
+        let tolerance = units::text(self.tolerance, "um");
+        format!("{}..{} %, {tolerance}", percent(from), percent(to))
+    }
+}
+
+/// Steps by which the amount of a relief grows if a whole solve finds an overlap.
+const GROWTHS: [i32; 12] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48];
+
+/// The case with a fraction of its load.
+fn loaded(inputs: &Inputs, part: f64) -> Inputs {
+    Inputs { drive: Drive::Torque(part * inputs.torque()), ..inputs.clone() }
+}
+
+/// The case with other tip reliefs and their deviations.
+fn relieved(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 2]) -> Inputs {
+    let gear = |gear: &Gear, at: usize| Gear {
+        tip_relief: (reliefs.amounts[at] + off[at]).max(0.0),
+        tip_relief_length: Some(reliefs.lengths[at]),
+        ..gear.clone()
+    };
+    Inputs {
+        driver: gear(&inputs.driver, 0),
+        driven: gear(&inputs.driven, 1),
+        relief_shape: reliefs.shape,
+        ..inputs.clone()
+    }
+}
+
+/// Inputs of the results of a relief.
+struct Figures<'a> {
+    inputs: &'a Inputs,
+    /// The case with method `dynamic`, if this method decides.
+    motion: Option<&'a Inputs>,
+    /// The case under the greatest load of the demand, and its solution.
+    at_most: (&'a Inputs, &'a Solution),
+    demand: &'a Demand,
+    loads: &'a [f64],
+    grid: &'a Grid,
+    go_on: &'a dyn Fn(f64) -> bool,
+    /// The progress so far.
+    part: Cell<f64>,
+}
+
+impl Figures<'_> {
+    /// The reliefs of the case.
+    fn present(&self) -> Result<Choice, NoRelief> {
+        let inputs = self.inputs;
+        let usual = self.at_most.1.geometry.shared_length();
+        let length = |gear: &Gear| gear.tip_relief_length.unwrap_or(usual);
+        self.choice(
+            "relief of the case",
+            TipReliefs {
+                shape: inputs.relief_shape,
+                amounts: [inputs.driver.tip_relief, inputs.driven.tip_relief],
+                lengths: [length(&inputs.driver), length(&inputs.driven)],
+            },
+        )
+    }
+
+    /// Increases a relief until no whole solve finds corner contact.
+    fn cleared(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
+        let (mut greatest, mut overlap) = (reliefs, f64::INFINITY);
+        for steps in GROWTHS {
+            let Some(greater) = self.grid.greater(&reliefs, steps) else {
+                break;
+            };
+            (greatest, overlap) = (greater, self.overlap(&greater)?);
+            if overlap <= 0.0 && !self.strikes_in_motion(&greater)? {
+                return self.choice(name, greater);
+            }
+        }
+        let most = greatest.amounts[0].max(greatest.amounts[1]);
+        Err(if overlap > 0.0 {
+            NoRelief::Beyond { most, overlap }
+        } else {
+            NoRelief::InMotion { most }
+        })
+    }
+
+    fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
+        let errors = self.loads.iter().map(|&part| {
+            let inputs = relieved(&loaded(self.inputs, part), &reliefs, [0.0; 2]);
+            let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
+            let found = solution.static_spectrum.transpose()?;
+            Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
+        });
+        Ok(Choice {
+            name,
+            reliefs,
+            errors: errors.collect::<Result<_, NoRelief>>()?,
+            margin: -self.overlap(&reliefs)?,
+        })
+    }
+
+    /// Overlap of the teeth at the greatest load with the least favourable tolerance, in m.
+    fn overlap(&self, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
+        let mut worst = f64::NEG_INFINITY;
+        for off in tolerances(self.demand.tolerance) {
+            let solution = self.solve(&relieved(self.at_most.0, reliefs, off), Stage::Static)?;
+            if let Some(mesh) = &solution.mesh {
+                let leads = [lead_before_start(mesh)?, lead_after_end(mesh)?];
+                worst = leads.into_iter().fold(worst, f64::max);
+            }
+        }
+        Ok(worst)
+    }
+
+    /// Whether a tip touches off the path of contact in motion at the greatest load.
+    fn strikes_in_motion(&self, reliefs: &TipReliefs) -> Result<bool, NoRelief> {
+        let Some(inputs) = self.motion else {
+            return Ok(false);
+        };
+        let inputs = loaded(inputs, self.demand.loads.1);
+        for off in tolerances(self.demand.tolerance) {
+            let solution = self.solve(&relieved(&inputs, reliefs, off), Stage::Dynamic)?;
+            let strikes = solution.dynamic.is_some_and(|found| {
+                found.first_contact_angle.is_some() || found.last_contact_angle.is_some()
+            });
+            if strikes {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn solve(&self, inputs: &Inputs, stage: Stage) -> Result<Solution, NoRelief> {
+        Ok(solve_while(inputs, Stages::of(stage), &|_| (self.go_on)(self.part.get()))?)
+    }
+
+    /// The greatest load without overlap at rest, relative to the load of the case. `None` if even
+    /// [`MOST_LOAD`] times the greatest load of the range has no overlap.
+    fn greatest_load(
+        &self,
+        bench: &PreparedMesh,
+        reliefs: &TipReliefs,
+    ) -> Result<Option<f64>, NoRelief> {
+        const CLOSE: f64 = 1e-3;
+        let greatest = self.demand.loads.1;
+        let clears = |times: f64| {
+            let overlap = bench.overlap_under(reliefs, self.at_most, times)?;
+            Ok::<bool, NoRelief>(overlap <= 0.0)
+        };
+        let (mut low, mut high) = (1.0, 2.0);
+        while clears(high)? {
+            if high >= MOST_LOAD {
+                return Ok(None);
+            }
+            (low, high) = (high, 2.0 * high);
+        }
+        while high - low > CLOSE * high {
+            if !(self.go_on)(self.part.get()) {
+                return Err(NoRelief::Refused(Refusal::Stopped));
+            }
+            let middle = f64::midpoint(low, high);
+            if clears(middle)? {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Ok(Some(greatest * low))
+    }
+}
+
+/// Why there is no relief.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoRelief {
+    /// The model refuses the pair.
+    Refused(Refusal),
+    /// The relief without corner contact exceeds the thickness that the tip can lose.
+    ThinTip {
+        /// The gear whose tip is too thin.
+        gear: &'static str,
+        /// Greatest amount that its tip may lose, in m.
+        most: f64,
+        /// Overlap that remains with this amount, in m.
+        overlap: f64,
+    },
+    /// The path of contact has no room for a relief.
+    ShortPath {
+        /// The longest relief, in m.
+        length: f64,
+        /// The least useful length, in m.
+        least: f64,
+        /// Contact ratio ε.
+        ratio: f64,
+    },
+    /// No relief up to this amount prevents corner contact.
+    Beyond {
+        /// The greatest amount, in m.
+        most: f64,
+        /// Overlap that remains with this amount, in m.
+        overlap: f64,
+    },
+    /// In motion the teeth touch before E with every evaluated relief.
+    InMotion {
+        /// The greatest evaluated amount, in m.
+        most: f64,
+    },
+}
+
+impl From<Refusal> for NoRelief {
+    fn from(refusal: Refusal) -> NoRelief {
+        NoRelief::Refused(refusal)
+    }
+}
+
+impl fmt::Display for NoRelief {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let um = |length: &f64| format!("{:.1} um", length * 1e6);
+        let mm = |length: &f64| format!("{:.2} mm", length * 1e3);
+        match self {
+            NoRelief::Refused(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
+            NoRelief::ThinTip { gear, most, overlap } => write!(
+                f,
+                "no tip relief prevents corner contact: the {gear} tip is thin, its relief is \
+                    limited to {}, and the teeth still overlap by {}; lower the greatest load or \
+                    the tolerance",
+                um(most),
+                um(overlap)
+            ),
+            NoRelief::ShortPath { length, least, ratio } => write!(
+                f,
+                "no tip relief prevents corner contact: for this load its length is at least {} (20 times \
+                 its amount), and beyond {} {} (contact ratio {ratio:.4}); raise the addendum or the \
+                 number of teeth, or lower the greatest load",
+                mm(least),
+                mm(length),
+                if *ratio < 2.0 {
+                    "it reaches the contact of a single pair"
+                } else {
+                    "the unrelieved flanks lose contact under light load"
+                }
+            ),
+            NoRelief::Beyond { most, overlap } => write!(
+                f,
+                "no tip relief up to {} prevents corner contact: the teeth still overlap by {}; lower \
+                 the greatest load or the tolerance",
+                um(most),
+                um(overlap)
+            ),
+            NoRelief::InMotion { most } => write!(
+                f,
+                "no tip relief up to {} prevents corner contact in motion; raise model.damping_ratio or \
+                 change operation.speed, or use --method static",
+                um(most)
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_demand_is_parsed_from_its_text() {
+        assert_eq!(Demand::USUAL.text(), "25..110 %, 5 um");
+        assert_eq!(Demand::parse(&Demand::USUAL.text()), Ok(Demand::USUAL));
+        let own = Demand::parse("50..100%").expect("a range");
+        assert_eq!((own.loads, own.tolerance), ((0.5, 1.0), 5e-6));
+        for wrong in ["", "110..25 %", "25..110 %, 5", "0..110 %, 5 um", "25..110 %, 2 mm"] {
+            assert!(Demand::parse(wrong).is_err(), "{wrong}");
+        }
+    }
 }

@@ -7,7 +7,7 @@ use crate::cli::options::{CaseFile, Changes, Destination, FormatOption, OutputFo
 use crate::cli::output::{check_out, write_to};
 use crate::cli::progress::follow;
 use crate::report::specification::ReliefReport;
-use crate::study::relief::demand;
+use crate::study::relief;
 use crate::study::relief::{Demand, NoRelief, specify};
 use clap::Args;
 
@@ -29,7 +29,7 @@ pub struct Options {
         long,
         value_name = "A..B",
         default_value = "25..110%",
-        value_parser = demand::loads,
+        value_parser = relief::loads,
         allow_hyphen_values = true
     )]
     pub load: (f64, f64),
@@ -38,7 +38,7 @@ pub struct Options {
         long,
         value_name = "LENGTH",
         default_value = "5 um",
-        value_parser = demand::tolerance,
+        value_parser = relief::tolerance,
         allow_hyphen_values = true
     )]
     pub tolerance: f64,
