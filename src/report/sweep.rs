@@ -9,8 +9,7 @@ use super::csv::{cell, write_rows};
 use super::json::{ValueWithUnit, write_line};
 use crate::case::Problem;
 use crate::model::Quantity;
-use crate::study::batch::{PointOutcome, Rows};
-use crate::study::refusals::Refused;
+use crate::study::batch::{PointOutcome, Refused, Rows};
 use crate::study::sweep::Grid;
 
 /// The format of a sweep.

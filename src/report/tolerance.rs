@@ -11,9 +11,8 @@ use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
-use crate::study::batch::Points;
-use crate::study::design::Member;
-use crate::study::refusals::Refused;
+use crate::study::batch::{Points, Refused};
+use crate::study::sample::Member;
 use crate::study::tolerance::{Samples, Tolerance};
 
 /// A tolerance study and its results.

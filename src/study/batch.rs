@@ -1,4 +1,5 @@
-//! Points of a study solved in parallel; their rows arrive in order.
+//! Solves the points of a study in parallel, returns their rows in order, and counts the refused
+//! points by their reason.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -6,7 +7,6 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
-use super::chunks::chunks;
 use crate::case::evaluate::Point;
 use crate::case::{Evaluator, Problem, violated_rule};
 use crate::model::{Inputs, Outcome, Quantity, Refusal, Stages};
@@ -362,6 +362,97 @@ impl From<Refusal> for Unsolved {
         match refusal {
             Refusal::Stopped => Unsolved::Stopped,
             refused => Unsolved::Refused(Problem::from(&refused)),
+        }
+    }
+}
+
+/// Refused points with the same field and the same fix, apart from the numbers in the fix.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refused {
+    /// Number of points.
+    pub count: usize,
+    /// Index of the first point.
+    pub first: usize,
+    /// The reason at the first point.
+    pub problem: Problem,
+}
+
+/// Every reason, in the order of the first points.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Refusals(pub Vec<Refused>);
+
+impl Refusals {
+    /// Counts the refused points of these rows.
+    pub fn count(&mut self, rows: &Rows) {
+        for (index, problem) in &rows.refusals {
+            self.add(*index, problem);
+        }
+    }
+
+    fn add(&mut self, index: usize, problem: &Problem) {
+        let is_same = |other: &&mut Refused| {
+            let other = &other.problem;
+            other.field == problem.field && words(&other.fix).eq(words(&problem.fix))
+        };
+        match self.0.iter_mut().find(is_same) {
+            Some(same) => same.count += 1,
+            None => self.0.push(Refused { count: 1, first: index, problem: problem.clone() }),
+        }
+    }
+
+    /// How many points are refused.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.0.iter().map(|refused| refused.count).sum()
+    }
+}
+
+/// The characters of a text without its numbers.
+fn words(text: &str) -> impl Iterator<Item = char> {
+    text.chars().filter(|character| !character.is_ascii_digit() && !".+-".contains(*character))
+}
+
+/// Greatest number of points of a chunk.
+const LONGEST: usize = 8192;
+
+/// A chunk is this fraction of a thread's share of the remaining points, so that the last chunks
+/// are short and no thread waits long for another.
+const PARTS_OF_SHARE: usize = 4;
+
+/// The shortest chunk is this fraction of a thread's share of all points: each chunk wakes the
+/// thread that collects the rows.
+const MOST_PARTS: usize = 1024;
+
+/// The chunks of a range for a number of threads, in order.
+pub(super) fn chunks(range: &Range<usize>, jobs: usize) -> Vec<Range<usize>> {
+    let shortest = (range.len() / (jobs * MOST_PARTS)).clamp(1, LONGEST);
+    let after = |first: usize| {
+        let part = (range.end - first) / (jobs * PARTS_OF_SHARE);
+        first..(first + part.clamp(shortest, LONGEST)).min(range.end)
+    };
+    let is_left = |chunk: &Range<usize>| !chunk.is_empty();
+    std::iter::successors(Some(after(range.start)), |chunk| Some(after(chunk.end)))
+        .take_while(is_left)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chunks_cover_the_range_once_and_end_with_short_ones() {
+        for (range, jobs) in [(0..0, 2), (7..8, 4), (3..100_003, 2), (0..1_000, 64)] {
+            let found = chunks(&range, jobs);
+            let ends = found.iter().map(|chunk| chunk.end);
+            let firsts: Vec<usize> = found.iter().map(|chunk| chunk.start).collect();
+            let expected: Vec<usize> = std::iter::once(range.start).chain(ends).collect();
+            assert_eq!(firsts, expected[..found.len()]);
+            assert_eq!(expected.last(), Some(&range.end));
+            let short = 1.max(range.len() / (jobs * MOST_PARTS));
+            let is_short = |chunk: &Range<usize>| chunk.len() <= short;
+            assert!(found.last().is_none_or(is_short), "{found:?}");
+            assert!(found.iter().all(|chunk| chunk.len() <= LONGEST));
         }
     }
 }

@@ -2,14 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::batch::{Batch, Control, PointOutcome, Points, Rows, Stopped, solve_all};
-use super::condition::State;
-use super::design::{Design, Member};
-use super::distribution::Distribution;
-use super::headline::{distinct, headline};
-use super::refusals::Refusals;
-use super::sobol::{Indices, Ranked, indices};
-use super::statistics::{Estimate, Figures, figures, probability};
+use super::batch::{Batch, Control, PointOutcome, Points, Refusals, Rows, Stopped, solve_all};
+use super::condition::{State, distinct, headline};
+use super::sample::{Design, Distribution, Member};
+use super::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
 use crate::case::{Case, Limit, Problem};
 use crate::model::{Inputs, Outcome, Quantity};
 

@@ -8,8 +8,7 @@ use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 use crate::study::axis::Axis;
-use crate::study::batch::PointOutcome;
-use crate::study::refusals::Refusals;
+use crate::study::batch::{PointOutcome, Refusals};
 
 /// Samples of a tolerance study in the workbench.
 pub(crate) const SAMPLES: usize = 10_000;

@@ -7,11 +7,9 @@ use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages, sol
 use tipstrike::study::axis::AxisRange;
 use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Rows, Stopped, solve_all};
 use tipstrike::study::condition::{Condition, State};
-use tipstrike::study::design::{Design, Member};
-use tipstrike::study::distribution::Distribution;
+use tipstrike::study::sample::{Design, Distribution, Member};
 use tipstrike::study::seek::{Found, seek};
-use tipstrike::study::sobol::{Indices, Ranked, indices};
-use tipstrike::study::statistics::Estimate;
+use tipstrike::study::statistics::{Estimate, Indices, Ranked, indices};
 use tipstrike::study::sweep::Grid;
 use tipstrike::study::tolerance::{Samples, Size, Tolerance};
 

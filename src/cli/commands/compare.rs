@@ -12,7 +12,7 @@ use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::report::compare::{Column, Comparison};
 use crate::report::{Report, Selection};
-use crate::study::headline::distinct;
+use crate::study::condition::distinct;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 

@@ -9,7 +9,7 @@ use crate::cli::options::{
 use crate::model::Quantity;
 use crate::model::Refusal;
 use crate::report::{Report, Selection, csv, json, text};
-use crate::study::headline::distinct;
+use crate::study::condition::distinct;
 use clap::Args;
 use std::io::{self, Write};
 

@@ -8,7 +8,7 @@ use crate::model::{Inputs, Quantity};
 use crate::report::compare::{Column, Comparison, Refused, Row};
 use crate::report::{Report, Selection, common_unit, shown_with};
 use crate::study::batch::{Control, Stopped};
-use crate::study::headline::{distinct, headline};
+use crate::study::condition::{distinct, headline};
 use crate::study::statistics::{Estimate, PERCENTILES};
 use crate::study::tolerance::{Samples, Size, Tolerance};
 

@@ -7,8 +7,7 @@ use crate::case::fields::FIELDS;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::report::{common_unit, shown_with};
-use crate::study::sobol::Indices;
-use crate::study::statistics::{Estimate, Figure, Figures, PERCENTILES, least_count};
+use crate::study::statistics::{Estimate, Figure, Figures, Indices, PERCENTILES, least_count};
 use crate::study::tolerance::{Exceedance, OfQuantity, Summary};
 
 /// Greatest length of a bar of a histogram, in characters.
