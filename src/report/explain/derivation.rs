@@ -1,12 +1,16 @@
 //! The formula of a quantity and of each step before it, with the numbers of a case.
 
-use super::context::{Known, Source, factor};
-use super::substitution::{substituted, symbols, with_unit};
-use crate::case::FIELDS;
-use crate::model::Quantity;
-use crate::model::explanation::{Equation, Formula, tidy};
+use std::sync::LazyLock;
+
+use crate::case::fields::Kind;
+use crate::case::{Case, FIELDS, units};
+use crate::model::compliance::{contact_of, model_of};
+use crate::model::explanation::{Context, Equation, Formula, Step, tidy};
+use crate::model::quantities::{spread_force, steps};
+use crate::model::stiffness_spread::StiffnessModels;
+use crate::model::{QUANTITIES, Quantity};
 use crate::numeric::decimal::significant;
-use crate::report::{Shown, shown};
+use crate::report::{Shown, shown, value};
 
 /// Significant digits of a step.
 const STEP_DIGITS: usize = 5;
@@ -72,7 +76,7 @@ pub struct Leaf {
 }
 
 /// The derivation of a quantity, and the symbols that its formulas read from elsewhere.
-pub(super) fn of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
+pub(super) fn derivation_of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
     let mut work = derived(&Target::of(quantity, known), quantity.formula, known);
     let mut seen = vec![quantity.symbol_in(known.context.solution.method)];
     let mut leaves = Vec::new();
@@ -248,5 +252,368 @@ impl Source {
             key,
             is_quantity: matches!(self, Source::Quantity(_)),
         })
+    }
+}
+
+/// A no-break space, between a number and its unit.
+pub(super) const GLUE: &str = "\u{a0}";
+
+/// Names of functions; √ has no name.
+const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "acos", "atan2", "ln", "inv", "min", "max"];
+
+const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
+
+/// The value of a symbol.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Term {
+    /// A text of the case.
+    Written(String),
+    /// A value in a unit.
+    Value(f64, &'static str),
+}
+
+impl Term {
+    /// The value with its unit, with at most `digits` significant digits.
+    pub(super) fn text(&self, digits: usize) -> String {
+        match self {
+            Term::Written(text) => text.clone(),
+            Term::Value(value, unit) => with_unit(&tidy(*value, digits), unit),
+        }
+    }
+}
+
+/// A number and its unit, if it has one.
+pub(super) fn with_unit(number: &str, unit: &str) -> String {
+    if matches!(unit, "" | "1") { number.to_owned() } else { format!("{number} {unit}") }
+}
+
+/// A part of a formula, as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Token<'a> {
+    /// A number, or π.
+    Number(&'a str),
+    /// The symbol of a value.
+    Symbol(&'a str),
+    /// The name of a function, or √.
+    Function(&'a str),
+    /// A unit, without its brackets.
+    Unit(&'a str),
+    /// An operator, a parenthesis, a comma or an exponent.
+    Mark(char),
+}
+
+/// The tokens of a formula; `None` if a character is not part of any token.
+#[must_use]
+pub fn tokens(text: &str) -> Option<Vec<Token<'_>>> {
+    let mut found = Vec::new();
+    let mut rest = text.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let length = match first {
+            '0'..='9' => length(rest, |c, _| c.is_ascii_digit() || c == '.'),
+            _ if is_letter(first) => length(rest, |c, next| {
+                is_letter(c) || "_'*".contains(c) || c == ',' && is_letter(next)
+            }),
+            '[' => rest.find(']')? + 1,
+            _ => first.len_utf8(),
+        };
+        let (token, after) = rest.split_at(length);
+        found.push(match first {
+            '0'..='9' => Token::Number(token),
+            'π' if token == "π" => Token::Number(token),
+            '√' => Token::Function(token),
+            _ if FUNCTIONS.contains(&token) => Token::Function(token),
+            _ if is_letter(first) => Token::Symbol(token),
+            '[' => Token::Unit(&token[1..token.len() - 1]),
+            '+' | '-' | '·' | '/' | '^' | '(' | ')' | ',' | '|' | '²' | '³' | '⁴' => {
+                Token::Mark(first)
+            }
+            _ => return None,
+        });
+        rest = after.trim_start();
+    }
+    Some(found)
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_alphanumeric() && !SUPERSCRIPTS.contains(&c)
+}
+
+/// Length in bytes of the first token of the text.
+fn length(text: &str, belongs: impl Fn(char, char) -> bool) -> usize {
+    let next = |at: usize, c: char| text[at + c.len_utf8()..].chars().next().unwrap_or(' ');
+    text.char_indices().find(|&(at, c)| !belongs(c, next(at, c))).map_or(text.len(), |(at, _)| at)
+}
+
+/// Every symbol of a formula, in reading order.
+pub(super) fn symbols(text: &str) -> Vec<String> {
+    let symbol = |token| match token {
+        Token::Symbol(symbol) => Some(symbol.to_owned()),
+        _ => None,
+    };
+    let tokens = tokens(text).unwrap_or_default();
+    tokens.into_iter().filter_map(symbol).collect()
+}
+
+/// The formula with the value and the unit of each symbol, with at most `digits` digits; `None` if
+/// a symbol has no value.
+pub(super) fn substituted(
+    text: &str,
+    digits: usize,
+    term: &dyn Fn(&str) -> Option<Term>,
+) -> Option<String> {
+    let tokens = tokens(text)?;
+    let mut written = String::new();
+    // Whether the last token ends an operand, and whether a function expects its argument.
+    let (mut is_operand, mut is_argument) = (false, false);
+    for (at, &token) in tokens.iter().enumerate() {
+        let before = at.checked_sub(1).map(|before| tokens[before]);
+        let after = tokens.get(at + 1).copied();
+        let starts = match token {
+            Token::Mark(mark) => mark == '(' || mark == '|' && !is_operand,
+            _ => true,
+        };
+        if starts && is_operand {
+            written += " · ";
+        }
+        let operand = match token {
+            Token::Number(number) => Some(number.to_owned()),
+            Token::Symbol(symbol) => Some(term(symbol)?.text(digits)),
+            Token::Unit(unit) => Some(format!("1 {unit}")),
+            Token::Function(name) => {
+                written += name;
+                is_argument = after != Some(Token::Mark('('));
+                written += if is_argument { "(" } else { "" };
+                None
+            }
+            Token::Mark(mark) => {
+                let has_numbers =
+                    [before, after].iter().all(|token| matches!(token, Some(Token::Number(_))));
+                written += &marked(mark, is_operand, has_numbers);
+                None
+            }
+        };
+        is_operand = match token {
+            Token::Mark(mark) => {
+                mark == ')' || mark == '|' && !starts || SUPERSCRIPTS.contains(&mark)
+            }
+            Token::Function(_) => false,
+            _ => true,
+        };
+        if let Some(text) = operand {
+            let wraps = !is_argument && needs_parentheses(&text, before, after);
+            let text = text.replace(' ', GLUE);
+            let (open, close) = match (wraps, is_argument) {
+                (true, _) => ("(", ")"),
+                (_, true) => ("", ")"),
+                _ => ("", ""),
+            };
+            written.extend([open, &text, close]);
+            is_argument = false;
+        }
+    }
+    Some(written)
+}
+
+/// A mark with its spaces; a slash between two numbers has none.
+fn marked(mark: char, is_behind_operand: bool, is_between_numbers: bool) -> String {
+    match mark {
+        '+' | '-' | '·' if is_behind_operand => format!(" {mark} "),
+        '/' if !is_between_numbers => " / ".to_owned(),
+        ',' => ", ".to_owned(),
+        _ => mark.to_string(),
+    }
+}
+
+/// Whether a value needs parentheses between these tokens.
+fn needs_parentheses(text: &str, before: Option<Token>, after: Option<Token>) -> bool {
+    let is_raised = match after {
+        Some(Token::Mark(mark)) => mark == '^' || SUPERSCRIPTS.contains(&mark),
+        _ => false,
+    };
+    let is_tight = is_raised || before == Some(Token::Mark('/'));
+    let is_open = matches!(before, None | Some(Token::Mark('(' | ',' | '|')));
+    text.contains(' ') && is_tight || text.starts_with('-') && (is_raised || !is_open)
+}
+
+/// Units of steps that no field or quantity has, with their factors to SI.
+pub const STEP_UNITS: [(&str, f64); 5] =
+    [("mm4", 1e-12), ("N/(um mm)", 1e9), ("N/m", 1.0), ("Hz", 1.0), ("N s/m", 1.0)];
+
+/// Digits of a field value that is derived from other fields.
+const DERIVED_DIGITS: usize = 6;
+
+/// A solved case for the explanation.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Known<'a> {
+    /// The case as the user wrote it.
+    pub(super) case: &'a Case,
+    /// Inputs and results.
+    pub(super) context: Context<'a>,
+}
+
+/// The source of the value of a symbol.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Source {
+    /// A quantity, which has a page of its own.
+    Quantity(&'static Quantity),
+    /// A step that formulas share.
+    Step(&'static Step),
+    /// The impact force by another stiffness model.
+    Force(&'static Force),
+    /// A field of the case, by index.
+    Field(usize),
+}
+
+/// The impact force by another stiffness model.
+#[derive(Debug)]
+pub(super) struct Force {
+    pub(super) symbol: String,
+    pub(super) meaning: String,
+    models: StiffnessModels,
+}
+
+static FORCES: LazyLock<Vec<Force>> = LazyLock::new(|| {
+    let force = |models: StiffnessModels| Force {
+        symbol: models.symbol(),
+        meaning: format!("by {}", models.names()),
+        models,
+    };
+    StiffnessModels::all().map(force).collect()
+});
+
+impl Known<'_> {
+    /// The source of the value of a symbol.
+    pub(super) fn source(&self, symbol: &str) -> Option<Source> {
+        let method = self.context.solution.method;
+        let quantity = QUANTITIES
+            .iter()
+            .find(|quantity| quantity.symbol_in(method) == symbol && !quantity.is_flag())
+            .map(Source::Quantity);
+        let step = || self.step(symbol).map(Source::Step);
+        let force = || FORCES.iter().find(|force| force.symbol == symbol).map(Source::Force);
+        let field = || FIELDS.iter().position(|field| field.symbol == symbol).map(Source::Field);
+        quantity.or_else(step).or_else(force).or_else(field)
+    }
+
+    /// A step whose value no field of the case gives; the torque can be either.
+    fn step(&self, symbol: &str) -> Option<&'static Step> {
+        let inputs = self.context.inputs;
+        let contact = contact_of(inputs).map_or(&[][..], |contact| contact.model().steps);
+        let models = model_of(inputs).model().steps.iter().chain(contact);
+        let is_given = |step: &Step| matches!(step.formula.resolved(inputs), Formula::Given(_));
+        steps().chain(models).find(|step| step.symbol == symbol && !is_given(step))
+    }
+
+    /// The value of a source in SI.
+    pub(super) fn value(&self, source: Source) -> Option<f64> {
+        let found = match source {
+            Source::Quantity(quantity) => value(quantity, self.context.solution),
+            Source::Step(step) => (step.value)(&self.context),
+            Source::Force(force) => {
+                let inputs = self.context.inputs;
+                let covers = (force.models.tooth.covers)(inputs);
+                covers.then(|| spread_force(inputs, &force.models)).flatten()
+            }
+            Source::Field(field) => self.field_value(field),
+        };
+        found.filter(|value| value.is_finite()).map(|value| value + 0.0)
+    }
+
+    /// The value of a symbol as text of a formula.
+    pub(super) fn term(&self, symbol: &str) -> Option<Term> {
+        let source = self.source(symbol)?;
+        let value = self.value(source)?;
+        let in_unit = |unit| Term::Value(value / factor(unit).unwrap_or(1.0), unit);
+        Some(match source {
+            Source::Quantity(quantity) => in_unit(quantity.shown),
+            Source::Step(step) => in_unit(step.unit),
+            Source::Force(_) => in_unit("N"),
+            Source::Field(field) => Term::Written(self.field_text(field, value)),
+        })
+    }
+
+    /// The value of a field, given or derived.
+    fn field_value(&self, field: usize) -> Option<f64> {
+        let given = self.case.value(field);
+        given.or_else(|| self.case.derived(field, self.context.given))
+    }
+
+    /// The value of a field as the user wrote it; in the usual unit of the field if that text would
+    /// be ambiguous in a formula.
+    fn field_text(&self, field: usize, value: f64) -> String {
+        let usual = match FIELDS[field].kind {
+            Kind::Number(_, range, _) => range.unit,
+            _ => "",
+        };
+        let written = self.case.effective(field).and_then(plainly_written);
+        let is_written = self.case.effective(field).is_some();
+        written.unwrap_or_else(|| {
+            if is_written {
+                units::text(value, usual)
+            } else {
+                with_unit(&tidy(value / factor(usual).unwrap_or(1.0), DERIVED_DIGITS), usual)
+            }
+        })
+    }
+}
+
+/// The factor of a unit to SI; `None` for an unknown unit.
+pub(super) fn factor(unit: &str) -> Option<f64> {
+    let of_step = || STEP_UNITS.iter().find(|(name, _)| *name == unit).map(|&(_, factor)| factor);
+    units::factor(unit).or_else(of_step)
+}
+
+/// A number with a unit of letters and slashes, separated by one space.
+fn plainly_written(text: &str) -> Option<String> {
+    let (number, unit) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
+    let is_number = number.bytes().all(|byte| byte.is_ascii_digit() || b".-".contains(&byte))
+        && number.parse::<f64>().is_ok();
+    let is_unit = unit.bytes().all(|byte| byte.is_ascii_alphanumeric() || b" /".contains(&byte))
+        && units::factor(unit).is_some();
+    (is_number && is_unit).then(|| with_unit(number, unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{GLUE, Term, substituted, symbols};
+
+    fn term(symbol: &str) -> Option<Term> {
+        Some(match symbol {
+            "v" => Term::Value(0.821_063_9, "m/s"),
+            "b" => Term::Written("8 mm".to_owned()),
+            "M" => Term::Value(0.113_731_2, "kg"),
+            "q" => Term::Value(0.127_770_4, "um mm/N"),
+            "x" => Term::Value(-0.3, "1"),
+            "α" => Term::Written("20 deg".to_owned()),
+            _ => return None,
+        })
+    }
+
+    #[test]
+    fn values_replace_symbols_and_the_formula_keeps_its_meaning() {
+        for (formula, expected) in [
+            ("v √(b M/q)", "0.82106 m/s · √(8 mm · 0.11373 kg / (0.12777 um mm/N))"),
+            ("b/2 (x + 1)", "8 mm / 2 · (-0.3 + 1)"),
+            ("1 - x", "1 - (-0.3)"),
+            ("|x - 1|/|v|", "|-0.3 - 1| / |0.82106 m/s|"),
+            ("b² - b (M v)/q", "(8 mm)² - 8 mm · (0.11373 kg · 0.82106 m/s) / (0.12777 um mm/N)"),
+            ("-(b + b) x", "-(8 mm + 8 mm) · (-0.3)"),
+            ("(b M)^(1/5)", "(8 mm · 0.11373 kg)^(1/5)"),
+            ("atan2(b, -x)", "atan2(8 mm, -(-0.3))"),
+            ("2 tan α/(1 + x)", "2 · tan(20 deg) / (1 + (-0.3))"),
+            ("π b cos α", "π · 8 mm · cos(20 deg)"),
+            ("(1 + x²) [N/(um mm)]", "(1 + (-0.3)²) · 1 N/(um mm)"),
+        ] {
+            let found = substituted(formula, 5, &term).map(|text| text.replace(GLUE, " "));
+            assert_eq!(found.as_deref(), Some(expected), "{formula}");
+        }
+    }
+
+    #[test]
+    fn a_formula_without_a_value_for_a_symbol_has_no_numbers() {
+        for formula in ["b unknown", "b ? 2"] {
+            assert_eq!(substituted(formula, 5, &term), None, "{formula}");
+        }
+        assert_eq!(symbols("ha*1 + r_b2' cos T_S,32"), ["ha*1", "r_b2'", "T_S,32"]);
     }
 }

@@ -1,10 +1,8 @@
 //! An explanation as lines of text, for a terminal of any width.
 
-use super::corrections::Correction;
-use super::derivation::{How, Leaf, Work};
+use super::derivation::{GLUE, How, Leaf, Work};
 use super::effects::Effect;
-use super::page::Page;
-use super::substitution::GLUE;
+use super::{Correction, Page};
 use crate::case::sanitize::sanitize;
 use crate::report::layout::{WIDTH, count, flow, widest};
 
