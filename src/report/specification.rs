@@ -1,18 +1,15 @@
 //! The tip relief to specify as text, JSON or CSV.
 
-mod json;
-mod numbers;
-mod tables;
-
 use std::io::{self, Write};
 
 use super::layout::{WIDTH, item};
 use crate::case::sanitize::sanitize;
 use crate::model::explanation::tidy;
-use crate::model::inputs::Method;
-use crate::study::relief::{MOST_LOAD, Specification, TipReliefs};
-use numbers::{mm, percent, shape, um};
-use tables::{choices, harris, map};
+use crate::model::inputs::{Method, ReliefShape};
+use crate::report::json::write_line;
+use crate::report::layout::widest;
+use crate::study::relief::{Choice, MOST_LOAD, MapPoint, Specification, TipReliefs};
+use serde::Serialize;
 
 /// A relief to specify with the name of its case.
 #[derive(Clone, Copy)]
@@ -166,7 +163,7 @@ impl ReliefReport<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        json::line(self.name, self.title, self.found, out)
+        line(self.name, self.title, self.found, out)
     }
 
     /// Writes the choices and then the map over amount and length as CSV in SI units.
@@ -229,4 +226,232 @@ fn record(
     let numbers = [driver, driver_length, driven, driven_length, error, margin];
     let [a, b, c, d, e, f] = numbers.map(|number| number.to_string());
     [name.to_owned(), is_best.to_owned(), shape(reliefs.shape).to_owned(), a, b, c, d, e, f]
+}
+
+/// One row per choice.
+fn choices(found: &Specification) -> Vec<String> {
+    let head = ["  choice", "C_a1", "L_1", "C_a2", "L_2", "max TE", "mean TE", "gap"];
+    let rows = found.choices.iter().enumerate().map(|(at, choice)| {
+        let Choice { reliefs, .. } = choice;
+        let mark = if at == found.best { "* " } else { "  " };
+        let length = |at: usize| {
+            if reliefs.amounts[at] > 0.0 { mm(reliefs.lengths[at]) } else { "-".to_owned() }
+        };
+        [
+            format!("{mark}{}", choice.name),
+            um(reliefs.amounts[0]),
+            length(0),
+            um(reliefs.amounts[1]),
+            length(1),
+            tidy(choice.greatest_error() * 1e6, 3),
+            tidy(choice.mean_error() * 1e6, 3),
+            tidy(choice.margin * 1e6, 2),
+        ]
+    });
+    let head = head.map(str::to_owned);
+    table(&std::iter::once(head.to_vec()).chain(rows.map(|row| row.to_vec())).collect::<Vec<_>>())
+}
+
+/// One row per load: the relief of the case and the relief to specify.
+fn harris(found: &Specification) -> Vec<String> {
+    let chosen = found.chosen();
+    let cells = |name: &str, values: Vec<String>| {
+        std::iter::once(format!("  {name}")).chain(values).collect::<Vec<_>>()
+    };
+    let errors = |choice: &Choice| {
+        let errors = choice.errors.iter();
+        errors.map(|error| tidy(error * 1e6, 3)).collect::<Vec<_>>()
+    };
+    let loads = found.loads.iter().map(|&load| format!("{} %", percent(load)));
+    table(&[
+        cells("load", loads.collect()),
+        cells("relief of the case", errors(&found.choices[0])),
+        cells("relief to specify", errors(chosen)),
+    ])
+}
+
+/// One row per length: the greatest transmission error by amount.
+fn map(found: &Specification) -> Vec<String> {
+    let chosen = found.chosen().reliefs;
+    let is_chosen = |point: &MapPoint| {
+        let same = |one: f64, other: f64| (one - other).abs() < 1e-9;
+        same(point.reliefs.amounts[0], chosen.amounts[0])
+            && same(point.reliefs.lengths[0], chosen.lengths[0])
+    };
+    let cell = |point: &MapPoint| {
+        let error = if point.margin < 0.0 { "-".to_owned() } else { tidy(point.error * 1e6, 2) };
+        if is_chosen(point) { format!("*{error}") } else { error }
+    };
+    let mut rows = amounts(found.map.first().map_or(&[], Vec::as_slice));
+    rows.extend(found.map.iter().map(|row| {
+        let length = row.first().map(|point| length(point.reliefs.lengths));
+        std::iter::once(length.unwrap_or_default()).chain(row.iter().map(cell)).collect()
+    }));
+    table(&rows)
+}
+
+/// The header rows with the amounts: one row, or one per gear.
+fn amounts(points: &[MapPoint]) -> Vec<Vec<String>> {
+    let row = |name: &str, at: usize| {
+        let amounts = points.iter().map(|point| um(point.reliefs.amounts[at]));
+        std::iter::once(format!("  amount{name}, um")).chain(amounts).collect::<Vec<_>>()
+    };
+    let alike = |point: &MapPoint| um(point.reliefs.amounts[0]) == um(point.reliefs.amounts[1]);
+    if points.iter().all(alike) {
+        vec![row("", 0)]
+    } else {
+        vec![row(" driver", 0), row(" driven", 1)]
+    }
+}
+
+fn length(lengths: [f64; 2]) -> String {
+    let [driver, driven] = lengths.map(mm);
+    if driver == driven {
+        format!("  length {driver} mm")
+    } else {
+        format!("  length {driver}/{driven} mm")
+    }
+}
+
+/// Aligns the first column to the left and the others to the right.
+fn table(rows: &[Vec<String>]) -> Vec<String> {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let cell = |row: &Vec<String>, at: usize| row.get(at).cloned().unwrap_or_default();
+    let widths: Vec<usize> = (0..columns)
+        .map(|at| {
+            let cells: Vec<String> = rows.iter().map(|row| cell(row, at)).collect();
+            widest(cells.iter().map(String::as_str))
+        })
+        .collect();
+    let line = |row: &Vec<String>| {
+        let cells = (0..columns).map(|at| {
+            let (text, width) = (cell(row, at), widths[at]);
+            if at == 0 { format!("{text:width$}") } else { format!(" {text:>width$}") }
+        });
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    rows.iter().map(line).collect()
+}
+
+/// Writes the specification on one line.
+///
+/// # Errors
+/// Errors of the writer.
+fn line(name: &str, title: &str, found: &Specification, out: &mut dyn Write) -> io::Result<()> {
+    let line = Line {
+        case: name,
+        title,
+        version: env!("CARGO_PKG_VERSION"),
+        method: found.method.name(),
+        torque: found.torque,
+        loads: &found.loads,
+        tolerance: found.demand.tolerance,
+        relief: Reliefs::of(&found.chosen().reliefs),
+        margin: found.chosen().margin,
+        greatest_load: found.greatest_load,
+        unloaded_contact_ratio: found.unloaded_contact_ratio,
+        choices: found.choices.iter().map(JsonChoice::of).collect(),
+        map: found.map.iter().flatten().map(JsonPoint::of).collect(),
+        tries: found.tries,
+        is_complete: !found.is_cut,
+    };
+    write_line(&line, out)
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    case: &'a str,
+    title: &'a str,
+    version: &'static str,
+    method: &'a str,
+    torque: f64,
+    loads: &'a [f64],
+    tolerance: f64,
+    relief: Reliefs,
+    margin: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    greatest_load: Option<f64>,
+    unloaded_contact_ratio: f64,
+    choices: Vec<JsonChoice<'a>>,
+    map: Vec<JsonPoint>,
+    tries: u64,
+    is_complete: bool,
+}
+
+#[derive(Serialize)]
+struct Reliefs {
+    shape: &'static str,
+    driver: OneRelief,
+    driven: OneRelief,
+}
+
+#[derive(Serialize)]
+struct OneRelief {
+    tip_relief: f64,
+    tip_relief_length: f64,
+}
+
+impl Reliefs {
+    fn of(reliefs: &TipReliefs) -> Reliefs {
+        let one = |at: usize| OneRelief {
+            tip_relief: reliefs.amounts[at],
+            tip_relief_length: reliefs.lengths[at],
+        };
+        Reliefs { shape: shape(reliefs.shape), driver: one(0), driven: one(1) }
+    }
+}
+
+#[derive(Serialize)]
+struct JsonChoice<'a> {
+    name: &'a str,
+    relief: Reliefs,
+    transmission_errors: &'a [f64],
+    margin: f64,
+}
+
+impl JsonChoice<'_> {
+    fn of(choice: &Choice) -> JsonChoice<'_> {
+        JsonChoice {
+            name: choice.name,
+            relief: Reliefs::of(&choice.reliefs),
+            transmission_errors: &choice.errors,
+            margin: choice.margin,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct JsonPoint {
+    relief: Reliefs,
+    transmission_error: f64,
+    margin: f64,
+}
+
+impl JsonPoint {
+    fn of(point: &MapPoint) -> JsonPoint {
+        JsonPoint {
+            relief: Reliefs::of(&point.reliefs),
+            transmission_error: point.error,
+            margin: point.margin,
+        }
+    }
+}
+
+fn shape(shape: ReliefShape) -> &'static str {
+    match shape {
+        ReliefShape::Linear => "linear",
+        ReliefShape::Parabolic => "parabolic",
+    }
+}
+
+fn um(length: f64) -> String {
+    format!("{:.1}", length * 1e6)
+}
+
+fn mm(length: f64) -> String {
+    format!("{:.2}", length * 1e3)
+}
+
+fn percent(part: f64) -> String {
+    tidy(100.0 * part, 4)
 }

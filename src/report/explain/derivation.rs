@@ -265,7 +265,7 @@ const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
 
 /// The value of a symbol.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Term {
+enum Term {
     /// A text of the case.
     Written(String),
     /// A value in a unit.
@@ -283,7 +283,7 @@ impl Term {
 }
 
 /// A number and its unit, if it has one.
-pub(super) fn with_unit(number: &str, unit: &str) -> String {
+fn with_unit(number: &str, unit: &str) -> String {
     if matches!(unit, "" | "1") { number.to_owned() } else { format!("{number} {unit}") }
 }
 
@@ -356,11 +356,7 @@ pub(super) fn symbols(text: &str) -> Vec<String> {
 
 /// The formula with the value and the unit of each symbol, with at most `digits` digits; `None` if
 /// a symbol has no value.
-pub(super) fn substituted(
-    text: &str,
-    digits: usize,
-    term: &dyn Fn(&str) -> Option<Term>,
-) -> Option<String> {
+fn substituted(text: &str, digits: usize, term: &dyn Fn(&str) -> Option<Term>) -> Option<String> {
     let tokens = tokens(text)?;
     let mut written = String::new();
     // Whether the last token ends an operand, and whether a function expects its argument.
@@ -466,7 +462,7 @@ pub(super) enum Source {
 
 /// The impact force by another stiffness model.
 #[derive(Debug)]
-pub(super) struct Force {
+struct Force {
     pub(super) symbol: String,
     pub(super) meaning: String,
     models: StiffnessModels,
@@ -520,7 +516,7 @@ impl Known<'_> {
     }
 
     /// The value of a symbol as text of a formula.
-    pub(super) fn term(&self, symbol: &str) -> Option<Term> {
+    fn term(&self, symbol: &str) -> Option<Term> {
         let source = self.source(symbol)?;
         let value = self.value(source)?;
         let in_unit = |unit| Term::Value(value / factor(unit).unwrap_or(1.0), unit);
