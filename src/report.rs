@@ -3,20 +3,15 @@
 pub mod absence;
 pub mod charts;
 pub mod compare;
-pub mod comparison;
-pub mod csv;
-pub mod difference;
+pub mod data;
 pub mod digest;
 pub mod explain;
 pub mod export;
 pub mod fields;
 pub mod graphs;
-pub mod groups;
-pub mod json;
 mod layout;
 pub mod page;
 pub mod pictures;
-pub mod relief;
 pub mod schema;
 pub mod seek;
 pub mod specification;
@@ -26,16 +21,14 @@ pub mod svg;
 pub mod sweep;
 pub mod text;
 pub mod tolerance;
-pub mod tooth_chart;
 pub mod trade;
 pub mod verdict;
-pub mod whine;
 
+use crate::case::Case;
 use crate::case::fields::index_of;
-use crate::case::units::System;
-use crate::case::{Case, units};
+use crate::case::units::{self, System};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stages};
+use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
 #[cfg(all(unix, feature = "tui"))]
 pub(crate) use layout::with_units;
@@ -228,10 +221,87 @@ fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
     })
 }
 
+/// Heading of the quantities of the free impact if the method resolves the impact itself.
+pub const FREE_IMPACT: &str = "Free impact at D, closed form";
+
+/// A group of quantities.
+#[derive(Debug, Clone, Copy)]
+pub struct Group {
+    /// The heading.
+    pub title: &'static str,
+    /// The stages of its quantities.
+    stages: &'static [Stage],
+}
+
+/// Every group, in the order of a closed form.
+static GROUPS: [Group; 16] = [
+    Group { title: "Geometry", stages: &[Stage::Geometry] },
+    Group { title: "Load", stages: &[Stage::Load, Stage::Masses] },
+    Group { title: "Deviation", stages: &[Stage::Deviation] },
+    Group { title: "Tip relief", stages: &[Stage::Clearing] },
+    Group { title: "First contact D", stages: &[Stage::Position] },
+    Group { title: "Velocity at D", stages: &[Stage::Velocity] },
+    Group { title: "Impact", stages: &[Stage::Compliance, Stage::Impact, Stage::Band] },
+    Group { title: "Friction", stages: &[Stage::Friction] },
+    Group { title: "From D to E", stages: &[Stage::Stations] },
+    Group { title: "Mesh", stages: &[Stage::Mesh] },
+    Group { title: "Load sharing", stages: &[Stage::Static] },
+    Group { title: "Load sharing with inertia", stages: &[Stage::Dynamic] },
+    Group { title: "Resonance", stages: &[Stage::Resonance] },
+    Group { title: "Transmission error without deviations", stages: &[Stage::StaticSpectrum] },
+    Group { title: "Steady motion without deviations", stages: &[Stage::SteadyMotion] },
+    Group { title: "Greatest dynamic factor over the speed", stages: &[Stage::SpeedRun] },
+];
+
+impl Group {
+    /// Its quantities, in the order of the table.
+    pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
+        let stages = self.stages;
+        QUANTITIES.iter().filter(move |quantity| stages.contains(&quantity.stage))
+    }
+
+    /// Whether the group belongs to the free impact while the method resolves the impact.
+    #[must_use]
+    pub fn is_beside(&self, method: Method) -> bool {
+        method.shares_load() && self.quantities().any(Quantity::is_of_free_impact)
+    }
+
+    // The last stages first; the closed form of the resolved impact at the end.
+    fn rank(&self, method: Method) -> usize {
+        match self.stages {
+            _ if !method.shares_load() => 0,
+            [Stage::Dynamic] => 1,
+            [Stage::Static] => 2,
+            [
+                Stage::Clearing
+                | Stage::Mesh
+                | Stage::Resonance
+                | Stage::StaticSpectrum
+                | Stage::SteadyMotion
+                | Stage::SpeedRun,
+            ] => 3,
+            _ if self.is_beside(method) => 5,
+            _ => 4,
+        }
+    }
+}
+
+/// The groups in the order of a method.
+#[must_use]
+pub fn groups(method: Method) -> Vec<&'static Group> {
+    let mut groups: Vec<&Group> = GROUPS.iter().collect();
+    groups.sort_by_key(|group| group.rank(method));
+    groups
+}
+
+/// Every quantity in the same order.
+pub fn quantities(method: Method) -> impl Iterator<Item = &'static Quantity> {
+    groups(method).into_iter().flat_map(Group::quantities)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Stage;
 
     fn text(value: f64, unit: &'static str, digits: usize) -> String {
         let quantity = Quantity { shown: unit, digits, ..QUANTITIES[0] };
@@ -295,5 +365,32 @@ mod tests {
         assert!(
             Selection { stations: true, ..only(&["contact_ratio"]) }.stages().has(Stage::Stations)
         );
+    }
+
+    #[test]
+    fn every_quantity_is_in_one_group() {
+        for method in Method::ALL {
+            let mut keys: Vec<_> = quantities(method).map(|quantity| quantity.key).collect();
+            keys.sort_unstable();
+            let mut all: Vec<_> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+            all.sort_unstable();
+            assert_eq!(keys, all);
+        }
+    }
+
+    #[test]
+    fn groups_begin_with_the_last_stage_and_end_with_the_closed_form() {
+        for (method, first) in [
+            (Method::Exact, Stage::Geometry),
+            (Method::Static, Stage::Static),
+            (Method::Dynamic, Stage::Dynamic),
+        ] {
+            let own = quantities(method)
+                .find(|quantity| quantity.stage == first || !method.shares_load());
+            assert_eq!(own.map(|own| own.stage), Some(first));
+        }
+        let order: Vec<_> = quantities(Method::Dynamic).collect();
+        assert_eq!(order[0].stage, Stage::Dynamic);
+        assert!(order.is_sorted_by_key(|quantity| quantity.is_of_free_impact()));
     }
 }

@@ -1,14 +1,15 @@
-//! A short summary of a case: title, pair, load, outcome and limits.
+//! Sentences about a solved case: summary, other methods, relief, mesh frequency and resonance.
 
-use super::absence::without_contact_in_full;
+use super::absence::{listed, without_contact_in_full};
 use super::verdict::{self, Standing};
 use super::{shown_in, value};
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
-use crate::case::units::System;
+use crate::case::units::{self, System};
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
+use crate::numeric::decimal::significant;
 
 /// A summary of a case, sanitized for a terminal.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -164,7 +165,7 @@ fn peak(solution: &Solution, system: System) -> Option<String> {
 }
 
 /// The driver's roll angle before E at the first contact: the quantity and its value in rad.
-pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64)> {
+fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64)> {
     let quantity = Quantity::find("approach_angle_driver")?.by(solution.method)?;
     Some((quantity, value(quantity, solution)?))
 }
@@ -239,10 +240,226 @@ fn text(case: &Case, key: &str) -> String {
     index_of(key).and_then(|field| case.effective(field)).map(sanitize).unwrap_or_default()
 }
 
+/// A note if other methods find another outcome: which methods, and why the governing method
+/// counts; from the full text to the shortest.
+#[must_use]
+pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<[String; 3]> {
+    let differs = |other: &&&Solution| other.outcome != governing.outcome;
+    let names: Vec<&str> = others.iter().filter(differs).map(|other| other.method.name()).collect();
+    let find = if names.len() == 1 { "finds" } else { "find" };
+    let found = match governing.outcome {
+        Outcome::CornerContact => "no corner contact",
+        Outcome::NoCornerContact => "corner contact",
+    };
+    let (own, names) = (governing.method.name(), (!names.is_empty()).then(|| listed(&names))?);
+    let chosen = if governing.choice.is_some() { "auto chose it" } else { "the case selects it" };
+    let why = match governing.method {
+        Method::Dynamic => ", and it includes inertia",
+        Method::Static => ", and it shares the load among all pairs",
+        Method::Paper | Method::Exact | Method::Auto => "",
+    };
+    Some([
+        format!("{names} {find} {found}; {own} governs: {chosen}{why}"),
+        format!("{names} {find} {found}; {own} governs"),
+        format!("{own} governs; {names} {}", find.replace("find", "differ")),
+    ])
+}
+
+/// The results of the closed forms beside a method that resolves the impact, or of the other closed
+/// form, in one line.
+#[must_use]
+pub fn closed_forms(
+    governing: &Solution,
+    others: &[&Solution],
+    is_deflection_given: bool,
+    system: System,
+) -> Option<String> {
+    let is_free = governing.method.shares_load();
+    let found: Vec<String> = others
+        .iter()
+        .filter(|other| !other.method.shares_load())
+        .filter_map(|other| closed_form(other, system))
+        .collect();
+    let what = match (is_free, found.len()) {
+        (_, 0) => return None,
+        (true, _) => "Free impact",
+        (false, 1) => "Other method",
+        (false, _) => "Other methods",
+    };
+    let given = if is_free && is_deflection_given { " with the given deflection" } else { "" };
+    Some(format!("{what}{given}: {}", found.join("; ")))
+}
+
+fn closed_form(solution: &Solution, system: System) -> Option<String> {
+    let shown = |key| {
+        let quantity = Quantity::find(key)?;
+        Some(shown_in(quantity, value(quantity, solution)?, system))
+    };
+    let method = solution.method.name();
+    Some(match solution.outcome {
+        Outcome::NoCornerContact => {
+            format!("{method} no corner contact, Δ = {}", shown("total_deviation")?)
+        }
+        Outcome::CornerContact => {
+            let (quantity, angle) = first_touch(solution)?;
+            let angle = shown_in(quantity, angle, system);
+            format!("{method} {} at {} = {angle}", shown("impact_force")?, quantity.symbol)
+        }
+    })
+}
+
+/// Decimal places of a relief, by system of units.
+const LEAST_DIGIT: [(System, i32); 2] = [(System::Metric, 3), (System::Inch, 4)];
+/// Significant digits of the additional relief.
+const RELIEF_DIGITS: i32 = 3;
+
+/// The required tip relief of the driven gear by the governing method and by the others, from the
+/// full text to the shortest; `None` without corner contact, or if the relief is unknown.
+#[must_use]
+pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Option<[String; 4]> {
+    let unit = unit(system)?;
+    let (given, figures) = figures(governing, unit, system)?;
+    Some(phrases(governing.method, given > 0.0, &figures, others, unit, system))
+}
+
+/// The same text while the relief of the governing method is not known yet; `given` is the present
+/// relief of the gear, in m.
+#[must_use]
+pub fn pending(
+    method: Method,
+    given: f64,
+    others: &[&Solution],
+    system: System,
+) -> Option<[String; 4]> {
+    let figures = ["...", "..."].map(str::to_owned);
+    Some(phrases(method, given > 0.0, &figures, others, unit(system)?, system))
+}
+
+fn unit(system: System) -> Option<&'static str> {
+    Some(system.unit(Quantity::find("clearing_relief")?.shown))
+}
+
+/// The present relief of the gear, in m, with the additional and the total relief as text.
+fn figures(solution: &Solution, unit: &str, system: System) -> Option<(f64, [String; 2])> {
+    let least = value(Quantity::find("clearing_relief")?, solution)?;
+    let given = solution.clearing?.given;
+    Some((given, rounded_up(least, given, unit, system)))
+}
+
+fn phrases(
+    method: Method,
+    has_relief: bool,
+    [more, all]: &[String; 2],
+    others: &[&Solution],
+    unit: &str,
+    system: System,
+) -> [String; 4] {
+    let own = method.name();
+    let others = others.iter().filter_map(|other| {
+        let (_, [more, _]) = figures(other, unit, system)?;
+        Some(format!(", {} {more}", other.method.name()))
+    });
+    let others: String = others.collect();
+    if has_relief {
+        [
+            format!(
+                "Required additional tip relief, driven gear: {own} {more}{others} {unit}; total \
+                    {all} {unit}"
+            ),
+            format!("Relief to add: {own} {more}{others} {unit}; total {all} {unit}"),
+            format!("Required relief: +{more}, total {all} {unit}"),
+            format!("Required Ca2: {all} {unit}"),
+        ]
+    } else {
+        [
+            format!("Required tip relief of the driven gear: {own} {more}{others} {unit}"),
+            format!("Required tip relief: {own} {more}{others} {unit}"),
+            format!("Required relief: {own} {more} {unit}"),
+            format!("Required Ca2: {all} {unit}"),
+        ]
+    }
+}
+
+/// The additional and the total relief, rounded up to the same digit, so that the given and the
+/// additional relief add up to at least the total.
+fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2] {
+    /// Rounding error of the factor of the unit and of the sum.
+    const ROUNDING: f64 = 1.0 + 4.0 * f64::EPSILON;
+    /// The fraction of a digit that is rounding error.
+    const NONE: f64 = 1e-9;
+    let factor = units::factor(unit).unwrap_or(1.0);
+    let last = LEAST_DIGIT.iter().find(|(own, _)| *own == system).map_or(3, |&(_, last)| last);
+    let before_point = (least / factor).log10().floor() as i32 + 1;
+    let digits = (RELIEF_DIGITS - before_point).clamp(0, last);
+    let scale = 10f64.powi(digits);
+    let all = ((least + given) * ROUNDING / factor * scale).ceil();
+    let more = (all - given / factor * scale - NONE).ceil();
+    let digits = usize::try_from(digits).unwrap_or(0);
+    [more, all].map(|number| format!("{:.digits$}", number / scale))
+}
+
+/// Significant digits of a frequency or a speed.
+const FREQUENCY_DIGITS: usize = 3;
+
+/// The mesh frequency, the greatest dynamic factor over the speed, and the speed of N = 1, from the
+/// full text to the shortest; `None` if the method has no mesh.
+#[must_use]
+pub fn whine(solution: &Solution) -> Option<[String; 4]> {
+    let of = |key| value(Quantity::find(key)?, solution);
+    let (frequency, ratio) = (of("mesh_frequency")?, of("resonance_ratio")?);
+    let rpm = |speed: f64| rounded(speed * 30.0 / std::f64::consts::PI);
+    let (frequency, speed) = (rounded(frequency), rpm(of("resonance_speed")?));
+    let now = format!("now N = {}", significant(ratio, 2));
+    let peak = |speed, factor| Some((rpm(of(speed)?), significant(of(factor)?, 3)));
+    let rising = peak("resonance_peak_speed", "resonance_peak_factor");
+    let falling = peak("resonance_peak_speed_falling", "resonance_peak_factor_falling");
+    Some(match (rising, falling) {
+        (Some((speed_up, factor_up)), Some((speed_down, factor_down))) => {
+            let same = (&speed_up, &factor_up) == (&speed_down, &factor_down);
+            let (long, short) = if same {
+                (String::new(), String::new())
+            } else {
+                (
+                    format!(" rising, {factor_down} at {speed_down} rpm falling"),
+                    format!(", {factor_down} at {speed_down} rpm"),
+                )
+            };
+            [
+                format!(
+                    "Greatest dynamic factor {factor_up} at {speed_up} rpm{long}; mesh frequency \
+                        {frequency} Hz, N = 1 of the mean stiffness at {speed} rpm ({now})"
+                ),
+                format!("Greatest dynamic factor {factor_up} at {speed_up} rpm{long}; {now}"),
+                format!("Peak factor {factor_up} at {speed_up} rpm{short}; {now}"),
+                format!("Peak factor {factor_up} at {speed_up} rpm"),
+            ]
+        }
+        _ => [
+            format!(
+                "Mesh frequency {frequency} Hz; N = 1 of the mean stiffness at {speed} rpm ({now})"
+            ),
+            format!("Mesh {frequency} Hz; N = 1 at {speed} rpm ({now})"),
+            format!("N = 1 at {speed} rpm; {now}"),
+            format!("N = 1 at {speed} rpm"),
+        ],
+    })
+}
+
+/// A number with three significant digits, followed by zeros.
+pub(super) fn rounded(number: f64) -> String {
+    let rounded = format!("{number:.*e}", FREQUENCY_DIGITS - 1);
+    match rounded.parse::<f64>() {
+        Ok(rounded) if rounded >= 1e3 => format!("{rounded:.0}"),
+        _ => significant(number, FREQUENCY_DIGITS),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::case::EXAMPLES;
+    use crate::model::sample::standard_pair;
+    use crate::model::solve;
 
     fn digest(text: &[(&str, &str)]) -> Digest {
         let mut case = Case::table_1();
@@ -354,5 +571,47 @@ mod tests {
                 example.name
             );
         }
+    }
+
+    #[test]
+    fn a_relief_is_rounded_up_and_adds_up() {
+        let sums = |least: f64, given: f64| {
+            rounded_up(least * 1e-6, given * 1e-6, "um", System::Metric).join(" ")
+        };
+        assert_eq!(sums(23.01, 25.0), "23.1 48.1");
+        assert_eq!(sums(23.01, 25.03), "23.1 48.1");
+        assert_eq!(sums(47.327, 0.0), "47.4 47.4");
+        assert_eq!(sums(0.672_57, 48.0), "0.673 48.673");
+        assert_eq!(sums(1e-9, 25.0), "0.001 25.001");
+        assert_eq!(sums(1234.1, 0.0), "1235 1235");
+        assert_eq!(rounded_up(22.328e-6, 25e-6, "thou", System::Inch).join(" "), "0.880 1.864");
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (number, text) in [
+            (666.67, "667"),
+            (5478.2, "5480"),
+            (16_569.0, "16600"),
+            (1_234_567.0, "1230000"),
+            (999.9, "1000"),
+            (0.123_45, "0.123"),
+        ] {
+            assert_eq!(rounded(number), text);
+        }
+    }
+
+    #[test]
+    fn the_greatest_peak_of_the_motion_is_named_beside_the_speed_of_n_1() {
+        let wanted = Stages::of(Stage::SpeedRun);
+        let mut inputs = standard_pair(20, 30, 5e-3);
+        let mut sentence = |method| {
+            inputs.method = method;
+            whine(&solve(&inputs, wanted).unwrap()).unwrap()[0].clone()
+        };
+        let at_rest = sentence(Method::Static);
+        assert!(at_rest.starts_with("Mesh frequency ") && at_rest.contains("N = 1 of the mean"));
+        let in_motion = sentence(Method::Dynamic);
+        assert!(in_motion.starts_with("Greatest dynamic factor "), "{in_motion}");
     }
 }

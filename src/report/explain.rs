@@ -16,7 +16,7 @@ use crate::model::explanation::{Context, Finding};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Solution, auto};
 use crate::report::absence::Absence;
-use crate::report::json::write_line;
+use crate::report::data::write_line;
 use crate::report::verdict::Beside;
 use crate::report::{Shown, shown, value};
 use derivation;

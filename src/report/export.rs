@@ -6,7 +6,7 @@ use std::path::Path;
 use super::charts::with_other_method;
 use super::page::{Page, Studies, Subject};
 use super::pictures::Unsolved;
-use super::{Report, csv, json};
+use super::{Report, data};
 use crate::model::Refusal;
 
 /// Whether the file extension selects a picture.
@@ -69,12 +69,12 @@ impl ReportFormat {
             ReportFormat::Markdown => return Ok(Page::of(subjects).markdown()),
             ReportFormat::Csv => {
                 for (at, report) in reports().enumerate() {
-                    csv::write(report, at == 0, &mut bytes)?;
+                    data::write_csv(report, at == 0, &mut bytes)?;
                 }
             }
             ReportFormat::Json => {
                 for report in reports() {
-                    json::write(report, &mut bytes)?;
+                    data::write_json(report, &mut bytes)?;
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! The lists of the fields of a case and of the quantities of a result, for readers and scripts.
 
-use super::json::write_line;
+use super::data::write_line;
 use super::layout::{count, flow, widest};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{FIELDS, Field};

@@ -4,10 +4,9 @@ use std::fmt::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::charts::SolvedCase;
-use super::groups::{FREE_IMPACT, groups};
 use super::pictures::{Picture, pictures};
 use super::verdict::verdicts;
-use super::{Report, common_unit, shown_with, text, value};
+use super::{FREE_IMPACT, Report, common_unit, groups, shown_with, text, value};
 use crate::case::changes::label;
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};

@@ -3,11 +3,10 @@
 
 use std::fmt;
 
-use super::charts::{self, SolvedCase, with_other_method};
+use super::charts::{self, SPECTRUM, SPEED, SolvedCase, spectrum, speed, with_other_method};
 use super::graphs::{GRAPHS, Graph, Place};
 use super::svg::teeth::teeth;
-use super::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
-use super::{Report, Selection, tooth_chart};
+use super::{Report, Selection};
 use crate::case::Case;
 use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve};
 use crate::model::inputs::Method;
@@ -16,8 +15,8 @@ use crate::model::{Inputs, Refusal};
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 5] = [
-    Picture { key: tooth_chart::KEYS[0], drawing: Drawing::ToothCompliance(0) },
-    Picture { key: tooth_chart::KEYS[1], drawing: Drawing::ToothCompliance(1) },
+    Picture { key: charts::TOOTH_KEYS[0], drawing: Drawing::ToothCompliance(0) },
+    Picture { key: charts::TOOTH_KEYS[1], drawing: Drawing::ToothCompliance(1) },
     Picture { key: SPECTRUM, drawing: Drawing::Spectrum },
     Picture { key: SPEED, drawing: Drawing::Speed },
     Picture { key: "teeth", drawing: Drawing::Teeth },
@@ -104,7 +103,7 @@ impl Picture {
             Drawing::Graph(graph) => charts::picture(graph, cases),
             Drawing::ToothCompliance(gear) => {
                 let report = cases.first()?.reports.first()?;
-                tooth_chart::picture(gear, &report.inputs).ok()
+                charts::tooth_picture(gear, &report.inputs).ok()
             }
             Drawing::Spectrum => spectrum(cases),
             Drawing::Speed => {
@@ -146,7 +145,7 @@ impl Picture {
             Drawing::Graph(graph) => charts::absence(graph, reports),
             Drawing::ToothCompliance(gear) => match reports.first() {
                 Some(report) => {
-                    tooth_chart::picture(gear, &report.inputs).err().unwrap_or_default()
+                    charts::tooth_picture(gear, &report.inputs).err().unwrap_or_default()
                 }
                 None => "no case is solved".to_owned(),
             },

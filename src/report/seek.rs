@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::json::{ValueWithUnit, write_line};
+use super::data::{ValueWithUnit, write_line};
 use super::shown;
 use super::sweep::Reason;
 use crate::case::fields::FIELDS;

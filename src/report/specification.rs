@@ -6,7 +6,7 @@ use super::layout::{WIDTH, item};
 use crate::case::sanitize::sanitize;
 use crate::model::explanation::tidy;
 use crate::model::inputs::{Method, ReliefShape};
-use crate::report::json::write_line;
+use crate::report::data::write_line;
 use crate::report::layout::widest;
 use crate::study::relief::{Choice, MOST_LOAD, MapPoint, Specification, TipReliefs};
 use serde::Serialize;

@@ -5,8 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::csv::{cell, write_rows};
-use super::json::write_line;
+use super::data::{cell, write_line, write_rows};
 use super::layout::{WIDTH, flow, item};
 use crate::case::sanitize::sanitize;
 use crate::model::Refusal;

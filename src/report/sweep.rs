@@ -5,8 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use super::csv::{cell, write_rows};
-use super::json::{ValueWithUnit, write_line};
+use super::data::{ValueWithUnit, cell, write_line, write_rows};
 use crate::case::Problem;
 use crate::model::Quantity;
 use crate::study::batch::{PointOutcome, Refused, Rows};

@@ -1,15 +1,11 @@
 //! A solve as a page of text, 80 columns wide.
 
 use super::absence::Absence;
-use super::comparison::{closed_forms, differing};
-use super::digest;
-use super::groups::{FREE_IMPACT, Group, groups};
+use super::digest::{closed_forms, differing, relief, whine};
 use super::layout::{WIDTH, flow, item, widest};
-use super::relief::relief;
 use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
-use super::whine::whine;
-use super::{Report, Shown, shown, value};
+use super::{FREE_IMPACT, Group, Report, Shown, digest, groups, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
 use crate::case::sanitize::{one_line, sanitize};

@@ -3,14 +3,14 @@
 use std::io::{self, Write};
 
 use super::absence::Absence;
-use super::csv::{cell, write_rows};
+use super::data::{cell, write_rows};
 use crate::case::Case;
 use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
-use crate::report::json::write_line;
+use crate::report::data::write_line;
 use crate::report::{common_unit, shown_with};
 use crate::study::batch::{Points, Refused};
 use crate::study::sample::Member;

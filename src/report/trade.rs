@@ -11,7 +11,7 @@ use crate::case::sanitize::sanitize;
 use crate::model::inputs::Method;
 use crate::model::stiffness_spread::StiffnessModels;
 use crate::numeric::decimal::significant;
-use crate::report::json::write_line;
+use crate::report::data::write_line;
 use crate::report::layout::item;
 use crate::study::trade::{
     Build, Differences, METHODS, MeasuredSetting, Model, Setting, Subject, Trade, greatest,

@@ -10,7 +10,7 @@ use crate::case::units::System;
 use crate::case::{Case, Limit};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Refusal, Solution, Stage, Stages};
-use crate::report::json::write_line;
+use crate::report::data::write_line;
 use serde::Serialize;
 
 /// The comparison of a quantity with its limit.

@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tipstrike::case::file::Document;
-use tipstrike::report::{Report, Selection, json, text};
+use tipstrike::report::{Report, Selection, data, text};
 
 fn toml_files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -51,7 +51,7 @@ const CLOSE: f64 = 1e-10;
 fn json_contains_the_reference_answers() {
     for path in toml_files("tests/reference/solve") {
         let mut line = Vec::new();
-        json::write(&report(&path, Selection::default()), &mut line).unwrap();
+        data::write_json(&report(&path, Selection::default()), &mut line).unwrap();
         let object: Value = serde_json::from_slice(&line).unwrap();
         let answers: Value =
             serde_json::from_str(&fs::read_to_string(path.with_extension("json")).unwrap())

@@ -9,7 +9,7 @@ use tipstrike::case::EXAMPLES;
 use tipstrike::case::units::{Dimension, System, factor, parse};
 use tipstrike::model::inputs::{Gear, Method, ReliefShape};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, auto, solve};
-use tipstrike::report::relief::relief as relief_words;
+use tipstrike::report::digest::relief as relief_words;
 
 const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
 

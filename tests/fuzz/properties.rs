@@ -124,7 +124,7 @@ fn assert_numbers(words: &str) {
 }
 
 fn assert_json(report: &Report) {
-    let line = written(|out| report::json::write(report, out));
+    let line = written(|out| report::data::write_json(report, out));
     assert_safe(&line);
     assert_eq!(line.matches('\n').count(), 1);
     let value: Value = serde_json::from_str(&line).expect("JSON parses again");
@@ -155,13 +155,13 @@ fn assert_json(report: &Report) {
 
 fn assert_csv(report: &Report) {
     let whole = Report { selection: Selection::default(), ..report.clone() };
-    let rows = rows(&written(|out| report::csv::write(&whole, true, out)));
+    let rows = rows(&written(|out| report::data::write_csv(&whole, true, out)));
     assert_eq!(rows.len(), 2);
     assert_eq!(rows[0].len(), rows[1].len());
     let found: Vec<u64> =
         rows[1].iter().skip(3).filter(|cell| !cell.is_empty()).map(bits).collect();
     assert_eq!(found, whole.values().map(|(_, value)| value.to_bits()).collect::<Vec<_>>());
-    let stations = self::rows(&written(|out| report::csv::write(report, true, out)));
+    let stations = self::rows(&written(|out| report::data::write_csv(report, true, out)));
     assert_eq!(stations.len(), report::stations::rows(&report.solution).len() + 1);
     let empty = stations[1..]
         .iter()

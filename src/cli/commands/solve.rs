@@ -8,7 +8,7 @@ use crate::cli::options::{
 };
 use crate::model::Quantity;
 use crate::model::Refusal;
-use crate::report::{Report, Selection, csv, json, text};
+use crate::report::{Report, Selection, data, text};
 use crate::study::condition::distinct;
 use clap::Args;
 use std::io::{self, Write};
@@ -96,7 +96,7 @@ fn print(
     match format {
         OutputFormat::Text if first => text::write(report, out),
         OutputFormat::Text => writeln!(out).and_then(|()| text::write(report, out)),
-        OutputFormat::Json => json::write(report, out),
-        OutputFormat::Csv => csv::write(report, first, out),
+        OutputFormat::Json => data::write_json(report, out),
+        OutputFormat::Csv => data::write_csv(report, first, out),
     }
 }
