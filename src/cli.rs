@@ -1,27 +1,24 @@
 //! The headless commands: results to the output, messages to the errors, and an exit code for
 //! scripts.
 
-mod arguments;
 mod cases;
 mod commands;
-mod exit;
 mod options;
 mod output;
-mod progress;
-mod shards;
+
+use std::ffi::OsString;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use crate::case::sanitize::sanitize;
 use crate::case::suggest;
 use crate::system::interrupt::Interrupt;
-pub use arguments::Arguments;
 use clap::error::ErrorKind;
-use clap::{CommandFactory, FromArgMatches};
+use clap::{CommandFactory, FromArgMatches, Parser, ValueHint};
 pub use commands::Command;
-pub use exit::Exit;
-use exit::Failure;
-use std::ffi::OsString;
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
+pub use output::Exit;
+use output::Failure;
 
 /// The streams of a command.
 pub struct Streams<'a> {
@@ -131,6 +128,30 @@ fn finish(done: Result<Exit, Failure>, streams: &mut Streams) -> Exit {
     }
 }
 
+/// The version; a release includes its commit (`build.rs`).
+static VERSION: LazyLock<String> = LazyLock::new(|| {
+    let version = env!("CARGO_PKG_VERSION");
+    let commit = option_env!("TIPSTRIKE_COMMIT");
+    commit.map_or_else(|| version.to_owned(), |commit| format!("{version} ({commit})"))
+});
+
+/// Compute corner contact in spur gear pairs: position, force and duration of the tip impact
+#[derive(Debug, Parser)]
+#[command(name = "tipstrike", version = VERSION.as_str(), args_conflicts_with_subcommands = true, after_help = exit_codes())]
+pub struct Arguments {
+    /// Case to open in the workbench (default: the last case, or Table 1 of Zhou & Chen 2014)
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub case: Option<PathBuf>,
+    /// The headless command; without one the workbench starts.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+fn exit_codes() -> String {
+    let codes = Exit::MEANINGS.map(|(exit, meaning)| format!("{} {meaning}", exit as u8));
+    format!("Exit: {}.", codes.join("; "))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,5 +162,10 @@ mod tests {
         Streams { output: Box::new(io::sink()), errors: Box::new(&mut said) }
             .say("a\u{1b}[2J\u{9b}\nb\u{202e}");
         assert_eq!(String::from_utf8_lossy(&said), "a\\u{1b}[2J\\u{9b}\\nb\\u{202e}\n");
+    }
+
+    #[test]
+    fn the_options_of_all_commands_fit_together() {
+        Arguments::command().debug_assert();
     }
 }

@@ -1,8 +1,8 @@
 //! Opens cases for a command and reports their problems.
 
 use super::Streams;
-use super::exit::{Exit, Failure};
 use super::options::{Edits, Setting};
+use super::output::{Exit, Failure};
 use crate::case::fields::FIELDS;
 use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::rexs::{self, Imported};

@@ -1,16 +1,16 @@
 //! Options that several commands share: changes of the case, quantities, formats, files, threads.
 
-mod changes;
-mod files;
-mod quantities;
+use std::ffi::OsStr;
+use std::path::PathBuf;
 
+use crate::case::{Case, Problem, unknown_quantity};
+use crate::model::inputs::Method;
+use crate::model::{QUANTITIES, Quantity};
 use crate::report::sweep::TableFormat;
 use crate::study::shard::Shard;
-pub(super) use changes::{Changes, Edits, Setting, Settings, by_method, methods, station_count};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
-use clap::{Args, ValueEnum};
-pub(super) use files::{CaseFile, Cases, Destination};
-pub(super) use quantities::{Quantities, QuantityList};
+use clap::{Arg, Args, ValueEnum, ValueHint};
 
 /// The format of a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -107,4 +107,233 @@ pub(super) fn count(text: &str) -> Result<usize, String> {
 /// A usage error with one line.
 fn misused(cause: String) -> Error {
     Error::raw(ErrorKind::ValueValidation, cause + "\n")
+}
+
+/// Values that replace those of a case: those of a variant first, then single fields.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub(super) struct Edits {
+    /// Use this variant of the case, a table [variants.NAME]
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
+    /// Change a field of the case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
+    pub settings: Vec<Setting>,
+}
+
+/// The method and the values that replace those of a case.
+#[derive(Debug, Args)]
+pub(super) struct Changes {
+    /// Use this method instead of the method of the case
+    #[arg(long, value_parser = methods())]
+    method: Option<Method>,
+    /// The values
+    #[command(flatten)]
+    edits: Edits,
+}
+
+impl Changes {
+    /// The variant and the fields; the method is the last field.
+    #[must_use]
+    pub fn edits(&self) -> Edits {
+        let mut edits = self.edits.clone();
+        edits.settings.extend(by_method(self.method));
+        edits
+    }
+}
+
+/// `--method` as a setting of a field.
+pub(in crate::cli) fn by_method(method: Option<Method>) -> Option<Setting> {
+    method.map(|method| Setting::by("--method", "model.method", method.name()))
+}
+
+/// A field and its new value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Setting {
+    /// The key of the field or limit.
+    pub key: String,
+    /// The new text of the field.
+    pub value: String,
+    /// The option of the setting.
+    option: &'static str,
+}
+
+impl Setting {
+    /// The setting of a field by an option.
+    #[must_use]
+    pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
+        Setting { key: key.to_owned(), value: value.to_owned(), option }
+    }
+
+    /// The setting in the syntax of the command line.
+    #[must_use]
+    pub fn written(&self) -> String {
+        match self.option {
+            SET => format!("{SET} {}={}", self.key, self.value),
+            option => format!("{option} {}", self.value),
+        }
+    }
+}
+
+/// The option that changes any field.
+const SET: &str = "--set";
+
+/// Parser of a field and its value; checks each separately.
+#[derive(Clone)]
+pub(in crate::cli) struct Settings;
+
+impl TypedValueParser for Settings {
+    type Value = Setting;
+
+    fn parse_ref(
+        &self,
+        _: &clap::Command,
+        _: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Setting, Error> {
+        let text = value.to_string_lossy();
+        setting(&text).map_err(|cause| misused(format!("{SET} {text}: {cause}")))
+    }
+}
+
+/// Parses a setting and checks that the field accepts the value in some case.
+fn setting(text: &str) -> Result<Setting, String> {
+    let (key, value) = text
+        .split_once('=')
+        .ok_or("no value is given: write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
+    Case::empty()
+        .set(key.trim(), value)
+        .map_err(|problem| format!("{}: {}", problem.cause, problem.fix))?;
+    Ok(Setting::by(SET, key.trim(), value))
+}
+
+/// Parses a number of stations.
+pub(in crate::cli) fn station_count(text: &str) -> Result<String, String> {
+    setting(&format!("model.stations={text}")).map(|setting| setting.value)
+}
+
+pub(in crate::cli) fn methods() -> impl TypedValueParser<Value = Method> {
+    PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(|name| {
+        Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method")
+    })
+}
+
+/// Parser of a quantity by its name or its symbol.
+#[derive(Clone)]
+pub(in crate::cli) struct Quantities;
+
+impl TypedValueParser for Quantities {
+    type Value = &'static Quantity;
+
+    fn parse_ref(
+        &self,
+        _: &clap::Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, Error> {
+        let text = value.to_string_lossy();
+        let name = argument
+            .and_then(Arg::get_long)
+            .map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
+        Quantity::named(text.trim()).ok_or_else(|| {
+            let Problem { cause, fix, .. } = unknown_quantity("", &text);
+            misused(format!("{name}: {cause}: {fix}"))
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(QUANTITIES.iter().map(|quantity| PossibleValue::new(quantity.key))))
+    }
+}
+
+/// Parser of a comma-separated list of quantities; a comma may be part of a symbol, as in
+/// `F_d,max`.
+#[derive(Clone)]
+pub(in crate::cli) struct QuantityList;
+
+impl TypedValueParser for QuantityList {
+    type Value = Vec<&'static Quantity>;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, Error> {
+        let text = value.to_string_lossy();
+        let one = |name: &String| Quantities.parse_ref(command, argument, OsStr::new(name));
+        names(&text).iter().map(one).collect()
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Quantities.possible_values()
+    }
+}
+
+/// The names in a list: a part that continues a symbol is joined with the previous part.
+fn names(list: &str) -> Vec<String> {
+    let is_symbol = |name: &str| {
+        let mut symbols = QUANTITIES.iter().map(|quantity| quantity.symbol);
+        symbols.any(|symbol| symbol.eq_ignore_ascii_case(name))
+    };
+    let mut names: Vec<String> = Vec::new();
+    for part in list.split(',').map(str::trim) {
+        let joined = names.last().map(|before| format!("{before},{part}"));
+        match joined.filter(|joined| is_symbol(joined)) {
+            Some(joined) => {
+                names.pop();
+                names.push(joined);
+            }
+            None => names.push(part.to_owned()),
+        }
+    }
+    names
+}
+
+/// Any number of cases, all with the same changes.
+#[derive(Debug, Args)]
+pub(super) struct Cases {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// The changes of each case
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+/// One case.
+#[derive(Debug, Args)]
+pub(super) struct CaseFile {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+}
+
+/// The file for the output.
+#[derive(Debug, Args)]
+pub(super) struct Destination {
+    /// File to write (default: standard output); replaces an existing file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_setting_is_split_at_the_first_equals_sign() {
+        assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
+        assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
+        assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
+    }
+
+    #[test]
+    fn a_comma_in_a_symbol_does_not_end_a_name() {
+        assert_eq!(
+            names("F_d,max, F_d,DE,impact_force,F_S,T_S,32"),
+            ["F_d,max", "F_d,DE", "impact_force", "F_S", "T_S,32"]
+        );
+        let list = QUANTITIES.iter().map(|quantity| quantity.symbol);
+        assert!(list.clone().eq(names(&list.collect::<Vec<_>>().join(","))));
+    }
 }

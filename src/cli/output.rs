@@ -1,11 +1,19 @@
-//! The output of a study: a stream, or a file that appears only when it is complete.
+//! The output of a command: a stream, or a file that appears only when it is complete; progress,
+//! Ctrl-C and exit codes.
 
-use super::exit::Failure;
+use std::cell::Cell;
+use std::fmt;
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use crate::case::Problem;
 use crate::case::file::{Draft, SaveError};
+use crate::study::batch::{Control, Stopped};
 use crate::system::files::is_same;
 use crate::system::interrupt::Interrupt;
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// The destination of the results of a study.
 pub(super) enum Sink<'a> {
@@ -100,4 +108,205 @@ pub(super) fn write_to(
     let mut sink = Sink::open(out, stream)?;
     write(&mut sink).map_err(|error| sink.failure(error))?;
     sink.finish()
+}
+
+/// Delay before the bar appears.
+const QUIET: Duration = Duration::from_secs(1);
+
+/// A progress bar; it is only shown on a terminal.
+pub(super) struct Bar {
+    begun: Instant,
+    shown: ProgressBar,
+    is_up: Cell<bool>,
+}
+
+impl Bar {
+    /// A bar for parts with a name.
+    pub(super) fn new(what: &'static str) -> Bar {
+        let shown = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left") {
+            shown.set_style(style.progress_chars("=> "));
+        }
+        shown.set_message(what);
+        Bar { begun: Instant::now(), shown, is_up: Cell::new(false) }
+    }
+
+    /// A bar that also shows the rate.
+    pub(super) fn with_rate(what: &'static str) -> Bar {
+        let bar = Bar::new(what);
+        let template = "{bar:30} {human_pos}/{human_len} {msg}, {rate}, {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
+                // Errors of the bar are ignored.
+                let _ = write!(out, "{}/s", HumanCount(state.per_sec() as u64));
+            };
+            let style = style.with_key("rate", rate);
+            bar.shown.set_style(style.progress_chars("=> "));
+        }
+        bar
+    }
+
+    /// Shows the number of completed parts and their total.
+    pub(super) fn set(&self, done: usize, of: usize) {
+        if !self.is_up.get() {
+            if self.begun.elapsed() < QUIET || !io::stderr().is_terminal() {
+                return;
+            }
+            self.is_up.set(true);
+            self.shown.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.shown.set_length(of as u64);
+        self.shown.set_position(done as u64);
+    }
+
+    /// Removes the bar.
+    pub(super) fn clear(&self) {
+        self.shown.finish_and_clear();
+    }
+
+    /// Removes the bar after a signal. After Ctrl-C the terminal appends `^C` to the bar, which
+    /// fills its line, so that the cursor is on the next line.
+    pub(super) fn clear_after(&self, interrupt: &Interrupt) {
+        const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
+        self.clear();
+        if self.is_up.get() && interrupt.is_ctrl_c() {
+            drop(io::stderr().write_all(LINE_ABOVE));
+        }
+    }
+}
+
+/// Runs work that reports the number of completed parts and their total, with a bar during long
+/// work. The work stops if the report returns false, and Ctrl-C then ends the program.
+pub(super) fn follow<T>(
+    what: &'static str,
+    work: impl FnOnce(&dyn Fn(usize, usize) -> bool) -> T,
+) -> T {
+    let (bar, interrupt) = (Bar::new(what), Interrupt::install());
+    let done = work(&|done, of| {
+        bar.set(done, of);
+        interrupt.go_on()
+    });
+    if interrupt.go_on() {
+        bar.clear();
+    } else {
+        bar.clear_after(&interrupt);
+        Interrupt::end();
+    }
+    done
+}
+
+/// A running study: its threads, its bar and Ctrl-C.
+pub(super) struct Running {
+    bar: Bar,
+    interrupt: Interrupt,
+    jobs: Option<usize>,
+}
+
+impl Running {
+    /// A study with a number of threads; `what` is the name of its points.
+    pub(super) fn new(what: &'static str, jobs: Option<u16>) -> Running {
+        Running {
+            bar: Bar::with_rate(what),
+            interrupt: Interrupt::install(),
+            jobs: jobs.map(usize::from),
+        }
+    }
+
+    /// Runs a part of the study and shows its progress.
+    pub(super) fn run<T, E>(&self, study: impl FnOnce(&Control) -> Result<T, E>) -> Result<T, E> {
+        let interrupt = &self.interrupt;
+        let done = study(&Control {
+            jobs: self.jobs,
+            go_on: &|| interrupt.go_on(),
+            progress: &|done, of| self.bar.set(done, of),
+        });
+        if done.is_err() && !self.interrupt.go_on() {
+            self.bar.clear_after(&self.interrupt);
+        } else {
+            self.bar.clear();
+        }
+        done
+    }
+}
+
+/// The exit code of a command; of several, the greatest counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Exit {
+    /// Success.
+    Done = 0,
+    /// A case exceeds one of its limits, or the limited quantity has no value.
+    Exceeded = 1,
+    /// Wrong usage of the command line.
+    Usage = 2,
+    /// A case is invalid, or the model refuses it.
+    BadCase = 3,
+    /// A case has a newer format.
+    NewerFormat = 4,
+    /// A file cannot be read or written.
+    Unreadable = 5,
+}
+
+impl Exit {
+    /// Every exit code with its meaning.
+    pub(super) const MEANINGS: [(Exit, &'static str); 6] = [
+        (Exit::Done, "done"),
+        (Exit::Exceeded, "a limit is exceeded, or its quantity has no value"),
+        (Exit::Usage, "wrong usage, or no terminal for the workbench"),
+        (Exit::BadCase, "an invalid case, or a case that cannot be solved"),
+        (Exit::NewerFormat, "a case of a newer format"),
+        (Exit::Unreadable, "a file cannot be read or written"),
+    ];
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> ExitCode {
+        ExitCode::from(exit as u8)
+    }
+}
+
+/// Why a command stopped early.
+pub(super) enum Failure {
+    /// Wrong usage, with the reason.
+    Usage(String),
+    /// The reason is already reported.
+    Reported(Exit),
+    /// A file cannot be written.
+    File(SaveError),
+    /// The standard output cannot be written.
+    Stream(io::Error),
+    /// Ctrl-C stopped the work.
+    Interrupted,
+}
+
+impl Failure {
+    /// Reports an invalid value of an option.
+    pub(super) fn of_option(option: &str, value: &str, problem: &Problem) -> Failure {
+        let Problem { cause, fix, .. } = problem;
+        Failure::Usage(format!("{option} {value}: {cause}: {fix}"))
+    }
+}
+
+impl From<Stopped> for Failure {
+    fn from(_: Stopped) -> Failure {
+        Failure::Interrupted
+    }
+}
+
+impl From<Exit> for Failure {
+    fn from(exit: Exit) -> Failure {
+        Failure::Reported(exit)
+    }
+}
+
+impl From<SaveError> for Failure {
+    fn from(error: SaveError) -> Failure {
+        Failure::File(error)
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Failure {
+        Failure::Stream(error)
+    }
 }
