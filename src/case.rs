@@ -7,7 +7,6 @@ pub mod evaluate;
 pub mod examples;
 pub mod fields;
 pub mod file;
-mod relevance;
 pub mod rexs;
 pub mod sanitize;
 pub mod spread;
@@ -25,11 +24,11 @@ pub use check::{
     Problem, field_range, field_value, put as put_field, unknown_key, unknown_quantity,
     violated_rule,
 };
+pub use dependencies::{Acting, partial_relevance, relevance};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};
 pub use file::Document;
-pub use relevance::{Acting, partial_relevance, relevance};
 pub use spread::Spread;
 pub use variant::{Override, Variant};
 

@@ -1,18 +1,16 @@
 //! Converts texts to the inputs of the model: each field alone, then rules between fields.
 
-mod circles;
-mod problem;
-mod together;
-mod value;
+use std::sync::LazyLock;
 
 use super::fields::{Absent, FIELDS, Field, index_of};
 use super::{Case, Limit};
-use crate::model::inputs::Method;
-use crate::model::{Inputs, Quantity};
-pub use problem::{Problem, unknown_key, unknown_quantity};
-use together::together;
-pub use together::violated_rule;
-pub use value::{field_range, field_value};
+use crate::case::fields::{AUTO, Kind, Range, Value};
+use crate::case::sanitize::{quoted, sanitize};
+use crate::case::suggest;
+use crate::case::units::{self, Dimension, ParseError};
+use crate::model::inputs::{Gear, Method};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
+use crate::numeric::decimal::{shortest, significant};
 
 /// The inputs of the model, or all problems of the case.
 pub(super) fn inputs(case: &Case) -> Result<Inputs, Vec<Problem>> {
@@ -119,4 +117,474 @@ pub(super) fn given_twice(case: &Case, field: usize) -> Option<Problem> {
 fn put_text(known: &Field, field: usize, text: &str, inputs: &mut Inputs) -> Result<(), Problem> {
     known.put(field_value(field, text)?, inputs);
     Ok(())
+}
+
+/// The value of a field from its text, checked against the range of the field.
+///
+/// # Errors
+/// If the text is not a value of the field, or the value is outside the range.
+pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
+    read_value(&FIELDS[field], field, text)
+}
+
+fn read_value(known: &Field, field: usize, text: &str) -> Result<Value, Problem> {
+    match known.kind {
+        Kind::Text => Ok(Value::Text),
+        Kind::Number(dimension, range, _) => {
+            number(known, field, text, dimension, range).map(Value::Number)
+        }
+        Kind::Count(from, to, _) => count(known, text, from, to).map(Value::Count),
+        Kind::Choice(names, _) => choice(known, text, names).map(Value::Choice),
+    }
+}
+
+/// The least and the greatest value of a number field, in SI.
+#[must_use]
+pub fn field_range(field: usize) -> (f64, f64) {
+    ENDS[field]
+}
+
+/// The ends of every range in SI, converted like a value, so that the ends themselves are inside.
+static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let end = |value: f64, dimension, unit| {
+        units::parse(&format!("{value} {unit}"), dimension, unit).unwrap_or(f64::NAN)
+    };
+    FIELDS
+        .iter()
+        .map(|field| match field.kind {
+            Kind::Number(dimension, range, _) => {
+                (end(range.from, dimension, range.unit), end(range.to, dimension, range.unit))
+            }
+            _ => (0.0, 0.0),
+        })
+        .collect()
+});
+
+fn number(
+    known: &Field,
+    field: usize,
+    text: &str,
+    dimension: Dimension,
+    range: Range,
+) -> Result<f64, Problem> {
+    let (from, to) = ENDS[field];
+    let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| {
+        let likely = likely_units(text, known, dimension, (from, to));
+        let of_unit = |unit: &str| units::parse(text, dimension, unit).err();
+        let [first, others @ ..] = &*likely else {
+            return Problem::of(known.key, misread);
+        };
+        let problem = Problem::of(known.key, of_unit(first).unwrap_or(misread));
+        // A bare number may mean several units.
+        let fixes = others.iter().filter_map(|unit| of_unit(unit));
+        let other = fixes.map(|other| other.fix).find(|fix| *fix != problem.fix);
+        let other = other.as_deref().and_then(|fix| fix.strip_prefix("write "));
+        let fix = match other {
+            Some(other) => format!("{} or {other}", problem.fix),
+            None => problem.fix,
+        };
+        Problem { fix, ..problem }
+    })?;
+    // The same end in another unit can differ by rounding.
+    let slack = 4.0 * f64::EPSILON;
+    if value < from - slack * from.abs() {
+        return Err(outside(known, text, "below", shortest(range.from), range.unit));
+    }
+    if value > to + slack * to.abs() {
+        return Err(outside(known, text, "above", shortest(range.to), range.unit));
+    }
+    Ok(value)
+}
+
+/// The units that the user most likely meant for a bare number: the usual unit or another one with a
+/// value inside the range, and a second common unit if it fits, too.
+fn likely_units(
+    text: &str,
+    known: &Field,
+    dimension: Dimension,
+    (from, to): (f64, f64),
+) -> Vec<&'static str> {
+    const COMMON: usize = 2;
+    let usual = known.usual_unit();
+    let fits = |unit: &&str| {
+        let value = units::parse(&format!("{} {unit}", text.trim()), dimension, unit);
+        value.is_ok_and(|value| (from..=to).contains(&value))
+    };
+    let others = || dimension.symbols().filter(|&unit| unit != usual).filter(fits);
+    let first = std::iter::once(usual).chain(others()).find(fits);
+    let is_common = |unit: &&str| dimension.symbols().take(COMMON).any(|common| common == *unit);
+    let second = others().find(|unit| is_common(unit) && Some(*unit) != first);
+    first.into_iter().chain(second).collect()
+}
+
+fn outside(
+    known: &Field,
+    text: &str,
+    side: &str,
+    end: impl std::fmt::Display,
+    unit: &str,
+) -> Problem {
+    let end = format!("{end} {unit}");
+    let cause = format!("{} is {side} the limit of {}", quoted(text), end.trim_end());
+    Problem::new(known.key, cause, format!("write a value from {}", known.range_text()))
+}
+
+fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> {
+    let text = text.trim();
+    if known.takes_auto() && text == AUTO {
+        return Ok(0);
+    }
+    let digits = text.strip_prefix('+').unwrap_or(text);
+    match digits.parse::<u32>() {
+        Ok(value) if value < from => Err(outside(known, text, "below", from, "")),
+        Ok(value) if value <= to => Ok(value),
+        _ if !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) => {
+            Err(outside(known, text, "above", to, ""))
+        }
+        _ => Err(not_whole(known, text)),
+    }
+}
+
+fn not_whole(known: &Field, text: &str) -> Problem {
+    let example =
+        format!("write a whole number from {}, such as {}", known.range_text(), known.example());
+    match units::parse(text, Dimension::Number, "") {
+        Ok(value) if value < 0.0 => {
+            outside(known, text, "below", known.range_text().split(' ').next().unwrap_or("0"), "")
+        }
+        Ok(_) => {
+            Problem::new(known.key, format!("{} is not a whole number", quoted(text)), example)
+        }
+        Err(misread) if misread.cause.starts_with("unit") => Problem::of(known.key, misread),
+        Err(misread) => Problem::new(known.key, misread.cause, example),
+    }
+}
+
+fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<usize, Problem> {
+    let name = text.trim();
+    if let Some(index) = names.iter().position(|&known| known == name) {
+        return Ok(index);
+    }
+    let fix =
+        suggest::fix(name, names.iter().copied(), || format!("use one of {}", names.join(", ")));
+    Err(Problem::new(known.key, format!("unknown choice {}", quoted(name)), fix))
+}
+
+/// Limit of the ratio of tooth numbers and of its reciprocal.
+const MOST_RATIO: f64 = 50.0;
+
+/// The first rule between fields that these inputs violate.
+#[must_use]
+pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
+    together(inputs, |_| true).into_iter().next()
+}
+
+/// Checks the rules between fields. Skips a rule if one of its fields is invalid.
+fn together(inputs: &Inputs, sound: impl Fn(&[&str]) -> bool) -> Vec<Problem> {
+    let mut found = Vec::new();
+    for circles in &OF_GEARS {
+        found.extend(circles.misfits(inputs, &sound));
+    }
+    if sound(&["driver.teeth", "driven.teeth"]) {
+        found.extend(ratio_beyond(inputs));
+    }
+    found
+}
+
+fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
+    let ratio = inputs.ratio();
+    let inside = (1.0 / MOST_RATIO..=MOST_RATIO).contains(&ratio);
+    (!inside).then(|| {
+        let cause = format!(
+            "the ratio of tooth numbers {}/{} is {ratio:.4}",
+            inputs.driven.teeth, inputs.driver.teeth
+        );
+        Problem::new(
+            "driven.teeth",
+            cause,
+            format!("keep it within 1/{MOST_RATIO} to {MOST_RATIO}"),
+        )
+    })
+}
+
+const COEFFICIENT_DIGITS: usize = 4;
+
+/// The keys of the fields that determine the circles of one gear.
+struct CircleFields {
+    gear: fn(&Inputs) -> &Gear,
+    bore_radius: &'static str,
+    dedendum: &'static str,
+    /// Keys of the fields that determine the reference circle.
+    reference: &'static [&'static str],
+    heights: [Height; 2],
+}
+
+/// A diameter that replaces a coefficient of the rack.
+struct Height {
+    diameter_key: &'static str,
+    coefficient_key: &'static str,
+    name: &'static str,
+    diameter: fn(&Gear) -> Option<f64>,
+    /// The coefficient for a module in m.
+    coefficient: fn(&Gear, f64) -> f64,
+    /// 1 if the diameter grows with the coefficient, otherwise -1.
+    sign: f64,
+}
+
+macro_rules! circle_fields {
+    ($gear:ident) => {
+        CircleFields {
+            gear: |inputs| &inputs.$gear,
+            bore_radius: concat!(stringify!($gear), ".bore_radius"),
+            dedendum: concat!(stringify!($gear), ".dedendum"),
+            reference: &[
+                "pair.module",
+                "pair.diametral_pitch",
+                concat!(stringify!($gear), ".teeth"),
+                concat!(stringify!($gear), ".profile_shift"),
+            ],
+            heights: [
+                Height {
+                    diameter_key: concat!(stringify!($gear), ".tip_diameter"),
+                    coefficient_key: concat!(stringify!($gear), ".addendum"),
+                    name: "addendum",
+                    diameter: |gear| gear.tip_diameter,
+                    coefficient: Gear::addendum_coefficient,
+                    sign: 1.0,
+                },
+                Height {
+                    diameter_key: concat!(stringify!($gear), ".root_diameter"),
+                    coefficient_key: concat!(stringify!($gear), ".dedendum"),
+                    name: "dedendum",
+                    diameter: |gear| gear.root_diameter,
+                    coefficient: Gear::dedendum_coefficient,
+                    sign: -1.0,
+                },
+            ],
+        }
+    };
+}
+
+static OF_GEARS: [CircleFields; 2] = [circle_fields!(driver), circle_fields!(driven)];
+
+impl Problem {
+    /// The problem at the diameter if the inputs give the diameter instead of the coefficient.
+    #[must_use]
+    pub fn at_given_diameter(mut self, inputs: &Inputs) -> Problem {
+        let heights = OF_GEARS.iter().flat_map(|fields| {
+            let gear = (fields.gear)(inputs);
+            fields.heights.iter().map(move |height| (gear, height))
+        });
+        let mut given = heights.filter(|(gear, height)| {
+            height.coefficient_key == self.field && (height.diameter)(gear).is_some()
+        });
+        if let Some((_, height)) = given.next() {
+            height.diameter_key.clone_into(&mut self.field);
+        }
+        self
+    }
+}
+
+impl CircleFields {
+    /// The problems of the circles. Skips rules with invalid fields.
+    fn misfits(&self, inputs: &Inputs, sound: &impl Fn(&[&str]) -> bool) -> Vec<Problem> {
+        if !sound(self.reference) {
+            return Vec::new();
+        }
+        let gear = (self.gear)(inputs);
+        let heights = self.heights.iter();
+        let mut found: Vec<Problem> = heights
+            .filter(|height| sound(&[height.diameter_key]))
+            .filter_map(|height| height.outside_range(gear, inputs.module))
+            .collect();
+        let [_, root] = &self.heights;
+        let is_root_sound = found.iter().all(|problem| problem.field != root.diameter_key);
+        if is_root_sound && sound(&[self.bore_radius, self.dedendum, root.diameter_key]) {
+            found.extend(bore_through_root(self.bore_radius, gear, inputs.module));
+        }
+        found
+    }
+}
+
+impl Height {
+    /// A diameter whose coefficient is outside the range of the field that it replaces.
+    fn outside_range(&self, gear: &Gear, module: f64) -> Option<Problem> {
+        /// A diameter at an end of the range has the end as its coefficient except for rounding.
+        const SLACK: f64 = 1e-9;
+        let diameter = (self.diameter)(gear)?;
+        let coefficient = (self.coefficient)(gear, module);
+        let (from, to) = field_range(index_of(self.coefficient_key)?);
+        let (side, limit) = if coefficient < from - SLACK {
+            ("below", from)
+        } else if coefficient > to + SLACK {
+            ("above", to)
+        } else {
+            return None;
+        };
+        let cause = format!(
+            "{} mm gives the {} coefficient {}, {side} the limit of {limit}",
+            in_mm(diameter),
+            self.name,
+            significant(coefficient, COEFFICIENT_DIGITS),
+        );
+        let shifted = f64::from(gear.teeth) + 2.0 * gear.profile_shift;
+        let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * self.sign * coefficient));
+        let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
+        let fix = format!("write a diameter from {least} to {most} mm");
+        Some(Problem::new(self.diameter_key, cause, fix))
+    }
+}
+
+fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
+    let dedendum = gear.dedendum_coefficient(module);
+    let root = module * (f64::from(gear.teeth) / 2.0 - dedendum + gear.profile_shift);
+    (gear.bore_radius >= root).then(|| {
+        let (bore, root) = (in_mm(gear.bore_radius), in_mm(root));
+        let cause = format!(
+            "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
+        );
+        Problem::new(field, cause, format!("write a radius (not a diameter) below {root} mm"))
+    })
+}
+
+/// A length in mm for a message.
+fn in_mm(metres: f64) -> f64 {
+    (metres * 1e7).round() / 1e4
+}
+
+/// A problem at one place: the cause and the fix.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// The field's key, or an unknown key as written.
+    pub field: String,
+    /// The cause.
+    pub cause: String,
+    /// How to fix it.
+    pub fix: String,
+}
+
+impl Problem {
+    pub(in crate::case) fn new(
+        field: &str,
+        cause: impl Into<String>,
+        fix: impl Into<String>,
+    ) -> Problem {
+        Problem { field: field.to_owned(), cause: cause.into(), fix: fix.into() }
+    }
+
+    /// An invalid value, as a problem of its field.
+    pub(in crate::case) fn of(field: &str, misread: ParseError) -> Problem {
+        Problem::new(field, misread.cause, misread.fix)
+    }
+}
+
+/// One line: `field: cause: fix`.
+impl std::fmt::Display for Problem {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}: {}", sanitize(&self.field), sanitize(&self.cause), sanitize(&self.fix))
+    }
+}
+
+impl std::error::Error for Problem {}
+
+impl Problem {
+    /// The problem at the alternative of its field if the case gives the alternative.
+    #[must_use]
+    pub fn at_given(mut self, case: &Case) -> Problem {
+        let field = index_of(&self.field).filter(|&field| case.is_replaced(field));
+        let given = field.and_then(|field| FIELDS[field].partner());
+        if let Some(given) = given.filter(|&given| case.text(given).is_some()) {
+            FIELDS[given].key.clone_into(&mut self.field);
+        }
+        self
+    }
+}
+
+impl From<&Refusal> for Problem {
+    fn from(refusal: &Refusal) -> Problem {
+        Problem::new(refusal.field(), refusal.to_string(), refusal.fix())
+    }
+}
+
+/// The refusal of an unknown key.
+#[must_use]
+pub fn unknown_key(key: &str) -> Problem {
+    let known = FIELDS.iter().map(|field| field.key);
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let same_name = FIELDS
+        .iter()
+        .find(|field| field.name() == name)
+        .map(|field| format!("did you mean {}?", field.key));
+    let fix = same_name.unwrap_or_else(|| {
+        suggest::fix(key, known, || "`tipstrike fields` lists every key".to_owned())
+    });
+    Problem::new(key, format!("unknown key {}", quoted(key)), fix)
+}
+
+/// The refusal of a limit on a quantity that does not exist.
+#[must_use]
+pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
+    let is_symbol = |known: &&Quantity| {
+        !known.symbol.is_empty() && known.symbol.eq_ignore_ascii_case(quantity.trim())
+    };
+    if let Some(known) = QUANTITIES.iter().find(is_symbol) {
+        if known.symbol == quantity.trim() {
+            let cause = format!("{} is the symbol of {}", quoted(quantity), known.key);
+            return Problem::new(field, cause, format!("write {}", known.key));
+        }
+        let cause = format!("unknown quantity {}", quoted(quantity));
+        let fix = format!("did you mean {}, {}?", known.symbol, known.key);
+        return Problem::new(field, cause, fix);
+    }
+    if quantity.trim().is_empty() {
+        return Problem::new(
+            field,
+            "no quantity is named",
+            "write names with commas between them, such as impact_force,contact_ratio",
+        );
+    }
+    if quantity.trim().contains(' ') {
+        let cause = format!("unknown quantity {}", quoted(quantity));
+        return Problem::new(field, cause, "put commas between names");
+    }
+    let known = QUANTITIES.iter().map(|quantity| quantity.key);
+    let fix = suggest::fix(quantity, known, || {
+        "`tipstrike fields --results` lists every quantity".to_owned()
+    });
+    Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A study does not check points that differ from a checked point only in these fields.
+    #[test]
+    fn no_rule_between_fields_reads_load_or_deviations() {
+        for (key, value) in [
+            ("operation.power", "1 kW"),
+            ("operation.torque", "1 N m"),
+            ("model.deflection", "900 um"),
+            ("deviations.base_pitch", "900 um"),
+            ("driver.base_pitch", "900 um"),
+            ("driven.base_pitch", "900 um"),
+            ("deviations.backlash", "900 um"),
+            ("driven.tip_relief", "900 um"),
+            ("driver.root_relief", "900 um"),
+        ] {
+            let misfits = [false, true].map(|edited| {
+                let mut case = Case::table_1();
+                if edited {
+                    case.set(key, value).unwrap();
+                }
+                [0.02, 0.06].map(|bore_radius| {
+                    let mut inputs = case.inputs().unwrap();
+                    inputs.driver.bore_radius = bore_radius;
+                    violated_rule(&inputs)
+                })
+            });
+            assert_eq!(misfits[0], misfits[1], "{key}");
+            assert!(misfits[0][0].is_none() && misfits[0][1].is_some());
+        }
+    }
 }

@@ -114,7 +114,7 @@ pub(super) fn write_to(
 const QUIET: Duration = Duration::from_secs(1);
 
 /// A progress bar; it is only shown on a terminal.
-pub(super) struct Bar {
+struct Bar {
     begun: Instant,
     shown: ProgressBar,
     is_up: Cell<bool>,
@@ -132,7 +132,7 @@ impl Bar {
     }
 
     /// A bar that also shows the rate.
-    pub(super) fn with_rate(what: &'static str) -> Bar {
+    fn with_rate(what: &'static str) -> Bar {
         let bar = Bar::new(what);
         let template = "{bar:30} {human_pos}/{human_len} {msg}, {rate}, {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
@@ -160,13 +160,13 @@ impl Bar {
     }
 
     /// Removes the bar.
-    pub(super) fn clear(&self) {
+    fn clear(&self) {
         self.shown.finish_and_clear();
     }
 
     /// Removes the bar after a signal. After Ctrl-C the terminal appends `^C` to the bar, which
     /// fills its line, so that the cursor is on the next line.
-    pub(super) fn clear_after(&self, interrupt: &Interrupt) {
+    fn clear_after(&self, interrupt: &Interrupt) {
         const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
         self.clear();
         if self.is_up.get() && interrupt.is_ctrl_c() {

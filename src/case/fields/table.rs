@@ -1,5 +1,20 @@
 //! The table of fields: every line of the form, in order.
 
+use super::Absent::{Default, Either, Without};
+use super::Reason::Beside;
+use super::{Field, Kind, Range};
+use crate::case::fields::Absent::Refused;
+use crate::case::fields::Reason::{Idle, Partly};
+use crate::case::fields::{
+    AT_RUN_OUT, BORE, CURVE, FLAG, IN_TIME, LOAD, MASS, ROOT, TIP_OF_DRIVER, WHOLE_RELIEF, always,
+    by_impact, has_size, is_driver, is_wider, root_diameter, tip_diameter,
+};
+use crate::case::units::Dimension;
+use crate::model::compliance::contact_of;
+use crate::model::inputs::{
+    Combination, ContactCompliance, Drive, InertiaModel, Method, ReliefShape, ToothCompliance,
+};
+
 macro_rules! number {
     ($key:expr, $symbol:expr, $label:expr, $dimension:ident, $from:expr, $to:expr, $unit:expr, $absent:expr, $put:expr, $help:expr) => {
         Field {
@@ -13,18 +28,6 @@ macro_rules! number {
         }
     };
 }
-
-mod gear;
-mod model;
-mod operation;
-
-use super::Absent::{Default, Either, Without};
-use super::reasons::Reason::Beside;
-use super::{Field, Kind, Range};
-use crate::case::units::Dimension;
-use gear::{DRIVEN, DRIVER};
-use model::MODEL;
-use operation::OPERATION;
 
 const fn text(key: &'static str, label: &'static str, help: &'static str) -> Field {
     Field { key, label, help, ..Field::PLAIN }
@@ -107,3 +110,605 @@ pub static FIELDS: [Field; COUNT] = {
     }
     all
 };
+
+macro_rules! gear {
+    ($gear:ident, $i:literal) => {
+        [
+            Field {
+                key: concat!(stringify!($gear), ".teeth"),
+                symbol: concat!("z", $i),
+                label: "number of teeth",
+                help: "Whole number of teeth of the gear.",
+                kind: Kind::Count(5, 1000, |inputs, value| inputs.$gear.teeth = value),
+                absent: Refused,
+                ..Field::PLAIN
+            }
+            .with_example("20"),
+            number!(
+                concat!(stringify!($gear), ".profile_shift"),
+                concat!("x", $i),
+                "profile shift",
+                Number,
+                -0.7,
+                1.2,
+                "",
+                Default("0"),
+                |inputs, value| inputs.$gear.profile_shift = value,
+                "Profile shift coefficient, times the module."
+            ),
+            number!(
+                concat!(stringify!($gear), ".addendum"),
+                concat!("ha*", $i),
+                "addendum",
+                Number,
+                0.1,
+                2.0,
+                "",
+                Default("1"),
+                |inputs, value| (inputs.$gear.addendum, inputs.$gear.tip_diameter) = (value, None),
+                "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x)."
+            )
+            .instead_of(concat!(stringify!($gear), ".tip_diameter"), |inputs| {
+                has_size(inputs, &inputs.$gear)
+                    .then(|| inputs.$gear.addendum_coefficient(inputs.module))
+            })
+            .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
+            number!(
+                concat!(stringify!($gear), ".tip_diameter"),
+                concat!("da", $i),
+                "tip diameter",
+                Length,
+                0.1,
+                100000.0,
+                "mm",
+                Without("from the addendum"),
+                |inputs, value| inputs.$gear.tip_diameter = Some(value),
+                "Tip diameter from the drawing, without chamfer; replaces the addendum \
+                        coefficient."
+            )
+            .with_example("110 mm")
+            .instead_of(concat!(stringify!($gear), ".addendum"), |inputs| {
+                tip_diameter(inputs, &inputs.$gear)
+            })
+            .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
+            number!(
+                concat!(stringify!($gear), ".dedendum"),
+                concat!("hf*", $i),
+                "dedendum",
+                Number,
+                0.5,
+                2.0,
+                "",
+                Default("1.25"),
+                |inputs, value| (inputs.$gear.dedendum, inputs.$gear.root_diameter) = (value, None),
+                "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 \
+                    - hf* + x)."
+            )
+            .instead_of(concat!(stringify!($gear), ".root_diameter"), |inputs| {
+                has_size(inputs, &inputs.$gear)
+                    .then(|| inputs.$gear.dedendum_coefficient(inputs.module))
+            })
+            .reasons(&ROOT),
+            number!(
+                concat!(stringify!($gear), ".root_diameter"),
+                concat!("df", $i),
+                "root diameter",
+                Length,
+                0.1,
+                100000.0,
+                "mm",
+                Without("from the dedendum"),
+                |inputs, value| inputs.$gear.root_diameter = Some(value),
+                "Root diameter from the drawing, as cut by the rack; replaces the dedendum \
+                        coefficient."
+            )
+            .with_example("87.5 mm")
+            .instead_of(concat!(stringify!($gear), ".dedendum"), |inputs| {
+                root_diameter(inputs, &inputs.$gear)
+            })
+            .reasons(&ROOT),
+            number!(
+                concat!(stringify!($gear), ".face_width"),
+                concat!("b", $i),
+                "face width",
+                Length,
+                0.1,
+                1000.0,
+                "mm",
+                Refused,
+                |inputs, value| inputs.$gear.face_width = value,
+                "Face width; the smaller of the two carries the \
+                        contact."
+            )
+            .with_example("8 mm")
+            .reasons(&[Partly(
+                |inputs| is_wider(inputs, inputs.$gear.face_width),
+                "only the narrower face width carries load, and the static load does not depend on \
+                    mass",
+            )]),
+            number!(
+                concat!(stringify!($gear), ".bore_radius"),
+                concat!("rh", $i),
+                "bore radius",
+                Length,
+                0.0,
+                25000.0,
+                "mm",
+                Default("0 mm"),
+                |inputs, value| inputs.$gear.bore_radius = value,
+                "Radius of the bore: a radius, not a diameter."
+            )
+            .reasons(&BORE),
+            number!(
+                concat!(stringify!($gear), ".young"),
+                concat!("E", $i),
+                "Young's modulus",
+                Pressure,
+                0.001,
+                1000.0,
+                "GPa",
+                Default("206 GPa"),
+                |inputs, value| inputs.$gear.young = value,
+                "Young's modulus of the gear's material."
+            ),
+            number!(
+                concat!(stringify!($gear), ".poisson"),
+                concat!("ν", $i),
+                "Poisson's ratio",
+                Number,
+                0.0,
+                0.499,
+                "",
+                Default("0.3"),
+                |inputs, value| inputs.$gear.poisson = value,
+                "Poisson's ratio of the gear's material."
+            ),
+            number!(
+                concat!(stringify!($gear), ".density"),
+                concat!("ρ", $i),
+                "density",
+                Density,
+                1.0,
+                50000.0,
+                "kg/m3",
+                Default("7800 kg/m3"),
+                |inputs, value| inputs.$gear.density = value,
+                "Density of the gear's material."
+            )
+            .reasons(&MASS),
+            number!(
+                concat!(stringify!($gear), ".inertia"),
+                concat!("J", $i),
+                "moment of inertia",
+                Inertia,
+                1e-15,
+                1e12,
+                "kg m2",
+                Without("computed"),
+                |inputs, value| inputs.$gear.inertia = Some(value),
+                "Moment of inertia of the gear and all parts that rotate with the gear \
+                        (default: gear body alone, see \
+                        model.inertia)."
+            )
+            .with_example("0.0006 kg m2")
+            .reasons(&MASS),
+            number!(
+                concat!(stringify!($gear), ".tip_relief"),
+                concat!("Ca", $i),
+                "tip relief",
+                Length,
+                0.0,
+                5000.0,
+                "um",
+                Default("0 um"),
+                |inputs, value| inputs.$gear.tip_relief = value,
+                "Material removed at the tip, normal to the \
+                        flank."
+            )
+            .reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
+            number!(
+                concat!(stringify!($gear), ".root_relief"),
+                concat!("Cf", $i),
+                "root relief",
+                Length,
+                0.0,
+                5000.0,
+                "um",
+                Default("0 um"),
+                |inputs, value| inputs.$gear.root_relief = value,
+                "Material removed at the root, normal to the \
+                        flank."
+            )
+            .reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
+            Field {
+                key: concat!(stringify!($gear), ".tip_relief_length"),
+                symbol: concat!("La", $i),
+                label: "tip relief length",
+                help: "Length of the tip relief along the path of contact, from the tip; paper and \
+                    exact apply the whole relief at the tip.",
+                kind: Kind::Number(
+                    Dimension::Length,
+                    Range::new(0.0001, 1000.0, "mm"),
+                    |inputs, value| inputs.$gear.tip_relief_length = Some(value),
+                ),
+                absent: Without("to single contact"),
+                ..Field::PLAIN
+            }
+            .with_example("1 mm")
+            .reasons(&WHOLE_RELIEF),
+            Field {
+                key: concat!(stringify!($gear), ".root_relief_length"),
+                symbol: concat!("Lf", $i),
+                label: "root relief length",
+                help: "Length of the root relief along the path of contact, from its end at the \
+                    root; static and dynamic alone.",
+                kind: Kind::Number(
+                    Dimension::Length,
+                    Range::new(0.0001, 1000.0, "mm"),
+                    |inputs, value| inputs.$gear.root_relief_length = Some(value),
+                ),
+                absent: Without("to single contact"),
+                ..Field::PLAIN
+            }
+            .with_example("1 mm")
+            .reasons(&WHOLE_RELIEF),
+            number!(
+                concat!(stringify!($gear), ".tip_chamfer"),
+                concat!("hk", $i),
+                "tip chamfer",
+                Length,
+                0.0,
+                50.0,
+                "mm",
+                Default("0 mm"),
+                |inputs, value| inputs.$gear.tip_chamfer = value,
+                "Radial height of the chamfer; its corner is a sharp tip, lower by this \
+                        height."
+            )
+            .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
+            number!(
+                concat!(stringify!($gear), ".tip_radius"),
+                concat!("re", $i),
+                "tip edge radius",
+                Length,
+                0.0001,
+                50.0,
+                "mm",
+                Without("sharp"),
+                |inputs, value| inputs.$gear.tip_radius = Some(value),
+                "Radius of the arc that rounds the tip's edge, tangent to tip circle and \
+                        flank; the tip is sharp without it."
+            )
+            .with_example("0.2 mm")
+            .reasons(&[
+                Idle(always, "method paper has sharp tips"),
+                Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER),
+            ]),
+            number!(
+                concat!(stringify!($gear), ".base_pitch"),
+                concat!("f_pb", $i),
+                "own pitch deviation",
+                Length,
+                -5000.0,
+                5000.0,
+                "um",
+                Without("common f_pb"),
+                |inputs, value| inputs.$gear.base_pitch = Some(value),
+                "Base pitch deviation of this gear; else by its grade, or \
+                        deviations.base_pitch."
+            )
+            .with_example("12 um")
+            .derived(|inputs| {
+                (inputs.$gear.grade.is_none() || has_size(inputs, &inputs.$gear))
+                    .then(|| inputs.base_pitch_of(&inputs.$gear).0)
+            }),
+            Field {
+                key: concat!(stringify!($gear), ".grade"),
+                symbol: concat!("A", $i),
+                label: "ISO 1328-1 class",
+                help: "Flank tolerance class of ISO 1328-1:2013; it gives the base pitch deviation \
+                    f_pb = f_pT cos(alpha) of this gear.",
+                kind: Kind::Count(1, 11, |inputs, value| inputs.$gear.grade = Some(value)),
+                absent: Without("none"),
+                ..Field::PLAIN
+            }
+            .with_example("7")
+            .reasons(&[Idle(always, "the base pitch deviation of this gear is given")]),
+        ]
+    };
+}
+
+const DRIVER: &[Field] = &gear!(driver, "1");
+const DRIVEN: &[Field] = &gear!(driven, "2");
+
+const OPERATION: &[Field] = &[
+    number!(
+        "deviations.base_pitch",
+        "f_pb",
+        "base pitch deviation",
+        Length,
+        -5000.0,
+        5000.0,
+        "um",
+        Default("0 um"),
+        |inputs, value| inputs.base_pitch_deviation = value,
+        "Base pitch deviation of each gear without its own."
+    ).reasons(&[Idle(
+        always,
+        "both gears have their own base pitch deviation",
+    )]),
+    Field {
+        key: "deviations.combination",
+        symbol: "",
+        label: "combination",
+        help: "independent: only the sizes are known, sqrt(f_pb1^2 + f_pb2^2). sum: known deviations, f_pb1 + f_pb2, positive if the incoming tooth is early.",
+        kind: Kind::Choice(&["independent", "sum"], |inputs, value| {
+            inputs.combination = Combination::ALL[value];
+        }),
+        absent: Default("independent"),
+        ..Field::PLAIN
+    }
+    .reasons(&[Idle(
+        always,
+        "base pitch deviations of unlike sign are known and always add as a sum",
+    )]),
+    number!(
+        "deviations.backlash",
+        "j_bn",
+        "normal backlash",
+        Length,
+        0.0,
+        5000.0,
+        "um",
+        Default("0 um"),
+        |inputs, value| inputs.backlash = value,
+        "Normal backlash: the distance of the back flanks, which dynamic lets strike; only paper subtracts it (Eq. 1)."
+    ).reasons(&[Idle(
+        always,
+        "a backlash does not delay a drive flank under load",
+    )]),
+    number!(
+        "operation.power",
+        "P",
+        "power",
+        Power,
+        1e-12,
+        1e12,
+        "W",
+        Either,
+        |inputs, value| inputs.drive = Drive::Power(value),
+        "Power on the driver; give power or torque."
+    ).with_example("15 kW").instead_of("operation.torque", |inputs| {
+        let power = inputs.torque() * inputs.speed;
+        (inputs.speed > 0.0 && power > 0.0).then_some(power)
+    }).reasons(&LOAD),
+    number!(
+        "operation.torque",
+        "T1",
+        "torque",
+        Torque,
+        1e-12,
+        1e12,
+        "N m",
+        Either,
+        |inputs, value| inputs.drive = Drive::Torque(value),
+        "Torque on the driver; give power or torque."
+    ).with_example("71.6 N m").instead_of("operation.power", |inputs| {
+        let torque = inputs.torque();
+        (inputs.speed > 0.0 && torque > 0.0).then_some(torque)
+    }).reasons(&LOAD),
+    number!(
+        "operation.speed",
+        "n1",
+        "speed",
+        AngularVelocity,
+        0.001,
+        1e6,
+        "rpm",
+        Refused,
+        |inputs, value| inputs.speed = value,
+        "Speed of the driver."
+    ).with_example("2000 rpm").reasons(&[Partly(
+        |inputs| inputs.method == Method::Static && matches!(inputs.drive, Drive::Torque(_)),
+        "with a given torque, the static load does not depend on speed; only the free impact \
+            changes",
+    )]),
+    number!(
+        "operation.friction_coefficient",
+        "μ",
+        "friction coefficient",
+        Number,
+        0.0,
+        2.0,
+        "",
+        Without("not given"),
+        |inputs, value| inputs.friction_coefficient = Some(value),
+        "Coulomb friction coefficient; static and dynamic apply friction at the teeth."
+    ).with_example("0.06").reasons(&[Beside(
+        "a note compares it with the stick limit; no quantity of this method depends on it",
+    )]),
+];
+
+const MODEL: &[Field] = &[
+    Field {
+        key: "model.method",
+        symbol: "",
+        label: "method",
+        help: "paper: as printed, misprints fixed. exact: exact position, free impact. static: all pairs share the load. dynamic: with inertia. auto: the fastest within the tolerance.",
+        kind: Kind::Choice(
+            &["paper", "exact", "static", "dynamic", "auto"],
+            |inputs, value| inputs.method = Method::ALL[value],
+        ),
+        absent: Default("auto"),
+        ..Field::PLAIN
+    },
+    number!(
+        "model.deflection",
+        "δ",
+        "combined deflection",
+        Length,
+        0.0,
+        5000.0,
+        "um",
+        Without("from the load"),
+        |inputs, value| inputs.deflection = Some(value),
+        "Combined deflection of the loaded pair; else computed from the load."
+    ).with_example("24.7 um").reasons(&[Idle(
+        |inputs| inputs.method.shares_load(),
+        "this method computes the deflection from the load",
+    )]),
+    Field {
+        key: "model.tooth_compliance",
+        symbol: "q1,q2",
+        label: "tooth compliance",
+        help: ToothCompliance::HELP,
+        kind: Kind::Choice(&ToothCompliance::NAMES, |inputs, value| {
+            inputs.tooth_compliance = Some(ToothCompliance::ALL[value]);
+        }),
+        absent: Without("by the method"),
+        ..Field::PLAIN
+    },
+    Field {
+        key: "model.contact_compliance",
+        symbol: "q_H",
+        label: "contact compliance",
+        help: ContactCompliance::HELP,
+        kind: Kind::Choice(&ContactCompliance::NAMES, |inputs, value| {
+            inputs.contact_compliance = ContactCompliance::ALL[value];
+        }),
+        absent: Default(ContactCompliance::NAMES[0]),
+        ..Field::PLAIN
+    }.reasons(&[Idle(
+        |inputs| contact_of(inputs).is_none(),
+        "the tooth compliance of this case includes the contact",
+    )]),
+    Field {
+        key: "model.inertia",
+        symbol: "",
+        label: "inertia model",
+        help: "outline: inertia of the true gear outline. base-circle: inertia of a disc up to \
+            the base circle, Eq. 47; method paper always uses the disc.",
+        kind: Kind::Choice(&["outline", "base-circle"], |inputs, value| {
+            inputs.inertia = InertiaModel::ALL[value];
+        }),
+        absent: Default("outline"),
+        ..Field::PLAIN
+    }.reasons(&[
+        Idle(
+            |inputs| inputs.method == Method::Paper,
+            "method paper uses the disc to the base circle, Eq. 47",
+        ),
+        Idle(always, "the inertia of both gears is given"),
+        MASS[0],
+    ]),
+    Field {
+        key: "model.relief_shape",
+        symbol: "",
+        label: "relief shape",
+        help: "How tip and root relief grow along the path of contact; static and dynamic alone.",
+        kind: Kind::Choice(&["linear", "parabolic"], |inputs, value| {
+            inputs.relief_shape = ReliefShape::ALL[value];
+        }),
+        absent: Default("linear"),
+        ..Field::PLAIN
+    }.reasons(&WHOLE_RELIEF),
+    number!(
+        "model.damping_ratio",
+        "ζ",
+        "damping ratio",
+        Number,
+        0.0,
+        2.0,
+        "",
+        Default("0.07"),
+        |inputs, value| inputs.damping_ratio = value,
+        "Damping ratio of the mean mesh stiffness while a pair is in contact; dynamic alone."
+    ).reasons(&[Idle(always, IN_TIME)]),
+    Field {
+        key: "model.warmup_cycles",
+        symbol: "",
+        label: "warm-up cycles",
+        help: "Number of base pitches between the start of the motion, at static balance, and E; \
+            method dynamic only.",
+        kind: Kind::Count(1, 10000, |inputs, value| inputs.warmup_cycles = value),
+        absent: Default("20"),
+        ..Field::PLAIN
+    }.reasons(&[Idle(always, IN_TIME)]),
+    number!(
+        "model.tolerance",
+        "",
+        "tolerance",
+        Number,
+        1e-12,
+        0.1,
+        "",
+        Default("1e-6"),
+        |inputs, value| inputs.tolerance = value,
+        "Permitted relative error of the peak force of a damped motion; dynamic alone."
+    ).read_when(|inputs| inputs.method == Method::Dynamic)
+    .reasons(&[
+        Idle(
+            |inputs| inputs.method == Method::Auto,
+            "method auto derives the tolerance from model.within",
+        ),
+        Idle(always, IN_TIME),
+        Partly(always, "changes results by at most its own value"),
+    ]),
+    number!(
+        "model.within",
+        "",
+        "permitted error",
+        Number,
+        1e-6,
+        1.0,
+        "",
+        Default("0.05"),
+        |inputs, value| inputs.within = value,
+        "Permitted relative error of the method auto against the method dynamic."
+    ).read_when(|inputs| inputs.method == Method::Auto).reasons(&[Idle(
+        always,
+        "only the method auto chooses by a permitted error",
+    )]),
+    Field {
+        key: "model.stations",
+        symbol: "n",
+        label: "stations",
+        help: "Intervals between D and E, and in static and dynamic as many again to the last contact; auto: as many as the curve needs.",
+        kind: Kind::Count(1, 10000, |inputs, value| {
+            inputs.stations = (value > 0).then_some(value as usize);
+        }),
+        absent: Default("64"),
+        ..Field::PLAIN
+    }.reasons(&[Partly(always, CURVE)]),
+    number!(
+        "model.station_tolerance",
+        "",
+        "station tolerance",
+        Number,
+        1e-9,
+        0.1,
+        "",
+        Default("1e-3"),
+        |inputs, value| inputs.station_tolerance = value,
+        "Permitted distance of the curve from the lines between stations, over its peak; used with stations = \"auto\"."
+    ).read_when(|inputs| inputs.stations.is_none()).reasons(&[
+        Idle(
+            |inputs| inputs.stations.is_some(),
+            "the case gives the number of stations",
+        ),
+        Partly(always, CURVE),
+    ]),
+    Field {
+        key: "model.accurate",
+        symbol: "",
+        label: "accurate",
+        help: "Computes geometry and position in double-double arithmetic: relative error below \
+            1e-13 instead of 1e-12, with a longer run time.",
+        kind: Kind::Choice(FLAG, |inputs, value| inputs.accurate = value == 1),
+        absent: Default("false"),
+        ..Field::PLAIN
+    }.reasons(&[Partly(
+        always,
+        "changes only digits beyond those shown",
+    )]),
+];
