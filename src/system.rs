@@ -9,15 +9,9 @@ pub(crate) mod files;
 #[cfg(feature = "cli")]
 pub(crate) mod interrupt;
 #[cfg(all(unix, feature = "tui"))]
-pub(crate) mod locks;
-#[cfg(all(unix, feature = "tui"))]
-pub(crate) mod paths;
-#[cfg(all(unix, feature = "tui"))]
-pub(crate) mod signals;
+pub(crate) mod sharing;
 #[cfg(all(unix, feature = "tui"))]
 pub(crate) mod terminal;
-#[cfg(all(unix, feature = "tui"))]
-pub(crate) mod users;
 
 /// Makes a write beyond the file size limit return an error. By default the signal of the limit
 /// ends the process.

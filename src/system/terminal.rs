@@ -1,12 +1,19 @@
-//! Waits for the terminal, and checks whether this process is in its foreground.
+//! The terminal and the signals of the workbench: waits for the terminal, foreground of this
+//! process, signals read by dedicated threads, and the end by a signal.
 
 use std::io::{self, Stdin, Stdout};
+#[cfg(not(target_os = "linux"))]
+use std::sync::Arc;
 use std::time::Duration;
+use std::{process, thread};
 
+use nix::sys::signal::{SigSet, Signal};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 use rustix::process::getpgrp;
 use rustix::termios::tcgetpgrp;
+pub(crate) use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
+use signal_hook::low_level::{emulate_default_handler, raise};
 
 /// The state of the terminal after a wait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,4 +67,121 @@ pub(crate) fn write_if_ready(stdout: &Stdout, bytes: &[u8]) {
     if poll(&mut line, Some(&Timespec::default())) == Ok(1) {
         let _ = rustix::io::write(stdout, bytes);
     }
+}
+
+/// Signals that neither end the process nor inform it, or that have another handler: the signals of
+/// a write beyond a limit and to a closed pipe.
+const OTHERS: [Signal; 6] = [
+    Signal::SIGCHLD,
+    Signal::SIGPIPE,
+    Signal::SIGTTIN,
+    Signal::SIGTTOU,
+    Signal::SIGURG,
+    Signal::SIGXFSZ,
+];
+/// Signals after which the workbench continues.
+const PASSING: [Signal; 3] = [Signal::SIGTSTP, Signal::SIGCONT, Signal::SIGWINCH];
+/// A shell adds this to the number of the signal that ended a program.
+const SIGNALLED: i32 = 128;
+
+/// The blocked signals, which a dedicated thread reads.
+#[derive(Clone, Copy)]
+pub(crate) struct BlockedSignals {
+    deadly: SigSet,
+    passing: SigSet,
+}
+
+/// Blocks the signals in this thread and in all threads that it starts later.
+pub(crate) fn hold() -> io::Result<BlockedSignals> {
+    let passing: SigSet = PASSING.into_iter().collect();
+    let deadly = deadly();
+    deadly.thread_block()?;
+    passing.thread_block()?;
+    Ok(BlockedSignals { deadly, passing })
+}
+
+fn deadly() -> SigSet {
+    let mut deadly = SigSet::all();
+    for signal in OTHERS.into_iter().chain(PASSING) {
+        deadly.remove(signal);
+    }
+    deadly
+}
+
+impl BlockedSignals {
+    /// Runs `act` for each signal that ends the process, in a thread, until it returns false.
+    pub(crate) fn for_each_deadly(
+        self,
+        act: impl Fn(i32) -> bool + Send + 'static,
+    ) -> io::Result<()> {
+        for_each("signals", self.deadly, act)
+    }
+
+    /// Runs `act` for each signal after which the workbench continues, in a thread, until it
+    /// returns false.
+    pub(crate) fn for_each_passing(
+        self,
+        act: impl Fn(i32) -> bool + Send + 'static,
+    ) -> io::Result<()> {
+        for_each("stops", self.passing, act)
+    }
+}
+
+/// Stops this process until the shell continues it.
+pub(crate) fn stop() -> io::Result<()> {
+    emulate_default_handler(SIGTSTP)
+}
+
+/// Ends the process by the signal, so that its parent sees the signal.
+pub(crate) fn die_of(signal: i32) -> ! {
+    // The handler of Rust consumes the first SIGSEGV or SIGBUS and restores the default action.
+    for _ in 0..2 {
+        drop(raise(signal));
+        let _ = deadly().thread_unblock();
+    }
+    // The signal is ignored, such as SIGHUP under `nohup`.
+    process::exit(SIGNALLED + signal)
+}
+
+#[cfg(target_os = "linux")]
+fn for_each(
+    name: &str,
+    signals: SigSet,
+    act: impl Fn(i32) -> bool + Send + 'static,
+) -> io::Result<()> {
+    use nix::sys::signalfd::{SfdFlags, SignalFd};
+
+    let queue = SignalFd::with_flags(&signals, SfdFlags::SFD_CLOEXEC)?;
+    let read = move || {
+        loop {
+            match queue.read_signal() {
+                Ok(Some(signal)) if !act(i32::try_from(signal.ssi_signo).unwrap_or(0)) => return,
+                Ok(_) | Err(nix::errno::Errno::EINTR) => {}
+                Err(_) => return,
+            }
+        }
+    };
+    thread::Builder::new().name(name.to_owned()).spawn(read)?;
+    Ok(())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn for_each(
+    name: &str,
+    signals: SigSet,
+    act: impl Fn(i32) -> bool + Send + 'static,
+) -> io::Result<()> {
+    // Some systems drop a signal without a handler even while it is blocked.
+    for signal in PASSING {
+        signal_hook::flag::register(signal as i32, Arc::default())?;
+    }
+    let read = move || {
+        while let Ok(signal) = signals.wait() {
+            if !act(signal as i32) {
+                return;
+            }
+        }
+    };
+    thread::Builder::new().name(name.to_owned()).spawn(read)?;
+    Ok(())
 }

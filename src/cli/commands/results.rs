@@ -445,11 +445,7 @@ fn draw(opened: &Opened, options: &PlotOptions, streams: &mut Streams) -> Result
 }
 
 /// Solves a case with every quantity, and the stations on request.
-pub(super) fn solve_to_draw(
-    opened: &Opened,
-    stations: bool,
-    streams: &mut Streams,
-) -> Result<Report, Exit> {
+fn solve_to_draw(opened: &Opened, stations: bool, streams: &mut Streams) -> Result<Report, Exit> {
     let solved = opened.unsolved().solve(stations);
     solved.map_err(|refusal| opened.refused(&refusal, streams))
 }

@@ -13,7 +13,7 @@ use std::path::{Component, Path, PathBuf};
 use directories::ProjectDirs;
 
 use crate::case::sanitize::sanitize;
-use crate::system::users::{self, Access};
+use crate::system::sharing::{self, Access};
 
 /// Folders inside the state folder.
 const INSIDE: [&str; 2] = ["journals", "sessions"];
@@ -52,7 +52,7 @@ impl State {
     /// Selects the first private folder of the usual one and its replacements.
     #[must_use]
     pub fn choose(usual: Option<PathBuf>, private: Vec<PathBuf>) -> State {
-        let user = users::user();
+        let user = sharing::user();
         let problem = match &usual {
             None => Some(NO_FOLDER.to_owned()),
             Some(folder) => check(folder, user).err().map(|why| why.to_string()),
@@ -74,12 +74,12 @@ impl State {
 
 /// Creates a folder that only its owner can read, and its parents.
 pub(in crate::tui) fn make(folder: &Path) -> io::Result<()> {
-    users::create_private(folder)
+    sharing::create_private(folder)
 }
 
 /// Refuses a state folder that another user can change.
 pub(in crate::tui) fn require_private(folder: &Path) -> io::Result<()> {
-    let user = users::user();
+    let user = sharing::user();
     check(folder, user).map_err(|why| io::Error::other(why.to_string()))
 }
 
@@ -92,7 +92,7 @@ fn usual() -> Option<PathBuf> {
 }
 
 fn private() -> Vec<PathBuf> {
-    let user = users::user();
+    let user = sharing::user();
     let runtime = absolute("XDG_RUNTIME_DIR").map(|path| path.join("tipstrike"));
     let temporary = env::temp_dir().join(format!("tipstrike-{user}"));
     runtime.into_iter().chain([temporary]).collect()
