@@ -464,14 +464,14 @@ pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
 #[must_use]
 pub fn written_unit(text: &str, dimension: Dimension) -> Option<&str> {
     parse(text, dimension, "").ok()?;
-    split(text.trim(), "").ok().map(|(_, unit)| unit).filter(|unit| !unit.is_empty())
+    split_number(text.trim(), "").ok().map(|(_, unit)| unit).filter(|unit| !unit.is_empty())
 }
 
 /// The text after the number, with blanks at its end. `None` if there is no number or no unit is
 /// needed.
 fn begun_unit(typed: &str, dimension: Dimension) -> Option<&str> {
     let (_, unit) =
-        split(typed.trim_start(), "").ok().filter(|_| dimension != Dimension::Number)?;
+        split_number(typed.trim_start(), "").ok().filter(|_| dimension != Dimension::Number)?;
     Some(unit)
 }
 

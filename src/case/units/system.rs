@@ -1,6 +1,6 @@
 //! Metric or inch units of shown results and hints. Files keep their units.
 
-use super::{Dimension, factor, find, parse, text, units_of};
+use super::{Dimension, factor, find, parse, split_number, text, units_of};
 use crate::numeric::decimal::significant;
 
 /// The units of shown values.
@@ -185,7 +185,7 @@ pub fn converted(
     system: System,
 ) -> Option<String> {
     let value = parse(typed, dimension, usual).ok()?;
-    let (digits, unit) = units::split(typed.trim(), usual).ok()?;
+    let (digits, unit) = split_number(typed.trim(), usual).ok()?;
     let digits = (typed_digits(digits) + 1).clamp(LEAST_DIGITS, MOST_DIGITS);
     let written = find(unit, units_of(dimension))?.symbol;
     let usual = system.unit(usual);

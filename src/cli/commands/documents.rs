@@ -43,11 +43,7 @@ pub(super) fn run_new(options: &NewOptions, streams: &mut Streams) -> Result<Exi
 }
 
 /// Writes a case to a file that must not exist yet, or to standard output.
-pub(super) fn write_case(
-    file: Option<&Path>,
-    text: &str,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
+fn write_case(file: Option<&Path>, text: &str, streams: &mut Streams) -> Result<Exit, Failure> {
     match file.filter(|file| file.as_os_str() != "-") {
         None => streams.output.write_all(text.as_bytes())?,
         Some(path) => file::write(path, text.as_bytes(), false).map_err(|error| match error {

@@ -94,7 +94,7 @@ pub(super) fn run_sweep(options: &SweepOptions, streams: &mut Streams) -> Result
 }
 
 /// Reports the refused points of a written sweep.
-pub(super) fn report_sweep(
+fn report_sweep(
     table: &SweepTable,
     refusals: &Refusals,
     name: &str,
@@ -260,7 +260,7 @@ pub(super) fn run_tolerance(
 }
 
 /// Writes a study in a format, and reports its refused samples.
-pub(super) fn write_samples(
+fn write_samples(
     format: &str,
     whole: &ToleranceReport,
     out: Option<&Path>,
@@ -427,7 +427,7 @@ fn samples(shards: &[Complete], study: &Tolerance) -> io::Result<Samples> {
 }
 
 /// Solves the points of a shard and writes them.
-pub(super) fn run_shard(
+fn run_shard(
     shard: Shard,
     request: &Request,
     batch: &Batch,

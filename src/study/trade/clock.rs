@@ -4,9 +4,6 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use super::answer::{self, Answer};
-use super::results::Setting;
-use super::stopped;
 use crate::model::compliance::ElasticGear;
 use crate::model::compliance::tooth::field_gear;
 use crate::model::inputs::Gear;
@@ -44,7 +41,7 @@ pub struct Time {
 
 /// The batches of a solve.
 #[derive(Debug, Clone, Default)]
-struct Batches {
+pub(super) struct Batches {
     /// Seconds per solve of each batch.
     seconds: Vec<f64>,
     runs: u64,
@@ -53,7 +50,7 @@ struct Batches {
 impl Batches {
     /// Repeats `once` for the time `batch`, at least once, while it returns true; returns whether
     /// all runs returned true.
-    fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
+    pub(super) fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
         let solves = self.seconds.last().map_or(1, |&last| {
             (batch.as_secs_f64() / last.max(1e-9)).ceil().clamp(1.0, 1e6) as u64
         });
@@ -71,7 +68,7 @@ impl Batches {
     }
 
     /// Whether more batches would hardly change the median.
-    fn are_steady(&self) -> bool {
+    pub(super) fn are_steady(&self) -> bool {
         /// Width of the interval of the median, relative to the median.
         const FEW_PERCENT: f64 = 0.03;
         /// With fewer batches the interval is not defined.
@@ -116,102 +113,6 @@ fn outside(batches: usize) -> usize {
         below += chance;
     }
     aside.saturating_sub(1)
-}
-
-/// Fraction of the progress for the first run of every setting.
-const FIRST_LOOK: f64 = 0.2;
-
-pub(super) struct Rounds<'a> {
-    inputs: &'a Inputs,
-    patience: Patience,
-    is_wanted: &'a dyn Fn() -> bool,
-    timed: Vec<Timed>,
-    begun: Instant,
-    /// Total time of the first runs.
-    first_look: Duration,
-    done: u32,
-}
-
-/// A setting and its times, if it solves the case.
-struct Timed {
-    inputs: Inputs,
-    batches: Option<Batches>,
-}
-
-impl<'a> Rounds<'a> {
-    pub(super) fn begin(
-        inputs: &'a Inputs,
-        patience: Patience,
-        is_wanted: &'a dyn Fn() -> bool,
-    ) -> Rounds<'a> {
-        let begun = Instant::now();
-        Rounds {
-            inputs,
-            patience,
-            is_wanted,
-            timed: Vec::new(),
-            begun,
-            first_look: Duration::ZERO,
-            done: 0,
-        }
-    }
-
-    /// Adds a setting: returns its answer and the time of one solve, or its refusal.
-    pub(super) fn first(
-        &mut self,
-        setting: Setting,
-    ) -> Result<Result<(Answer, Time), Refusal>, Refusal> {
-        if !(self.is_wanted)() {
-            return Err(Refusal::Stopped);
-        }
-        let inputs = setting.inputs(self.inputs);
-        let (mut batches, mut found) = (Batches::default(), None);
-        batches
-            .add(Duration::ZERO, || found.insert(answer::solve(&inputs, self.is_wanted)).is_ok());
-        let found = stopped(found.unwrap_or(Err(Refusal::Stopped)))?;
-        let time = batches.time();
-        self.timed.push(Timed { inputs, batches: time.is_some().then_some(batches) });
-        self.first_look = self.begun.elapsed();
-        Ok(found.and_then(|solution| Ok((Answer::of(&solution), time.ok_or(Refusal::Stopped)?))))
-    }
-
-    /// Whether to measure another round: a time is not steady yet, and the round ends within the
-    /// time limit.
-    pub(super) fn go_on(&self) -> bool {
-        let gone = self.begun.elapsed().saturating_sub(self.first_look);
-        let round = if self.done == 0 { self.first_look } else { gone / self.done };
-        let is_unsteady =
-            |timed: &Timed| timed.batches.as_ref().is_some_and(|batches| !batches.are_steady());
-        gone + round <= self.patience.most && self.timed.iter().any(is_unsteady)
-    }
-
-    /// Measures every setting once more; returns the times so far.
-    pub(super) fn round(&mut self) -> Result<Vec<Option<Time>>, Refusal> {
-        self.done += 1;
-        for Timed { inputs, batches } in &mut self.timed {
-            let once = || {
-                (self.is_wanted)()
-                    && black_box(answer::solve(black_box(inputs), self.is_wanted)).is_ok()
-            };
-            if batches.as_mut().is_some_and(|batches| !batches.add(self.patience.batch, once)) {
-                return Err(Refusal::Stopped);
-            }
-        }
-        Ok(self.timed.iter().map(|timed| timed.batches.as_ref()?.time()).collect())
-    }
-
-    /// The progress, from 0 to 1, for a number of settings.
-    pub(super) fn part(&self, planned: usize) -> f64 {
-        if self.timed.len() < planned {
-            return FIRST_LOOK * self.timed.len() as f64 / planned as f64;
-        }
-        if !self.go_on() {
-            return 1.0;
-        }
-        let gone = self.begun.elapsed().saturating_sub(self.first_look);
-        let part = gone.as_secs_f64() / self.patience.most.as_secs_f64().max(1e-9);
-        FIRST_LOOK + (1.0 - FIRST_LOOK) * part.min(1.0)
-    }
 }
 
 /// Seconds to build the field of each gear; later solves read the cached fields.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::answer::Subject;
+use super::Subject;
 use super::clock::{Build, Time};
 use crate::case::Case;
 use crate::case::fields::{AUTO, index_of};

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use super::answer::Subject;
+use super::Subject;
 use crate::model::mesh::Mesh;
 use crate::model::pair_forces::{Pair, PairSet, Touching};
 use crate::model::{Inputs, Refusal, Solution};
