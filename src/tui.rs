@@ -42,7 +42,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use crate::system::signals;
+use crate::system::terminal::{die_of, hold};
 
 use actions::Action;
 use events::Events;
@@ -83,7 +83,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
     }
     keep_what_is_left(&journal_writer);
     match ended {
-        Ok(Ok(End::Signal(signal))) => signals::die_of(signal),
+        Ok(Ok(End::Signal(signal))) => die_of(signal),
         Ok(Ok(End::Left | End::Lost)) => ExitCode::from(TERMINAL_LOST),
         Ok(Err(error)) => no_answer(&error),
         Err(_) => fail(
@@ -96,7 +96,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
 // The signals are blocked before any other thread starts and before the terminal changes its mode:
 // no signal may leave the terminal in raw mode.
 fn begin(events: &Events) -> io::Result<Arc<JournalWriter>> {
-    let signals = signals::hold()?;
+    let signals = hold()?;
     let send = events.action_sender();
     let journal_writer = JournalWriter::open(move |reason| {
         send(Action::Failed(reason));

@@ -11,9 +11,9 @@ use super::svg::{Chart, Kind, Labelled, Series, chart};
 use crate::case::units;
 use crate::model::compliance::model_of;
 use crate::model::dynamic::speeds::{AtSpeed, SpeedCurve};
-use crate::model::harmonics::Spectrum;
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::spacing::Spacing;
+use crate::model::static_spectrum::Spectrum;
 use crate::model::{Inputs, Outcome, Refusal, Solution, contact_state};
 use crate::numeric::decimal::significant;
 use crate::study::stiffness::{

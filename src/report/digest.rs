@@ -410,28 +410,26 @@ pub fn whine(solution: &Solution) -> Option<[String; 4]> {
     let rpm = |speed: f64| rounded(speed * 30.0 / std::f64::consts::PI);
     let (frequency, speed) = (rounded(frequency), rpm(of("resonance_speed")?));
     let now = format!("now N = {}", significant(ratio, 2));
-    let peak = |speed, factor| Some((rpm(of(speed)?), significant(of(factor)?, 3)));
+    let peak = |speed, factor| Some((of(speed)?, of(factor)?));
     let rising = peak("resonance_peak_speed", "resonance_peak_factor");
     let falling = peak("resonance_peak_speed_falling", "resonance_peak_factor_falling");
+    let at = |(speed, factor)| format!("{} at {} rpm", significant(factor, 3), rpm(speed));
     Some(match (rising, falling) {
-        (Some((speed_up, factor_up)), Some((speed_down, factor_down))) => {
-            let same = (&speed_up, &factor_up) == (&speed_down, &factor_down);
-            let (long, short) = if same {
-                (String::new(), String::new())
+        (Some(rising), Some(falling)) => {
+            let greatest = at(if falling.1 > rising.1 { falling } else { rising });
+            let both = if at(rising) == at(falling) {
+                greatest.clone()
             } else {
-                (
-                    format!(" rising, {factor_down} at {speed_down} rpm falling"),
-                    format!(", {factor_down} at {speed_down} rpm"),
-                )
+                format!("{} rising, {} falling", at(rising), at(falling))
             };
             [
                 format!(
-                    "Greatest dynamic factor {factor_up} at {speed_up} rpm{long}; mesh frequency \
-                        {frequency} Hz, N = 1 of the mean stiffness at {speed} rpm ({now})"
+                    "Greatest dynamic factor {both}; mesh frequency {frequency} Hz, N = 1 of the \
+                        mean stiffness at {speed} rpm ({now})"
                 ),
-                format!("Greatest dynamic factor {factor_up} at {speed_up} rpm{long}; {now}"),
-                format!("Peak factor {factor_up} at {speed_up} rpm{short}; {now}"),
-                format!("Peak factor {factor_up} at {speed_up} rpm"),
+                format!("Greatest dynamic factor {both}; {now}"),
+                format!("Peak factor {both}"),
+                format!("Peak factor {greatest}"),
             ]
         }
         _ => [

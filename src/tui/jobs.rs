@@ -11,11 +11,10 @@ use crate::model::dynamic::speeds::SpeedCurve;
 use crate::model::inputs::ToothCompliance;
 use crate::model::{Inputs, Quantity};
 use crate::report::Report;
+use crate::report::charts::{self, NamedSpectra, tooth_chart};
 use crate::report::explain::Page;
 use crate::report::pictures::Picture;
 use crate::report::svg::Chart;
-use crate::report::tooth_chart::{self, tooth_chart};
-use crate::report::whine::charts::{self, NamedSpectra};
 use crate::study::relief::{Demand, Specification};
 use crate::study::stiffness::Flanks;
 use crate::study::trade::{Patience, Setting, Trade};
@@ -262,7 +261,7 @@ impl WorkerChart {
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
-            WorkerChart::ToothCompliance(gear) => tooth_chart::KEYS[gear],
+            WorkerChart::ToothCompliance(gear) => charts::TOOTH_KEYS[gear],
             WorkerChart::Spectrum => charts::SPECTRUM,
             WorkerChart::Speed => charts::SPEED,
         }

@@ -15,7 +15,7 @@ use crate::case::file::ReadError;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::Stamp;
 use crate::case::{Document, rexs};
-use crate::system::paths;
+use crate::system::sharing;
 
 use state::State;
 
@@ -184,11 +184,11 @@ fn with_latest(mut paths: Vec<PathBuf>, latest: PathBuf) -> Vec<PathBuf> {
 
 fn parse_list(bytes: &[u8]) -> Vec<PathBuf> {
     let paths = bytes.split(|&byte| byte == END).filter(|path| !path.is_empty());
-    paths.map(|path| paths::from_bytes(path.to_vec())).take(MOST_RECENTS).collect()
+    paths.map(|path| sharing::path_from_bytes(path.to_vec())).take(MOST_RECENTS).collect()
 }
 
 fn render_list(paths: &[PathBuf]) -> Vec<u8> {
-    paths.iter().flat_map(|path| paths::bytes(path).iter().copied().chain([END])).collect()
+    paths.iter().flat_map(|path| sharing::path_bytes(path).iter().copied().chain([END])).collect()
 }
 
 fn list_file() -> Option<PathBuf> {
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn every_path_is_saved_and_read() {
-        let odd = paths::from_bytes(vec![b'/', 0xff, b'\n', b' ']);
+        let odd = sharing::path_from_bytes(vec![b'/', 0xff, b'\n', b' ']);
         let paths = vec![odd, "/plain.toml".into()];
         assert_eq!(parse_list(&render_list(&paths)), paths);
         assert_eq!(parse_list(b"/kept/before.toml"), [PathBuf::from("/kept/before.toml")]);

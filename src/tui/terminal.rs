@@ -28,8 +28,9 @@ use ratatui::{Terminal, buffer};
 use super::app::App;
 use super::events::Event;
 use super::view;
-use crate::system::signals::{self, BlockedSignals, die_of};
-use crate::system::terminal::{is_in_foreground, wait_for_hang_up, write_if_ready};
+use crate::system::terminal::{
+    BlockedSignals, die_of, is_in_foreground, stop, wait_for_hang_up, write_if_ready,
+};
 
 /// Large enough for one write per frame; the standard buffer would make ten.
 const FRAME: usize = 64 * 1024;
@@ -148,7 +149,7 @@ impl Screen {
     /// Returns an error if the terminal is closed.
     pub(super) fn suspend(&mut self) -> io::Result<()> {
         self.leave()?;
-        signals::stop()?;
+        stop()?;
         self.is_back = true;
         if ends_in_background() {
             return Ok(());

@@ -56,7 +56,7 @@ pub mod chart {
     }
 
     pub mod raster {
-        pub use crate::tui::panes::chart::curves::draw_curve;
+        pub use crate::tui::panes::chart::curves::draw_curve as draw;
     }
 }
 
@@ -72,7 +72,7 @@ pub mod teeth {
     pub use crate::tui::panes::teeth::{Picture, draw};
 
     pub mod raster {
-        pub use crate::tui::panes::teeth::scene::draw_strokes;
+        pub use crate::tui::panes::teeth::scene::draw_strokes as draw;
     }
 }
 

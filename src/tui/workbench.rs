@@ -20,7 +20,7 @@ use super::terminal::Screen;
 use super::theme::Look;
 use super::update::{self, update};
 use super::worker::{self, Workers};
-use crate::system::signals::{SIGCONT, SIGTSTP, SIGWINCH};
+use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 
 /// Time between two frames of the animation.
 const TICK: Duration = Duration::from_millis(83);

@@ -6,8 +6,8 @@ use super::Subject;
 use super::clock::{Build, Time};
 use crate::case::Case;
 use crate::case::fields::{AUTO, index_of};
+use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{Inputs, Outcome, Refusal, auto};
 
 /// The methods and their settings, measured on one case.

@@ -19,7 +19,7 @@ use crate::model::inputs::Method;
 use crate::report::{common_unit, shown_in};
 use crate::study::axis::Axis;
 use crate::study::batch::PointOutcome;
-use crate::study::refusals::Refused;
+use crate::study::batch::Refused;
 use crate::tui::ascii::symbol;
 use crate::tui::study::{
     End, Layer, LayerFound, LayerSource, SAMPLES, Study, StudyParameters, StudyResults,

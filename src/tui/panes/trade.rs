@@ -7,8 +7,8 @@ use ratatui::style::Style;
 
 use super::Title;
 use crate::model::Inputs;
+use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::model::stiffness_spread::StiffnessModels;
 use crate::report::trade::plot::{Axis, shown, time};
 use crate::report::trade::{
     Cell, NO_CONTACT, build, compliance_name, compliances, parts, percent, summary,

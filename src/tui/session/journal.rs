@@ -15,7 +15,7 @@ use super::lock::Lock;
 use crate::case::changes::Change;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::{Stamp, hash};
-use crate::system::paths;
+use crate::system::sharing;
 use crate::tui::session;
 use crate::tui::store::{self, state};
 
@@ -412,7 +412,7 @@ fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
 
 // In hexadecimal, because a path need not be valid text.
 fn hex(path: &Path) -> String {
-    paths::bytes(path).iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+    sharing::path_bytes(path).iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
 fn from_hex(text: &str) -> Option<PathBuf> {
@@ -420,7 +420,7 @@ fn from_hex(text: &str) -> Option<PathBuf> {
     let bytes = pairs
         .map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
         .collect::<Option<Vec<u8>>>()?;
-    Some(paths::from_bytes(bytes))
+    Some(sharing::path_from_bytes(bytes))
 }
 
 enum Untrusted {
@@ -486,7 +486,7 @@ fn stem(case: Option<&Path>) -> String {
     let name = case.file_stem().unwrap_or_default().to_string_lossy();
     let letters: String =
         name.chars().filter(char::is_ascii_alphanumeric).take(MOST_LETTERS).collect();
-    format!("case-{letters}-{:016x}-", hash(paths::bytes(case)))
+    format!("case-{letters}-{:016x}-", hash(sharing::path_bytes(case)))
 }
 
 #[derive(Debug, Default)]
@@ -546,7 +546,8 @@ mod tests {
 
     #[test]
     fn a_journal_is_parsed_from_its_text() {
-        let other = Journal { case: Some(paths::from_bytes(vec![b'/', 0xff, b'a'])), ..journal() };
+        let other =
+            Journal { case: Some(sharing::path_from_bytes(vec![b'/', 0xff, b'a'])), ..journal() };
         let fresh = Journal { case: None, changes: Vec::new(), ..journal() };
         for journal in [journal(), other, fresh] {
             assert_eq!(Journal::from_text(&journal.to_text()), Ok(journal));

@@ -11,7 +11,7 @@ use toml_edit::{DocumentMut, Item, value};
 
 use crate::case::file::followed;
 use crate::case::sanitize::sanitize;
-use crate::system::{locks, users};
+use crate::system::sharing;
 use crate::tui::session;
 
 /// Attempts to lock: another process may delete the lock file between opening and locking it.
@@ -100,7 +100,7 @@ impl Lock {
         let text = Holder::ourselves().to_text();
         let file = &mut self.file;
         // Whatever the umask: a user who cannot read the file cannot find out who has the lock.
-        drop(locks::open_to_readers(file));
+        drop(sharing::open_to_readers(file));
         drop(
             file.set_len(0)
                 .and_then(|()| file.rewind())
@@ -112,7 +112,7 @@ impl Lock {
     fn is_in_place(&self) -> bool {
         let both =
             self.file.metadata().and_then(|ours| Ok((ours, fs::symlink_metadata(&self.path)?)));
-        both.is_ok_and(|(ours, there)| locks::is_same(&ours, &there))
+        both.is_ok_and(|(ours, there)| sharing::is_same_file(&ours, &there))
     }
 }
 
@@ -285,7 +285,7 @@ fn clear(folder: &Path) {
 }
 
 fn open(path: &Path) -> io::Result<File> {
-    let ours = regular(locks::open_or_create(path), path);
+    let ours = regular(sharing::open_or_create_lock(path), path);
     // A lock file of another user may be readable only, which is enough to lock it.
     ours.or_else(|error| {
         if error.kind() == io::ErrorKind::PermissionDenied { look_at(path) } else { Err(error) }
@@ -293,7 +293,7 @@ fn open(path: &Path) -> io::Result<File> {
 }
 
 fn look_at(path: &Path) -> io::Result<File> {
-    regular(locks::open(path), path)
+    regular(sharing::open_lock(path), path)
 }
 
 // Another user may have created a link or a pipe with that name: the link is not followed, and the
@@ -308,7 +308,7 @@ fn regular(file: io::Result<File>, path: &Path) -> io::Result<File> {
 }
 
 fn host() -> String {
-    users::host()
+    sharing::host()
 }
 
 fn boot() -> String {

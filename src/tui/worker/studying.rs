@@ -11,12 +11,10 @@ use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
 use crate::model::{Inputs, Quantity, Refusal, Stage, Stages, solve_while};
+use crate::report::charts::{spectra, tooth_absence, tooth_chart};
 use crate::report::tolerance::ToleranceReport;
-use crate::report::tooth_chart::{absence, tooth_chart};
-use crate::report::whine::charts::spectra;
-use crate::study::batch::{self, Batch, Control, Points, Rows, Stopped, solve_all};
-use crate::study::design::Design;
-use crate::study::refusals::Refusals;
+use crate::study::batch::{self, Batch, Control, Points, Refusals, Rows, Stopped, solve_all};
+use crate::study::sample::Design;
 use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Size, Tolerance};
@@ -260,7 +258,7 @@ fn tooth_compliance(gear: usize, inputs: &Inputs) -> Result<ChartValues, Refusal
     let own = model_of(inputs);
     Ok(match tooth_chart(gear, &flanks, own) {
         Some(_) => ChartValues::Flanks(Box::new(flanks), own),
-        None => ChartValues::Refused(format!("No chart: {}.", absence(gear, &flanks))),
+        None => ChartValues::Refused(format!("No chart: {}.", tooth_absence(gear, &flanks))),
     })
 }
 

@@ -10,10 +10,9 @@ use super::words::shown_in;
 use crate::case::units::system::counted;
 use crate::model::inputs::Method;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
-use crate::report::difference::{UNCHANGED, difference, in_percent, is_unchanged, percent};
-use crate::report::groups::{self, FREE_IMPACT};
+use crate::report::compare::{UNCHANGED, difference, in_percent, is_unchanged, percent};
 use crate::report::verdict::{Standing, verdict};
-use crate::report::{self, common_unit, shown_with, value_as_in};
+use crate::report::{self, FREE_IMPACT, common_unit, shown_with, value_as_in};
 use crate::tui::ascii::symbol;
 use crate::tui::solver::{Answer, Variants};
 use crate::tui::text;
@@ -153,7 +152,7 @@ pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> 
     let is_listed = move |quantity: &&Quantity| {
         !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction)
     };
-    let rest = groups::quantities(answer.active).filter(is_listed);
+    let rest = report::quantities(answer.active).filter(is_listed);
     first
         .iter()
         .filter_map(|key| Quantity::find(key))

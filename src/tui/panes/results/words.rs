@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use super::Results;
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution, Stage};
-use crate::report::comparison::differing;
+use crate::report::digest::differing;
+use crate::report::digest::whine;
 use crate::report::verdict::{Verdict, verdicts};
-use crate::report::whine::whine;
 use crate::report::{self, Shown, digest};
 use crate::tui::ascii::symbol;
 use crate::tui::rows;
@@ -201,8 +201,8 @@ fn relief(
 ) -> Option<Gauge> {
     let (units, given) = (pane.units, answer.inputs.driven.tip_relief);
     let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
-    let pending = || report::relief::pending(solution.method, given, others, units);
-    report::relief::relief(solution, others, units)
+    let pending = || digest::pending(solution.method, given, others, units);
+    digest::relief(solution, others, units)
         .or_else(|| is_to_come.then(pending).flatten())
         .map(|words| Gauge(words.into()))
 }
