@@ -111,7 +111,7 @@ fn misused(cause: String) -> Error {
 
 /// Values that replace those of a case: those of a variant first, then single fields.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
-pub(super) struct Edits {
+pub struct Edits {
     /// Use this variant of the case, a table [variants.NAME]
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
@@ -122,7 +122,7 @@ pub(super) struct Edits {
 
 /// The method and the values that replace those of a case.
 #[derive(Debug, Args)]
-pub(super) struct Changes {
+pub struct Changes {
     /// Use this method instead of the method of the case
     #[arg(long, value_parser = methods())]
     method: Option<Method>,
@@ -148,7 +148,7 @@ pub(in crate::cli) fn by_method(method: Option<Method>) -> Option<Setting> {
 
 /// A field and its new value.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Setting {
+pub struct Setting {
     /// The key of the field or limit.
     pub key: String,
     /// The new text of the field.
@@ -291,7 +291,7 @@ fn names(list: &str) -> Vec<String> {
 
 /// Any number of cases, all with the same changes.
 #[derive(Debug, Args)]
-pub(super) struct Cases {
+pub struct Cases {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
@@ -302,7 +302,7 @@ pub(super) struct Cases {
 
 /// One case.
 #[derive(Debug, Args)]
-pub(super) struct CaseFile {
+pub struct CaseFile {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
@@ -310,7 +310,7 @@ pub(super) struct CaseFile {
 
 /// The file for the output.
 #[derive(Debug, Args)]
-pub(super) struct Destination {
+pub struct Destination {
     /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,

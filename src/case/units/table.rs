@@ -23,7 +23,7 @@ pub(super) struct Unit {
 }
 
 /// All units of a dimension, in the order of messages.
-struct Family {
+pub(super) struct Family {
     pub(super) dimension: Dimension,
     /// The name of a value with its article.
     pub(super) name: &'static str,

@@ -462,7 +462,7 @@ pub(super) enum Source {
 
 /// The impact force by another stiffness model.
 #[derive(Debug)]
-struct Force {
+pub(super) struct Force {
     pub(super) symbol: String,
     pub(super) meaning: String,
     models: StiffnessModels,
