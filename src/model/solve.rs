@@ -77,12 +77,11 @@ fn solve_by_choice(
     let wanted = wanted.and(Method::Auto.deciding_stages());
     let before =
         earlier.filter(|earlier| earlier.inputs == inputs && earlier.solution.choice.is_some());
-    let chosen = match before {
-        Some(earlier) => Solution { ran: Stages::NONE, ..earlier.solution.clone() },
-        None => {
-            let chosen = chosen(inputs, wanted.except(Stages::LATE), go_on)?;
-            with_beside(inputs, chosen, go_on)?
-        }
+    let chosen = if let Some(earlier) = before {
+        Solution { ran: Stages::NONE, ..earlier.solution.clone() }
+    } else {
+        let chosen = chosen(inputs, wanted.except(Stages::LATE), go_on)?;
+        with_beside(inputs, chosen, go_on)?
     };
     if before.is_none() && wanted.within(Stages::LATE) == Stages::NONE {
         return Ok(chosen);

@@ -105,13 +105,10 @@ impl Stage {
             Stage::Mesh => geometry.with(Stage::Load).with(Stage::Deviation),
             Stage::Static | Stage::StaticSpectrum => Stages::NONE.with(Stage::Mesh),
             // The explanations show the natural frequency.
-            Stage::Dynamic => {
+            Stage::Dynamic | Stage::SpeedRun => {
                 Stages::NONE.with(Stage::Mesh).with(Stage::Masses).with(Stage::Resonance)
             }
             Stage::Resonance => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
-            Stage::SpeedRun => {
-                Stages::NONE.with(Stage::Mesh).with(Stage::Masses).with(Stage::Resonance)
-            }
             // A quantity divides by the static force.
             Stage::SteadyMotion => Stages::NONE
                 .with(Stage::Mesh)

@@ -61,12 +61,11 @@ impl Absence {
                 Absence::NoBacklash
             }
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
-            (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
             (Stage::SteadyMotion, _) => not_steady(solution),
             (Stage::SpeedRun, _) if let Some(Err(refusal)) = solution.over_speed => {
                 Absence::Withheld(refusal)
             }
-            (Stage::SpeedRun, _) => Absence::NotReached,
+            (Stage::Static | Stage::Dynamic | Stage::SpeedRun, _) => Absence::NotReached,
             (Stage::StaticSpectrum, _) if let Some(Err(refusal)) = solution.static_spectrum => {
                 Absence::Withheld(refusal)
             }

@@ -71,7 +71,7 @@ impl SeekReport<'_> {
         match self.answer() {
             "crossings" => {}
             "unknown" => {
-                writeln!(out, "  unknown: the condition is unknown at every point of the range")?
+                writeln!(out, "  unknown: the condition is unknown at every point of the range")?;
             }
             answer => writeln!(out, "  {answer}")?,
         }

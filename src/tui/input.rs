@@ -129,7 +129,7 @@ impl Decoder {
         match self.state {
             State::Ground => self.begin(byte, KeyModifiers::NONE, inputs),
             State::Escape { is_apart, ends_text } => {
-                self.after_escape(byte, is_apart, ends_text, inputs)
+                self.after_escape(byte, is_apart, ends_text, inputs);
             }
             State::Letter { modifiers } => self.in_letter(byte, modifiers, inputs),
             State::Csi => self.in_csi(byte, inputs),

@@ -78,7 +78,7 @@ impl Layout {
             }
         }
         if layout.choice(3) == 0 {
-            layout.text = layout.text.trim_end_matches(['\r', '\n']).to_owned();
+            layout.text = layout.text.trim_end_matches(['\r', '\n']).into();
         }
         layout
     }
@@ -315,7 +315,7 @@ fn an_edit_changes_only_the_lines_of_its_values() {
             match found {
                 // A blank line above a removed header is removed.
                 Some(at) if !is_touched(number) && (at == 0 || !is_blank) => {
-                    rest = &rest[at + line.len()..]
+                    rest = &rest[at + line.len()..];
                 }
                 _ => assert!(
                     is_blank || is_touched(number),

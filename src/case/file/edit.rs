@@ -116,7 +116,9 @@ fn remove(text: &mut String, key: &[String]) {
     let is_it = |path: &[String]| key_of_path(path) == key;
     let mut entries = layout.entries.iter();
     let entry = entries.find(|entry| is_it(&entry.path) || is_it(entry.table()));
-    entry.into_iter().for_each(|entry| take_out(text, entry));
+    if let Some(entry) = entry {
+        take_out(text, entry);
+    }
     // The header of a distribution without its value is not a distribution.
     if let Some(header) = layout.headers.iter().find(|header| is_it(&header.path)) {
         let line = line(text, header.span.clone());
@@ -152,7 +154,9 @@ fn take_out(text: &mut String, entry: &Entry) {
     let lines = line(text, with_comma.clone());
     if is_blank(&(lines.start..own.start)) && ends_line(&text[with_comma.end..lines.end]) {
         let comma = entry.comma.filter(|comma| *comma >= lines.end);
-        comma.into_iter().for_each(|comma| text.replace_range(comma..=comma, ""));
+        if let Some(comma) = comma {
+            text.replace_range(comma..=comma, "");
+        }
         return text.replace_range(lines, "");
     }
     let before = entry.comma_before.map(|comma| comma..own.start);
@@ -249,8 +253,8 @@ fn insert(text: &mut String, layout: &Layout, new: &Written) {
                     let at = line_start(text, inner.span.start);
                     text.insert_str(at, &format!("{added}{end}"));
                 }
-                None if text.ends_with('\n') => text.push_str(&format!("{end}{added}")),
-                None => text.push_str(&format!("{end}{end}{added}")),
+                None if text.ends_with('\n') => text.extend([end, &*added]),
+                None => text.extend([end, end, &*added]),
             }
         }
     }

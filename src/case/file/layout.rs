@@ -130,7 +130,9 @@ impl Reader<'_> {
                 if let Some(table) = self.open.last_mut() {
                     table.comma = Some(span.start);
                     let last = table.last.and_then(|at| self.layout.entries.get_mut(at));
-                    last.into_iter().for_each(|own| own.comma = Some(span.start));
+                    if let Some(own) = last {
+                        own.comma = Some(span.start);
+                    }
                 }
             }
             _ => {}

@@ -147,7 +147,7 @@ impl State {
             }
             ["model", "components", "component"] => model.components.push(component()?),
             ["model", "relations", "relation"] => {
-                model.relations.push(Relation { kind: text("type")?, refs: Vec::new() })
+                model.relations.push(Relation { kind: text("type")?, refs: Vec::new() });
             }
             ["model", "relations", "relation", "ref"] => {
                 if let Some(relation) = model.relations.last_mut() {
@@ -156,7 +156,7 @@ impl State {
                 }
             }
             ["model", "load_spectrum", "load_case"] => {
-                model.load_cases.push(LoadCase { id: text("id")?, components: Vec::new() })
+                model.load_cases.push(LoadCase { id: text("id")?, components: Vec::new() });
             }
             ["model", "load_spectrum", "load_case", "component"] => {
                 if let Some(case) = model.load_cases.last_mut() {
@@ -183,14 +183,13 @@ impl State {
         let Some(mut attribute) = self.attribute.take() else {
             return;
         };
-        let component = match *self.path {
-            ["model", "components", ..] => self.model.components.last_mut(),
-            _ => {
-                let case = self.model.load_cases.last_mut();
-                case.and_then(|case| case.components.last_mut())
-            }
+        let component = if let ["model", "components", ..] = *self.path {
+            self.model.components.last_mut()
+        } else {
+            let case = self.model.load_cases.last_mut();
+            case.and_then(|case| case.components.last_mut())
         };
-        attribute.value = attribute.value.trim().to_owned();
+        attribute.value = attribute.value.trim().into();
         if let Some(component) = component.filter(|_| !attribute.value.is_empty()) {
             component.attributes.push(attribute);
             self.entries += 1;

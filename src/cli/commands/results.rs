@@ -161,7 +161,7 @@ fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit
         match format {
             Listing::Text => tell(&verdicts, &opened.name, &mut streams.output)?,
             Listing::Json => {
-                verdict::write_json(&verdicts, &opened.name, method, &mut streams.output)?
+                verdict::write_json(&verdicts, &opened.name, method, &mut streams.output)?;
             }
         }
     }

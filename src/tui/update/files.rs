@@ -167,13 +167,13 @@ pub(super) fn saved(
             return effects;
         }
         Err(SaveFault::Exists(found)) => {
-            app.prompts.push(Prompt::Ask(Question::exists(&path, found, &next)))
+            app.prompts.push(Prompt::Ask(Question::exists(&path, found, &next)));
         }
         Err(SaveFault::Changed(found)) => {
-            app.prompts.push(Prompt::Ask(Question::changed(&path, found, &next)))
+            app.prompts.push(Prompt::Ask(Question::changed(&path, found, &next)));
         }
         Err(SaveFault::Held(holder)) => {
-            app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next)))
+            app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next)));
         }
         Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
     }
