@@ -135,6 +135,7 @@ fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
         warmup_cycles: inputs.warmup_cycles,
         tolerance,
         spacing: Spacing::of(&inputs),
+        approach_samples: 0,
     };
     let run = || dynamic(black_box(&mesh), &settings, &|_| true).is_ok();
     Ours {

@@ -408,7 +408,7 @@ pub struct Velocity {
 /// ΔVn = ω1 rb1 − ω2 rb2' = ω2 (rb2 − rb2')
 /// ΔVτ = ω2 N2'D − ω1 N1'D = ω2 (N2'D − i ρ1)
 /// ```
-/// Both arms are increments from [`tip_at`](super::tip_gap::tip_at). Differences of the products
+/// Both arms are increments from [`tip_at`]. Differences of the products
 /// would lose digits near E and the pitch point.
 ///
 /// # Source

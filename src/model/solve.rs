@@ -189,13 +189,13 @@ fn at_rest(wanted: Stages) -> Stages {
 }
 
 /// Solves again in place if `inputs` differ from those of the solution only in load and deviations
-/// and the wanted stages have a closed form. The results have the bits of [`solve`](solve)
+/// and the wanted stages have a closed form. The results have the bits of [`solve`]
 /// without the comparisons of the other stages' inputs. `setup` stores the common values of all
 /// repeats and is empty at first. Returns `None` if more differs; inputs, solution and setup then
 /// stay unchanged.
 ///
 /// # Errors
-/// Those of [`solve`](solve). The solution is then invalid.
+/// Those of [`solve`]. The solution is then invalid.
 pub fn solve_repeated(
     (before, change): (&mut Inputs, Change),
     solution: &mut Solution,
