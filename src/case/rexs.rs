@@ -1,28 +1,21 @@
 //! Reads a gear model of another program (REXS 1.0 to 2.0) as a case.
 
-mod archive;
-mod fields;
-mod gear;
-mod json;
+mod map;
 mod model;
-mod operation;
-mod refusal;
-mod relief;
-mod scalar;
-mod source;
-mod stage;
-mod units;
 mod xml;
 
+use std::borrow::Cow;
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
+use zip::ZipArchive;
+use zip::result::ZipError;
+
 use super::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
+use super::sanitize::sanitize;
 use super::{Case, Document};
-use model::Model;
-pub use refusal::Refusal;
-use source::{Found, Values};
-use stage::Kind;
-pub use stage::Stage;
+use map::{Pair, Values};
+use model::{Index, Model, Node};
 
 /// A stage of a model, converted to a case.
 #[derive(Debug)]
@@ -39,12 +32,79 @@ pub struct Imported {
     pub remarks: Vec<String>,
 }
 
+/// A gear stage of a model.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Stage {
+    /// The id of its component.
+    pub id: String,
+    /// Its name, which may be empty.
+    pub name: String,
+    /// Its kind with its article.
+    pub kind: String,
+    is_spur: bool,
+}
+
+impl Stage {
+    /// The id and the name of the stage.
+    #[must_use]
+    pub fn label(&self) -> String {
+        if self.name.is_empty() { self.id.clone() } else { format!("{} {:?}", self.id, self.name) }
+    }
+}
+
+/// The reason why a model of another program cannot become a case: place, cause and fix.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    file: String,
+    /// Line and column, from 1, for an error in the text.
+    place: Option<(usize, usize)>,
+    cause: String,
+    fix: String,
+}
+
+impl Refusal {
+    fn new(cause: impl Into<String>, fix: impl Into<String>) -> Refusal {
+        Refusal { file: String::new(), place: None, cause: cause.into(), fix: fix.into() }
+    }
+
+    fn at(self, line: usize, column: usize) -> Refusal {
+        Refusal { place: Some((line, column)), ..self }
+    }
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: ", sanitize(&self.file))?;
+        if let Some((line, column)) = self.place {
+            write!(f, "{line}:{column}: ")?;
+        }
+        write!(f, "{}: {}", sanitize(&self.cause), sanitize(&self.fix))
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// Refuses more than `most` of the named parts.
+fn within(count: usize, most: usize, parts: &str) -> Result<(), Refusal> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(Refusal::new(
+        format!("the model has more than {most} {parts}"),
+        "export the gear pair alone and without results",
+    ))
+}
+
 /// Whether the file name belongs to a REXS model.
 #[must_use]
 pub fn is_model(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
+    ends_with_any(&name, &[".rexs", ".rexsj", ".rexsz", ".rexs.zip"])
+}
+
+fn ends_with_any(name: &str, endings: &[&str]) -> bool {
     let name = name.to_ascii_lowercase();
-    [".rexs", ".rexsj", ".rexsz", ".rexs.zip"].iter().any(|ending| name.ends_with(ending))
+    endings.iter().any(|ending| name.ends_with(ending))
 }
 
 /// The path of the case file beside a model. For a case, the path itself.
@@ -69,46 +129,90 @@ pub fn read_document(path: &Path) -> Result<Document, ReadError> {
 /// # Errors
 /// If the bytes are not a REXS model, or the stage is not a spur gear pair.
 pub fn import(path: &Path, bytes: &[u8], stage: Option<&str>) -> Result<Imported, Refusal> {
-    let name = path.display().to_string();
-    let model = archive::text(bytes).and_then(|text| parse(text.trim_start_matches('\u{feff}')));
-    let chosen = model.and_then(|model| {
-        let stages = stage::list(&model);
-        let chosen = choose(&stages, stage)?.clone();
-        Ok((model, stages, chosen))
-    });
-    let (model, stages, chosen) = chosen.map_err(|refusal| refusal.of(&name))?;
-    let values = read(&model, &chosen).map_err(|refusal| refusal.of(&name))?;
-    let remarks = values.remarks.clone();
-    let (document, absent) = document(&name, &model, &chosen, values);
-    Ok(Imported { document, stages, stage: chosen.id, absent, remarks })
+    let file = path.display().to_string();
+    read(path, bytes, stage).map_err(|refusal| Refusal { file, ..refusal })
 }
 
-/// The values of the model for the fields of the case.
-fn read(model: &Model, stage: &Stage) -> Result<Values, Refusal> {
+fn read(path: &Path, bytes: &[u8], wanted: Option<&str>) -> Result<Imported, Refusal> {
+    let model = parse(text(bytes)?.trim_start_matches('\u{feff}'))?;
+    let index = Index::of(&model)?;
+    let components = model::stages(&model);
+    let read: Vec<(Stage, Option<Pair>)> =
+        components.map(|component| stage(&index, component)).collect();
+    let stages: Vec<Stage> = read.iter().map(|(stage, _)| stage.clone()).collect();
+    let chosen = choose(&stages, wanted)?;
     let mut values = Values::default();
-    let component = |id: &str| model.component(id);
-    let parts = match &stage.kind {
-        Kind::Spur { gears, .. } => gears.each_ref().map(|id| component(id)),
-        _ => [None, None],
-    };
-    if let (Some(own), [Some(first), Some(second)]) = (component(&stage.id), parts) {
-        let gears = operation::ordered(model, &stage.id, [first, second], &mut values);
-        fields::read(model, own, gears, &mut values);
-        operation::read(model, &stage.id, gears, &mut values);
+    if let Some((_, Some(pair))) = read.iter().find(|(stage, _)| stage.id == chosen.id) {
+        values.read(pair);
     }
-    match values.refusals.first() {
-        None => Ok(values),
-        Some(reason) => Err(Refusal::new(
-            format!("stage {} has unequal teeth: {reason}", stage.label()),
+    if let Some(reason) = values.refusals.first() {
+        return Err(Refusal::new(
+            format!("stage {} has unequal teeth: {reason}", chosen.label()),
             "a case has one module, one pressure angle and symmetric teeth; correct the model",
-        )),
+        ));
     }
+    let (stage, remarks) = (chosen.id.clone(), values.remarks);
+    let (document, absent) = document(path, &model, chosen, values.fields);
+    Ok(Imported { document, stages, stage, absent, remarks })
+}
+
+/// The text of a model: plain, or from a zip archive with one model.
+fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Refusal> {
+    let text = if bytes.starts_with(b"PK") {
+        String::from_utf8(unpacked(bytes)?).ok().map(Cow::Owned)
+    } else {
+        std::str::from_utf8(bytes).ok().map(Cow::Borrowed)
+    };
+    text.ok_or_else(|| {
+        Refusal::new("the text of the model is not UTF-8", "export the model as UTF-8")
+    })
+}
+
+fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
+    const DIRECTORY_ENTRY: &[u8] = b"PK\x01\x02";
+    const MOST_FILES: usize = 1000;
+    let damaged = |error: ZipError| {
+        Refusal::new(
+            format!("the archive cannot be unpacked: {error}"),
+            "pack it again as a plain zip file, deflated and without password",
+        )
+    };
+    // Each entry of the directory takes memory, so the entries are counted before it is read.
+    let entries = bytes.windows(DIRECTORY_ENTRY.len()).filter(|four| *four == DIRECTORY_ENTRY);
+    if entries.count() > MOST_FILES {
+        return Err(Refusal::new(
+            format!("the archive has more than {MOST_FILES} files"),
+            "pack the model alone",
+        ));
+    }
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(damaged)?;
+    let names = archive.file_names().filter_map(Result::ok).map(Cow::into_owned);
+    let models: Vec<String> =
+        names.filter(|name| ends_with_any(name, &[".rexs", ".rexsj", ".xml", ".json"])).collect();
+    let [model] = models.as_slice() else {
+        return Err(Refusal::new(
+            format!("the archive has {} models", models.len()),
+            "pack exactly one .rexs or .rexsj file",
+        ));
+    };
+    let file = archive.by_name(model).map_err(damaged)?;
+    let mut text = Vec::new();
+    // The size in the directory can be wrong, so the bytes are counted.
+    let read = file.take(MOST_MODEL_BYTES as u64 + 1).read_to_end(&mut text);
+    read.map_err(|error| damaged(ZipError::Io(error)))?;
+    if text.len() > MOST_MODEL_BYTES {
+        return Err(Refusal::new(
+            format!("the model is longer than {} MiB unpacked", MOST_MODEL_BYTES >> 20),
+            "export the model without results",
+        ));
+    }
+    Ok(text)
 }
 
 fn parse(text: &str) -> Result<Model, Refusal> {
     let model = match text.trim_start().chars().next() {
         Some('<') => xml::parse(text)?,
-        Some('{') => json::parse(text)?,
+        Some('{') => model::parse_json(text)?,
         _ => {
             return Err(Refusal::new(
                 "the file is neither XML nor JSON",
@@ -116,9 +220,8 @@ fn parse(text: &str) -> Result<Model, Refusal> {
             ));
         }
     };
-    let is_known = matches!(model.version.split('.').next(), Some("1" | "2"));
-    if is_known {
-        return model.indexed();
+    if matches!(model.version.split('.').next(), Some("1" | "2")) {
+        return Ok(model);
     }
     Err(Refusal::new(
         format!("the model is of REXS version {:?}", model.version),
@@ -126,25 +229,34 @@ fn parse(text: &str) -> Result<Model, Refusal> {
     ))
 }
 
+/// The stage of a component, with its gears if it is a spur stage.
+fn stage<'m>(index: &'m Index<'m>, stage: &'m Node) -> (Stage, Option<Pair<'m>>) {
+    let pair = Pair::of(index, stage);
+    let kind = match &pair {
+        Ok(pair) => format!("a spur stage ({} teeth)", pair.teeth()),
+        Err(kind) => kind.clone(),
+    };
+    let (id, name) = (stage.id.to_string(), stage.name.to_string());
+    (Stage { id, name, kind, is_spur: pair.is_ok() }, pair.ok())
+}
+
 fn choose<'a>(stages: &'a [Stage], wanted: Option<&str>) -> Result<&'a Stage, Refusal> {
-    let listed = || stage::listed(stages);
+    let line = |stage: &Stage| format!("stage {} is {}", stage.label(), stage.kind);
+    let listed = || stages.iter().map(line).collect::<Vec<_>>().join("; ");
     if let Some(id) = wanted {
-        let found = stages.iter().find(|stage| stage.id == id);
-        let stage = found.ok_or_else(|| {
-            Refusal::new(
+        return match stages.iter().find(|stage| stage.id == id) {
+            Some(stage) if stage.is_spur => Ok(stage),
+            Some(other) => Err(Refusal::new(
+                line(other),
+                "choose a spur stage; other stages cannot become a case",
+            )),
+            None => Err(Refusal::new(
                 format!("the model has no stage {id:?}"),
                 format!("choose one of its stages: {}", listed()),
-            )
-        })?;
-        return match &stage.kind {
-            Kind::Spur { .. } => Ok(stage),
-            other => Err(Refusal::new(
-                format!("stage {} is {other}", stage.label()),
-                "choose a spur stage; other stages cannot become a case",
             )),
         };
     }
-    let mut spur = stages.iter().filter(|stage| matches!(stage.kind, Kind::Spur { .. }));
+    let mut spur = stages.iter().filter(|stage| stage.is_spur);
     match (spur.next(), spur.next()) {
         (Some(only), None) => Ok(only),
         (Some(_), Some(_)) => Err(Refusal::new(
@@ -163,37 +275,40 @@ fn choose<'a>(stages: &'a [Stage], wanted: Option<&str>) -> Result<&'a Stage, Re
 
 /// The case with these values, the source of each value, and the empty fields.
 fn document(
-    name: &str,
+    path: &Path,
     model: &Model,
     stage: &Stage,
-    values: Values,
+    fields: Vec<map::Found>,
 ) -> (Document, Vec<(&'static str, String)>) {
     let mut case = Case::empty();
-    let mut sources: Vec<(&'static str, String)> = Vec::new();
-    let mut absent: Vec<(&'static str, String)> = Vec::new();
-    for (key, found) in values.into_fields() {
-        match found {
-            Found::Value { text, source } => match case.set(key, &text) {
-                Ok(()) => sources.push((key, format!("From {source}."))),
-                Err(problem) => absent.push((key, format!("{source}: {}", problem.cause))),
-            },
-            Found::Absent(reason) => absent.push((key, reason)),
+    let (mut comments, mut absent) = (Vec::new(), Vec::new());
+    for (key, found) in fields {
+        let set = found.and_then(|reading| {
+            let problem = case.set(key, &reading.text).err();
+            problem.map_or(Ok(reading.source.clone()), |problem| {
+                Err(format!("{}: {}", reading.source, problem.cause))
+            })
+        });
+        match set {
+            Ok(source) => comments.push((key, format!("From {source}."))),
+            Err(reason) => {
+                comments.push((key, format!("Left empty: {reason}.")));
+                absent.push((key, reason));
+            }
         }
     }
-    let comments = absent.iter().map(|(key, reason)| (*key, format!("Left empty: {reason}.")));
-    sources.extend(comments);
-    let file = Path::new(name).file_name().unwrap_or_default();
+    let Stage { id, name, .. } = stage;
+    let title = if name.is_empty() { format!("Stage {id}") } else { name.clone() };
     let notes = format!(
-        "stage {} of {} (REXS {}, {} {})",
-        stage.id,
-        file.to_string_lossy(),
+        "stage {id} of {} (REXS {}, {} {})",
+        path.file_name().unwrap_or_default().to_string_lossy(),
         model.version,
         model.application,
         model.application_version
     );
     // Both are text fields, which accept any text.
-    let _ = case.set("title", &stage.title());
+    let _ = case.set("title", &title);
     let _ = case.set("notes", &notes);
-    let document = Document::commented(format!("{name} (as a case)"), case, &sources);
-    (document, absent)
+    let name = format!("{} (as a case)", path.display());
+    (Document::commented(name, case, &comments), absent)
 }

@@ -1,13 +1,17 @@
-//! A REXS model as a list of components and relations, independent of its file format.
+//! A REXS model as a small tree, independent of its file format, and its index.
 
+use std::collections::HashMap;
+use std::fmt;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use super::refusal::{Refusal, within};
-use super::scalar::{one_or_list, scalar};
+use super::{Refusal, within};
 
-/// Greatest number of components, references, attributes with a value and so on, together. It
-/// limits the memory of a model. A usual model has 225,000 in 16 MiB.
-pub(super) const MOST_ENTRIES: usize = 300_000;
+/// Greatest number of nodes with their values. It limits the memory of a model. A usual model has
+/// 225,000 in 16 MiB.
+pub(super) const MOST_ENTRIES: usize = 250_000;
 const MOST_COMPONENTS: usize = 50_000;
 const MOST_STAGES: usize = 200;
 const MOST_REFS: usize = 100_000;
@@ -21,61 +25,47 @@ const MOST_NAME: usize = 1000;
 pub(super) struct Model {
     /// The REXS version, such as "1.4".
     #[serde(deserialize_with = "scalar")]
-    pub(super) version: String,
+    pub(super) version: Box<str>,
     #[serde(default, rename = "applicationId", deserialize_with = "scalar")]
-    pub(super) application: String,
+    pub(super) application: Box<str>,
     #[serde(default, rename = "applicationVersion", deserialize_with = "scalar")]
-    pub(super) application_version: String,
+    pub(super) application_version: Box<str>,
+    /// Parts, materials and loads with their attributes.
     #[serde(default)]
-    pub(super) components: Vec<Component>,
+    pub(super) components: Vec<Node>,
+    /// Relations with their references.
     #[serde(default)]
-    pub(super) relations: Vec<Relation>,
+    pub(super) relations: Vec<Node>,
+    /// Load cases with the components to which they add attributes.
     #[serde(
         default,
         rename = "load_spectrum",
         alias = "load_spectrums",
         deserialize_with = "load_cases"
     )]
-    pub(super) load_cases: Vec<LoadCase>,
-    #[serde(skip)]
-    index: Index,
+    pub(super) load_cases: Vec<Node>,
 }
 
-/// Positions in the model, sorted by id.
-#[derive(Debug, Default)]
-struct Index {
-    components: Vec<usize>,
-    /// A relation and the first of its references to the id.
-    refs: Vec<(usize, usize)>,
-    /// A load case and its component.
-    loads: Vec<(usize, usize)>,
-}
-
-/// A part, a material, a load.
-#[derive(Debug, Default, Deserialize)]
-pub(super) struct Component {
+/// A component, an attribute, a relation, a reference or a load case. Members that it lacks are
+/// empty.
+#[derive(Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(default)]
+pub(super) struct Node {
     #[serde(deserialize_with = "scalar")]
-    pub(super) id: String,
-    /// Its type, such as "cylindrical_gear".
-    #[serde(default, rename = "type", deserialize_with = "scalar")]
-    pub(super) kind: String,
-    #[serde(default, deserialize_with = "scalar")]
-    pub(super) name: String,
-    #[serde(default)]
-    pub(super) attributes: Vec<Attribute>,
-}
-
-/// A value of a component, empty if it is not scalar.
-#[derive(Debug, PartialEq, Eq, Deserialize)]
-pub(super) struct Attribute {
+    pub(super) id: Box<str>,
+    /// The type of a component or a relation, such as "cylindrical_gear".
+    #[serde(rename = "type", deserialize_with = "scalar")]
+    pub(super) kind: Box<str>,
     #[serde(deserialize_with = "scalar")]
-    pub(super) id: String,
-    /// Empty if no unit is given.
-    #[serde(default, deserialize_with = "scalar")]
-    pub(super) unit: String,
-    /// In JSON, the name of the key is the kind of the value.
+    pub(super) name: Box<str>,
+    /// The role of a reference.
+    #[serde(deserialize_with = "scalar")]
+    pub(super) role: Box<str>,
+    #[serde(deserialize_with = "scalar")]
+    pub(super) unit: Box<str>,
+    /// The value of an attribute, empty if it is not scalar. In JSON, the name of the key is the
+    /// kind of the value.
     #[serde(
-        default,
         alias = "floating_point",
         alias = "integer",
         alias = "boolean",
@@ -83,220 +73,257 @@ pub(super) struct Attribute {
         alias = "enum",
         deserialize_with = "scalar"
     )]
-    pub(super) value: String,
+    pub(super) value: Box<str>,
+    #[serde(alias = "attributes", alias = "refs", alias = "components")]
+    pub(super) nodes: Vec<Node>,
 }
 
-#[derive(Debug, Default, Deserialize)]
-pub(super) struct Relation {
-    /// Its type, such as "stage".
-    #[serde(rename = "type", deserialize_with = "scalar")]
-    pub(super) kind: String,
-    #[serde(default)]
-    pub(super) refs: Vec<Ref>,
+impl Node {
+    /// The attributes of this id with a value. A valid model has one.
+    pub(super) fn given<'a>(&'a self, id: &'a str) -> impl Iterator<Item = &'a Node> {
+        self.nodes.iter().filter(move |node| &*node.id == id && !node.value.is_empty())
+    }
+
+    /// The id of the component in a role of a relation.
+    pub(super) fn role(&self, role: &str) -> Option<&str> {
+        self.nodes.iter().find(|own| &*own.role == role).map(|own| &*own.id)
+    }
+
+    /// The label in messages, such as `cylindrical_gear 23 "pinion"`.
+    pub(super) fn label(&self) -> String {
+        let name = if self.name.is_empty() { "" } else { &*format!(" {:?}", self.name) };
+        format!("{} {}{name}", self.kind, self.id)
+    }
+
+    fn longest_name(&self) -> usize {
+        let own = [&self.id, &self.kind, &self.name, &self.role, &self.unit].map(|text| text.len());
+        own.into_iter().chain(self.nodes.iter().map(Node::longest_name)).max().unwrap_or_default()
+    }
 }
 
-/// The role and the id of a component in a relation.
-#[derive(Debug, Deserialize)]
-pub(super) struct Ref {
-    #[serde(default, deserialize_with = "scalar")]
-    pub(super) role: String,
-    #[serde(deserialize_with = "scalar")]
-    pub(super) id: String,
+/// The components of a model, their relations and their load cases by id.
+#[derive(Debug)]
+pub(super) struct Index<'m> {
+    components: HashMap<&'m str, &'m Node>,
+    relations: HashMap<&'m str, Vec<&'m Node>>,
+    /// Load cases, each with the node of the component.
+    loads: HashMap<&'m str, Vec<(&'m Node, &'m Node)>>,
 }
 
-/// Attributes that one load case of the load spectrum adds to components.
-#[derive(Debug, Default, Deserialize)]
-pub(super) struct LoadCase {
-    #[serde(deserialize_with = "scalar")]
-    pub(super) id: String,
-    #[serde(default)]
-    pub(super) components: Vec<Component>,
+impl<'m> Index<'m> {
+    /// Refuses a model beyond the limits, and an id of two components.
+    pub(super) fn of(model: &'m Model) -> Result<Index<'m>, Refusal> {
+        let mut components = HashMap::new();
+        let mut relations = HashMap::<_, Vec<&'m Node>>::new();
+        let mut loads = HashMap::<_, Vec<_>>::new();
+        check_limits(model)?;
+        for component in &model.components {
+            if components.insert(&*component.id, component).is_some() {
+                return Err(Refusal::new(
+                    format!("two components have the id {:?}", component.id),
+                    "correct the model, in which each component has its own id",
+                ));
+            }
+        }
+        for relation in &model.relations {
+            for reference in &relation.nodes {
+                let known = relations.entry(&*reference.id).or_default();
+                if known.last().is_none_or(|last| !std::ptr::eq(*last, relation)) {
+                    known.push(relation);
+                }
+                within(known.len(), MOST_OF_COMPONENT, "relations of one component")?;
+            }
+        }
+        for case in &model.load_cases {
+            for component in &case.nodes {
+                let known = loads.entry(&*component.id).or_default();
+                known.push((case, component));
+                within(known.len(), MOST_OF_COMPONENT, "load cases of one component")?;
+            }
+        }
+        Ok(Index { components, relations, loads })
+    }
+
+    pub(super) fn component(&self, id: &str) -> Option<&'m Node> {
+        self.components.get(id).copied()
+    }
+
+    pub(super) fn loads_of(&self, id: &str) -> &[(&'m Node, &'m Node)] {
+        self.loads.get(id).map_or(&[], Vec::as_slice)
+    }
+
+    pub(super) fn relations_of(&self, id: &str) -> &[&'m Node] {
+        self.relations.get(id).map_or(&[], Vec::as_slice)
+    }
+
+    /// The components with the role `other` in the relations of this type in which the component
+    /// `id` has the role `role`.
+    pub(super) fn related(
+        &self,
+        kind: &str,
+        (role, id): (&str, &str),
+        other: &str,
+    ) -> impl Iterator<Item = &'m Node> {
+        self.relations_of(id)
+            .iter()
+            .filter(move |relation| &*relation.kind == kind && relation.role(role) == Some(id))
+            .filter_map(move |relation| self.component(relation.role(other)?))
+    }
+
+    /// The components of a type that share any relation with this component.
+    pub(super) fn linked(&self, id: &str, kind: &str) -> impl Iterator<Item = &'m Node> {
+        self.relations_of(id)
+            .iter()
+            .flat_map(|relation| &relation.nodes)
+            .filter(move |other| &*other.id != id)
+            .filter_map(|other| self.component(&other.id))
+            .filter(move |component| &*component.kind == kind)
+    }
+}
+
+/// The gear stages of a model.
+pub(super) fn stages(model: &Model) -> impl Iterator<Item = &Node> {
+    model.components.iter().filter(|component| component.kind.ends_with("_stage"))
+}
+
+fn check_limits(model: &Model) -> Result<(), Refusal> {
+    let most = |nodes: &mut dyn Iterator<Item = &Node>| {
+        nodes.map(|node| node.nodes.len()).max().unwrap_or_default()
+    };
+    let refs = model.relations.iter().map(|relation| relation.nodes.len());
+    let loaded = || model.load_cases.iter().flat_map(|case| &case.nodes);
+    let all = [&model.components, &model.relations, &model.load_cases].into_iter().flatten();
+    let texts = [&model.version, &model.application, &model.application_version];
+    let names = all.map(Node::longest_name).chain(texts.map(|text| text.len()));
+    for (count, limit, parts) in [
+        (model.components.len(), MOST_COMPONENTS, "components"),
+        (stages(model).count(), MOST_STAGES, "stages"),
+        (refs.sum(), MOST_REFS, "references of relations"),
+        (most(&mut model.relations.iter()), MOST_REFS_OF_RELATION, "references of one relation"),
+        (loaded().count(), MOST_COMPONENTS, "loaded components"),
+        (
+            most(&mut model.components.iter().chain(loaded())),
+            MOST_OF_COMPONENT,
+            "attributes of one component",
+        ),
+        (names.max().unwrap_or_default(), MOST_NAME, "bytes in a name"),
+    ] {
+        within(count, limit, parts)?;
+    }
+    Ok(())
+}
+
+/// Reads a model from JSON.
+pub(super) fn parse_json(text: &str) -> Result<Model, Refusal> {
+    #[derive(Deserialize)]
+    struct File {
+        model: Model,
+    }
+    within(objects_and_lists(text), MOST_ENTRIES, "objects and lists")?;
+    let file: File = serde_json::from_str(text).map_err(|error| {
+        let words = error.to_string();
+        let cause = words.split(" at line ").next().unwrap_or(&words);
+        Refusal::new(format!("this is not a REXS model in JSON: {cause}"), "export the model again")
+            .at(error.line(), error.column())
+    })?;
+    Ok(file.model)
+}
+
+/// The number of objects and lists: each can become a node of the model.
+fn objects_and_lists(text: &str) -> usize {
+    let mut bytes = text.bytes();
+    let (mut count, mut is_string) = (0, false);
+    while let Some(byte) = bytes.next() {
+        match byte {
+            b'"' => is_string = !is_string,
+            b'\\' => drop(bytes.next()),
+            b'{' | b'[' if !is_string => count += 1,
+            _ => {}
+        }
+    }
+    count
+}
+
+/// The text of a scalar. Empty for null, a list or an object, which take no memory.
+fn scalar<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<str>, D::Error> {
+    deserializer.deserialize_any(Scalar)
+}
+
+struct Scalar;
+
+impl<'de> Visitor<'de> for Scalar {
+    type Value = Box<str>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Box<str>, E> {
+        Ok(text.trim().into())
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Box<str>, E> {
+        Ok(value.to_string().into())
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Box<str>, E> {
+        Ok(value.to_string().into())
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Box<str>, E> {
+        Ok(value.to_string().into())
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Box<str>, E> {
+        Ok(serde_json::Value::from(value).to_string().into())
+    }
+
+    fn visit_unit<E>(self) -> Result<Box<str>, E> {
+        Ok("".into())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Box<str>, A::Error> {
+        IgnoredAny.visit_seq(list).map(|_| "".into())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Box<str>, A::Error> {
+        IgnoredAny.visit_map(object).map(|_| "".into())
+    }
+}
+
+/// The load cases of one load spectrum or of a list of load spectra.
+fn load_cases<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Node>, D::Error> {
+    deserializer.deserialize_any(LoadCases)
 }
 
 #[derive(Deserialize)]
 struct Spectrum {
     #[serde(default)]
-    load_cases: Vec<LoadCase>,
+    load_cases: Vec<Node>,
 }
 
-fn load_cases<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<LoadCase>, D::Error> {
-    let spectra: Vec<Spectrum> = one_or_list(deserializer)?;
-    let cases = spectra.into_iter().flat_map(|spectrum| spectrum.load_cases);
-    Ok(cases.collect())
-}
+struct LoadCases;
 
-/// The entries of an id in a list that is sorted by id.
-fn of_id<'a, T>(sorted: &'a [T], id: impl Fn(&T) -> &'a str, wanted: &str) -> &'a [T] {
-    let start = sorted.partition_point(|entry| id(entry) < wanted);
-    let end = sorted.partition_point(|entry| id(entry) <= wanted);
-    &sorted[start..end]
-}
+impl<'de> Visitor<'de> for LoadCases {
+    type Value = Vec<Node>;
 
-impl Model {
-    /// The model with its index. Refuses a model beyond the limits, and an id of two components.
-    pub(super) fn indexed(mut self) -> Result<Model, Refusal> {
-        self.check_limits()?;
-        let mut components: Vec<usize> = (0..self.components.len()).collect();
-        components.sort_unstable_by_key(|&at| self.components[at].id.as_str());
-        let mut pairs = components.windows(2);
-        let id = |at: usize| &self.components[at].id;
-        if let Some(pair) = pairs.find(|pair| id(pair[0]) == id(pair[1])) {
-            return Err(Refusal::new(
-                format!("two components have the id {:?}", id(pair[0])),
-                "correct the model, in which each component has its own id",
-            ));
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("an object or a list of objects")
+    }
+
+    fn visit_unit<E>(self) -> Result<Vec<Node>, E> {
+        Ok(Vec::new())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Node>, A::Error> {
+        let mut cases = Vec::new();
+        while let Some(spectrum) = list.next_element::<Spectrum>()? {
+            cases.extend(spectrum.load_cases);
         }
-        let refs = self.relations.iter().map(|relation| relation.refs.len());
-        let mut refs = places(refs);
-        refs.sort_unstable_by_key(|&place| (self.id_of_ref(place), place));
-        refs.dedup_by_key(|&mut place| (place.0, self.id_of_ref(place)));
-        let groups = refs.chunk_by(|&a, &b| self.id_of_ref(a) == self.id_of_ref(b));
-        let most = groups.map(<[_]>::len).max().unwrap_or_default();
-        within(most, MOST_OF_COMPONENT, "relations of one component")?;
-        let loads = self.load_cases.iter().map(|case| case.components.len());
-        let mut loads = places(loads);
-        loads.sort_unstable_by_key(|&place| (self.id_of_load(place), place));
-        let groups = loads.chunk_by(|&a, &b| self.id_of_load(a) == self.id_of_load(b));
-        let most = groups.map(<[_]>::len).max().unwrap_or_default();
-        within(most, MOST_OF_COMPONENT, "load cases of one component")?;
-        self.index = Index { components, refs, loads };
-        Ok(self)
+        Ok(cases)
     }
 
-    fn check_limits(&self) -> Result<(), Refusal> {
-        within(self.components.len(), MOST_COMPONENTS, "components")?;
-        let stages = self.stages().count();
-        within(stages, MOST_STAGES, "stages")?;
-        let refs = self.relations.iter().map(|relation| relation.refs.len());
-        within(refs.clone().sum(), MOST_REFS, "references of relations")?;
-        let refs = refs.max().unwrap_or_default();
-        within(refs, MOST_REFS_OF_RELATION, "references of one relation")?;
-        let loads = self.load_cases.iter().flat_map(|case| &case.components);
-        within(loads.clone().count(), MOST_COMPONENTS, "loaded components")?;
-        let components = || self.components.iter().chain(loads.clone());
-        let attributes = components().map(|component| component.attributes.len());
-        let attributes = attributes.max().unwrap_or_default();
-        within(attributes, MOST_OF_COMPONENT, "attributes of one component")?;
-        let of_components = components().flat_map(|component| {
-            let attributes = component.attributes.iter();
-            let of_attributes = attributes.flat_map(|attribute| [&attribute.id, &attribute.unit]);
-            of_attributes.chain([&component.id, &component.kind, &component.name])
-        });
-        let of_refs = self.relations.iter().flat_map(|relation| &relation.refs);
-        let names = of_components
-            .chain(of_refs.flat_map(|one| [&one.id, &one.role]))
-            .chain(self.load_cases.iter().map(|case| &case.id))
-            .chain([&self.version, &self.application, &self.application_version]);
-        let longest = names.map(String::len).max().unwrap_or_default();
-        within(longest, MOST_NAME, "bytes in a name")
+    fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Vec<Node>, A::Error> {
+        Spectrum::deserialize(MapAccessDeserializer::new(object)).map(|only| only.load_cases)
     }
-
-    fn id_of_ref(&self, (relation, at): (usize, usize)) -> &str {
-        &self.relations[relation].refs[at].id
-    }
-
-    fn id_of_load(&self, (case, at): (usize, usize)) -> &str {
-        &self.load_cases[case].components[at].id
-    }
-
-    pub(super) fn stages(&self) -> impl Iterator<Item = &Component> {
-        let components = self.components.iter();
-        components.filter(|component| component.kind.ends_with("_stage"))
-    }
-
-    pub(super) fn component(&self, id: &str) -> Option<&Component> {
-        let found = of_id(&self.index.components, |&at| self.components[at].id.as_str(), id);
-        found.first().map(|&at| &self.components[at])
-    }
-
-    /// The relations of a component.
-    pub(super) fn relations_of(&self, id: &str) -> impl Iterator<Item = &Relation> + use<'_> {
-        let found = of_id(&self.index.refs, |&place| self.id_of_ref(place), id);
-        found.iter().map(|&(relation, _)| &self.relations[relation])
-    }
-
-    /// The load cases of a component, each with its attributes.
-    pub(super) fn loads_of(
-        &self,
-        id: &str,
-    ) -> impl Iterator<Item = (&LoadCase, &[Attribute])> + use<'_> {
-        let found = of_id(&self.index.loads, |&place| self.id_of_load(place), id);
-        found.iter().map(|&(case, at)| {
-            let case = &self.load_cases[case];
-            (case, case.components[at].attributes.as_slice())
-        })
-    }
-
-    /// The components with the role `other` in the relations of this type in which the component
-    /// `id` has the role `role`.
-    pub(super) fn related<'a>(
-        &'a self,
-        kind: &'a str,
-        (role, id): (&'a str, &'a str),
-        other: &'a str,
-    ) -> impl Iterator<Item = &'a Component> {
-        self.relations_of(id)
-            .filter(move |relation| relation.kind == kind && relation.role(role) == Some(id))
-            .filter_map(move |relation| self.component(relation.role(other)?))
-    }
-
-    /// The components of a type that share any relation with this component.
-    pub(super) fn linked<'a>(
-        &'a self,
-        id: &'a str,
-        kind: &'a str,
-    ) -> impl Iterator<Item = &'a Component> {
-        self.relations_of(id)
-            .flat_map(|relation| &relation.refs)
-            .filter(move |other| other.id != id)
-            .filter_map(|other| self.component(&other.id))
-            .filter(move |component| component.kind == kind)
-    }
-}
-
-/// Each entry of several lists by its list and its position there.
-fn places(lengths: impl Iterator<Item = usize>) -> Vec<(usize, usize)> {
-    let lists = lengths.enumerate();
-    lists.flat_map(|(list, length)| (0..length).map(move |at| (list, at))).collect()
-}
-
-impl Relation {
-    /// The id of the component in a role.
-    pub(super) fn role(&self, role: &str) -> Option<&str> {
-        let found = self.refs.iter().find(|own| own.role == role);
-        found.map(|own| own.id.as_str())
-    }
-}
-
-impl Component {
-    pub(super) fn attribute(&self, id: &str) -> Option<&Attribute> {
-        find(&self.attributes, id)
-    }
-
-    /// Every attribute of this id with a value. A valid model has one.
-    pub(super) fn given<'a>(&'a self, id: &'a str) -> impl Iterator<Item = &'a Attribute> {
-        self.attributes
-            .iter()
-            .filter(move |attribute| attribute.id == id && !attribute.value.is_empty())
-    }
-
-    /// Whether a boolean is given and true.
-    pub(super) fn is_true(&self, id: &str) -> bool {
-        let value = self.attribute(id).map(|attribute| attribute.value.as_str());
-        matches!(value, Some("true" | "1"))
-    }
-
-    /// The label in messages, such as `cylindrical_gear 23 "pinion"`.
-    pub(super) fn label(&self) -> String {
-        if self.name.is_empty() {
-            format!("{} {}", self.kind, self.id)
-        } else {
-            format!("{} {} {:?}", self.kind, self.id, self.name)
-        }
-    }
-}
-
-/// An attribute with a value.
-pub(super) fn find<'a>(attributes: &'a [Attribute], id: &str) -> Option<&'a Attribute> {
-    attributes.iter().find(|attribute| attribute.id == id && !attribute.value.is_empty())
 }

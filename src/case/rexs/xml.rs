@@ -5,28 +5,45 @@ use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::{BytesRef, BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
-use super::model::{Attribute, Component, LoadCase, MOST_ENTRIES, Model, Ref, Relation};
-use super::refusal::{Refusal, within};
+use super::model::{MOST_ENTRIES, Model, Node};
+use super::{Refusal, within};
 
 /// Greatest number of elements and references, which need time but no memory.
 const MOST_ELEMENTS: usize = 2_000_000;
 const MOST_DEPTH: usize = 100;
 const MOST_XML_ATTRIBUTES: usize = 100;
 
+/// The known elements, each below its parent. Other elements are skipped.
+const ELEMENTS: [(&str, &str); 10] = [
+    (ROOT, "model"),
+    ("model", "components"),
+    ("model", "relations"),
+    ("model", "load_spectrum"),
+    ("components", "component"),
+    ("relations", "relation"),
+    ("load_spectrum", "load_case"),
+    ("load_case", "component"),
+    ("component", "attribute"),
+    ("relation", "ref"),
+];
+/// The parent of the root element.
+const ROOT: &str = "/";
+
 pub(super) fn parse(text: &str) -> Result<Model, Refusal> {
     let mut reader = Reader::from_str(text);
     let mut state = State::default();
     loop {
         let start = reader.buffer_position();
-        let is_done = match reader.read_event() {
-            Ok(Event::Eof) => state.end().map(|()| true),
-            Ok(event) => state.read(&event).map(|()| false),
-            Err(error) => Err(malformed(&error)),
-        };
-        match is_done {
+        let event = reader.read_event().map_err(|error| malformed(&error));
+        match event.and_then(|event| state.read(&event)) {
             Ok(true) => return Ok(state.model),
             Ok(false) => {}
-            Err(refusal) => return Err(placed(refusal, text, start)),
+            Err(refusal) => {
+                let before = usize::try_from(start).ok().and_then(|at| text.get(..at));
+                let before = before.unwrap_or(text);
+                let line = before.rsplit('\n').next().unwrap_or_default();
+                return Err(refusal.at(before.matches('\n').count() + 1, line.chars().count() + 1));
+            }
         }
     }
 }
@@ -35,175 +52,130 @@ fn malformed(cause: &dyn std::fmt::Display) -> Refusal {
     Refusal::new(format!("this is not XML: {cause}"), "export the model again")
 }
 
-fn placed(refusal: Refusal, text: &str, start: u64) -> Refusal {
-    let before = usize::try_from(start).ok().and_then(|at| text.get(..at));
-    let before = before.unwrap_or(text);
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    refusal.at(before.matches('\n').count() + 1, line.chars().count() + 1)
-}
-
 /// The model up to the current event.
 #[derive(Default)]
 struct State {
     model: Model,
-    /// The names of the open elements, empty for unknown names.
-    path: Vec<&'static str>,
-    /// The open attribute while it can be scalar.
-    attribute: Option<Attribute>,
+    /// The open elements by name, empty for unknown elements. An attribute has a node while it can
+    /// be scalar.
+    open: Vec<(&'static str, Option<Node>)>,
+    /// The text of the open attribute.
+    text: String,
     entries: usize,
     elements: usize,
     has_root: bool,
 }
 
-const NAMES: [&str; 9] = [
-    "model",
-    "components",
-    "component",
-    "attribute",
-    "relations",
-    "relation",
-    "ref",
-    "load_spectrum",
-    "load_case",
-];
-
 impl State {
-    fn read(&mut self, event: &Event) -> Result<(), Refusal> {
+    /// Whether the text ends with this event.
+    fn read(&mut self, event: &Event) -> Result<bool, Refusal> {
         if matches!(event, Event::Start(_) | Event::Empty(_) | Event::GeneralRef(_)) {
             self.elements += 1;
             within(self.elements, MOST_ELEMENTS, "elements and references")?;
         }
         match event {
-            Event::Start(element) => self.open(element),
+            Event::Start(element) => self.open(element)?,
             Event::Empty(element) => {
                 self.open(element)?;
-                self.close();
-                Ok(())
+                self.close()?;
             }
-            Event::End(_) => {
-                self.close();
-                Ok(())
+            Event::End(_) => self.close()?,
+            Event::Text(text) => self.add(text)?,
+            Event::CData(text) => self.add(text)?,
+            Event::GeneralRef(reference) => self.add(&referenced(reference)?)?,
+            Event::DocType(_) => {
+                return Err(Refusal::new(
+                    "the file declares a document type, which may hide entities",
+                    "remove the <!DOCTYPE ...> part",
+                ));
             }
-            Event::Text(text) => self.add(text),
-            Event::CData(text) => self.add(text),
-            Event::GeneralRef(reference) => self.add(&referenced(reference)?),
-            Event::DocType(_) => Err(Refusal::new(
-                "the file declares a document type, which may hide entities",
-                "remove the <!DOCTYPE ...> part",
-            )),
-            Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::Eof => Ok(()),
+            Event::Eof if self.has_root && self.open.is_empty() => return Ok(true),
+            Event::Eof => return Err(malformed(&"the text ends before its last element")),
+            Event::Comment(_) | Event::Decl(_) | Event::PI(_) => {}
         }
-    }
-
-    fn end(&self) -> Result<(), Refusal> {
-        if self.has_root && self.path.is_empty() {
-            return Ok(());
-        }
-        Err(malformed(&"the text ends before its last element"))
+        Ok(false)
     }
 
     fn open(&mut self, element: &BytesStart) -> Result<(), Refusal> {
-        let name = element.local_name();
-        let known = NAMES.iter().find(|known| **known == name.as_ref());
-        if self.path.is_empty() {
+        let parent = self.open.last().map_or(ROOT, |(parent, _)| parent);
+        let own = element.local_name();
+        let known = ELEMENTS.iter().find(|(above, name)| *above == parent && *name == own.as_ref());
+        let name = known.map_or("", |(_, name)| name);
+        if parent == ROOT {
             if self.has_root {
                 return Err(malformed(&"it has two root elements"));
             }
-            if known != Some(&"model") {
+            if name.is_empty() {
                 return Err(Refusal::new(
-                    format!("the root element is {:?}", name.as_ref()),
+                    format!("the root element is {:?}", own.as_ref()),
                     "choose a REXS model, whose root element is \"model\"",
                 ));
             }
             self.has_root = true;
         }
-        self.path.push(known.unwrap_or(&""));
-        within(self.path.len(), MOST_DEPTH, "nested elements")?;
+        if let Some((_, node)) = self.open.last_mut().filter(|(parent, _)| *parent == "attribute") {
+            *node = None;
+        }
+        within(self.open.len() + 1, MOST_DEPTH, "nested elements")?;
         let mut count = 0;
         for attribute in element.attributes().with_checks(false) {
             attribute.map_err(|error| malformed(&error))?;
             count += 1;
             within(count, MOST_XML_ATTRIBUTES, "attributes in one element")?;
         }
-        if known.is_none() {
-            self.attribute = None;
-            return Ok(());
-        }
+        self.text.clear();
         let text = |name| attribute(element, name);
-        let component = || {
-            Ok(Component {
+        let node = match name {
+            "model" => {
+                self.model.version = text("version")?;
+                self.model.application = text("applicationId")?;
+                self.model.application_version = text("applicationVersion")?;
+                None
+            }
+            "" | "components" | "relations" | "load_spectrum" => None,
+            _ => Some(Node {
                 id: text("id")?,
                 kind: text("type")?,
                 name: text("name")?,
-                attributes: Vec::new(),
-            })
+                role: text("role")?,
+                unit: text("unit")?,
+                ..Node::default()
+            }),
         };
-        let model = &mut self.model;
-        match *self.path {
-            ["model"] => {
-                model.version = text("version")?;
-                model.application = text("applicationId")?;
-                model.application_version = text("applicationVersion")?;
-            }
-            ["model", "components", "component"] => model.components.push(component()?),
-            ["model", "relations", "relation"] => {
-                model.relations.push(Relation { kind: text("type")?, refs: Vec::new() });
-            }
-            ["model", "relations", "relation", "ref"] => {
-                if let Some(relation) = model.relations.last_mut() {
-                    let (role, id) = (text("role")?, text("id")?);
-                    relation.refs.push(Ref { role, id });
-                }
-            }
-            ["model", "load_spectrum", "load_case"] => {
-                model.load_cases.push(LoadCase { id: text("id")?, components: Vec::new() });
-            }
-            ["model", "load_spectrum", "load_case", "component"] => {
-                if let Some(case) = model.load_cases.last_mut() {
-                    case.components.push(component()?);
-                }
-            }
-            ["model", "components", "component", "attribute"]
-            | ["model", "load_spectrum", "load_case", "component", "attribute"] => {
-                self.attribute =
-                    Some(Attribute { id: text("id")?, unit: text("unit")?, value: String::new() });
-                return Ok(());
-            }
-            _ => {
-                self.attribute = None;
+        self.open.push((name, node));
+        Ok(())
+    }
+
+    fn close(&mut self) -> Result<(), Refusal> {
+        let Some((name, Some(mut node))) = self.open.pop() else {
+            return Ok(());
+        };
+        if name == "attribute" {
+            node.value = self.text.trim().into();
+            if node.value.is_empty() {
                 return Ok(());
             }
         }
+        let nodes = match self.open.last_mut() {
+            Some((_, Some(parent))) => &mut parent.nodes,
+            Some(("components", _)) => &mut self.model.components,
+            Some(("relations", _)) => &mut self.model.relations,
+            _ => &mut self.model.load_cases,
+        };
+        nodes.push(node);
         self.entries += 1;
         within(self.entries, MOST_ENTRIES, "entries")
     }
 
-    fn close(&mut self) {
-        self.path.pop();
-        let Some(mut attribute) = self.attribute.take() else {
-            return;
-        };
-        let component = if let ["model", "components", ..] = *self.path {
-            self.model.components.last_mut()
-        } else {
-            let case = self.model.load_cases.last_mut();
-            case.and_then(|case| case.components.last_mut())
-        };
-        attribute.value = attribute.value.trim().into();
-        if let Some(component) = component.filter(|_| !attribute.value.is_empty()) {
-            component.attributes.push(attribute);
-            self.entries += 1;
-        }
-    }
-
     fn add(&mut self, text: &str) -> Result<(), Refusal> {
-        if self.path.is_empty() && !text.trim().is_empty() {
-            return Err(malformed(&"it has text outside its root element"));
+        match self.open.last_mut() {
+            None if !text.trim().is_empty() => {
+                return Err(malformed(&"it has text outside its root element"));
+            }
+            Some(("attribute", Some(_))) => self.text.push_str(text),
+            _ => {}
         }
-        if let Some(attribute) = &mut self.attribute {
-            attribute.value.push_str(text);
-        }
-        within(self.entries, MOST_ENTRIES, "entries")
+        Ok(())
     }
 }
 
@@ -217,13 +189,12 @@ fn referenced(reference: &BytesRef) -> Result<String, Refusal> {
 }
 
 /// An attribute of an element, empty if it is not given.
-fn attribute(element: &BytesStart, name: &str) -> Result<String, Refusal> {
+fn attribute(element: &BytesStart, name: &str) -> Result<Box<str>, Refusal> {
     let mut given = element.attributes();
     let mut given = given.with_checks(false).filter_map(Result::ok);
     let Some(found) = given.find(|given| given.key.as_ref() == name) else {
-        return Ok(String::new());
+        return Ok("".into());
     };
     let value = found.normalized_value(XmlVersion::Implicit1_0);
-    let value = value.map_err(|error| malformed(&error))?;
-    Ok(value.trim().to_owned())
+    Ok(value.map_err(|error| malformed(&error))?.trim().into())
 }
