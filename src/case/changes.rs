@@ -1,11 +1,13 @@
 //! Differences between two cases, field by field, and their application to a case.
 
+use serde::{Deserialize, Serialize};
+
 use super::fields::{self, FIELDS};
 use super::{Case, Override, Problem, Spread, Variant, spread, variant};
 use crate::model::Quantity;
 
 /// A text that differs between two cases.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Change {
     /// The field's key, or `limits.…`, `spread."…"` or `variants.…`.
     pub key: String,
@@ -89,11 +91,9 @@ impl Case {
             return Ok(());
         }
         let (shape, width) = text.split_once(' ').unwrap_or((text, ""));
-        let new = Spread::new(field, shape, width)?;
-        match self.spread.iter_mut().find(|held| held.field == new.field) {
-            Some(held) => *held = new,
-            None => self.spread.push(new),
-        }
+        super::keep(&mut self.spread, Spread::new(field, shape, width)?, |held| {
+            held.field == field
+        });
         Ok(())
     }
 }

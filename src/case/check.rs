@@ -281,10 +281,7 @@ pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
 
 /// Checks the rules between fields. Skips a rule if one of its fields is invalid.
 fn together(inputs: &Inputs, sound: impl Fn(&[&str]) -> bool) -> Vec<Problem> {
-    let mut found = Vec::new();
-    for circles in &OF_GEARS {
-        found.extend(circles.misfits(inputs, &sound));
-    }
+    let mut found = circles(inputs, &sound);
     if sound(&["driver.teeth", "driven.teeth"]) {
         found.extend(ratio_beyond(inputs));
     }
@@ -307,135 +304,103 @@ fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
     })
 }
 
-const COEFFICIENT_DIGITS: usize = 4;
-
-/// The keys of the fields that determine the circles of one gear.
-struct CircleFields {
-    gear: fn(&Inputs) -> &Gear,
-    bore_radius: &'static str,
-    dedendum: &'static str,
-    /// Keys of the fields that determine the reference circle.
-    reference: &'static [&'static str],
-    heights: [Height; 2],
-}
-
-/// A diameter that replaces a coefficient of the rack.
+/// A diameter that can replace a coefficient of the rack.
 struct Height {
-    diameter_key: &'static str,
-    coefficient_key: &'static str,
-    name: &'static str,
-    diameter: fn(&Gear) -> Option<f64>,
-    /// The coefficient for a module in m.
-    coefficient: fn(&Gear, f64) -> f64,
+    /// The index of the field of the coefficient.
+    coefficient: usize,
+    /// The index of the field of the diameter.
+    diameter: usize,
+    given: Option<f64>,
+    /// The coefficient that the diameter gives, for a module in m.
+    value: fn(&Gear, f64) -> f64,
     /// 1 if the diameter grows with the coefficient, otherwise -1.
     sign: f64,
 }
 
-macro_rules! circle_fields {
-    ($gear:ident) => {
-        CircleFields {
-            gear: |inputs| &inputs.$gear,
-            bore_radius: concat!(stringify!($gear), ".bore_radius"),
-            dedendum: concat!(stringify!($gear), ".dedendum"),
-            reference: &[
-                "pair.module",
-                "pair.diametral_pitch",
-                concat!(stringify!($gear), ".teeth"),
-                concat!(stringify!($gear), ".profile_shift"),
-            ],
-            heights: [
-                Height {
-                    diameter_key: concat!(stringify!($gear), ".tip_diameter"),
-                    coefficient_key: concat!(stringify!($gear), ".addendum"),
-                    name: "addendum",
-                    diameter: |gear| gear.tip_diameter,
-                    coefficient: Gear::addendum_coefficient,
-                    sign: 1.0,
-                },
-                Height {
-                    diameter_key: concat!(stringify!($gear), ".root_diameter"),
-                    coefficient_key: concat!(stringify!($gear), ".dedendum"),
-                    name: "dedendum",
-                    diameter: |gear| gear.root_diameter,
-                    coefficient: Gear::dedendum_coefficient,
-                    sign: -1.0,
-                },
-            ],
-        }
-    };
-}
-
-static OF_GEARS: [CircleFields; 2] = [circle_fields!(driver), circle_fields!(driven)];
-
-impl Problem {
-    /// The problem at the diameter if the inputs give the diameter instead of the coefficient.
-    #[must_use]
-    pub fn at_given_diameter(mut self, inputs: &Inputs) -> Problem {
-        let heights = OF_GEARS.iter().flat_map(|fields| {
-            let gear = (fields.gear)(inputs);
-            fields.heights.iter().map(move |height| (gear, height))
-        });
-        let mut given = heights.filter(|(gear, height)| {
-            height.coefficient_key == self.field && (height.diameter)(gear).is_some()
-        });
-        if let Some((_, height)) = given.next() {
-            height.diameter_key.clone_into(&mut self.field);
-        }
-        self
-    }
-}
-
-impl CircleFields {
-    /// The problems of the circles. Skips rules with invalid fields.
-    fn misfits(&self, inputs: &Inputs, sound: &impl Fn(&[&str]) -> bool) -> Vec<Problem> {
-        if !sound(self.reference) {
-            return Vec::new();
-        }
-        let gear = (self.gear)(inputs);
-        let heights = self.heights.iter();
-        let mut found: Vec<Problem> = heights
-            .filter(|height| sound(&[height.diameter_key]))
-            .filter_map(|height| height.outside_range(gear, inputs.module))
-            .collect();
-        let [_, root] = &self.heights;
-        let is_root_sound = found.iter().all(|problem| problem.field != root.diameter_key);
-        if is_root_sound && sound(&[self.bore_radius, self.dedendum, root.diameter_key]) {
-            found.extend(bore_through_root(self.bore_radius, gear, inputs.module));
-        }
-        found
-    }
-}
+/// The fields of the coefficients and the diameters that replace them.
+static HEIGHTS: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
+    let keys = ["driver.addendum", "driver.dedendum", "driven.addendum", "driven.dedendum"];
+    let fields = keys.into_iter().filter_map(index_of);
+    fields.filter_map(|field| Some((field, FIELDS[field].partner()?))).collect()
+});
 
 impl Height {
+    /// The heights of both gears, tip before root.
+    fn all(inputs: &Inputs) -> impl Iterator<Item = (&Gear, Height)> {
+        let heights = [&inputs.driver, &inputs.driven].into_iter().flat_map(|gear| {
+            let tip = (gear.tip_diameter, Gear::addendum_coefficient as fn(&_, _) -> _, 1.0);
+            let root = (gear.root_diameter, Gear::dedendum_coefficient as _, -1.0);
+            [(gear, tip), (gear, root)]
+        });
+        HEIGHTS.iter().zip(heights).map(|(&(coefficient, diameter), (gear, height))| {
+            let (given, value, sign) = height;
+            (gear, Height { coefficient, diameter, given, value, sign })
+        })
+    }
+
     /// A diameter whose coefficient is outside the range of the field that it replaces.
     fn outside_range(&self, gear: &Gear, module: f64) -> Option<Problem> {
         /// A diameter at an end of the range has the end as its coefficient except for rounding.
         const SLACK: f64 = 1e-9;
-        let diameter = (self.diameter)(gear)?;
-        let coefficient = (self.coefficient)(gear, module);
-        let (from, to) = field_range(index_of(self.coefficient_key)?);
-        let (side, limit) = if coefficient < from - SLACK {
-            ("below", from)
-        } else if coefficient > to + SLACK {
-            ("above", to)
-        } else {
-            return None;
+        const DIGITS: usize = 4;
+        let value = (self.value)(gear, module);
+        let (from, to) = field_range(self.coefficient);
+        let (side, limit) = match value {
+            _ if value < from - SLACK => ("below", from),
+            _ if value > to + SLACK => ("above", to),
+            _ => return None,
         };
         let cause = format!(
             "{} mm gives the {} coefficient {}, {side} the limit of {limit}",
-            in_mm(diameter),
-            self.name,
-            significant(coefficient, COEFFICIENT_DIGITS),
+            in_mm(self.given?),
+            FIELDS[self.coefficient].label,
+            significant(value, DIGITS),
         );
         let shifted = f64::from(gear.teeth) + 2.0 * gear.profile_shift;
         let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * self.sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
-        Some(Problem::new(self.diameter_key, cause, fix))
+        Some(Problem::new(FIELDS[self.diameter].key, cause, fix))
     }
 }
 
-fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
+impl Problem {
+    /// The problem at the diameter if the inputs give the diameter instead of the coefficient.
+    #[must_use]
+    pub fn at_given_diameter(mut self, inputs: &Inputs) -> Problem {
+        let is_it = |height: &Height| {
+            FIELDS[height.coefficient].key == self.field && height.given.is_some()
+        };
+        if let Some((_, height)) = Height::all(inputs).find(|(_, height)| is_it(height)) {
+            FIELDS[height.diameter].key.clone_into(&mut self.field);
+        }
+        self
+    }
+}
+
+/// The problems of the circles of both gears. Skips rules with invalid fields.
+fn circles(inputs: &Inputs, sound: &impl Fn(&[&str]) -> bool) -> Vec<Problem> {
+    let mut found: Vec<Problem> = Vec::new();
+    for (gear, height) in Height::all(inputs) {
+        let (diameter, coefficient) = (&FIELDS[height.diameter], &FIELDS[height.coefficient]);
+        let of_gear = |name: &str| format!("{}.{name}", diameter.table());
+        let is_sound = |other: &str| {
+            let size = ["pair.module", "pair.diametral_pitch", diameter.key, other];
+            sound(&size) && sound(&[&of_gear("teeth"), &of_gear("profile_shift")])
+        };
+        let outside = height.outside_range(gear, inputs.module);
+        let outside = outside.filter(|_| is_sound(diameter.key));
+        if outside.is_none() && height.sign < 0.0 {
+            let bore = bore_through_root(diameter.table(), gear, inputs.module);
+            let is_sound = |bore: &Problem| is_sound(&bore.field) && sound(&[coefficient.key]);
+            found.extend(bore.filter(is_sound));
+        }
+        found.extend(outside);
+    }
+    found
+}
+
+fn bore_through_root(table: &str, gear: &Gear, module: f64) -> Option<Problem> {
     let dedendum = gear.dedendum_coefficient(module);
     let root = module * (f64::from(gear.teeth) / 2.0 - dedendum + gear.profile_shift);
     (gear.bore_radius >= root).then(|| {
@@ -443,7 +408,11 @@ fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
         let cause = format!(
             "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
         );
-        Problem::new(field, cause, format!("write a radius (not a diameter) below {root} mm"))
+        Problem::new(
+            &format!("{table}.bore_radius"),
+            cause,
+            format!("write a radius (not a diameter) below {root} mm"),
+        )
     })
 }
 

@@ -1,8 +1,7 @@
 //! Solves pairs one after the other and reuses the results of the previous pair.
 
 use crate::model::inputs::Method;
-use crate::model::request::Earlier;
-use crate::model::solve::{Change, Setup, solve_after, solve_repeated};
+use crate::model::solve::{Earlier, differ_in_load_alone, solve_after};
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// The last solve by each method.
@@ -15,19 +14,6 @@ pub struct Evaluator {
 struct Solved {
     inputs: Inputs,
     solution: Solution,
-    /// Precomputed values for solves that differ only in load and deviations.
-    setup: Option<Setup>,
-}
-
-/// A point of a study.
-#[derive(Clone, Copy)]
-pub struct Point<'a> {
-    /// The pair.
-    pub inputs: &'a Inputs,
-    /// The wanted stages, the same at every point.
-    pub wanted: Stages,
-    /// Whether all points of the study differ only in load and deviations.
-    pub differs_in_load_alone: bool,
 }
 
 impl Evaluator {
@@ -69,51 +55,34 @@ impl Evaluator {
         let Some(at) = self.solved.iter().position(by) else {
             let solution = solve_after(inputs, wanted, None, go_on)?;
             let at = self.solved.len();
-            let inputs = inputs.clone();
-            let setup = None;
-            self.solved.push(Solved { inputs, solution, setup });
+            self.solved.push(Solved { inputs: inputs.clone(), solution });
             return Ok(&self.solved[at].solution);
         };
         let solved = &mut self.solved[at];
         let earlier = Earlier { inputs: &solved.inputs, solution: &solved.solution };
         solved.solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
         solved.inputs.clone_from(inputs);
-        solved.setup = None;
         Ok(&solved.solution)
     }
 
-    /// Solves the next point of a study. If only load and deviations differ from the last point and
-    /// the wanted stages have a closed form, all stages run in place. Otherwise `check` first
-    /// checks the values that such points share with the last point.
+    /// Solves the next point of a study. `check` first checks the values of the point, unless they
+    /// differ from those of the last point only in load and deviations and the method has a closed
+    /// form.
     ///
     /// # Errors
     /// Those of [`solve_after`] and of `check`.
     pub fn solve_point<E: From<Refusal>>(
         &mut self,
-        point: &Point<'_>,
+        inputs: &Inputs,
+        wanted: Stages,
         check: impl FnOnce(&Inputs) -> Result<(), E>,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<&Solution, E> {
-        let Point { inputs, wanted, .. } = *point;
-        let by = |solved: &Solved| solved.inputs.method == inputs.method;
-        let repeated = self.solved.iter().position(by).and_then(|at| {
-            let Solved { inputs: before, solution, setup } = &mut self.solved[at];
-            let change =
-                if point.differs_in_load_alone { Change::LoadAlone } else { Change::Unknown };
-            let repeated = solve_repeated((before, change), solution, setup, inputs, wanted)?;
-            Some((at, repeated))
-        });
-        match repeated {
-            Some((at, Ok(()))) => Ok(&self.solved[at].solution),
-            Some((at, Err(refusal))) => {
-                self.solved.swap_remove(at);
-                Err(refusal.into())
-            }
-            None => {
-                check(inputs)?;
-                Ok(self.solve_kept(inputs, inputs.method, wanted, go_on)?)
-            }
+        let is_alike = |solved: &Solved| differ_in_load_alone(&solved.inputs, inputs);
+        if !Method::CLOSED_FORM.contains(&inputs.method) || !self.solved.iter().any(is_alike) {
+            check(inputs)?;
         }
+        Ok(self.solve_kept(inputs, inputs.method, wanted, go_on)?)
     }
 }
 
@@ -197,8 +166,8 @@ mod tests {
         let wanted = Stages::of(Stage::Dynamic);
         for speed in ["2000 rpm", "300 rpm", "9000 rpm"] {
             let inputs = at(speed);
-            let point = Point { inputs: &inputs, wanted, differs_in_load_alone: false };
-            let kept: Result<_, Refusal> = evaluator.solve_point(&point, |_| Ok(()), &|_| true);
+            let kept: Result<_, Refusal> =
+                evaluator.solve_point(&inputs, wanted, |_| Ok(()), &|_| true);
             let kept = kept.unwrap();
             assert_eq!(kept.ran.has(Stage::Mesh), speed == "2000 rpm");
             let fresh = solve(&inputs, wanted).unwrap();

@@ -204,6 +204,12 @@ impl Field {
         matches!(self.kind, Kind::Choice(names, _) if names == FLAG)
     }
 
+    /// Whether the value is one of several names.
+    #[must_use]
+    pub fn is_choice(&self) -> bool {
+        matches!(self.kind, Kind::Choice(..))
+    }
+
     /// Whether the word "auto" can replace the number.
     #[must_use]
     pub fn takes_auto(&self) -> bool {

@@ -1,31 +1,28 @@
 //! Reads and saves case files: a case together with its source text.
 
 mod comments;
-mod disk;
-mod edit;
-mod error;
-mod excerpt;
 mod fault;
 mod layout;
-mod places;
+mod read;
+mod save;
 mod syntax;
-mod target;
-mod template;
-mod tree;
-mod unknown;
-mod value;
+mod write;
 
-use std::path::PathBuf;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read};
+use std::path::{Path, PathBuf};
 
 use super::stamp::Stamp;
 use super::{Case, Problem};
+use crate::system::files;
 pub use comments::without_comments;
-pub use disk::{Saved, read_bytes};
-pub use error::{ReadError, SaveError};
 use fault::Lines;
-pub use fault::{Fault, FaultKind};
-use places::Places;
-pub use target::{Draft, followed, write};
+pub use fault::{Fault, FaultKind, ReadError, SaveError};
+use fault::{Found, shown};
+use layout::Layout;
+use read::Reading;
+use save::target_of;
+pub use save::{Draft, followed, write};
 
 /// The format of case files that this version reads and writes.
 pub const FORMAT: u32 = 1;
@@ -52,7 +49,7 @@ pub struct Document {
     stamp: Stamp,
     /// The case of the text.
     loaded: Case,
-    places: Places,
+    layout: Layout,
     /// Whether the text has a newer format, which this version reads only in part.
     is_newer: bool,
     /// The path of the file after resolution of links.
@@ -61,13 +58,23 @@ pub struct Document {
     mode: Option<u32>,
 }
 
+/// The effect of a save on the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Saved {
+    /// The file has the new text.
+    Written,
+    /// The file had been deleted, and the save created it again.
+    Recreated,
+}
+
 impl Document {
     /// Reads a complete case from its text. Each fault begins with `name`.
     ///
     /// # Errors
-    /// All faults of the text and all missing required values, sorted by place.
+    /// All faults of the text and all missing required values, sorted by place. A syntax error is
+    /// reported alone.
     pub fn parse(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
-        Document::parse_draft(name, text).and_then(Document::complete)
+        Document::parse_draft(name, text)?.complete()
     }
 
     /// Reads a case that can lack required values. [`Case::inputs`] names the missing values.
@@ -75,29 +82,7 @@ impl Document {
     /// # Errors
     /// All faults of the text, sorted by place.
     pub fn parse_draft(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
-        if text.len() > MOST_BYTES {
-            return Err(vec![fault::too_large(name)]);
-        }
-        let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-        let reading = tree::read(unmarked);
-        if !reading.is_draft() {
-            return Err(fault::placed(name, unmarked, reading.faults, reading.more));
-        }
-        let marked = unmarked.len() < text.len();
-        let (case, places) = (reading.case, reading.places);
-        let loaded = case.clone();
-        Ok(Document {
-            case,
-            name: name.to_owned(),
-            text: unmarked.to_owned(),
-            marked,
-            stamp: Stamp::of(text.as_bytes()),
-            loaded,
-            places,
-            is_newer: false,
-            origin: None,
-            mode: None,
-        })
+        Document::of(name, text.as_bytes(), false)
     }
 
     /// Reads a complete case from bytes that may not be text.
@@ -105,17 +90,41 @@ impl Document {
     /// # Errors
     /// As [`Document::parse`], and at the first byte that is not UTF-8.
     pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Document, Vec<Fault>> {
-        Document::parse_draft_bytes(name, bytes).and_then(Document::complete)
+        Document::of(name, bytes, false)?.complete()
     }
 
-    fn parse_draft_bytes(name: &str, bytes: &[u8]) -> Result<Document, Vec<Fault>> {
+    /// A draft, or the known part of a text of a newer format.
+    fn of(name: &str, bytes: &[u8], is_newer: bool) -> Result<Document, Vec<Fault>> {
         if bytes.len() > MOST_BYTES {
-            return Err(vec![fault::too_large(name)]);
+            let cause = format!("the text is longer than {} KiB", MOST_BYTES / 1024);
+            let fix = "name a case file; a case needs a few KiB";
+            return Err(vec![Fault::new(name, (1, 1), Problem::new("toml", cause, fix))]);
         }
-        match std::str::from_utf8(bytes) {
-            Ok(text) => Document::parse_draft(name, text),
-            Err(error) => Err(vec![fault::not_text(name, bytes, error.valid_up_to())]),
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let at = error.valid_up_to();
+            let byte = bytes.get(at).copied().unwrap_or_default();
+            let cause = format!("byte 0x{byte:02x} is not UTF-8 text");
+            let place = Lines::of(&String::from_utf8_lossy(&bytes[..at])).place(at);
+            vec![Fault::new(name, place, Problem::new("toml", cause, "save the file as UTF-8"))]
+        })?;
+        let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+        let reading = read::read(unmarked, is_newer);
+        if !is_newer && !reading.is_draft() {
+            return Err(Found::placed(name, unmarked, reading.faults, reading.more));
         }
+        let Reading { case, layout, .. } = reading;
+        Ok(Document {
+            loaded: case.clone(),
+            case,
+            name: name.to_owned(),
+            text: unmarked.to_owned(),
+            marked: unmarked.len() < text.len(),
+            stamp: Stamp::of(bytes),
+            layout,
+            is_newer,
+            origin: None,
+            mode: None,
+        })
     }
 
     fn complete(self) -> Result<Document, Vec<Fault>> {
@@ -123,33 +132,6 @@ impl Document {
             Ok(_) => Ok(self),
             Err(problems) => Err(self.faults(problems)),
         }
-    }
-
-    /// The part of a text of a newer format that this version can read.
-    fn parse_newer(name: &str, text: &str) -> Document {
-        let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-        let reading = tree::read_newer(unmarked);
-        let (loaded, name, marked) =
-            (reading.case.clone(), name.to_owned(), unmarked.len() < text.len());
-        let (case, places) = (reading.case, reading.places);
-        Document {
-            case,
-            name,
-            text: unmarked.to_owned(),
-            marked,
-            stamp: Stamp::of(text.as_bytes()),
-            loaded,
-            places,
-            is_newer: true,
-            origin: None,
-            mode: None,
-        }
-    }
-
-    /// Whether the text has a newer format, which this version reads only in part.
-    #[must_use]
-    pub fn is_newer(&self) -> bool {
-        self.is_newer
     }
 
     /// A document without a file: the case as commented text with every field.
@@ -161,17 +143,15 @@ impl Document {
     /// A document without a file, with additional comments at the named fields.
     #[must_use]
     pub fn commented(name: String, case: Case, comments: &[(&str, String)]) -> Document {
-        let text = template::text(&case, comments);
-        let places = tree::read(&text).places;
-        let loaded = case.clone();
+        let text = write::template(&case, comments);
         Document {
-            loaded,
+            loaded: case.clone(),
             case,
             name,
             stamp: Stamp::of(text.as_bytes()),
+            layout: Layout::of(&text),
             text,
             marked: false,
-            places,
             is_newer: false,
             origin: None,
             mode: None,
@@ -185,10 +165,78 @@ impl Document {
             .unwrap_or_else(|_| Document::new(Case::empty()))
     }
 
+    /// Reads a complete case from a file, or from standard input if the path is `-`.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or is not a valid case.
+    pub fn read(path: &Path) -> Result<Document, ReadError> {
+        Document::read_draft(path)?.complete().map_err(ReadError::Bad)
+    }
+
+    /// Reads a case that can lack required values from a file, or from standard input if the path
+    /// is `-`.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or has other faults.
+    pub fn read_draft(path: &Path) -> Result<Document, ReadError> {
+        Document::read_file(path, false)
+    }
+
+    /// Reads the known part of a file of a newer format, for viewing only.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or is not text.
+    pub fn read_newer(path: &Path) -> Result<Document, ReadError> {
+        Document::read_file(path, true)
+    }
+
+    fn read_file(path: &Path, is_newer: bool) -> Result<Document, ReadError> {
+        let name = shown(path);
+        let parse = |bytes: Vec<u8>| {
+            Document::of(&name, &bytes, is_newer).map_err(|mut faults| match &faults[..] {
+                [only] if only.kind == FaultKind::NewerFormat => {
+                    ReadError::NewerFormat(faults.remove(0))
+                }
+                _ => ReadError::Bad(faults),
+            })
+        };
+        if path == Path::new("-") {
+            return parse(read_bytes(path, MOST_BYTES)?);
+        }
+        let file = open(path, &name)?;
+        let mode = file.metadata().ok().and_then(|about| files::mode(&about));
+        let document = parse(limited(file, &name, MOST_BYTES)?)?;
+        Ok(Document { origin: followed(path).ok(), mode, ..document })
+    }
+
+    /// Whether the text has a newer format, which this version reads only in part.
+    #[must_use]
+    pub fn is_newer(&self) -> bool {
+        self.is_newer
+    }
+
     /// The file name of the document.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The file that the document was read from or saved to, after resolution of links.
+    #[must_use]
+    pub fn path(&self) -> Option<&Path> {
+        self.origin.as_deref()
+    }
+
+    /// The stamp of the text that was read or saved last.
+    #[must_use]
+    pub fn stamp(&self) -> Stamp {
+        self.stamp
+    }
+
+    /// The case of the text that was read or saved last.
+    #[must_use]
+    pub fn loaded(&self) -> &Case {
+        &self.loaded
     }
 
     /// Whether the case differs from the text that was read or saved last.
@@ -200,19 +248,22 @@ impl Document {
     /// The text to save: the original text with only the changed values replaced.
     #[must_use]
     pub fn render(&self) -> String {
-        let text = if self.is_changed() {
-            edit::render(&self.text, &self.loaded, &self.case)
+        if self.is_changed() {
+            self.with_mark(&write::render(&self.text, &self.loaded, &self.case))
         } else {
-            self.text.clone()
-        };
-        if self.marked { format!("{BYTE_ORDER_MARK}{text}") } else { text }
+            self.with_mark(&self.text)
+        }
+    }
+
+    fn with_mark(&self, text: &str) -> String {
+        if self.marked { format!("{BYTE_ORDER_MARK}{text}") } else { text.to_owned() }
     }
 
     /// Line and column, from 1, of a field's value. If the text does not have the field, the place
     /// of its table or the end.
     #[must_use]
     pub fn place(&self, key: &str) -> (usize, usize) {
-        Lines::of(&self.text).place(self.places.offset(key))
+        Lines::of(&self.text).place(self.layout.place(key))
     }
 
     /// A later problem, such as a refusal of the model, at its place in the file.
@@ -230,18 +281,99 @@ impl Document {
         faults
     }
 
-    /// Replaces the source by the saved text and the case by its content. The file does not keep
-    /// spaces around a number.
-    fn settle(&mut self, text: &str, name: String, origin: PathBuf) {
-        text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).clone_into(&mut self.text);
-        self.stamp = Stamp::of(text.as_bytes());
-        let reading = tree::read(&self.text);
+    /// Saves to a file. Fails if another file exists there or the file changed since it was read.
+    ///
+    /// # Errors
+    /// If nothing was saved. The file is then unchanged.
+    pub fn save(&mut self, path: &Path) -> Result<Saved, SaveError> {
+        self.write(path, false)
+    }
+
+    /// Saves to a file and replaces any content.
+    ///
+    /// # Errors
+    /// If nothing was saved. The file is then unchanged.
+    pub fn save_over(&mut self, path: &Path) -> Result<Saved, SaveError> {
+        self.write(path, true)
+    }
+
+    fn write(&mut self, path: &Path, over: bool) -> Result<Saved, SaveError> {
+        let name = shown(path);
+        if self.is_newer {
+            return Err(SaveError::NewerFormat(name));
+        }
+        let target = target_of(path)?;
+        if target.old.is_some() && !over {
+            self.same_as_read(&target.path, &name)?;
+        }
+        let is_own = self.origin.as_ref() == Some(&target.path)
+            || self.origin.is_some() && self.name == name;
+        let text = self.render();
+        let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&text);
+        let reading = read::read(unmarked, false);
+        if self.case.inputs().is_ok() && !write::are_same(&reading.case, &self.case) {
+            return Err(SaveError::OtherCase(name));
+        }
+        let mode = self.mode.filter(|_| is_own);
+        target.replace(text.as_bytes(), mode, path, false)?;
+        let is_recreated = is_own && target.old.is_none();
+        self.mode = fs::metadata(&target.path).ok().and_then(|about| files::mode(&about)).or(mode);
+        // The file does not keep spaces around a number.
         if reading.is_draft() {
             self.case = reading.case;
         }
-        self.loaded = self.case.clone();
-        self.places = reading.places;
-        self.name = name;
-        self.origin = Some(origin);
+        (self.loaded, self.layout) = (self.case.clone(), reading.layout);
+        (self.text, self.stamp) = (unmarked.to_owned(), Stamp::of(text.as_bytes()));
+        (self.name, self.origin) = (name, Some(target.path));
+        Ok(if is_recreated { Saved::Recreated } else { Saved::Written })
+    }
+
+    /// Compares the content, not the time stamp, because a touched file is unchanged.
+    fn same_as_read(&self, target: &Path, name: &str) -> Result<(), SaveError> {
+        if self.origin.as_deref() != Some(target) {
+            return Err(SaveError::AlreadyThere(name.to_owned()));
+        }
+        match open(target, name).and_then(|file| limited(file, name, MOST_BYTES)) {
+            Ok(bytes) if bytes == self.with_mark(&self.text).as_bytes() => Ok(()),
+            Err(ReadError::Unreadable(name, error)) => Err(SaveError::Unreadable(name, error)),
+            _ => Err(SaveError::ChangedOnDisk(name.to_owned())),
+        }
+    }
+}
+
+/// Opens a regular file. Checks the type before opening, because opening a pipe waits for a writer.
+fn open(path: &Path, name: &str) -> Result<File, ReadError> {
+    let failed = |error: io::Error| match error.kind() {
+        ErrorKind::NotFound => ReadError::NotFound(name.to_owned()),
+        _ => ReadError::Unreadable(name.to_owned(), error),
+    };
+    if !fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(ReadError::NotAFile(name.to_owned()));
+    }
+    File::open(path).map_err(failed)
+}
+
+/// The bytes of a regular file of at most `most` bytes, or of standard input if the path is `-`.
+///
+/// # Errors
+/// If the file cannot be read, or is too long.
+pub fn read_bytes(path: &Path, most: usize) -> Result<Vec<u8>, ReadError> {
+    let name = shown(path);
+    if path == Path::new("-") {
+        return limited(io::stdin().lock(), &name, most);
+    }
+    limited(open(path, &name)?, &name, most)
+}
+
+fn limited(source: impl Read, name: &str, most: usize) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::new();
+    source
+        .take(most as u64 + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| ReadError::Unreadable(name.to_owned(), error))?;
+    if bytes.len() > most {
+        Err(ReadError::TooLarge(name.to_owned(), most >> 10))
+    } else {
+        Ok(bytes)
     }
 }

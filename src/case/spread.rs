@@ -161,9 +161,12 @@ fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
     })
 }
 
+/// How the keys of distributions begin.
+pub(super) const PREFIX: &str = "spread.";
+
 /// The key of a distribution in messages.
 pub(super) fn place(key: &str) -> String {
-    format!("spread.\"{key}\"")
+    format!("{PREFIX}\"{key}\"")
 }
 
 fn named(place: &str, name: &str) -> Result<Shape, Problem> {

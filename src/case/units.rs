@@ -56,10 +56,7 @@ impl Dimension {
         if matches!(unit, "" | "1") {
             return Some(Dimension::Number);
         }
-        FAMILIES
-            .iter()
-            .find(|family| find(unit, family.units).is_some())
-            .map(|family| family.dimension)
+        known(unit).map(|(dimension, _)| dimension)
     }
 
     /// The name of a value with its article, such as "a length".
@@ -102,8 +99,7 @@ pub fn factor(unit: &str) -> Option<f64> {
     if matches!(unit, "" | "1") {
         return Some(1.0);
     }
-    let unit = FAMILIES.iter().find_map(|family| find(unit, family.units))?;
-    Some(match unit.scale {
+    Some(match known(unit)?.1.scale {
         Scale::Ten(exponent) if exponent < 0 => 1.0 / 10f64.powi(-exponent),
         Scale::Ten(exponent) => 10f64.powi(exponent),
         Scale::Times(factor, _) => factor,
@@ -145,20 +141,17 @@ pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Parse
 /// possible in this unit.
 #[must_use]
 pub fn text(value: f64, unit: &str) -> String {
-    let number =
-        match FAMILIES.iter().find_map(|family| find(unit, family.units)).map(|unit| unit.scale) {
-            None => plain(value, 0),
-            Some(Scale::Ten(exponent)) => plain(value, -exponent),
-            Some(Scale::Times(factor, rest)) => {
-                let near = plain(value / factor, 0);
-                (12..17)
-                    .map(|digits| format!("{:.digits$e}", value / factor))
-                    .find(|short| {
-                        times(shifted(short, 0), factor, rest).to_bits() == value.to_bits()
-                    })
-                    .map_or(near, |short| plain(shifted(&short, 0), 0))
-            }
-        };
+    let number = match known(unit).map(|(_, unit)| unit.scale) {
+        None => plain(value, 0),
+        Some(Scale::Ten(exponent)) => plain(value, -exponent),
+        Some(Scale::Times(factor, rest)) => {
+            let near = plain(value / factor, 0);
+            (12..17)
+                .map(|digits| format!("{:.digits$e}", value / factor))
+                .find(|short| times(shifted(short, 0), factor, rest).to_bits() == value.to_bits())
+                .map_or(near, |short| plain(shifted(&short, 0), 0))
+        }
+    };
     if matches!(unit, "" | "1") { number } else { format!("{number} {unit}") }
 }
 
@@ -179,6 +172,11 @@ fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
     let spelled =
         |text: &str| units.iter().find(|unit| unit.symbol == text || unit.aliases.contains(&text));
     spelled(unit).or_else(|| spelled(&plain_spelling(unit)))
+}
+
+/// A unit of any dimension.
+fn known(unit: &str) -> Option<(Dimension, &'static Unit)> {
+    FAMILIES.iter().find_map(|family| Some((family.dimension, find(unit, family.units)?)))
 }
 
 /// Normalizes spellings such as `N·m`, `N*m`, `N-m`; `kg/m³`, `kg / m^3`; `µm`, `μm`.
@@ -331,27 +329,21 @@ fn comma(text: &str) -> ParseError {
         .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-')))
         .unwrap_or(text.len());
     let written = &text[..length];
-    let point_last = written.rfind('.') > written.rfind(',');
-    let groups = written.contains('.') || written.matches(',').count() > 1;
-    if !groups && written.split(',').nth(1).is_some_and(|rest| rest.len() == 3) {
-        let (plain, point) = (written.replace(',', ""), written.replace(',', "."));
-        return ParseError::new(
-            "a comma inside a number",
-            format!("write {} or {}, not {}", cut(&plain), cut(&point), cut(written)),
-        );
-    }
-    if written.contains('.') && !point_last {
-        let meant = written.replace('.', "").replace(',', ".");
-        return ParseError::new(
-            "a comma inside a number",
-            format!("write {}, not {}", cut(&meant), cut(written)),
-        );
-    }
-    let meant = if groups { written.replace(',', "") } else { written.replace(',', ".") };
-    ParseError::new(
-        "a comma inside a number",
-        format!("write {}, not {}", cut(&meant), cut(written)),
-    )
+    let (without, with_point) = (written.replace(',', ""), written.replace(',', "."));
+    let has_groups = written.contains('.') || written.matches(',').count() > 1;
+    let meant = if written.rfind('.') > written.rfind(',') {
+        cut(&without)
+    } else if written.contains('.') {
+        cut(&written.replace('.', "").replace(',', "."))
+    } else if has_groups {
+        cut(&without)
+    } else if written.split(',').nth(1).is_some_and(|rest| rest.len() == 3) {
+        format!("{} or {}", cut(&without), cut(&with_point))
+    } else {
+        cut(&with_point)
+    };
+    let fix = format!("write {meant}, not {}", cut(written));
+    ParseError::new("a comma inside a number", fix)
 }
 
 fn example(usual: &str) -> String {
@@ -489,15 +481,8 @@ fn rest_of<'u>(spelling: &'u str, begun: &str) -> Option<&'u str> {
 
 /// Whether the text is only a number or the beginning of one, such as `-`, `0.` or `1e`.
 fn is_number_begun(text: &str) -> bool {
-    let digits = |text: &'_ str| text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let mantissa = &unsigned[unsigned.len() - digits(unsigned)..];
-    let after = mantissa
-        .strip_prefix('.')
-        .map_or(mantissa, |fraction| &fraction[fraction.len() - digits(fraction)..]);
-    let exponent = after.strip_prefix(['e', 'E']).filter(|_| after.len() < unsigned.len());
-    let power = exponent.map_or(after, |power| power.strip_prefix(['+', '-']).unwrap_or(power));
-    power.is_empty() || exponent.is_some() && digits(power) == 0
+    let continued = format!("{text}0");
+    number_length(&continued) == continued.len()
 }
 
 #[cfg(test)]

@@ -111,11 +111,8 @@ impl Case {
 
     /// Adds a variant to the case, or replaces the variant with the same name.
     pub fn keep_variant(&mut self, variant: Variant) {
-        let same = self.variants.iter_mut().find(|known| known.name == variant.name);
-        match same {
-            Some(known) => *known = variant,
-            None => self.variants.push(variant),
-        }
+        let name = variant.name.clone();
+        super::keep(&mut self.variants, variant, |known| known.name == name);
     }
 
     /// Writes or removes an override by its key after `variants.`, such as

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::{fields_of, is_read, stages_of, value_of};
 use crate::case::fields::{Kind, index_of};
 use crate::case::{Case, EXAMPLES, FIELDS};
+use crate::model::Earlier;
 use crate::model::inputs::{ContactCompliance, Method, ToothCompliance};
-use crate::model::request::Earlier;
 use crate::model::solve::solve_after;
 use crate::model::{self, Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 

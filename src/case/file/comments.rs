@@ -1,16 +1,18 @@
 //! Removes comments from a case file for a report.
 
-use std::ops::Range;
-
-use toml::de::{DeTable, DeValue};
-
+use super::layout::{Layout, Value};
 use crate::case::sanitize::sanitize;
 
 /// The file without comment lines, empty lines, and headers of empty tables. Keeps all lines of a
 /// multi-line string.
 #[must_use]
 pub fn without_comments(text: &str) -> String {
-    let strings = strings(text);
+    let layout = Layout::of(text);
+    let strings: Vec<_> = layout
+        .values()
+        .filter(|entry| matches!(entry.value, Value::String(_)))
+        .map(|entry| entry.span.clone())
+        .collect();
     let mut kept: Vec<(String, bool)> = Vec::new();
     let mut start = 0;
     for line in text.split_inclusive('\n') {
@@ -26,35 +28,6 @@ pub fn without_comments(text: &str) -> String {
     let said = (0..kept.len()).filter(|&at| !kept[at].1 || has_lines(at));
     let lines: Vec<&str> = said.map(|at| kept[at].0.as_str()).collect();
     lines.join("\n")
-}
-
-/// The places of the multi-line strings.
-fn strings(text: &str) -> Vec<Range<usize>> {
-    let mut found = Vec::new();
-    let (table, _) = DeTable::parse_recoverable(text);
-    for value in table.get_ref().values() {
-        add(value.get_ref(), value.span(), text, &mut found);
-    }
-    found
-}
-
-fn add(value: &DeValue, span: Range<usize>, text: &str, found: &mut Vec<Range<usize>>) {
-    match value {
-        DeValue::Table(table) => {
-            for value in table.values() {
-                add(value.get_ref(), value.span(), text, found);
-            }
-        }
-        DeValue::Array(values) => {
-            for value in values {
-                add(value.get_ref(), value.span(), text, found);
-            }
-        }
-        DeValue::String(_) if text.get(span.clone()).is_some_and(|own| own.contains('\n')) => {
-            found.push(span);
-        }
-        _ => {}
-    }
 }
 
 #[cfg(test)]

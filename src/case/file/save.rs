@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-use super::error::{SaveError, shown};
+use super::fault::{SaveError, shown};
 use crate::system::files;
 
 /// Greatest number of symbolic links in a path.
