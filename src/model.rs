@@ -19,7 +19,6 @@ pub mod impact;
 pub mod inputs;
 pub mod interpolate;
 pub mod limits;
-pub mod load_sharing;
 pub mod masses;
 pub mod mesh;
 pub mod notes;
@@ -29,7 +28,6 @@ pub mod position;
 pub mod profile;
 pub mod quantities;
 pub mod relief;
-pub mod request;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod solve;
@@ -61,8 +59,7 @@ pub use notes::{Note, notes};
 pub use outline::Outline;
 pub use position::{Position, Velocity};
 pub use quantities::{QUANTITIES, Quantity};
-pub use request::Earlier;
-pub use solve::{solve, solve_after, solve_while};
+pub use solve::{Earlier, solve, solve_after, solve_while};
 pub use stage::{Stage, Stages};
 pub use static_load::StaticLoad;
 pub use static_spectrum::{Resonance, StaticSpectrum};
@@ -74,12 +71,15 @@ use twofloat::TwoFloat;
 
 use inputs::Method;
 use masses::Masses;
+use solve::Setup;
 
-/// Intermediate results for a later solve: masses and the unrounded deviation.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Intermediate results for a later solve.
+#[derive(Debug, Clone, PartialEq)]
 struct Kept {
     masses: Masses,
+    /// The unrounded deviation.
     deviation: Deviation<TwoFloat>,
+    setup: Arc<Setup>,
 }
 
 /// Whether the incoming tooth strikes.
@@ -92,6 +92,10 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    fn of_contact(is_made: bool) -> Outcome {
+        if is_made { Outcome::CornerContact } else { Outcome::NoCornerContact }
+    }
+
     /// The name in a report.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -167,6 +171,41 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// The results of geometry, load, masses and deviation.
+    fn new(method: Method, geometry: Geometry, mesh_force: f64, kept: Kept) -> Solution {
+        let deviation = kept.deviation.rounded();
+        Solution {
+            method,
+            choice: None,
+            outcome: Outcome::of_contact(deviation.total > 0.0),
+            stages: Stages::NONE,
+            ran: Stages::NONE,
+            geometry,
+            mesh_force,
+            reduced_mass: kept.masses.reduced(),
+            deviation,
+            kept,
+            position: None,
+            velocity: None,
+            compliance: None,
+            impact: None,
+            friction: None,
+            band: None,
+            stations: Vec::new(),
+            mesh: None,
+            static_load: None,
+            dynamic: None,
+            resonance: None,
+            static_spectrum: None,
+            steady: None,
+            over_speed: None,
+            clearing: None,
+            withheld: None,
+            stations_withheld: None,
+            beside: None,
+        }
+    }
+
     /// The stages with results, here or in the solve beside.
     #[must_use]
     pub fn all_stages(&self) -> Stages {

@@ -3,7 +3,6 @@
 pub mod banded;
 pub mod chebyshev;
 pub mod decimal;
-pub mod extrapolated;
 pub mod polynomial;
 pub mod quadrature;
 pub mod real;

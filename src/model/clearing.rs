@@ -4,55 +4,16 @@
 use std::cell::RefCell;
 
 use super::budget::{Meter, SEARCH_TRIES, SEARCH_WORK};
-use super::dynamic::{Approach, MotionInputs, approach};
-use super::geometry::PairShape;
+use super::dynamic::{Approach, Settings, approach};
 use super::inputs::{Inputs, Method};
-use super::load_sharing::on_mesh;
 use super::mesh::MeshInputs;
+use super::mesh::range::Meshes;
 use super::position::printed_relief_to_clear;
 use super::static_load::{lead_before_start, places_before_start};
 use super::{Outcome, Refusal, Solution};
 
 /// Limit of the search, relative to the sum of deflection, deviation and given relief.
 const MOST: f64 = 8.0;
-
-/// Inputs of the required additional tip relief, besides deviation, load and masses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClearingInputs {
-    /// Given tip relief of the driven gear, in m.
-    pub tip_relief: f64,
-    /// How the method tests a relief.
-    pub trial: Trial,
-}
-
-/// How a method tests whether a relief prevents contact before E.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Trial {
-    /// By the deviation.
-    Deviation,
-    /// By the printed equations, with this shape of the pair.
-    Printed(PairShape),
-    /// By the static balance.
-    AtRest(MeshInputs),
-    /// By the motion.
-    InMotion(MeshInputs, MotionInputs),
-}
-
-impl ClearingInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> ClearingInputs {
-        ClearingInputs {
-            tip_relief: inputs.driven.tip_relief,
-            trial: match inputs.method {
-                Method::Paper => Trial::Printed(inputs.shape()),
-                Method::Static => Trial::AtRest(inputs.mesh()),
-                Method::Dynamic => Trial::InMotion(inputs.mesh(), MotionInputs::approach(inputs)),
-                Method::Exact | Method::Auto => Trial::Deviation,
-            },
-        }
-    }
-}
 
 /// Result of the search for the required additional tip relief.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,34 +58,27 @@ pub struct Clearing {
 /// [`Refusal::Stopped`] if `go_on` returns false. A search beyond its [budget](super::budget) sets
 /// `withheld`.
 pub fn clearing(
-    inputs: &ClearingInputs,
+    inputs: &Inputs,
     solution: &Solution,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Clearing, Refusal> {
-    let search = Search::new();
-    let found = match (solution.outcome, &inputs.trial) {
+    let (search, given) = (Search::new(), inputs.driven.tip_relief);
+    let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
-        (_, Trial::Deviation) => Ok(Some(solution.deviation.total)),
-        (_, Trial::Printed(shape)) => printed_relief_to_clear(shape, &solution.kept.deviation),
-        (_, Trial::AtRest(mesh)) => {
-            search.least(inputs.tip_relief, (mesh, None), solution, go_on).map(Some)
-        }
-        (_, Trial::InMotion(mesh, motion)) => {
-            search.least(inputs.tip_relief, (mesh, Some(motion)), solution, go_on).map(Some)
+        (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),
+        (_, Method::Paper) => printed_relief_to_clear(&inputs.shape(), &solution.kept.deviation),
+        (_, Method::Static | Method::Dynamic) => {
+            let is_moving = inputs.method == Method::Dynamic;
+            let motion = is_moving.then(|| Settings::approach(inputs, solution.reduced_mass));
+            search.least(&inputs.mesh(), motion.as_ref(), solution, go_on).map(Some)
         }
     };
     let (relief, withheld) = match found {
-        Ok(relief) => (relief.map(|relief| enough(relief, inputs.tip_relief)), None),
+        Ok(relief) => (relief.map(|relief| enough(relief, given)), None),
         Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         Err(refusal) => (None, Some(refusal)),
     };
-    Ok(Clearing {
-        given: inputs.tip_relief,
-        relief,
-        withheld,
-        runs: search.runs(),
-        work: search.meter.spent(),
-    })
+    Ok(Clearing { given, relief, withheld, runs: search.runs(), work: search.meter.spent() })
 }
 
 /// The relief, rounded up so far that the sum with the given relief is enough after its conversion
@@ -147,8 +101,8 @@ impl Search {
     /// The least additional relief, in m, by the static balance or by a motion.
     fn least(
         &self,
-        given: f64,
-        (mesh, motion): (&MeshInputs, Option<&MotionInputs>),
+        mesh: &MeshInputs,
+        motion: Option<&Settings>,
         solution: &Solution,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<f64, Refusal> {
@@ -166,7 +120,9 @@ impl Search {
             }
         };
         let deviation = &solution.deviation;
-        let size = deviation.loaded_deflection() + deviation.equivalent_error.abs() + given;
+        let size = deviation.loaded_deflection()
+            + deviation.equivalent_error.abs()
+            + mesh.reliefs.driven.tip;
         least(&tried, motion.is_none(), MOST * size)
     }
 
@@ -204,17 +160,17 @@ impl Search {
 /// motion.
 fn relieved(
     relief: f64,
-    (mesh, motion): (&MeshInputs, Option<&MotionInputs>),
+    (mesh, motion): (&MeshInputs, Option<&Settings>),
     solution: &Solution,
     meter: &Meter,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Tried, Refusal> {
     let mut relieved = *mesh;
     relieved.reliefs.driven.tip += relief;
-    on_mesh(&relieved, solution, solution.mesh.as_ref(), |mesh| {
+    Meshes::new(&relieved, solution, solution.mesh.as_ref(), None).find(|mesh| {
         meter.spend(mesh.work());
         let Approach { lead, contact_lost } = if let Some(motion) = motion {
-            approach(mesh, &motion.settings(solution.reduced_mass), meter, go_on)?
+            approach(mesh, motion, meter, go_on)?
         } else {
             meter.spend(places_before_start(mesh));
             Approach { lead: lead_before_start(mesh)?, contact_lost: false }

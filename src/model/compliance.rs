@@ -86,29 +86,6 @@ impl Inputs {
     }
 }
 
-/// Inputs of the compliance at D, besides geometry and place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ComplianceInputs {
-    /// Radius of the edge of the driven tip, in m.
-    pub tip_radius: Option<f64>,
-    /// Elasticity of the pair.
-    pub elasticity: Elasticity,
-}
-
-impl ComplianceInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> ComplianceInputs {
-        ComplianceInputs { tip_radius: inputs.driven.tip_radius, elasticity: inputs.elasticity() }
-    }
-
-    /// The driven tip on the driver's flank.
-    #[must_use]
-    pub fn place(&self, geometry: &Geometry, tip: &TipContact) -> ContactPlace {
-        ContactPlace::at_tip(self.tip_radius, geometry, tip)
-    }
-}
-
 /// Compliance of the two teeth at D, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TeethCompliance {
@@ -215,6 +192,18 @@ impl Teeth {
             driven: Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)
                 .map_err(Refusal::at_driven)?,
         })
+    }
+
+    /// The geometry of the pair.
+    #[must_use]
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// 1/E' of the pair, in 1/Pa.
+    #[must_use]
+    pub fn give(&self) -> f64 {
+        self.contact.give()
     }
 
     /// Common face width b, in m.

@@ -10,7 +10,7 @@ use super::gear_pose::{on_line_of_action, tip_point};
 use super::geometry::geometry;
 use super::inputs::Inputs;
 use super::interpolate::Interpolated;
-use super::position::{VelocityInputs, velocity};
+use super::position::velocity;
 use super::tip_gap::{TipContact, gap_without, tip_at};
 use super::{Geometry, Solution};
 
@@ -162,7 +162,7 @@ fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState
     let angle = roll_angle / inputs.ratio();
     let tip = tip_at(geometry, angle);
     let gap = gap_of(geometry, &tip);
-    let velocity = velocity(&VelocityInputs::of(inputs), &tip);
+    let velocity = velocity(inputs.driven_speed(), &tip);
     ContactState {
         phase: Phase::RunIn,
         roll_angle_driver: roll_angle,
@@ -214,7 +214,7 @@ fn run_out(
     let tip = tip_at(&geometry, last - roll_angle);
     let (gap, velocity, interpolated) = (
         gap_of(&geometry, &tip),
-        velocity(&VelocityInputs::of(&swapped), &tip),
+        velocity(swapped.driven_speed(), &tip),
         Interpolated::at(inputs, solution, roll_angle),
     );
     let point = tip_point(&geometry, &tip);

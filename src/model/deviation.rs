@@ -8,20 +8,11 @@ use smallvec::SmallVec;
 use twofloat::TwoFloat;
 
 use super::Refusal;
-use super::compliance::{ContactPlace, Elasticity, PairCompliance, Teeth};
+use super::compliance::{ContactPlace, PairCompliance, Teeth};
 use super::geometry::Geometry;
 use super::inputs::{Combination, Gear, Inputs, Method};
 use super::pair_forces::{PITCHES, Pair, PairSet};
 use crate::numeric::Real;
-
-/// Inputs of the deviation, besides geometry and mesh force.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DeviationInputs {
-    /// Deviations, reliefs and deflection that the case gives.
-    pub given: GivenDeviations,
-    /// Elasticity of the pair, if the load causes the deflection.
-    pub elasticity: Option<Elasticity>,
-}
 
 /// Deviations, reliefs and deflection that the case gives. The samples of a study differ in these
 /// values and share the elasticity.
@@ -42,16 +33,6 @@ pub struct GivenDeviations {
     pub driver_root_relief: f64,
     /// Combined deflection δ, in m; `None` if the load causes it.
     pub deflection: Option<f64>,
-}
-
-impl DeviationInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> DeviationInputs {
-        let given = GivenDeviations::of(inputs);
-        let is_by_load = given.deflection.is_none();
-        DeviationInputs { given, elasticity: is_by_load.then(|| inputs.elasticity()) }
-    }
 }
 
 impl GivenDeviations {

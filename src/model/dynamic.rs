@@ -381,41 +381,6 @@ pub struct Settings {
     pub approach_samples: usize,
 }
 
-/// Inputs of a motion, besides mesh and masses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MotionInputs {
-    /// Speed of the driver ω₁, at which the mesh turns, in rad/s.
-    pub speed: f64,
-    /// The settings without the mass.
-    settings: Settings,
-}
-
-impl MotionInputs {
-    /// Selects the inputs of the method `dynamic` from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> MotionInputs {
-        MotionInputs { speed: inputs.speed, settings: Settings::of(inputs, 0.0) }
-    }
-
-    /// Selects the inputs of the steady motion, which has neither warm-up nor stations.
-    #[must_use]
-    pub fn steady(inputs: &Inputs) -> MotionInputs {
-        MotionInputs { speed: inputs.speed, settings: Settings::of(inputs, 0.0).without_warmup() }
-    }
-
-    /// Selects the inputs of the approach, which has no stations.
-    #[must_use]
-    pub fn approach(inputs: &Inputs) -> MotionInputs {
-        MotionInputs { speed: inputs.speed, settings: Settings::of(inputs, 0.0).without_stations() }
-    }
-
-    /// The settings with the mass at the line of action, in kg.
-    #[must_use]
-    pub fn settings(&self, mass: f64) -> Settings {
-        Settings { mass, ..self.settings }
-    }
-}
-
 impl Settings {
     /// The settings of a case, with the mass at the line of action, in kg.
     #[must_use]
@@ -431,13 +396,16 @@ impl Settings {
         }
     }
 
-    /// The settings without warm-up and stations.
-    fn without_warmup(self) -> Settings {
-        Settings { warmup_cycles: 0, ..self.without_stations() }
+    /// The settings of the approach, which has no stations.
+    #[must_use]
+    pub fn approach(inputs: &Inputs, mass: f64) -> Settings {
+        let spacing = Spacing::Even(1);
+        Settings { spacing, approach_samples: 0, ..Settings::of(inputs, mass) }
     }
 
-    /// The settings with a single interval of stations.
-    fn without_stations(self) -> Settings {
-        Settings { spacing: Spacing::Even(1), approach_samples: 0, ..self }
+    /// The settings of the steady motion, which has neither warm-up nor stations.
+    #[must_use]
+    pub fn steady(inputs: &Inputs, mass: f64) -> Settings {
+        Settings { warmup_cycles: 0, ..Settings::approach(inputs, mass) }
     }
 }

@@ -137,11 +137,11 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
 /// # Errors
 /// Those of [`geometry`].
 pub(super) fn precise(
-    inputs: &GeometryInputs,
+    inputs: &Inputs,
     plain: Option<&Geometry>,
 ) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
-    let close_call = plain.is_none_or(|geometry| geometry.needs_precision(inputs.bores));
-    (inputs.is_accurate || close_call).then(|| geometry(&inputs.shape)).transpose()
+    let close_call = plain.is_none_or(|geometry| geometry.needs_precision(inputs.bores()));
+    (inputs.accurate || close_call).then(|| geometry(&inputs.shape())).transpose()
 }
 
 /// tan t.
@@ -275,29 +275,6 @@ impl<T: Real> Geometry<T> {
             start_angle_driven: self.start_angle_driven.rounded(),
             start_direction_driven: self.start_direction_driven.map(Real::rounded),
             start_point: self.start_point.map(Real::rounded),
-        }
-    }
-}
-
-/// Inputs of the geometry.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GeometryInputs {
-    /// Shape of the pair.
-    pub shape: PairShape,
-    /// Bore radii of driver and driven gear, in m. A thin wall needs double-double arithmetic.
-    pub bores: [f64; 2],
-    /// Whether the case requests double-double arithmetic.
-    pub is_accurate: bool,
-}
-
-impl GeometryInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> GeometryInputs {
-        GeometryInputs {
-            shape: inputs.shape(),
-            bores: inputs.bores(),
-            is_accurate: inputs.accurate,
         }
     }
 }
@@ -582,23 +559,8 @@ fn losses(gear: &GearShape, circles: &Circles) -> [f64; 2] {
         .map(|loss| loss.max(0.0))
 }
 
-/// Inputs of the mesh force, besides the geometry.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LoadInputs {
-    /// Torque on the driver T₁, in N m.
-    pub torque: f64,
-}
-
-impl LoadInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> LoadInputs {
-        LoadInputs { torque: inputs.torque() }
-    }
-}
-
 /// Mesh force F₀ = T₁/r_b1, in N.
 #[must_use]
-pub fn mesh_force(inputs: &LoadInputs, geometry: &Geometry) -> f64 {
-    inputs.torque / geometry.driver.base
+pub fn mesh_force(torque: f64, geometry: &Geometry) -> f64 {
+    torque / geometry.driver.base
 }

@@ -3,14 +3,12 @@
 
 use std::f64::consts::PI;
 
-use super::compliance::contact::{ContactModel, ContactSpring, plane_strain_compliance};
+use super::compliance::contact::{ContactModel, ContactSpring};
 use super::compliance::tooth::ToothModel;
-use super::compliance::{ComplianceInputs, contact, model_of, tooth};
-use super::deviation::DeviationInputs;
+use super::compliance::{ContactPlace, Teeth, contact, model_of, tooth};
 use super::geometry::Geometry;
 use super::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
 use super::masses::Masses;
-use super::position::{PositionInputs, VelocityInputs, reduced_curvature};
 use super::tip_gap::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Refusal, TeethCompliance, Velocity};
 
@@ -101,30 +99,6 @@ impl Impact {
     }
 }
 
-/// Inputs of force, energy and duration of an impact, besides geometry, masses, place and velocity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImpactInputs {
-    /// `paper` uses Eq. 32 as printed.
-    pub method: Method,
-    /// Inputs of the compliance at the place of the impact.
-    pub compliance: ComplianceInputs,
-    /// 1/E' of the pair, in 1/Pa.
-    pub give: f64,
-}
-
-impl ImpactInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> ImpactInputs {
-        let compliance = ComplianceInputs::of(inputs);
-        ImpactInputs {
-            method: inputs.method,
-            give: plane_strain_compliance(&compliance.elasticity),
-            compliance,
-        }
-    }
-}
-
 /// The impact of the driven tip on the driver's flank: force, energy, duration.
 ///
 /// # Formula
@@ -141,17 +115,19 @@ impl ImpactInputs {
 /// # Errors
 /// [`Refusal::HertzWidthTooLarge`] if Eq. 55 has no solution.
 pub fn impact(
-    inputs: &ImpactInputs,
-    geometry: &Geometry,
+    inputs: &Inputs,
+    teeth: &Teeth,
     masses: &Masses,
     tip: &TipContact,
-    (teeth, spring): (&TeethCompliance, &ContactSpring),
+    compliance: &TeethCompliance,
     velocity: &Velocity,
 ) -> Result<Impact, Refusal> {
-    let width = inputs.compliance.elasticity.width;
+    let (geometry, width) = (teeth.geometry(), teeth.width());
+    let place = ContactPlace::at_tip(inputs.driven.tip_radius, geometry, tip);
+    let spring = teeth.spring(&place)?;
     let effective_mass = masses.effective(geometry, tip);
     let (force, pair_compliance) =
-        spring.impact(teeth.sum(), velocity.normal * (width * effective_mass).sqrt())?;
+        spring.impact(compliance.sum(), velocity.normal * (width * effective_mass).sqrt())?;
     Ok(Impact {
         force,
         effective_mass,
@@ -163,9 +139,9 @@ pub fn impact(
             width,
             approach: velocity.normal,
             reduced_mass: masses.reduced(),
-            curvature_radius: reduced_curvature(inputs.compliance.tip_radius, geometry, tip),
-            give: inputs.give,
-            spring: *spring,
+            curvature_radius: place.curvature_radius,
+            give: teeth.give(),
+            spring,
         },
     })
 }
@@ -173,23 +149,6 @@ pub fn impact(
 /// The factor of Hertz's duration that Eq. 32 omits: 2.868265699 π^(2/5). The first factor is 2
 /// (15/16)^(2/5) ∫₀¹ dx/√(1 − x^(5/2)).
 pub const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;
-
-/// Inputs of the friction ratio, besides geometry, masses and the impact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FrictionInputs {
-    /// `paper` uses Eq. 34 as printed.
-    pub method: Method,
-    /// Speed of the driver ω₁, in rad/s.
-    pub speed: f64,
-}
-
-impl FrictionInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> FrictionInputs {
-        FrictionInputs { method: inputs.method, speed: inputs.speed }
-    }
-}
 
 /// Change of the velocities between D and D'.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -215,7 +174,7 @@ pub struct Friction {
 /// The ratio is kinematic. Coulomb's coefficient does not limit it.
 #[must_use]
 pub fn friction(
-    inputs: &FrictionInputs,
+    inputs: &Inputs,
     geometry: &Geometry,
     tip: &TipContact,
     velocity: &Velocity,
@@ -309,33 +268,6 @@ fn below_angle(angle: f64) -> f64 {
         1.0 - square / (order * (order + 1.0)) * rest
     });
     angle * square / 6.0 * rest
-}
-
-/// Inputs of the stages that [`band`] repeats with other models, besides geometry, load and masses,
-/// which are the same for all models.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BandInputs {
-    /// Deviation and deflection.
-    pub deviation: DeviationInputs,
-    /// First contact.
-    pub position: PositionInputs,
-    /// Velocities at D.
-    pub velocity: VelocityInputs,
-    /// The impact.
-    pub impact: ImpactInputs,
-}
-
-impl BandInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> BandInputs {
-        BandInputs {
-            deviation: DeviationInputs::of(inputs),
-            position: PositionInputs::of(inputs),
-            velocity: VelocityInputs::of(inputs),
-            impact: ImpactInputs::of(inputs),
-        }
-    }
 }
 
 /// Least and greatest impact force over the stiffness models that cover the pair, in N.

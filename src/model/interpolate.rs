@@ -2,10 +2,10 @@
 
 use super::compliance::Teeth;
 use super::inputs::Inputs;
-use super::masses::{MassInputs, Masses};
+use super::masses::Masses;
 use super::mesh::Mesh;
 use super::static_load::balance;
-use super::stations::{self, StationsInputs};
+use super::stations;
 use super::{MeshStation, Solution, Station};
 
 /// An angle beyond the first contact by less than this part counts as the first contact.
@@ -73,13 +73,12 @@ impl Interpolated {
 fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Station> {
     let angle = roll_angle / inputs.ratio();
     let first = solution.position?.approach_angle_driven * (1.0 + ROUNDING);
-    let masses = Masses::of(&MassInputs::of(inputs), &solution.geometry)
+    let masses = Masses::of(&inputs.bodies(), &solution.geometry)
         .ok()
         .filter(|_| (0.0..=first).contains(&angle))?;
     let geometry = &solution.geometry;
-    let inputs = StationsInputs::of(inputs);
-    let teeth = Teeth::of(&inputs.impact.compliance.elasticity, geometry).ok()?;
-    let station = stations::station(&inputs, geometry, &teeth, &masses, angle).ok()?;
+    let teeth = Teeth::of(&inputs.elasticity(), geometry).ok()?;
+    let station = stations::station(inputs, &teeth, &masses, angle).ok()?;
     station.impact_force.is_finite().then_some(station)
 }
 

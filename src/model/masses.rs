@@ -10,21 +10,6 @@ use super::profile::{Profile, Rack};
 use super::tip_gap::TipContact;
 use crate::numeric::{Real, quadrature};
 
-/// Inputs of the masses, besides the geometry.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MassInputs {
-    /// Bodies of driver and driven gear.
-    pub bodies: [Body; 2],
-}
-
-impl MassInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> MassInputs {
-        MassInputs { bodies: inputs.bodies() }
-    }
-}
-
 /// Masses of the two gears at their base circles J/r_b², in kg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Masses {
@@ -48,8 +33,8 @@ impl Masses {
     ///
     /// # Errors
     /// [`Refusal::BoreTooLarge`] if a bore is larger than the body.
-    pub fn of<T: Real>(inputs: &MassInputs, geometry: &Geometry<T>) -> Result<Masses, Refusal> {
-        let [driver, driven] = &inputs.bodies;
+    pub fn of<T: Real>(bodies: &[Body; 2], geometry: &Geometry<T>) -> Result<Masses, Refusal> {
+        let [driver, driven] = bodies;
         let driver = Inertia::of(driver, &geometry.driver)?;
         let driven = Inertia::of(driven, &geometry.driven)?;
         let mass = |inertia: &Inertia, circles: &Circles<T>| {

@@ -3,6 +3,7 @@
 
 mod build;
 pub(super) mod couplings;
+pub(super) mod range;
 mod sharing;
 mod zones;
 
@@ -95,11 +96,6 @@ impl Mesh {
     pub fn ends(&self) -> (f64, f64) {
         let from = self.zones.first().map_or(0.0, |zone| zone.from);
         (from, self.zones.last().map_or(0.0, |zone| zone.to))
-    }
-
-    /// Greatest gap in the computed range, in m.
-    pub(super) fn reach(&self) -> f64 {
-        self.reach
     }
 
     /// Whether the computed range extends to the ends of the tip circles.

@@ -13,29 +13,6 @@ use crate::numeric::{Real, root};
 /// Greatest loss of precision of the closed-form gap in double-double arithmetic, as a factor.
 const LOST: f64 = 1e14;
 
-/// Inputs of the first contact, besides geometry and deviation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PositionInputs {
-    /// `paper` uses the printed equations, every other method the gap.
-    pub method: Method,
-    /// Shape of the pair, to repeat the search in double-double arithmetic.
-    pub shape: PairShape,
-    /// Radius of the edge of the driven tip, in m.
-    pub tip_radius: Option<f64>,
-}
-
-impl PositionInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> PositionInputs {
-        PositionInputs {
-            method: inputs.method,
-            shape: inputs.shape(),
-            tip_radius: inputs.driven.tip_radius,
-        }
-    }
-}
-
 /// The first contact D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
@@ -137,7 +114,7 @@ pub fn reduced_curvature(tip_radius: Option<f64>, geometry: &Geometry, tip: &Tip
 /// # Errors
 /// A [`Refusal`] if D does not exist or is beyond the driver's tip.
 pub(super) fn position(
-    inputs: &PositionInputs,
+    inputs: &Inputs,
     geometry: &Geometry,
     precise: Option<&Geometry<TwoFloat>>,
     series: &GapSeries,
@@ -157,14 +134,14 @@ pub(super) fn position(
     let (contact, closed_gap) = match precise {
         Some(precise) => precise_contact(inputs.method, precise, deviation, angle),
         None if close_call => {
-            let precise = geometry::geometry(&inputs.shape)?;
+            let precise = geometry::geometry(&inputs.shape())?;
             precise_contact(inputs.method, &precise, deviation, angle)
         }
         None if inputs.method == Method::Exact => (contact, plain.total),
         None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
     let closed_gap = if inputs.method == Method::Exact { plain.total } else { closed_gap };
-    checked(inputs.tip_radius, geometry, plain.total, contact, closed_gap)
+    checked(inputs.driven.tip_radius, geometry, plain.total, contact, closed_gap)
 }
 
 /// The contact in double-double arithmetic, from the angle of the f64 search, and the closed gap.
@@ -373,21 +350,6 @@ fn gap_derivatives(geometry: &Geometry, tip: &TipContact) -> [f64; 2] {
     [second, bases * turn * turn + tangent * bend]
 }
 
-/// Inputs of the velocities, besides the place of the tip.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct VelocityInputs {
-    /// Speed of the driven gear ω₂, in rad/s.
-    pub driven_speed: f64,
-}
-
-impl VelocityInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> VelocityInputs {
-        VelocityInputs { driven_speed: inputs.driven_speed() }
-    }
-}
-
 /// Velocities at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Velocity {
@@ -401,7 +363,7 @@ pub struct Velocity {
     pub stick_limit: f64,
 }
 
-/// Velocities of the tip against the flank.
+/// Velocities of the tip against the flank, with the speed of the driven gear ω₂ in rad/s.
 ///
 /// # Formula
 /// ```text
@@ -415,8 +377,7 @@ pub struct Velocity {
 /// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is corrected to the law of cosines: as printed, ΔV_n at E
 /// is 1.32 m/s for Table 1 instead of 0. Eq. 22 is ΔV_Dτ although its label differs.
 #[must_use]
-pub fn velocity(inputs: &VelocityInputs, tip: &TipContact) -> Velocity {
-    let driven_speed = inputs.driven_speed;
+pub fn velocity(driven_speed: f64, tip: &TipContact) -> Velocity {
     let normal = driven_speed * tip.normal_radius_drop;
     let sliding = driven_speed * tip.sliding_arm;
     Velocity {

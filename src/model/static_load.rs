@@ -5,7 +5,6 @@ mod tests;
 
 use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
-use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::pair_forces::Balance;
 use super::spacing::{Resolution, Spacing};
@@ -17,23 +16,6 @@ use crate::numeric::root::greatest;
 const SAMPLES: f64 = 16.0;
 /// Least number of samples between two borders of the mesh.
 const LEAST_SAMPLES: f64 = 2.0;
-
-/// Inputs of the shared load at rest, besides the mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StaticInputs {
-    /// Speed of the driver ω₁, at which the mesh turns, in rad/s.
-    pub speed: f64,
-    /// Distances between the stations.
-    pub spacing: Spacing,
-}
-
-impl StaticInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> StaticInputs {
-        StaticInputs { speed: inputs.speed, spacing: Spacing::of(inputs) }
-    }
-}
 
 /// Load of the incoming tooth from its first to its last contact.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,6 @@
 use std::f64::consts::TAU;
 
 use super::Refusal;
-use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::static_load::{balance, reaches_ends};
 use crate::numeric::root::greatest;
@@ -105,21 +104,6 @@ fn pieces(mesh: &Mesh, (from, to): (f64, f64), inside: f64) -> Vec<f64> {
     cuts
 }
 
-/// Inputs of the frequencies, besides mesh and masses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ResonanceInputs {
-    /// Speed of the driver ω₁, in rad/s.
-    pub speed: f64,
-}
-
-impl ResonanceInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> ResonanceInputs {
-        ResonanceInputs { speed: inputs.speed }
-    }
-}
-
 /// Frequencies of a pair, in Hz.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resonance {
@@ -130,7 +114,7 @@ pub struct Resonance {
 }
 
 impl Resonance {
-    /// The frequencies of a mesh with the reduced mass in kg.
+    /// The frequencies of a mesh at a speed of the driver in rad/s, with the reduced mass in kg.
     ///
     /// # Formula
     /// ```text
@@ -143,9 +127,9 @@ impl Resonance {
     /// # Valid for
     /// Rigid shafts: one mass on the mesh stiffness.
     #[must_use]
-    pub fn of(inputs: &ResonanceInputs, mesh: &Mesh, mass: f64) -> Resonance {
+    pub fn of(speed: f64, mesh: &Mesh, mass: f64) -> Resonance {
         Resonance {
-            mesh_frequency: inputs.speed * mesh.base_radii.0 / mesh.base_pitch,
+            mesh_frequency: speed * mesh.base_radii.0 / mesh.base_pitch,
             natural_frequency: (mesh.mean_stiffness() / mass).sqrt() / TAU,
         }
     }

@@ -2,13 +2,13 @@
 
 use super::Refusal;
 use super::budget::{CURVE_WORK, IMPACT_WORK};
-use super::compliance::Teeth;
+use super::compliance::{ContactPlace, Teeth};
 use super::geometry::Geometry;
-use super::impact::{ImpactInputs, impact};
+use super::impact::impact;
 use super::inputs::Inputs;
 use super::masses::Masses;
 use super::mesh::Mesh;
-use super::position::{Position, VelocityInputs, velocity};
+use super::position::{Position, velocity};
 use super::spacing::{Resolution, Spacing};
 use super::tip_gap::{gap_without, tip_at};
 
@@ -18,29 +18,6 @@ const LOSS: f64 = 1e4;
 
 /// A force below this part of the sum of all forces is rounding and counts as 0.
 const ROUNDING: f64 = 1e-12;
-
-/// Inputs of the impacts between D and E, besides geometry, masses and D.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StationsInputs {
-    /// Velocities at a station.
-    pub velocity: VelocityInputs,
-    /// The impact at a station.
-    pub impact: ImpactInputs,
-    /// Distances between the stations.
-    pub spacing: Spacing,
-}
-
-impl StationsInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> StationsInputs {
-        StationsInputs {
-            velocity: VelocityInputs::of(inputs),
-            impact: ImpactInputs::of(inputs),
-            spacing: Spacing::of(inputs),
-        }
-    }
-}
 
 /// A station between D and E. The impact is computed as if D were at this place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,23 +122,24 @@ impl MeshStation {
 /// inside the base circle.
 #[must_use]
 pub fn stations(
-    inputs: &StationsInputs,
+    inputs: &Inputs,
     geometry: &Geometry,
     masses: &Masses,
     position: &Position,
     peak: f64,
 ) -> (Vec<Station>, Option<Refusal>) {
     let mut refused = None;
-    let mut found = Vec::with_capacity(inputs.spacing.count().map_or(0, |count| count + 1));
-    let teeth = match Teeth::of(&inputs.impact.compliance.elasticity, geometry) {
+    let spacing = Spacing::of(inputs);
+    let mut found = Vec::with_capacity(spacing.count().map_or(0, |count| count + 1));
+    let teeth = match Teeth::of(&inputs.elasticity(), geometry) {
         Ok(teeth) => teeth,
         Err(refusal) => return (found, Some(refusal)),
     };
     let at = |angle: f64| {
-        let station = station(inputs, geometry, &teeth, masses, angle);
+        let station = station(inputs, &teeth, masses, angle);
         (station.as_ref().map_or(f64::NAN, |station| station.impact_force), station)
     };
-    let resolution = inputs.spacing.walk(
+    let resolution = spacing.walk(
         &[position.approach_angle_driven, 0.0],
         peak,
         CURVE_WORK / IMPACT_WORK,
@@ -179,19 +157,17 @@ pub fn stations(
 /// # Errors
 /// The [`Refusal`] of the stage that cannot compute the force.
 pub fn station(
-    inputs: &StationsInputs,
-    geometry: &Geometry,
+    inputs: &Inputs,
     teeth: &Teeth,
     masses: &Masses,
     angle: f64,
 ) -> Result<Station, Refusal> {
+    let geometry = teeth.geometry();
     let tip = tip_at(geometry, angle);
-    let velocity = velocity(&inputs.velocity, &tip);
+    let velocity = velocity(inputs.driven_speed(), &tip);
     let struck = if angle > 0.0 {
-        let place = inputs.impact.compliance.place(geometry, &tip);
-        let (teeth, spring) = (teeth.at(&place)?, teeth.spring(&place)?);
-        let elastic = (&teeth, &spring);
-        Some(impact(&inputs.impact, geometry, masses, &tip, elastic, &velocity)?)
+        let place = ContactPlace::at_tip(inputs.driven.tip_radius, geometry, &tip);
+        Some(impact(inputs, teeth, masses, &tip, &teeth.at(&place)?, &velocity)?)
     } else {
         None
     };

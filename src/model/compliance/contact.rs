@@ -179,6 +179,12 @@ impl PairContact {
         }
     }
 
+    /// 1/E' of the pair, in 1/Pa.
+    #[must_use]
+    pub fn give(&self) -> f64 {
+        self.half_width.give
+    }
+
     /// The contact at a place.
     ///
     /// # Errors

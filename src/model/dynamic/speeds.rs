@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use super::Settings;
 use super::steady::{Start, Steady, steady};
-use super::{MotionInputs, Settings};
 use crate::model::budget::Meter;
 use crate::model::inputs::Drive;
 use crate::model::mesh::Mesh;
-use crate::model::static_spectrum::{ResonanceInputs, static_spectrum};
+use crate::model::static_spectrum::static_spectrum;
 use crate::model::{Inputs, Refusal, Resonance, Solution};
 
 /// Number of speeds of a run.
@@ -27,22 +27,6 @@ const WORK: u64 = 5_000_000;
 
 /// A run-down factor that differs by more than this from the run-up belongs to another motion.
 const SAME: f64 = 1e-3;
-
-/// Inputs of the motions over the speed, besides mesh and masses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpeedInputs {
-    motion: MotionInputs,
-    /// Torque on the driver, which stays the same at every speed, in N m.
-    torque: f64,
-}
-
-impl SpeedInputs {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> SpeedInputs {
-        SpeedInputs { motion: MotionInputs::steady(inputs), torque: inputs.torque() }
-    }
-}
 
 /// The steady motion at one speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,7 +121,7 @@ pub(in crate::model) fn over_speed(
 ) -> Result<SpeedCurve, Refusal> {
     let inputs = Inputs { drive: Drive::Torque(inputs.torque()), ..inputs.clone() };
     let mesh = Arc::new(wide_mesh(&inputs, solution)?);
-    let resonance = Resonance::of(&ResonanceInputs::of(&inputs), &mesh, solution.reduced_mass);
+    let resonance = Resonance::of(inputs.speed, &mesh, solution.reduced_mass);
     let at_resonance = inputs.speed / resonance.ratio();
     let most = TO.max(BEYOND_PRESENT * resonance.ratio());
     let step = (most - FROM) / (SPEEDS - 1) as f64;
@@ -152,7 +136,7 @@ pub(in crate::model) fn over_speed(
     };
     let runs = Runs {
         mesh: &mesh,
-        settings: MotionInputs::steady(&inputs).settings(solution.reduced_mass),
+        settings: Settings::steady(&inputs, solution.reduced_mass),
         tooth_force: static_spectrum(&mesh)?.tooth_force,
         resonance: at_resonance,
         work: Meter::new(WORK),
@@ -180,7 +164,8 @@ pub(in crate::model) fn over_speed(
 fn wide_mesh(inputs: &Inputs, solution: &Solution) -> Result<Mesh, Refusal> {
     const REACH: f64 = 60.0;
     let yields = solution.deviation.loaded_deflection() + inputs.reliefs().sum();
-    Mesh::new(&inputs.mesh(), &solution.geometry, solution.mesh_force, 0.0, REACH * yields)
+    let load = (solution.mesh_force, 0.0);
+    Mesh::new(&inputs.mesh(), &solution.geometry, load, REACH * yields)
 }
 
 struct Runs<'a> {

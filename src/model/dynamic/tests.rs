@@ -30,7 +30,7 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let (inputs, solution) = at_rest(adjust);
     let error = solution.deviation.equivalent_error;
     let mesh =
-        Mesh::new(&inputs.mesh(), &solution.geometry, solution.mesh_force, error, 1e-3).unwrap();
+        Mesh::new(&inputs.mesh(), &solution.geometry, (solution.mesh_force, error), 1e-3).unwrap();
     (mesh, settings(&inputs, solution.reduced_mass))
 }
 

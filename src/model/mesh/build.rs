@@ -67,12 +67,10 @@ impl Mesh {
     pub fn new(
         inputs: &MeshInputs,
         geometry: &Geometry,
-        force: f64,
-        error: f64,
+        load: (f64, f64),
         reach: f64,
     ) -> Result<Mesh, Refusal> {
         let flanks = Arc::new(Flanks::new(&inputs.elasticity, geometry)?);
-        let load = (force, error);
         Mesh::of_parts(inputs, geometry, &flanks, None, load, reach)
     }
 
@@ -91,7 +89,7 @@ impl Mesh {
     ) -> Result<Mesh, Refusal> {
         let (load, last) = ((force, error), &earlier.inputs);
         if last.elasticity != inputs.elasticity {
-            return Mesh::new(inputs, geometry, force, error, reach);
+            return Mesh::new(inputs, geometry, load, reach);
         }
         let has_same_load = earlier.force.to_bits() == force.to_bits()
             && earlier.reach.to_bits() == reach.to_bits();
@@ -371,7 +369,7 @@ mod tests {
             ];
             assert_eq!(parts, same, "{name}");
             assert!(mesh.couplings.is_some());
-            let new = Mesh::new(&inputs, geometry, force, error, reach).unwrap();
+            let new = Mesh::new(&inputs, geometry, (force, error), reach).unwrap();
             assert!(mesh == new, "{name}");
         }
     }

@@ -11,7 +11,7 @@ use crate::model::relief::Relief;
 use crate::model::tip_gap::TipContact;
 use crate::numeric::quadrature;
 
-const AT_REST: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
+const SPRINGS: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
     at rest. With finite-element compliance the force on a pair displaces the pairs up to three \
     pitches away; in the other models each pair deflects alone. Only the incoming pair has a \
     deviation, e = Δf_0; all pairs have their reliefs. The method ignores a deflection that the \
@@ -21,6 +21,16 @@ const BALANCE: &str = "Balance ΣF = F0 of springs with gaps, as in Seireg & Hou
     Zhou & Chen 2014, Eqs. 54-56, or by finite elements.";
 const SHARED: &[&str] = &["F_0", "k_m", "Δf_0"];
 const CHECKS: &[Check] = &[checks::contact_ratio, checks::teeth, checks::at_rest];
+
+/// A result of the static balance.
+const AT_REST: Quantity = Quantity {
+    equation: "ΣF = F0",
+    stage: Static,
+    source: BALANCE,
+    assumptions: SPRINGS,
+    checks: CHECKS,
+    ..PLAIN
+};
 
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
@@ -54,17 +64,12 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "rad",
         shown: "deg",
         digits: 4,
-        equation: "ΣF = F0",
-        stage: Static,
         value: |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?)),
         meaning: "The angle of the driver before E at which the incoming tooth begins to carry load \
             at rest. The verdict of method static gives this angle.",
         formula: Text("i u_st"),
-        source: BALANCE,
         corrections: &["Eqs. 7-20"],
-        assumptions: AT_REST,
-        checks: CHECKS,
-        ..PLAIN
+        ..AT_REST
     },
     Quantity {
         key: "static_first_contact_angle",
@@ -73,17 +78,12 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "rad",
         shown: "deg",
         digits: 4,
-        equation: "ΣF = F0",
-        stage: Static,
         value: |s| s.static_load.as_ref()?.first_contact_angle,
         meaning: "The angle of the driven gear before E at which the incoming tooth begins to \
             carry load at rest: its gap there equals the displacement by the other pairs.",
         formula: Solved(&FIRST_CONTACT),
-        source: BALANCE,
         corrections: &["Eqs. 7-20"],
-        assumptions: AT_REST,
-        checks: CHECKS,
-        ..PLAIN
+        ..AT_REST
     },
     Quantity {
         key: "static_force_at_start",
@@ -92,17 +92,12 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "N",
         shown: "N",
         digits: 5,
-        equation: "ΣF = F0",
-        stage: Static,
         value: |s| Some(s.static_load.as_ref()?.force_at_start),
         meaning: "The force on the incoming tooth at E at rest. A sufficient tip relief reduces \
             this force to 0.",
         formula: Difference("max(k_E (x_E + Δf_0 - C_E), 0)"),
-        source: BALANCE,
         corrections: &["Eq. 53", "Eq. 54"],
-        assumptions: AT_REST,
-        checks: CHECKS,
-        ..PLAIN
+        ..AT_REST
     },
     Quantity {
         key: "static_peak_force",
@@ -111,8 +106,6 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "N",
         shown: "N",
         digits: 5,
-        equation: "ΣF = F0",
-        stage: Static,
         value: |s| Some(s.static_load.as_ref()?.peak_force),
         meaning: "The peak force on the incoming tooth at rest from its first contact to its \
             last. In single-tooth contact it carries the whole mesh force.",
@@ -121,17 +114,14 @@ pub(super) const TABLE: &[Quantity] = &[
                 - S_k = Σ_j Q_kj F_j/b where F_k > 0, and Σ w_k F_k = F_0",
             SHARED,
         ),
-        source: BALANCE,
         corrections: &["Eq. 53", "Eq. 54"],
-        assumptions: AT_REST,
-        checks: CHECKS,
         variants: &[Variant::meaning(
             friction_given,
             "The peak force on the incoming tooth at rest from its first contact to its last. In \
                 single-tooth contact it carries the whole mesh force and the addition by \
                 friction.",
         )],
-        ..PLAIN
+        ..AT_REST
     },
     Quantity {
         key: "static_last_contact_angle",
@@ -140,8 +130,6 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "rad",
         shown: "deg",
         digits: 4,
-        equation: "ΣF = F0",
-        stage: Static,
         value: |s| s.static_load.as_ref()?.last_contact_angle,
         meaning: "The angle of the driver after B at which the incoming tooth no longer carries \
             load at rest: the corner contact at run-out, of the driver's tip on the driven flank.",
@@ -150,10 +138,7 @@ pub(super) const TABLE: &[Quantity] = &[
                 pairs, with Σ w_k F_k = F_0",
             SHARED,
         ),
-        source: BALANCE,
-        assumptions: AT_REST,
-        checks: CHECKS,
-        ..PLAIN
+        ..AT_REST
     },
     Quantity {
         key: "static_transmission_error",
@@ -163,7 +148,6 @@ pub(super) const TABLE: &[Quantity] = &[
         shown: "um",
         digits: 5,
         equation: "max x − min x",
-        stage: Static,
         value: |s| Some(s.static_load.as_ref()?.transmission_error),
         meaning: "The difference between the largest and the smallest lead of the driver while \
             the tooth carries load. The transmission error causes gear whine.",
@@ -174,9 +158,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Displacement x of the driver along the line of action, max x − min x, by the \
             balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, coupled as in Conry & \
             Seireg 1973.",
-        assumptions: AT_REST,
-        checks: CHECKS,
-        ..PLAIN
+        ..AT_REST
     },
     Quantity {
         key: "pitch_contact_jump",
@@ -195,7 +177,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Friction in the balance of the driver, ΣF = F0 with weights. The introduction of \
             Zhou & Chen 2014 names pitch corner contact as the third kind of contact; the \
             friction force reverses at the pitch point.",
-        assumptions: AT_REST,
+        assumptions: SPRINGS,
         checks: &[checks::at_rest],
         is_signed: true,
         needs_friction: true,

@@ -1,9 +1,8 @@
 //! Ranges of validity with the values of a case.
 
-use std::f64::consts::{PI, TAU};
-
 use crate::model::compliance::model_of;
 use crate::model::explanation::{Context, Finding, four, micro, mm};
+use crate::model::notes::inertia_at_rest;
 use crate::model::profile::{Profile, Rack};
 
 /// No interference at the start of contact.
@@ -209,10 +208,7 @@ pub(super) fn contact_small(k: &Context) -> Option<Finding> {
 
 /// The load changes slowly enough for a static balance.
 pub(super) fn at_rest(k: &Context) -> Option<Finding> {
-    let solution = k.solution;
-    let time = solution.static_load.as_ref()?.first_contact_angle? / k.inputs.driven_speed();
-    let period = TAU * (solution.reduced_mass / solution.mesh.as_ref()?.mean_stiffness()).sqrt();
-    let part = period / (PI * time);
+    let [period, time, part] = inertia_at_rest(k)?;
     let share = four(100.0 * part.min(1.0));
     let (period, time) = (micro(period, "us"), micro(time, "us"));
     Finding::new(

@@ -12,16 +12,23 @@ use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, 
 use crate::model::explanation::{Step, step};
 use crate::model::inputs::{Combination, Method};
 
+/// A distance along the line of action.
+const DEVIATION: Quantity = Quantity {
+    unit: "m",
+    shown: "um",
+    digits: 5,
+    stage: Deviation,
+    source: "Zhou & Chen 2014, Eqs. 1 and 2.",
+    corrections: &["Eq. 1"],
+    equation: "Eq. 1",
+    ..PLAIN
+};
+
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "equivalent_error",
         symbol: "Δf",
         label: "equivalent error",
-        unit: "m",
-        shown: "um",
-        digits: 5,
-        equation: "Eq. 1",
-        stage: Deviation,
         value: |s| Some(s.deviation.equivalent_error),
         meaning: "The distance along the line of action by which the deviations of both gears \
             bring the incoming tooth into contact early. Relief reduces it by its full amount.",
@@ -31,8 +38,6 @@ pub(super) const TABLE: &[Quantity] = &[
             (shared_load, Text("2 f_pb/√2")),
             (always, Difference("2 f_pb/√2 + e_m")),
         ]),
-        source: "Zhou & Chen 2014, Eqs. 1 and 2.",
-        corrections: &["Eq. 1"],
         assumptions: "Deviations of which only the size is known are independent and add as \
             squares, hence the factor 1/√2; with combination sum they add with their signs. The \
             relief acts with its full amount at the tip, where first contact occurs. A backlash \
@@ -59,24 +64,17 @@ pub(super) const TABLE: &[Quantity] = &[
             ),
         ],
         is_signed: true,
-        ..PLAIN
+        ..DEVIATION
     },
     Quantity {
         key: "modification",
         symbol: "e_m",
         label: "modification at run-in",
-        unit: "m",
-        shown: "um",
-        digits: 5,
-        equation: "Eq. 1",
-        stage: Deviation,
         value: |s| Some(s.deviation.modification),
         meaning: "The material that the reliefs remove where the incoming tooth first touches: \
             the tip relief of the driven gear and the root relief of the driver, as a negative \
             number. Δf and Δ include its full amount.",
         formula: Text("-(Ca2 + Cf1)"),
-        source: "Zhou & Chen 2014, Eqs. 1 and 2.",
-        corrections: &["Eq. 1"],
         assumptions: "Both reliefs have their full amount at the first contact, whatever their \
             length.",
         variants: &[
@@ -97,17 +95,13 @@ pub(super) const TABLE: &[Quantity] = &[
             ),
         ],
         is_signed: true,
-        ..PLAIN
+        ..DEVIATION
     },
     Quantity {
         key: "combined_deflection",
         symbol: "δ",
         label: "combined deflection",
-        unit: "m",
-        shown: "um",
-        digits: 5,
         equation: "Eq. 3",
-        stage: Deviation,
         value: |s| Some(s.deviation.combined_deflection),
         meaning: "The deflection along the line of action of the pairs that carry the load when \
             the incoming pair is at E.",
@@ -142,17 +136,13 @@ pub(super) const TABLE: &[Quantity] = &[
                     compare the two.",
             ),
         ],
-        ..PLAIN
+        ..DEVIATION
     },
     Quantity {
         key: "total_deviation",
         symbol: "Δ",
         label: "total deviation",
-        unit: "m",
-        shown: "um",
-        digits: 5,
         equation: "Eq. 5",
-        stage: Deviation,
         value: |s| Some(s.deviation.total),
         meaning: "The total distance by which the incoming tooth is early. Above 0 the tip \
             strikes before E. At 0 or below there is no contact before E.",
@@ -161,7 +151,6 @@ pub(super) const TABLE: &[Quantity] = &[
             (always, Difference("Δf + δ")),
         ]),
         source: "Zhou & Chen 2014, Eq. 5.",
-        corrections: &["Eq. 1"],
         assumptions: "Deviations and deflection add up along the line of action.",
         checks: &[checks::pair_ahead],
         variants: &[
@@ -190,15 +179,12 @@ pub(super) const TABLE: &[Quantity] = &[
             ),
         ],
         is_signed: true,
-        ..PLAIN
+        ..DEVIATION
     },
     Quantity {
         key: "clearing_relief",
         symbol: "ΔC_a2",
         label: "additional tip relief",
-        unit: "m",
-        shown: "um",
-        digits: 5,
         equation: "no contact before E",
         stage: Clearing,
         value: |s| s.clearing?.relief,
@@ -237,7 +223,7 @@ pub(super) const TABLE: &[Quantity] = &[
             reliefs, up to twice this relief (50 if contact is lost), and finds no contact before \
             E.",
         checks: &[checks::contact_kept],
-        ..PLAIN
+        ..DEVIATION
     },
 ];
 

@@ -7,14 +7,14 @@ use crate::model::Stage::{Friction, Impact, Velocity};
 use crate::model::explanation::Formula::{Cases, Difference, Text};
 use crate::model::explanation::{Step, step};
 
+/// A ratio.
+const RATIO: Quantity = Quantity { unit: "1", shown: "1", digits: 4, ..PLAIN };
+
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "friction_ratio",
         symbol: "f",
         label: "friction ratio",
-        unit: "1",
-        shown: "1",
-        digits: 4,
         equation: "Eq. 64",
         stage: Friction,
         value: |s| s.friction?.ratio,
@@ -43,15 +43,12 @@ pub(super) const TABLE: &[Quantity] = &[
                 impact. D' is the point at which the triangle of Eq. 34 closes, after the time \
                 T_S,32.",
         )],
-        ..PLAIN
+        ..RATIO
     },
     Quantity {
         key: "stick_limit",
         symbol: "μ_stick",
         label: "stick limit",
-        unit: "1",
-        shown: "1",
-        digits: 4,
         equation: "ΔVτ/(2ΔVn)",
         stage: Velocity,
         value: |s| Some(s.velocity?.stick_limit),
@@ -64,15 +61,12 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The impact is elastic. The same mass applies along the normal and along the \
             flank.",
         checks: &[checks::coulomb],
-        ..PLAIN
+        ..RATIO
     },
     Quantity {
         key: "impulse_ratio",
         symbol: "κ",
         label: "impulse ratio",
-        unit: "1",
-        shown: "1",
-        digits: 4,
         equation: "(2/π)F_S·T_S/(M·ΔV_n)",
         stage: Impact,
         value: |s| Some(s.impact?.impulse_ratio()),
@@ -85,7 +79,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 32"],
         assumptions: "The force follows half a sine over time.",
         checks: &[checks::possible],
-        ..PLAIN
+        ..RATIO
     },
 ];
 

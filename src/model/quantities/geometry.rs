@@ -11,6 +11,10 @@ use crate::model::explanation::{Equation, Step, step};
 const SPUR_PAIR: &str =
     "External spur gears on parallel, rigid shafts, with involute flanks down to the contact.";
 
+/// A row of the geometry.
+const GEOMETRY: Quantity =
+    Quantity { digits: 5, equation: "ISO 21771", stage: Geometry, assumptions: SPUR_PAIR, ..PLAIN };
+
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "contact_ratio",
@@ -18,18 +22,14 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "contact ratio",
         unit: "1",
         shown: "1",
-        digits: 5,
-        equation: "ISO 21771",
-        stage: Geometry,
         value: |s| Some(s.geometry.contact_ratio),
         meaning: "The mean number of tooth pairs in contact: the length of the path of contact EB \
             over the base pitch. Tip chamfers and tip radii shorten the path.",
         formula: Text("(N1B - N1E)/p_b"),
         source: "ISO 21771:2007, transverse contact ratio. Table 1 of Zhou & Chen 2014 has 1.5568.",
         corrections: &["Eqs. 16, 20"],
-        assumptions: SPUR_PAIR,
         checks: &[checks::start, checks::end, checks::contact_ratio],
-        ..PLAIN
+        ..GEOMETRY
     },
     Quantity {
         key: "base_pitch",
@@ -37,16 +37,12 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "base pitch",
         unit: "m",
         shown: "mm",
-        digits: 5,
-        equation: "ISO 21771",
-        stage: Geometry,
         value: |s| Some(s.geometry.base_pitch),
         meaning: "The distance between neighbouring flanks along the line of action. Both gears \
             need the same base pitch to mesh evenly.",
         formula: Text("π m cos α"),
         source: "ISO 21771:2007, base pitch.",
-        assumptions: SPUR_PAIR,
-        ..PLAIN
+        ..GEOMETRY
     },
     Quantity {
         key: "centre_distance",
@@ -54,9 +50,6 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "centre distance",
         unit: "m",
         shown: "mm",
-        digits: 5,
-        equation: "ISO 21771",
-        stage: Geometry,
         value: |s| Some(s.geometry.centre_distance),
         meaning: "The distance between the gear axes. Without a given value, the distance at \
             which the profile shifts leave no backlash.",
@@ -66,9 +59,8 @@ pub(super) const TABLE: &[Quantity] = &[
         ]),
         source: "ISO 21771:2007, working centre distance. Zhou & Chen 2014 use r_1 + r_2, which \
             is exact without profile shift.",
-        assumptions: SPUR_PAIR,
         checks: &[checks::distance],
-        ..PLAIN
+        ..GEOMETRY
     },
     Quantity {
         key: "working_pressure_angle",
@@ -76,9 +68,6 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "working pressure angle",
         unit: "rad",
         shown: "deg",
-        digits: 5,
-        equation: "ISO 21771",
-        stage: Geometry,
         value: |s| Some(s.geometry.working_pressure_angle),
         meaning: "The angle between the line of action and the common tangent of the pitch \
             circles at this centre distance.",
@@ -88,9 +77,8 @@ pub(super) const TABLE: &[Quantity] = &[
         ]),
         source: "ISO 21771:2007, working pressure angle. Zhou & Chen 2014 use α, which is exact \
             without profile shift.",
-        assumptions: SPUR_PAIR,
         checks: &[checks::distance],
-        ..PLAIN
+        ..GEOMETRY
     },
     Quantity {
         key: "mesh_force",

@@ -27,13 +27,119 @@ const BODY: &str = "Each gear is a solid body of its own width from the bore to 
     the base circle with model.inertia = \"base-circle\", without web, shaft or coupling. The field \
     inertia of a gear gives the moment of inertia of all that turns with it.";
 
+/// A force of the free impact, by default over all stiffness models.
+const FORCE: Quantity = Quantity {
+    unit: "N",
+    shown: "N",
+    digits: 4,
+    equation: "models in range",
+    stage: Band,
+    source: "Zhou & Chen 2014, Eq. 57, with all stiffness models in range: the models in \
+        range combine a tooth compliance and a contact compliance.",
+    corrections: &["Eq. 56"],
+    assumptions: BAND,
+    checks: &[checks::teeth],
+    by_static: Some("static_force_at_start"),
+    by_dynamic: Some("dynamic_peak_approach_force"),
+    ..PLAIN
+};
+
+/// A duration of the impact.
+const DURATION: Quantity = Quantity {
+    unit: "s",
+    shown: "us",
+    digits: 4,
+    stage: Impact,
+    corrections: &["Eq. 32"],
+    assumptions: SPRING,
+    by_dynamic: Some("dynamic_impact_duration"),
+    ..PLAIN
+};
+
+/// A moment of inertia.
+const INERTIA: Quantity = Quantity {
+    unit: "kg m2",
+    shown: "kg mm2",
+    digits: 5,
+    equation: "∫r² dm",
+    stage: Masses,
+    source: "Method paper: Zhou & Chen 2014, Eq. 47. Outline: ∫r² dm over the section that the \
+        rack cuts, involute and fillet.",
+    corrections: &["Eq. 47"],
+    assumptions: BODY,
+    checks: &[checks::bodies],
+    ..PLAIN
+};
+
+/// A mass on the line of action.
+const MASS: Quantity = Quantity {
+    unit: "kg",
+    shown: "kg",
+    digits: 5,
+    corrections: &["Eq. 33, Eq. 50", "Eq. 46"],
+    assumptions: BODY,
+    checks: &[checks::bodies],
+    ..PLAIN
+};
+
+/// An energy of the whole width.
+const ENERGY: Quantity = Quantity {
+    unit: "J",
+    shown: "J",
+    digits: 5,
+    stage: Impact,
+    corrections: &["Eq. 46", "Eq. 33, Eq. 50"],
+    ..PLAIN
+};
+
+/// The row of an end of the spread over the stiffness models.
+macro_rules! spread {
+    ($key:literal, $symbol:literal, $label:literal, $end:ident, $word:literal, $choice:literal) => {
+        Quantity {
+            key: $key,
+            symbol: $symbol,
+            label: $label,
+            value: |s| Some(s.band?.$end),
+            meaning: concat!(
+                "The impact force by the ",
+                $word,
+                " of the stiffness models that cover the pair."
+            ),
+            formula: Made(|k| over_models(k, $choice)),
+            variants: &[Variant::words(
+                shared_load,
+                concat!(
+                    "The force of the free impact by the ",
+                    $word,
+                    " of the stiffness models that cover the pair."
+                ),
+                BAND_SHARED,
+            )],
+            ..FORCE
+        }
+    };
+}
+
+/// The row of a moment of inertia.
+macro_rules! inertia {
+    ($key:literal, $symbol:literal, $label:literal, $gear:literal, $name:literal, $given:ident, $field:literal) => {
+        Quantity {
+            key: $key,
+            symbol: $symbol,
+            label: $label,
+            value: |s| Some(s.kept.masses.inertias[$gear].moment),
+            meaning: concat!("The moment of inertia of the ", $name, " about its axis."),
+            formula: Cases(&[($given, Given($field)), (always, Made(|k| inertia(k, $gear)))]),
+            ..INERTIA
+        }
+    };
+}
+
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "impact_force",
         symbol: "F_S",
         label: "impact force",
-        unit: "N",
-        shown: "N",
         digits: 5,
         equation: "Eq. 57",
         stage: Impact,
@@ -51,65 +157,10 @@ pub(super) const TABLE: &[Quantity] = &[
             checks::contact_small,
             checks::within_approach,
         ],
-        by_static: Some("static_force_at_start"),
-        by_dynamic: Some("dynamic_peak_approach_force"),
-        ..PLAIN
+        ..FORCE
     },
-    Quantity {
-        key: "impact_force_low",
-        symbol: "F_S,low",
-        label: "  lowest, all models",
-        unit: "N",
-        shown: "N",
-        digits: 4,
-        equation: "models in range",
-        stage: Band,
-        value: |s| Some(s.band?.low),
-        meaning: "The impact force by the most compliant of the stiffness models that cover the \
-            pair.",
-        formula: Made(|k| over_models(k, "min")),
-        source: "Zhou & Chen 2014, Eq. 57, with all stiffness models in range: the models in \
-            range combine a tooth compliance and a contact compliance.",
-        corrections: &["Eq. 56"],
-        assumptions: BAND,
-        checks: &[checks::teeth],
-        variants: &[Variant::words(
-            shared_load,
-            "The force of the free impact by the most compliant of the stiffness models that \
-                cover the pair.",
-            BAND_SHARED,
-        )],
-        by_static: Some("static_force_at_start"),
-        by_dynamic: Some("dynamic_peak_approach_force"),
-        ..PLAIN
-    },
-    Quantity {
-        key: "impact_force_high",
-        symbol: "F_S,high",
-        label: "  highest, all models",
-        unit: "N",
-        shown: "N",
-        digits: 4,
-        equation: "models in range",
-        stage: Band,
-        value: |s| Some(s.band?.high),
-        meaning: "The impact force by the stiffest of the stiffness models that cover the pair.",
-        formula: Made(|k| over_models(k, "max")),
-        source: "Zhou & Chen 2014, Eq. 57, with all stiffness models in range: the models in \
-            range combine a tooth compliance and a contact compliance.",
-        corrections: &["Eq. 56"],
-        assumptions: BAND,
-        checks: &[checks::teeth],
-        variants: &[Variant::words(
-            shared_load,
-            "The force of the free impact by the stiffest of the stiffness models that cover the \
-                pair.",
-            BAND_SHARED,
-        )],
-        by_static: Some("static_force_at_start"),
-        by_dynamic: Some("dynamic_peak_approach_force"),
-        ..PLAIN
-    },
+    spread!("impact_force_low", "F_S,low", "  lowest, all models", low, "most compliant", "min"),
+    spread!("impact_force_high", "F_S,high", "  highest, all models", high, "stiffest", "max"),
     Quantity {
         key: "dynamic_factor",
         symbol: "F_S/F_0",
@@ -133,18 +184,12 @@ pub(super) const TABLE: &[Quantity] = &[
         key: "impact_duration",
         symbol: "T_S",
         label: "impact duration",
-        unit: "s",
-        shown: "us",
-        digits: 4,
         equation: "by the method",
-        stage: Impact,
         value: |s| Some(s.impact?.duration()),
         meaning: "The duration of the impact by the method of the case.",
         formula: Cases(&[(paper, Text("T_S,32")), (always, Text("T_S,q"))]),
         source: "Method paper: Zhou & Chen 2014, Eq. 32. Method exact: half a period of the \
             spring and mass that give F_S.",
-        corrections: &["Eq. 32"],
-        assumptions: SPRING,
         checks: &[checks::within_approach, checks::possible],
         variants: &[Variant::words(
             paper,
@@ -152,18 +197,13 @@ pub(super) const TABLE: &[Quantity] = &[
             "Two spheres collide. The bending of the teeth, which determines the force, is \
                 neglected.",
         )],
-        by_dynamic: Some("dynamic_impact_duration"),
-        ..PLAIN
+        ..DURATION
     },
     Quantity {
         key: "impact_duration_printed",
         symbol: "T_S,32",
         label: "  by Eq. 32 as printed",
-        unit: "s",
-        shown: "us",
-        digits: 4,
         equation: "Eq. 32",
-        stage: Impact,
         value: |s| Some(s.impact?.duration_printed()),
         meaning: "The duration of Eq. 32 as printed. Methods paper and exact compute the friction \
             ratio with it, as published.",
@@ -172,100 +212,57 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 32", "Eq. 33, Eq. 50"],
         assumptions: SPHERES,
         checks: &[checks::printed_shorter],
-        by_dynamic: Some("dynamic_impact_duration"),
-        ..PLAIN
+        ..DURATION
     },
     Quantity {
         key: "impact_duration_hertz",
         symbol: "T_S,H",
         label: "  with Hertz's prefactor",
-        unit: "s",
-        shown: "us",
-        digits: 4,
         equation: "Hertz 1882",
-        stage: Impact,
         value: |s| Some(s.impact?.duration_hertz()),
         meaning: "The duration of the collision of two spheres after Hertz, with the prefactor \
             that Eq. 32 omits.",
         formula: Text("C_H T_S,32"),
         source: "Hertz 1882: T = 2.868266 (M²/(ρ E'² ΔV_n))^(1/5). Eq. 32 omits the factor \
             2.868266 π^(2/5).",
-        corrections: &["Eq. 32"],
         assumptions: SPHERES,
-        by_dynamic: Some("dynamic_impact_duration"),
-        ..PLAIN
+        ..DURATION
     },
     Quantity {
         key: "impact_duration_spring",
         symbol: "T_S,q",
         label: "  by pair compliance",
-        unit: "s",
-        shown: "us",
-        digits: 4,
         equation: "π√(Mq/b)",
-        stage: Impact,
         value: |s| Some(s.impact?.duration_spring()),
         meaning: "Half a period of the effective mass on the pair compliance. The impact force \
             uses the same mass and compliance.",
         formula: Text("π √(M q_s/b)"),
         source: "Free vibration of the mass and spring of Zhou & Chen 2014, Eqs. 50-57: π√(Mq/b).",
-        corrections: &["Eq. 32"],
-        assumptions: SPRING,
         checks: &[checks::within_approach, checks::teeth],
-        by_dynamic: Some("dynamic_impact_duration"),
-        ..PLAIN
+        ..DURATION
     },
-    Quantity {
-        key: "inertia_driver",
-        symbol: "J_1",
-        label: "inertia of driver",
-        unit: "kg m2",
-        shown: "kg mm2",
-        digits: 5,
-        equation: "∫r² dm",
-        stage: Masses,
-        value: |s| Some(s.kept.masses.inertias[0].moment),
-        meaning: "The moment of inertia of the driver about its axis.",
-        formula: Cases(&[
-            (driver_inertia_given, Given("driver.inertia")),
-            (always, Made(|k| inertia(k, 0))),
-        ]),
-        source: "Method paper: Zhou & Chen 2014, Eq. 47. Outline: ∫r² dm over the section that the \
-            rack cuts, involute and fillet.",
-        corrections: &["Eq. 47"],
-        assumptions: BODY,
-        checks: &[checks::bodies],
-        ..PLAIN
-    },
-    Quantity {
-        key: "inertia_driven",
-        symbol: "J_2",
-        label: "inertia of driven gear",
-        unit: "kg m2",
-        shown: "kg mm2",
-        digits: 5,
-        equation: "∫r² dm",
-        stage: Masses,
-        value: |s| Some(s.kept.masses.inertias[1].moment),
-        meaning: "The moment of inertia of the driven gear about its axis.",
-        formula: Cases(&[
-            (driven_inertia_given, Given("driven.inertia")),
-            (always, Made(|k| inertia(k, 1))),
-        ]),
-        source: "Method paper: Zhou & Chen 2014, Eq. 47. Outline: ∫r² dm over the section that the \
-            rack cuts, involute and fillet.",
-        corrections: &["Eq. 47"],
-        assumptions: BODY,
-        checks: &[checks::bodies],
-        ..PLAIN
-    },
+    inertia!(
+        "inertia_driver",
+        "J_1",
+        "inertia of driver",
+        0,
+        "driver",
+        driver_inertia_given,
+        "driver.inertia"
+    ),
+    inertia!(
+        "inertia_driven",
+        "J_2",
+        "inertia of driven gear",
+        1,
+        "driven gear",
+        driven_inertia_given,
+        "driven.inertia"
+    ),
     Quantity {
         key: "reduced_mass",
         symbol: "m_red",
         label: "reduced mass",
-        unit: "kg",
-        shown: "kg",
-        digits: 5,
         equation: "Eq. 33",
         stage: Masses,
         value: |s| Some(s.reduced_mass),
@@ -273,18 +270,12 @@ pub(super) const TABLE: &[Quantity] = &[
             32 use it. The impact force uses the effective mass at D.",
         formula: Text("m_1 m_2/(m_1 + m_2)"),
         source: "Zhou & Chen 2014, Eqs. 33 and 46.",
-        corrections: &["Eq. 33, Eq. 50", "Eq. 46"],
-        assumptions: BODY,
-        checks: &[checks::bodies],
-        ..PLAIN
+        ..MASS
     },
     Quantity {
         key: "effective_mass",
         symbol: "M",
         label: "effective mass at D",
-        unit: "kg",
-        shown: "kg",
-        digits: 5,
         equation: "Eq. 50",
         stage: Impact,
         value: |s| Some(s.impact?.effective_mass),
@@ -292,10 +283,7 @@ pub(super) const TABLE: &[Quantity] = &[
             mass, with r_b2' instead of r_b2 as the lever arm of the driven gear.",
         formula: Text("m_1 m_2/(m_1 (r_b2'/r_b2)² + m_2)"),
         source: "Zhou & Chen 2014, Eq. 50: J_1 J_2/(J_1 r_b2'² + J_2 r_b1²).",
-        corrections: &["Eq. 33, Eq. 50", "Eq. 46"],
-        assumptions: BODY,
-        checks: &[checks::bodies],
-        ..PLAIN
+        ..MASS
     },
     Quantity {
         key: "pair_compliance",
@@ -340,39 +328,29 @@ pub(super) const TABLE: &[Quantity] = &[
         key: "impact_energy",
         symbol: "E_k",
         label: "impact energy",
-        unit: "J",
-        shown: "J",
-        digits: 5,
         equation: "Eq. 50",
-        stage: Impact,
         value: |s| Some(s.impact?.energy),
         meaning: "The kinetic energy of the approach at D, over the whole width. The teeth absorb \
             it and return it.",
         formula: Text("M ΔV_n²/2"),
         source: "Zhou & Chen 2014, Eq. 50.",
-        corrections: &["Eq. 46", "Eq. 33, Eq. 50"],
         assumptions: "The gears approach at their steady speeds.",
         checks: &[checks::gap_closed],
-        ..PLAIN
+        ..ENERGY
     },
     Quantity {
         key: "sliding_energy",
         symbol: "W_f",
         label: "sliding energy",
-        unit: "J",
-        shown: "J",
-        digits: 5,
         equation: "Eq. 51",
-        stage: Impact,
         value: |s| Some(s.impact?.sliding_energy),
         meaning: "The energy of the sliding at D by Eq. 51, over the whole width. Friction can \
             absorb only a part of it: see stick_limit.",
         formula: Text("M ΔV_τ²/2"),
         source: "Zhou & Chen 2014, Eq. 51.",
-        corrections: &["Eq. 46", "Eq. 33, Eq. 50"],
         assumptions: "The effective mass along the normal also applies to the sliding, as printed.",
         checks: &[checks::gap_closed, checks::keeps_sliding],
-        ..PLAIN
+        ..ENERGY
     },
 ];
 

@@ -7,7 +7,7 @@ use crate::model::dynamic::speeds::SpeedCurve;
 use crate::model::explanation::Formula::{Found, Text};
 use crate::model::explanation::{Check, Context, Finding, Formula, Step, four, step};
 
-const IN_MOTION: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
+const OSCILLATOR_ALONE: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
     while a pair is in contact. Shafts are rigid, and the load is steady. Only the incoming pair \
     has a deviation, e = Δf_0. With finite-element compliance the force on a pair displaces the \
     pairs up to three pitches away.";
@@ -29,6 +29,39 @@ const BY_MOTION: Formula = Found(
     &["m_red", "c", "f_n", "f_z"],
 );
 
+/// A result of the motion.
+const IN_MOTION: Quantity = Quantity {
+    equation: "m x'' + ΣF = F0",
+    stage: Dynamic,
+    formula: BY_MOTION,
+    source: MOTION,
+    assumptions: OSCILLATOR_ALONE,
+    checks: CHECKS,
+    ..PLAIN
+};
+
+/// A result of the back flanks.
+const BACK: Quantity = Quantity {
+    stage: Dynamic,
+    formula: BY_MOTION,
+    source: RATTLE,
+    assumptions: AT_BACK,
+    checks: &[checks::teeth, checks::forgotten],
+    needs_backlash: true,
+    ..PLAIN
+};
+
+/// A result of the mean stiffness.
+const RESONANCE: Quantity = Quantity {
+    digits: 5,
+    equation: "ISO 6336-1",
+    stage: Resonance,
+    source: ISO,
+    assumptions: RIGID,
+    checks: &[checks::teeth],
+    ..PLAIN
+};
+
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "dynamic_first_contact_angle_driver",
@@ -37,17 +70,12 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "rad",
         shown: "deg",
         digits: 4,
-        equation: "m x'' + ΣF = F0",
-        stage: Dynamic,
         value: |s| Some(of_driver(s, s.dynamic.as_ref()?.first_contact_angle?)),
         meaning: "The angle of the driver before E at which the incoming tooth first touches in \
             motion. The verdict of method dynamic gives this angle.",
         formula: Text("i u_d"),
-        source: MOTION,
         corrections: &["Eqs. 7-20"],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "dynamic_first_contact_angle",
@@ -56,17 +84,11 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "rad",
         shown: "deg",
         digits: 4,
-        equation: "m x'' + ΣF = F0",
-        stage: Dynamic,
         value: |s| s.dynamic.as_ref()?.first_contact_angle,
         meaning: "The angle of the driven gear before E at which the incoming tooth first touches \
             in motion.",
-        formula: BY_MOTION,
-        source: MOTION,
         corrections: &["Eqs. 7-20"],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "dynamic_peak_approach_force",
@@ -75,17 +97,11 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "N",
         shown: "N",
         digits: 5,
-        equation: "m x'' + ΣF = F0",
-        stage: Dynamic,
         value: |s| Some(s.dynamic.as_ref()?.peak_approach_force),
         meaning: "The peak force on the incoming tooth before E, in the corner contact: the \
             impact force by the motion of the whole mesh.",
-        formula: BY_MOTION,
-        source: MOTION,
         corrections: &["Eqs. 7-20", "Eq. 54"],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "dynamic_peak_force",
@@ -94,16 +110,10 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "N",
         shown: "N",
         digits: 5,
-        equation: "m x'' + ΣF = F0",
-        stage: Dynamic,
         value: |s| Some(s.dynamic.as_ref()?.peak_force),
         meaning: "The peak force on the incoming tooth from its first contact to its last: the \
             load on its root and its flank.",
-        formula: BY_MOTION,
-        source: MOTION,
         corrections: &["Eq. 54"],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
         variants: &[Variant::meaning(
             conditions::driven_rounded,
             "The peak force on the incoming tooth from its first contact to its last: the load on \
@@ -113,7 +123,7 @@ pub(super) const TABLE: &[Quantity] = &[
                 speed falls. In a real pair the stiffness rises while the contact moves by its own \
                 width, so that the model overstates the peak at low speed.",
         )],
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "dynamic_impact_duration",
@@ -122,17 +132,11 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "s",
         shown: "us",
         digits: 4,
-        equation: "m x'' + ΣF = F0",
-        stage: Dynamic,
         value: |s| s.dynamic.as_ref()?.impact_duration,
         meaning: "The time from a first contact before E to the first minimum of the force after \
             its first peak, or to the loss of contact if that is earlier.",
-        formula: BY_MOTION,
-        source: MOTION,
         corrections: &["Eq. 32"],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "dynamic_last_contact_angle",
@@ -141,16 +145,10 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "rad",
         shown: "deg",
         digits: 4,
-        equation: "m x'' + ΣF = F0",
-        stage: Dynamic,
         value: |s| s.dynamic.as_ref()?.last_contact_angle,
         meaning: "The angle of the driver after B at the last contact of the incoming tooth in \
             motion.",
-        formula: BY_MOTION,
-        source: MOTION,
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "dynamic_contact_lost",
@@ -160,15 +158,12 @@ pub(super) const TABLE: &[Quantity] = &[
         shown: "yes/no",
         digits: 1,
         equation: "no pair touches",
-        stage: Dynamic,
         value: |s| Some(f64::from(u8::from(s.dynamic.as_ref()?.contact_lost))),
         meaning: "Whether no pair touches at some moment. The gears then rattle and strike again.",
-        formula: BY_MOTION,
         source: "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988: no pair \
             touches at some moment from one base pitch before E to the last contact of the tooth.",
-        assumptions: IN_MOTION,
         checks: &[checks::teeth, checks::forgotten],
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "dynamic_back_strikes",
@@ -178,17 +173,11 @@ pub(super) const TABLE: &[Quantity] = &[
         shown: "1",
         digits: 4,
         equation: "back flanks touch",
-        stage: Dynamic,
         value: |s| Some(f64::from(s.dynamic.as_ref()?.rattle?.strikes)),
         meaning: "How often the back flanks strike across the backlash, from one base pitch \
             before E until the incoming tooth leaves. Without a backlash in the case the back flanks are far \
             away, and this result does not exist.",
-        formula: BY_MOTION,
-        source: RATTLE,
-        assumptions: AT_BACK,
-        checks: &[checks::teeth, checks::forgotten],
-        needs_backlash: true,
-        ..PLAIN
+        ..BACK
     },
     Quantity {
         key: "dynamic_peak_back_force",
@@ -198,16 +187,10 @@ pub(super) const TABLE: &[Quantity] = &[
         shown: "N",
         digits: 5,
         equation: "max B",
-        stage: Dynamic,
         value: |s| Some(s.dynamic.as_ref()?.rattle?.force),
         meaning: "The greatest force max B on a pair of back flanks, from one base pitch before E \
             until the incoming tooth leaves.",
-        formula: BY_MOTION,
-        source: RATTLE,
-        assumptions: AT_BACK,
-        checks: &[checks::teeth, checks::forgotten],
-        needs_backlash: true,
-        ..PLAIN
+        ..BACK
     },
     Quantity {
         key: "dynamic_friction_work",
@@ -217,18 +200,14 @@ pub(super) const TABLE: &[Quantity] = &[
         shown: "J",
         digits: 5,
         equation: "∫μ F |v| dt",
-        stage: Dynamic,
         value: |s| s.dynamic.as_ref()?.friction_work,
         meaning: "The work of the friction on the incoming tooth from its first contact to its \
             last, with the μ of the case.",
-        formula: BY_MOTION,
         source: "Coulomb friction along the motion, ∫μ F |v| dt with the sliding velocity v of \
             the pair, after Özgüven & Houser 1988.",
         corrections: &["Eq. 64"],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
         needs_friction: true,
-        ..PLAIN
+        ..IN_MOTION
     },
     Quantity {
         key: "mesh_frequency",
@@ -253,16 +232,10 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "natural frequency",
         unit: "Hz",
         shown: "Hz",
-        digits: 5,
-        equation: "ISO 6336-1",
-        stage: Resonance,
         value: |s| Some(s.resonance?.natural_frequency),
         meaning: "The natural frequency of the two gears on the mean stiffness of the mesh.",
         formula: Text("√(k_m/m_red)/(2 π)"),
-        source: ISO,
-        assumptions: RIGID,
-        checks: &[checks::teeth],
-        ..PLAIN
+        ..RESONANCE
     },
     Quantity {
         key: "resonance_ratio",
@@ -271,8 +244,6 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "1",
         shown: "1",
         digits: 4,
-        equation: "ISO 6336-1",
-        stage: Resonance,
         value: |s| Some(s.resonance?.ratio()),
         meaning: "The mesh frequency over the natural frequency. By the mean stiffness the \
             pair is in resonance at N = 1, and its second and third mesh harmonics at N = 1/2 and \
@@ -280,10 +251,8 @@ pub(super) const TABLE: &[Quantity] = &[
             up to 0.85 subcritical (from 100 N per mm of width on), up to 1.15 the main resonance, \
             up to 1.5 intermediate, and above it supercritical.",
         formula: Text("f_z/f_n"),
-        source: ISO,
-        assumptions: RIGID,
         checks: &[checks::teeth, subcritical],
-        ..PLAIN
+        ..RESONANCE
     },
     Quantity {
         key: "resonance_speed",
@@ -291,9 +260,6 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "speed of N = 1",
         unit: "rad/s",
         shown: "rpm",
-        digits: 5,
-        equation: "ISO 6336-1",
-        stage: Resonance,
         value: |s| {
             Some(s.resonance?.natural_frequency * s.geometry.base_pitch / s.geometry.driver.base)
         },
@@ -301,10 +267,7 @@ pub(super) const TABLE: &[Quantity] = &[
             frequency of the mean stiffness, N = 1. The motion peaks at another speed: see \
             resonance_peak_speed.",
         formula: Text("2 π f_n/z1"),
-        source: ISO,
-        assumptions: RIGID,
-        checks: &[checks::teeth],
-        ..PLAIN
+        ..RESONANCE
     },
     RISING[0],
     RISING[1],

@@ -11,24 +11,44 @@ use crate::model::position::{gap, printed_turns};
 const TIP: &str = "The tip of the driven gear meets the involute of the driver: a sharp edge, or the \
     arc of its tip radius. Both gears turn at their steady speeds up to D.";
 
+/// A length at D.
+const LENGTH: Quantity = Quantity {
+    unit: "m",
+    shown: "mm",
+    digits: 5,
+    stage: Position,
+    assumptions: TIP,
+    checks: &[checks::gap_closed],
+    ..PLAIN
+};
+
+/// An angle from D to E.
+const ANGLE: Quantity = Quantity {
+    unit: "rad",
+    shown: "deg",
+    digits: 4,
+    stage: Position,
+    corrections: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
+    assumptions: TIP,
+    ..PLAIN
+};
+
+/// A velocity at D.
+const VELOCITY: Quantity =
+    Quantity { unit: "m/s", shown: "m/s", digits: 5, stage: Velocity, assumptions: TIP, ..PLAIN };
+
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
         key: "approach_angle_driver",
         symbol: "θ_1",
         label: "driver angle before E",
-        unit: "rad",
-        shown: "deg",
-        digits: 4,
         equation: "Eq. 12",
-        stage: Position,
         value: |s| Some(s.position?.approach_angle_driver),
         meaning: "The angle through which the driver turns from the first contact D to E, where \
             contact should begin.",
         formula: Cases(&[(paper, Text("ε_e + ε_d")), (always, Text("i u"))]),
         source: "Zhou & Chen 2014, Eqs. 11-20. Method exact: the contact condition S(u) = Δ of \
             the two involutes (see approach_angle_driven), and Eq. 11.",
-        corrections: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
-        assumptions: TIP,
         checks: &[checks::gap_closed, checks::on_flank],
         variants: &[Variant::meaning(
             paper,
@@ -38,17 +58,13 @@ pub(super) const TABLE: &[Quantity] = &[
         )],
         by_static: Some("static_first_contact_angle_driver"),
         by_dynamic: Some("dynamic_first_contact_angle_driver"),
-        ..PLAIN
+        ..ANGLE
     },
     Quantity {
         key: "approach_angle_driven",
         symbol: "u",
         label: "driven angle before E",
-        unit: "rad",
-        shown: "deg",
-        digits: 4,
         equation: "Eq. 11",
-        stage: Position,
         value: |s| Some(s.position?.approach_angle_driven),
         meaning: "The angle through which the driven gear turns from the first contact D to E. \
             S(u) is the gap between its tip and the driver's flank along the contact normal. At D \
@@ -57,8 +73,6 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Zhou & Chen 2014, Eq. 11. Method exact: the contact condition of the path of the \
             tip and the involute of the driver, solved by Newton's method; dS/du = r_b2 - r_b2', \
             so u grows with √Δ.",
-        corrections: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
-        assumptions: TIP,
         checks: &[checks::start, checks::gap_closed, checks::on_flank],
         variants: &[Variant::meaning(
             paper,
@@ -68,17 +82,13 @@ pub(super) const TABLE: &[Quantity] = &[
         )],
         by_static: Some("static_first_contact_angle"),
         by_dynamic: Some("dynamic_first_contact_angle"),
-        ..PLAIN
+        ..ANGLE
     },
     Quantity {
         key: "contact_radius_driver",
         symbol: "O1D",
         label: "driver radius at D",
-        unit: "m",
-        shown: "mm",
-        digits: 5,
         equation: "Eq. 7",
-        stage: Position,
         value: |s| Some(s.position?.contact.radius_driver),
         meaning: "The radius of D on the driver. D is near the root, where the flank has its \
             strongest curvature.",
@@ -88,56 +98,39 @@ pub(super) const TABLE: &[Quantity] = &[
         ]),
         source: "Zhou & Chen 2014, Eqs. 7-10, with a instead of r_1 + r_2.",
         corrections: &["Eqs. 7-20"],
-        assumptions: TIP,
         checks: &[checks::on_flank, checks::gap_closed],
-        ..PLAIN
+        ..LENGTH
     },
     Quantity {
         key: "contact_radius_driven",
         symbol: "O2D",
         label: "driven radius at D",
-        unit: "m",
-        shown: "mm",
-        digits: 5,
         equation: "rounding",
-        stage: Position,
         value: |s| Some(s.position?.contact.radius_driven),
         meaning: "The radius of D on the driven gear, where the tooth takes the load: its tip \
             radius, or a point on the rounding of its tip.",
         formula: Cases(&[(driven_rounded, Text("√(r_b2'² + N2'D²)")), (always, Text("r_a2"))]),
         source: "The geometry of the rounding, an arc tangent to the tip circle and to the flank.",
-        assumptions: TIP,
-        checks: &[checks::gap_closed],
-        ..PLAIN
+        ..LENGTH
     },
     Quantity {
         key: "contact_normal_radius_driven",
         symbol: "r_b2'",
         label: "normal's radius, driven",
-        unit: "m",
-        shown: "mm",
-        digits: 5,
         equation: "Eq. 49",
-        stage: Position,
         value: |s| Some(s.position?.contact.normal_radius_driven),
         meaning: "The distance from O2 to the contact normal at D, the lever arm of the driven \
             gear. At E it equals r_b2. Its difference from r_b2 causes the approach velocity.",
         formula: Text("a cos χ - r_b1"),
         source: "Zhou & Chen 2014, Eqs. 24-28, 48 and 49, in closed form.",
         corrections: &["Eqs. 27, 42, 60"],
-        assumptions: TIP,
-        checks: &[checks::gap_closed],
-        ..PLAIN
+        ..LENGTH
     },
     Quantity {
         key: "curvature_radius",
         symbol: "ρ_S",
         label: "radius of curvature",
-        unit: "m",
-        shown: "mm",
-        digits: 5,
         equation: "Eq. 32",
-        stage: Position,
         value: |s| Some(s.position?.curvature_radius),
         meaning: "The reduced radius of curvature of flank and tip at D. The width of the contact \
             and its stress depend on it.",
@@ -146,17 +139,14 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "A sharp tip has the curvature of its own flank, a rounded tip the radius of \
             its edge. A sharp edge causes far higher pressure than either.",
         checks: &[checks::edge],
-        ..PLAIN
+        ..LENGTH
     },
     Quantity {
         key: "closed_gap",
         symbol: "S(u)",
         label: "gap closed by the tip",
-        unit: "m",
         shown: "um",
-        digits: 5,
         equation: "S(u) = Δ",
-        stage: Position,
         value: |s| Some(s.position?.closed_gap),
         meaning: "The gap between tip and flank that is closed at D. It equals Δ at the exact \
             position. At the printed position the difference from Δ is the error of that \
@@ -165,9 +155,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Contact condition S(u) = Δ: the normal distance of the involutes, the integral \
             of dS/du = r_b2 - r_b2'. Zhou & Chen 2014 have no such equation.",
         corrections: &["Eqs. 7-20"],
-        assumptions: TIP,
-        checks: &[checks::gap_closed],
-        ..PLAIN
+        ..LENGTH
     },
     Quantity {
         key: "transit_time",
@@ -192,39 +180,29 @@ pub(super) const TABLE: &[Quantity] = &[
         key: "normal_velocity",
         symbol: "ΔV_n",
         label: "approach velocity at D",
-        unit: "m/s",
-        shown: "m/s",
-        digits: 5,
         equation: "Eq. 21",
-        stage: Velocity,
         value: |s| Some(s.velocity?.normal),
         meaning: "The velocity at which the tip approaches the flank at D along the contact \
             normal. It causes the impact, and it is 0 at E.",
         formula: Difference("ω_2 (r_b2 - r_b2')"),
         source: "Zhou & Chen 2014, Eqs. 21, 23-28; equal to ω_1 r_b1 - ω_2 r_b2'.",
         corrections: &["Eqs. 27, 42, 60", "Eqs. 7-20"],
-        assumptions: TIP,
         checks: &[checks::gap_closed],
-        ..PLAIN
+        ..VELOCITY
     },
     Quantity {
         key: "sliding_velocity",
         symbol: "ΔV_τ",
         label: "sliding velocity at D",
-        unit: "m/s",
-        shown: "m/s",
-        digits: 5,
         equation: "Eq. 22",
-        stage: Velocity,
         value: |s| Some(s.velocity?.sliding),
         meaning: "The velocity at which the tip slides along the flank at D. A positive value \
             points to the root of the driver.",
         formula: Difference("ω_2 N2'D - ω_1 ρ_1"),
         source: "Zhou & Chen 2014, Eqs. 22-28.",
         corrections: &["Eq. 22", "Eqs. 27, 42, 60"],
-        assumptions: TIP,
         checks: &[checks::gap_closed, checks::keeps_sliding],
-        ..PLAIN
+        ..VELOCITY
     },
 ];
 

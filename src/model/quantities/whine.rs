@@ -28,6 +28,30 @@ const PERIODIC_AT_REST: Formula =
 const PERIODIC: Formula =
     Found("max x - min x over the base pitches after which the motion repeats", STEADY);
 
+/// A result of the steady motion.
+const STEADY_MOTION: Quantity = Quantity {
+    digits: 5,
+    unit: "1",
+    shown: "1",
+    stage: SteadyMotion,
+    source: MOTION,
+    assumptions: IN_MOTION,
+    checks: CHECKS,
+    ..PLAIN
+};
+
+/// A harmonic at rest.
+const STATIC: Quantity = Quantity {
+    unit: "m",
+    shown: "um",
+    digits: 4,
+    stage: StaticSpectrum,
+    source: SPECTRUM,
+    assumptions: AT_REST,
+    checks: &[checks::teeth],
+    ..PLAIN
+};
+
 /// The row of a harmonic of the static transmission error: its order, the order in words, and its
 /// frequency.
 macro_rules! at_rest {
@@ -36,11 +60,7 @@ macro_rules! at_rest {
             key: concat!("static_te_harmonic_", $order),
             symbol: concat!("TE_st,", $order),
             label: concat!("static: TE harmonic ", $order),
-            unit: "m",
-            shown: "um",
-            digits: 4,
             equation: concat!("2 |c_", $order, "|"),
-            stage: StaticSpectrum,
             value: |s| Some(at_rest(s)?.spectrum.amplitudes[$order - 1]),
             meaning: concat!(
                 "The amplitude of the ",
@@ -57,10 +77,7 @@ macro_rules! at_rest {
                 ),
                 &["F_0", "k_m"],
             ),
-            source: SPECTRUM,
-            assumptions: AT_REST,
-            checks: &[checks::teeth],
-            ..PLAIN
+            ..STATIC
         }
     };
 }
@@ -76,7 +93,6 @@ macro_rules! in_motion {
             shown: "um",
             digits: 4,
             equation: concat!("2 |c_", $order, "|"),
-            stage: SteadyMotion,
             value: |s| Some(steady(s)?.spectrum.amplitudes[$order - 1]),
             meaning: concat!(
                 "The amplitude of the ",
@@ -93,10 +109,7 @@ macro_rules! in_motion {
                 ),
                 STEADY,
             ),
-            source: MOTION,
-            assumptions: IN_MOTION,
-            checks: CHECKS,
-            ..PLAIN
+            ..STEADY_MOTION
         }
     };
 }
@@ -132,17 +145,12 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "dynamic: TE peak to peak",
         unit: "m",
         shown: "um",
-        digits: 5,
         equation: "max x − min x",
-        stage: SteadyMotion,
         value: |s| Some(steady(s)?.spectrum.peak_to_peak),
         meaning: "The difference between the largest and the smallest transmission error in the \
             steady motion of a pair in which no tooth deviates.",
         formula: PERIODIC,
-        source: MOTION,
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..STEADY_MOTION
     },
     in_motion!(1, "first", "the mesh frequency"),
     in_motion!(2, "second", "2 times the mesh frequency"),
@@ -153,11 +161,7 @@ pub(super) const TABLE: &[Quantity] = &[
         key: "mesh_force_factor",
         symbol: "K_mesh",
         label: "mesh dynamic factor",
-        unit: "1",
-        shown: "1",
-        digits: 5,
         equation: "max ΣF/F0",
-        stage: SteadyMotion,
         value: |s| Some(steady(s)?.mesh_force / s.mesh_force),
         meaning: "The greatest sum of the forces of all tooth pairs in the steady motion over the \
             mesh force.",
@@ -165,57 +169,40 @@ pub(super) const TABLE: &[Quantity] = &[
             "max ΣF/F_0, ΣF over the base pitches after which the motion repeats",
             STEADY,
         ),
-        source: MOTION,
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..STEADY_MOTION
     },
     Quantity {
         key: "tooth_force_factor",
         symbol: "K_tooth",
         label: "tooth dynamic factor",
-        unit: "1",
-        shown: "1",
-        digits: 5,
         equation: "max F/max F_st",
-        stage: SteadyMotion,
         value: |s| Some(steady(s)?.tooth_force / at_rest(s)?.tooth_force),
         meaning: "The greatest force on a tooth in the steady motion over its greatest force at \
             rest, without deviations. The dynamic factor K_v of ISO 6336-1 applies to the whole \
             mesh and includes deviations; compare mesh_force_factor.",
         formula: Found("max F_k in the steady motion over max F_k at rest", STEADY),
-        source: MOTION,
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        ..PLAIN
+        ..STEADY_MOTION
     },
     Quantity {
         key: "steady_contact_lost",
         symbol: "lost_z",
         label: "steady: contact lost",
-        unit: "1",
         shown: "yes/no",
         digits: 1,
         equation: "no pair touches",
-        stage: SteadyMotion,
         value: |s| Some(f64::from(u8::from(steady(s)?.contact_lost))),
         meaning: "Whether no pair touches at some moment of the steady motion of a pair without \
             deviations.",
         formula: Found("from the steady motion", STEADY),
-        source: MOTION,
-        assumptions: IN_MOTION,
         checks: &[checks::teeth],
-        ..PLAIN
+        ..STEADY_MOTION
     },
     Quantity {
         key: "steady_back_strikes",
         symbol: "n_z,b",
         label: "steady: back strikes",
-        unit: "1",
-        shown: "1",
         digits: 4,
         equation: "strikes per base pitch",
-        stage: SteadyMotion,
         value: |s| {
             let steady = steady(s)?;
             Some(f64::from(steady.rattle?.strikes) / f64::from(steady.periods))
@@ -224,11 +211,9 @@ pub(super) const TABLE: &[Quantity] = &[
             of a pair without deviations: rattle. Without a backlash in the case the back flanks \
             are far away, and this result does not exist.",
         formula: Found("counted over the base pitches after which the motion repeats", STEADY),
-        source: MOTION,
         assumptions: AT_BACK,
-        checks: CHECKS,
         needs_backlash: true,
-        ..PLAIN
+        ..STEADY_MOTION
     },
     Quantity {
         key: "steady_back_force",
@@ -236,18 +221,14 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "steady: back flank peak",
         unit: "N",
         shown: "N",
-        digits: 5,
         equation: "max B",
-        stage: SteadyMotion,
         value: |s| Some(steady(s)?.rattle?.force),
         meaning: "The greatest force max B on a pair of back flanks in the steady motion of a pair \
             without deviations.",
         formula: Found("max B over the base pitches after which the motion repeats", STEADY),
-        source: MOTION,
         assumptions: AT_BACK,
-        checks: CHECKS,
         needs_backlash: true,
-        ..PLAIN
+        ..STEADY_MOTION
     },
 ];
 

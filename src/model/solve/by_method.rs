@@ -1,346 +1,297 @@
-//! A solve by one method: runs the stages in order.
+//! A solve by one method: runs the wanted stages in order, and takes the results of stages with equal
+//! inputs from an earlier solve.
 
-use std::cell::{Cell, OnceCell};
+use std::sync::{Arc, OnceLock};
 
 use twofloat::TwoFloat;
 
-use crate::model::clearing::{ClearingInputs, clearing};
-use crate::model::compliance::Teeth;
-use crate::model::deviation::{Deflected, GivenDeviations, LoadedPairs};
-use crate::model::geometry::{GeometryInputs, LoadInputs, mesh_force, precise};
-use crate::model::impact::{FrictionInputs, ImpactInputs};
+use crate::model::budget::{MOTION_WORK, Meter};
+use crate::model::clearing::clearing;
+use crate::model::compliance::{ContactPlace, Teeth};
+use crate::model::deviation::{Deflected, GivenDeviations, LoadedPairs, deviation};
+use crate::model::dynamic::speeds::{SPEEDS, over_speed};
+use crate::model::dynamic::steady::steady;
+use crate::model::dynamic::{Settings, dynamic};
+use crate::model::geometry::{geometry, mesh_force, precise};
 use crate::model::inputs::Inputs;
-use crate::model::masses::{MassInputs, Masses};
-use crate::model::position::{GapSeries, PositionInputs, VelocityInputs};
+use crate::model::masses::Masses;
+use crate::model::mesh::range::{Meshes, late};
+use crate::model::position::{GapSeries, position, velocity};
 use crate::model::relief::check_reliefs;
-use crate::model::request::{Earlier, Request};
+use crate::model::spacing::Spacing;
 use crate::model::stage::{Stage, Stages};
-use crate::model::stations::{StationsInputs, stations};
-use crate::model::{
-    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, deviation, geometry, impact,
-    load_sharing, position,
-};
-use crate::numeric::Real;
+use crate::model::static_load::static_load;
+use crate::model::static_spectrum::{Resonance, static_spectrum};
+use crate::model::stations::stations;
+use crate::model::{Geometry, Kept, Outcome, Position, Refusal, Solution, impact};
+
+/// An earlier solve by the same method.
+#[derive(Debug, Clone, Copy)]
+pub struct Earlier<'a> {
+    /// Its inputs.
+    pub inputs: &'a Inputs,
+    /// Its results.
+    pub solution: &'a Solution,
+}
 
 /// Solves by the method of the inputs, which is not `auto`. Ignores an earlier solve by another
 /// method.
 ///
 /// # Errors
 /// Those of [`solve_after`](super::solve_after).
-pub(super) fn solve_by_method(
+pub(in crate::model) fn solve_by_method(
     inputs: &Inputs,
     wanted: Stages,
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
-    let earlier = earlier.filter(|earlier| earlier.solution.method == inputs.method);
-    let asked = Request {
+    let mut run = Run {
         inputs,
         wanted: wanted.within(inputs.method.stages()),
-        earlier,
-        changed: Cell::default(),
+        earlier: earlier.filter(|earlier| earlier.solution.method == inputs.method),
+        go_on,
+        changed: Stages::NONE,
+        done: Stages::NONE,
+        ran: Stages::NONE,
     };
-    Solving { asked, setup: &Setup::of(inputs) }.run(go_on)
+    let mut solution = run.begin()?;
+    run.locate(&mut solution)?;
+    run.share(&mut solution)?;
+    solution.clearing =
+        run.stage(Stage::Clearing, |s| s.clearing, || clearing(inputs, &solution, go_on))?;
+    Ok(Solution { stages: run.done, ran: run.ran, ..solution })
 }
-
-/// The stages of every solve.
-const ALWAYS: Stages = Stages::of(Stage::Deviation).with(Stage::Masses);
 
 /// The state of a solve.
-pub(super) struct Solving<'a> {
-    asked: Request<'a>,
-    setup: &'a Setup,
+struct Run<'a> {
+    inputs: &'a Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'a>>,
+    go_on: &'a dyn Fn(f64) -> bool,
+    /// The stages whose results differ from the earlier ones.
+    changed: Stages,
+    /// The stages with results.
+    done: Stages,
+    /// The stages that ran.
+    ran: Stages,
 }
 
-impl<'a> Solving<'a> {
-    /// A solve that begins with the load.
-    pub(super) fn from_load(inputs: &'a Inputs, wanted: Stages, setup: &'a Setup) -> Solving<'a> {
-        Solving {
-            asked: Request {
-                inputs,
-                wanted: wanted.within(inputs.method.stages()),
-                earlier: None,
-                changed: Cell::default(),
-            },
-            setup,
-        }
+impl<'a> Run<'a> {
+    /// The earlier solution if its result of this stage is still valid: the stage has the same
+    /// inputs from the case and from other stages.
+    fn kept(&self, stage: Stage) -> Option<&'a Solution> {
+        let Earlier { inputs, solution } = self.earlier?;
+        let is_valid = solution.stages.has(stage)
+            && stage.depends_on().within(self.changed) == Stages::NONE
+            && stage.has_equal_inputs(self.inputs, inputs);
+        is_valid.then_some(solution)
     }
 
-    /// Recomputes the stages from the load on in place. Geometry and masses of the solution stay.
-    pub(super) fn repeat(&self, solution: &mut Solution) -> Result<(), Refusal> {
-        let inputs = self.asked.inputs;
-        check_reliefs(inputs, &solution.geometry)?;
-        solution.mesh_force = mesh_force(&LoadInputs::of(inputs), &solution.geometry);
-        let deviation = self.deviation(&solution.geometry, solution.mesh_force)?;
-        solution.deviation = deviation.rounded();
-        solution.kept.deviation = deviation;
-        solution.outcome = outcome(&deviation);
-        solution.stages = ALWAYS;
-        solution.ran = Stages::NONE.with(Stage::Load).with(Stage::Deviation);
-        solution.position = None;
-        solution.velocity = None;
-        solution.compliance = None;
-        solution.impact = None;
-        solution.friction = None;
-        solution.band = None;
-        solution.stations.clear();
-        solution.clearing = None;
-        solution.withheld = None;
-        solution.stations_withheld = None;
-        if self.asked.wanted.has(Stage::Position) {
-            self.locate(solution)?;
+    /// The result of a stage: the earlier result if it is valid, otherwise a new one.
+    fn result<T: PartialEq>(
+        &mut self,
+        stage: Stage,
+        of: impl Fn(&Solution) -> Option<T>,
+        new: impl FnOnce() -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        if let Some(held) = self.kept(stage).and_then(&of) {
+            self.done = self.done.with(stage);
+            return Ok(held);
         }
-        Ok(())
-    }
-}
-
-/// Whether the deviation makes the tooth early.
-fn outcome(deviation: &Deviation<TwoFloat>) -> Outcome {
-    if deviation.total.rounded() > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact }
-}
-
-impl Solving<'_> {
-    fn deviation(
-        &self,
-        geometry: &Geometry,
-        mesh_force: f64,
-    ) -> Result<Deviation<TwoFloat>, Refusal> {
-        let given = GivenDeviations::of(self.asked.inputs);
-        let by_load = || self.setup.deflected(&given, geometry, mesh_force);
-        deviation::deviation(&given, by_load)
+        let found = new()?;
+        let earlier = self.earlier.filter(|earlier| earlier.solution.stages.has(stage));
+        if earlier.and_then(|earlier| of(earlier.solution)).as_ref() != Some(&found) {
+            self.changed = self.changed.with(stage);
+        }
+        (self.done, self.ran) = (self.done.with(stage), self.ran.with(stage));
+        Ok(found)
     }
 
-    fn run(&self, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
-        let mut solution = self.begun()?;
-        if self.asked.wanted.has(Stage::Position) {
-            self.locate(&mut solution)?;
-        }
-        if self.asked.wanted.has(Stage::Mesh) {
-            load_sharing::share(&mut solution, &self.asked, go_on)?;
-        }
-        if self.asked.wanted.has(Stage::Clearing) {
-            self.clear(&mut solution, go_on)?;
-        }
-        Ok(solution)
+    /// The result of a stage if it is wanted.
+    fn stage<T: PartialEq>(
+        &mut self,
+        stage: Stage,
+        of: impl Fn(&Solution) -> Option<T>,
+        new: impl FnOnce() -> Result<T, Refusal>,
+    ) -> Result<Option<T>, Refusal> {
+        self.wanted.has(stage).then(|| self.result(stage, of, new)).transpose()
     }
 
-    /// The required relief, after the outcome is known.
-    fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
-        let held = self.asked.kept(Stage::Clearing).and_then(|earlier| earlier.clearing);
-        if held.is_none() {
-            solution.ran = solution.ran.with(Stage::Clearing);
-        }
-        solution.clearing = Some(held.map_or_else(
-            || clearing(&ClearingInputs::of(self.asked.inputs), solution, go_on),
-            Ok,
-        )?);
-        solution.stages = solution.stages.with(Stage::Clearing);
-        Ok(())
-    }
-
-    /// Geometry, load and deviation.
-    fn begun(&self) -> Result<Solution, Refusal> {
-        let inputs = self.asked.inputs;
-        let mut ran = Stages::NONE;
-        let geometry = match self.asked.kept(Stage::Geometry) {
-            Some(earlier) => earlier.geometry,
-            None => self.geometry(&mut ran)?,
+    /// Geometry, load, masses and deviation.
+    fn begin(&mut self) -> Result<Solution, Refusal> {
+        let inputs = self.inputs;
+        let setup = match self.earlier {
+            Some(earlier) if differ_in_load_alone(earlier.inputs, inputs) => {
+                Arc::clone(&earlier.solution.kept.setup)
+            }
+            _ => Arc::default(),
         };
+        let geometry =
+            self.result(Stage::Geometry, |s| Some(s.geometry), || setup.geometry(inputs))?;
+        if self.ran.has(Stage::Geometry) {
+            // The earlier result can differ beyond its rounded digits.
+            self.changed = self.changed.with(Stage::Geometry);
+        }
         check_reliefs(inputs, &geometry)?;
-        let mesh_force = if let Some(earlier) = self.asked.kept(Stage::Load) {
-            earlier.mesh_force
-        } else {
-            ran = ran.with(Stage::Load);
-            let force = mesh_force(&LoadInputs::of(inputs), &geometry);
-            self.asked.note(Stage::Load, |s| s.mesh_force.to_bits() == force.to_bits());
-            force
-        };
-        let masses = if let Some(earlier) = self.asked.kept(Stage::Masses) {
-            earlier.kept.masses
-        } else {
-            ran = ran.with(Stage::Masses);
-            let bodies = MassInputs::of(inputs);
-            let masses = self
-                .precise(&geometry)?
-                .map_or_else(|| Masses::of(&bodies, &geometry), |pair| Masses::of(&bodies, pair))?;
-            self.asked.note(Stage::Masses, |s| s.kept.masses == masses);
-            masses
-        };
-        let deviation = if let Some(earlier) = self.asked.kept(Stage::Deviation) {
-            earlier.kept.deviation
-        } else {
-            ran = ran.with(Stage::Deviation);
-            let deviation = self.deviation(&geometry, mesh_force)?;
-            self.asked.note(Stage::Deviation, |s| s.kept.deviation == deviation);
-            deviation
-        };
-        Ok(Solution {
-            method: inputs.method,
-            choice: None,
-            outcome: outcome(&deviation),
-            stages: ALWAYS,
-            ran,
-            geometry,
-            mesh_force,
-            reduced_mass: masses.reduced(),
-            deviation: deviation.rounded(),
-            kept: Kept { masses, deviation },
-            position: None,
-            velocity: None,
-            compliance: None,
-            impact: None,
-            friction: None,
-            band: None,
-            stations: Vec::new(),
-            mesh: None,
-            static_load: None,
-            dynamic: None,
-            resonance: None,
-            static_spectrum: None,
-            steady: None,
-            over_speed: None,
-            clearing: None,
-            withheld: None,
-            stations_withheld: None,
-            beside: None,
-        })
+        let force = || Ok(mesh_force(inputs.torque(), &geometry));
+        let mesh_force = self.result(Stage::Load, |s| Some(s.mesh_force), force)?;
+        let masses = self.result(
+            Stage::Masses,
+            |s| Some(s.kept.masses),
+            || match setup.precise(inputs, &geometry)? {
+                Some(precise) => Masses::of(&inputs.bodies(), precise),
+                None => Masses::of(&inputs.bodies(), &geometry),
+            },
+        )?;
+        let deviation = self.result(
+            Stage::Deviation,
+            |s| Some(s.kept.deviation),
+            || {
+                let given = GivenDeviations::of(inputs);
+                deviation(&given, || setup.deflected(inputs, &geometry, mesh_force))
+            },
+        )?;
+        Ok(Solution::new(inputs.method, geometry, mesh_force, Kept { masses, deviation, setup }))
     }
 
-    fn geometry(&self, ran: &mut Stages) -> Result<Geometry, Refusal> {
-        *ran = ran.with(Stage::Geometry);
-        // The earlier result can differ beyond its rounded digits.
-        self.asked.note(Stage::Geometry, |_| false);
-        let inputs = GeometryInputs::of(self.asked.inputs);
-        let plain = geometry::geometry::<f64>(&inputs.shape);
-        let precise = precise(&inputs, plain.as_ref().ok())?;
-        let rounded = precise.map(Geometry::rounded);
-        let _ = self.setup.precise.set(precise);
-        rounded.map_or(plain, Ok)
-    }
-
-    /// Geometry in double-double arithmetic if it is requested or if small differences need it.
-    fn precise(&self, plain: &Geometry) -> Result<Option<&Geometry<TwoFloat>>, Refusal> {
-        let known = &self.setup.precise;
-        if known.get().is_none() {
-            let inputs = GeometryInputs::of(self.asked.inputs);
-            let _ = known.set(precise(&inputs, Some(plain))?);
-        }
-        Ok(known.get().and_then(Option::as_ref))
-    }
-
-    /// D and all later stages.
-    fn locate(&self, solution: &mut Solution) -> Result<(), Refusal> {
-        let found = if let Some(earlier) = self.asked.kept(Stage::Position) {
-            Ok(earlier.position)
-        } else {
-            solution.ran = solution.ran.with(Stage::Position);
-            let precise = self.precise(&solution.geometry)?;
-            let found = position::position(
-                &self.setup.position,
-                &solution.geometry,
-                precise,
-                self.setup.series(&solution.geometry),
-                &solution.kept.deviation,
-            );
-            self.asked
-                .note(Stage::Position, |s| s.position == found.as_ref().ok().copied().flatten());
-            found
+    /// D and all later stages of the impact.
+    fn locate(&mut self, solution: &mut Solution) -> Result<(), Refusal> {
+        let (inputs, geometry) = (self.inputs, &solution.geometry);
+        let Kept { deviation, setup, .. } = &solution.kept;
+        let located = || {
+            let precise = setup.precise(inputs, geometry)?;
+            position(inputs, geometry, precise, setup.series(geometry), deviation)
         };
-        solution.stages = solution.stages.with(Stage::Position);
-        match found {
-            Ok(Some(position)) => {
+        match self.stage(Stage::Position, |s| Some(s.position), located) {
+            Ok(None) => {}
+            Ok(Some(Some(position))) => {
                 solution.position = Some(position);
                 solution.withheld = self.strike(solution, &position).err();
             }
-            Ok(None) => solution.outcome = Outcome::NoCornerContact,
+            Ok(Some(None)) => solution.outcome = Outcome::NoCornerContact,
             // Methods with load sharing do not need the position.
-            Err(refusal) if self.asked.inputs.method.shares_load() => {
-                solution.stages = solution.stages.without(Stage::Position);
-                solution.withheld = Some(refusal);
-            }
+            Err(refusal) if inputs.method.shares_load() => solution.withheld = Some(refusal),
             Err(refusal) => return Err(refusal),
         }
         Ok(())
     }
 
     /// The wanted stages from the velocity on that can be computed.
-    fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
-        let (inputs, tip) = (self.asked.inputs, &position.contact);
-        let setup = self.setup;
-        let Solution { geometry, kept: Kept { masses, .. }, stages, ran, .. } = solution;
-        let mut done = Done { stages, ran };
-        solution.velocity = self.stage(
-            &mut done,
-            Stage::Velocity,
-            |s| s.velocity,
-            || Ok(position::velocity(&setup.velocity, tip)),
-        )?;
-        let place = setup.impact.compliance.place(geometry, tip);
-        let borne = || setup.teeth(geometry)?.at(&place);
-        solution.compliance = self.stage(&mut done, Stage::Compliance, |s| s.compliance, borne)?;
-        let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
+    fn strike(&mut self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
+        let (inputs, tip) = (self.inputs, &position.contact);
+        let Solution { geometry, kept: Kept { masses, setup, .. }, .. } = solution;
+        let new = || Ok(velocity(inputs.driven_speed(), tip));
+        solution.velocity = self.stage(Stage::Velocity, |s| s.velocity, new)?;
+        let teeth = || setup.teeth(inputs, geometry);
+        let place = ContactPlace::at_tip(inputs.driven.tip_radius, geometry, tip);
+        let new = || teeth()?.at(&place);
+        solution.compliance = self.stage(Stage::Compliance, |s| s.compliance, new)?;
+        let (Some(velocity), Some(compliance)) = (solution.velocity, solution.compliance) else {
             return Ok(());
         };
-        let struck = || {
-            let spring = setup.teeth(geometry)?.spring(&place)?;
-            let elastic = (&teeth, &spring);
-            impact::impact(&setup.impact, geometry, masses, tip, elastic, &velocity)
-        };
-        solution.impact = self.stage(&mut done, Stage::Impact, |s| s.impact, struck)?;
+        let new = || impact::impact(inputs, teeth()?, masses, tip, &compliance, &velocity);
+        solution.impact = self.stage(Stage::Impact, |s| s.impact, new)?;
         let Some(impact) = &solution.impact else {
             return Ok(());
         };
-        let rubbed = || {
+        let new = || {
             let reduced = masses.reduced();
-            Ok(impact::friction(&setup.friction, geometry, tip, &velocity, impact, reduced))
+            Ok(impact::friction(inputs, geometry, tip, &velocity, impact, reduced))
         };
-        solution.friction = self.stage(&mut done, Stage::Friction, |s| s.friction, rubbed)?;
-        solution.band = self.stage(
-            &mut done,
-            Stage::Band,
-            |s| s.band,
-            || Ok(impact::band(inputs, impact.force, force)),
-        )?;
-        let stood = || {
-            let inputs = StationsInputs::of(inputs);
-            Ok(stations(&inputs, geometry, masses, position, impact.force))
-        };
-        let earlier = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
-        if let Some((stations, withheld)) =
-            self.stage(&mut done, Stage::Stations, earlier, stood)?
-        {
+        solution.friction = self.stage(Stage::Friction, |s| s.friction, new)?;
+        let new = || Ok(impact::band(inputs, impact.force, force));
+        solution.band = self.stage(Stage::Band, |s| s.band, new)?;
+        let new = || Ok(stations(inputs, geometry, masses, position, impact.force));
+        let of = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
+        if let Some((stations, withheld)) = self.stage(Stage::Stations, of, new)? {
             (solution.stations, solution.stations_withheld) = (stations, withheld);
         }
         Ok(())
     }
 
-    /// The result of a stage: the earlier result if it is valid, otherwise a new one if wanted.
-    fn stage<T: PartialEq>(
-        &self,
-        done: &mut Done<'_>,
-        stage: Stage,
-        earlier: impl Fn(&Solution) -> Option<T>,
-        new: impl FnOnce() -> Result<T, Refusal>,
-    ) -> Result<Option<T>, Refusal> {
-        if !self.asked.wanted.has(stage) {
-            return Ok(None);
+    /// The mesh in the needed range, and the stages that are computed on it. The last of `static`
+    /// and `dynamic` decides whether the tooth strikes.
+    fn share(&mut self, solution: &mut Solution) -> Result<(), Refusal> {
+        if !self.wanted.has(Stage::Mesh) {
+            return Ok(());
         }
-        if let Some(held) = self.asked.kept(stage).and_then(&earlier) {
-            *done.stages = done.stages.with(stage);
-            return Ok(Some(held));
+        let (inputs, mass, go_on) = (self.inputs, solution.reduced_mass, self.go_on);
+        let of_mesh = inputs.mesh();
+        let kept = self.kept(Stage::Mesh).and_then(|earlier| earlier.mesh.clone());
+        if kept.is_none() {
+            self.changed = self.changed.with(Stage::Mesh);
         }
-        let found = new()?;
-        self.asked.note(stage, |s| earlier(s).as_ref() == Some(&found));
-        *done.stages = done.stages.with(stage);
-        *done.ran = done.ran.with(stage);
-        Ok(Some(found))
+        let alike = self.kept(Stage::Geometry).and_then(|earlier| earlier.mesh.as_ref());
+        let mut meshes = Meshes::new(&of_mesh, solution, alike, kept.as_ref());
+        let static_load = self.stage(
+            Stage::Static,
+            |s| s.static_load.clone(),
+            || meshes.find(|mesh| static_load(&mesh.turning_at(inputs.speed), Spacing::of(inputs))),
+        )?;
+        let dynamic = self.stage(
+            Stage::Dynamic,
+            |s| s.dynamic.clone(),
+            || {
+                let settings = Settings::of(inputs, mass);
+                meshes.find(|mesh| dynamic(&mesh.turning_at(inputs.speed), &settings, go_on))
+            },
+        )?;
+        let resonance = self.stage(
+            Stage::Resonance,
+            |s| s.resonance,
+            || meshes.find(|mesh| Ok(Resonance::of(inputs.speed, mesh, mass))),
+        )?;
+        let static_spectrum = self.stage(
+            Stage::StaticSpectrum,
+            |s| s.static_spectrum,
+            || meshes.find(|mesh| late(mesh, static_spectrum(mesh))),
+        )?;
+        let steady = self.stage(
+            Stage::SteadyMotion,
+            |s| s.steady.clone(),
+            || {
+                let settings = Settings::steady(inputs, mass);
+                meshes.find(|mesh| {
+                    let (mesh, meter) = (mesh.turning_at(inputs.speed), Meter::new(MOTION_WORK));
+                    late(&mesh, steady(&mesh, &settings, None, &meter, go_on))
+                })
+            },
+        )?;
+        let over_speed = self.stage(
+            Stage::SpeedRun,
+            |s| s.over_speed.clone(),
+            || {
+                let total = (2 * SPEEDS) as f64;
+                meshes.find(|mesh| {
+                    let found = over_speed(inputs, solution, &mut |curve| {
+                        go_on(curve.up.iter().chain(&curve.down).flatten().count() as f64 / total)
+                    });
+                    late(mesh, found.map(Arc::new))
+                })
+            },
+        )?;
+        self.done = self.done.with(Stage::Mesh);
+        let (mesh, is_new) = meshes.last(kept)?;
+        if is_new {
+            self.ran = self.ran.with(Stage::Mesh);
+        }
+        let found = [
+            static_load.as_ref().map(|load| (load.first_contact_angle, load.resolution)),
+            dynamic.as_ref().map(|motion| (motion.first_contact_angle, motion.resolution)),
+        ];
+        for (angle, resolution) in found.into_iter().flatten() {
+            solution.outcome = Outcome::of_contact(angle.is_some());
+            solution.stations_withheld = solution.stations_withheld.or(resolution.refusal());
+        }
+        solution.mesh = Some(mesh.turning_at(inputs.speed));
+        solution.static_load = static_load;
+        solution.dynamic = dynamic;
+        solution.resonance = resonance;
+        solution.static_spectrum = static_spectrum;
+        solution.steady = steady;
+        solution.over_speed = over_speed;
+        Ok(())
     }
-}
-
-/// The stages of a solution, and the stages that ran.
-struct Done<'a> {
-    stages: &'a mut Stages,
-    ran: &'a mut Stages,
 }
 
 /// The impact force, if the tooth strikes.
@@ -349,57 +300,81 @@ fn force(inputs: &Inputs) -> Option<f64> {
     Some(solution.impact?.force)
 }
 
-/// Values that a closed-form solve computes before load and deviations. All belong to one geometry,
-/// which the caller passes.
-#[derive(Debug, Clone)]
-pub struct Setup {
-    pub(super) position: PositionInputs,
-    pub(super) velocity: VelocityInputs,
-    /// Inputs of the impact, with the elasticity.
-    pub(super) impact: ImpactInputs,
-    pub(super) friction: FrictionInputs,
+/// Values that a solve computes before load and deviations, for all solves that differ only in
+/// these. The caller passes the geometry of the pair.
+#[derive(Debug, Default)]
+pub(in crate::model) struct Setup {
     /// Geometry in double-double arithmetic if it is needed.
-    pub(super) precise: OnceCell<Option<Geometry<TwoFloat>>>,
-    series: OnceCell<GapSeries>,
-    teeth: OnceCell<Result<Teeth, Refusal>>,
-    loaded: OnceCell<Result<LoadedPairs, Refusal>>,
+    precise: OnceLock<Option<Geometry<TwoFloat>>>,
+    series: OnceLock<GapSeries>,
+    teeth: OnceLock<Result<Teeth, Refusal>>,
+    loaded: OnceLock<Result<LoadedPairs, Refusal>>,
+}
+
+/// Cached values do not affect the equality of solutions.
+impl PartialEq for Setup {
+    fn eq(&self, _: &Setup) -> bool {
+        true
+    }
 }
 
 impl Setup {
-    pub(super) fn of(inputs: &Inputs) -> Setup {
-        Setup {
-            position: PositionInputs::of(inputs),
-            velocity: VelocityInputs::of(inputs),
-            impact: ImpactInputs::of(inputs),
-            friction: FrictionInputs::of(inputs),
-            precise: OnceCell::new(),
-            series: OnceCell::new(),
-            teeth: OnceCell::new(),
-            loaded: OnceCell::new(),
-        }
+    fn geometry(&self, inputs: &Inputs) -> Result<Geometry, Refusal> {
+        let plain = geometry::<f64>(&inputs.shape());
+        let precise = precise(inputs, plain.as_ref().ok())?;
+        let rounded = precise.map(Geometry::rounded);
+        let _ = self.precise.set(precise);
+        rounded.map_or(plain, Ok)
     }
 
-    pub(super) fn series(&self, geometry: &Geometry) -> &GapSeries {
+    /// Geometry in double-double arithmetic if it is requested or if small differences need it.
+    fn precise(
+        &self,
+        inputs: &Inputs,
+        plain: &Geometry,
+    ) -> Result<Option<&Geometry<TwoFloat>>, Refusal> {
+        if self.precise.get().is_none() {
+            let _ = self.precise.set(precise(inputs, Some(plain))?);
+        }
+        Ok(self.precise.get().and_then(Option::as_ref))
+    }
+
+    fn series(&self, geometry: &Geometry) -> &GapSeries {
         self.series.get_or_init(|| GapSeries::of(geometry))
     }
 
-    pub(super) fn teeth(&self, geometry: &Geometry) -> Result<&Teeth, Refusal> {
-        let teeth = || Teeth::of(&self.impact.compliance.elasticity, geometry);
-        let known = self.teeth.get_or_init(teeth);
+    fn teeth(&self, inputs: &Inputs, geometry: &Geometry) -> Result<&Teeth, Refusal> {
+        let known = self.teeth.get_or_init(|| Teeth::of(&inputs.elasticity(), geometry));
         known.as_ref().map_err(|refusal| *refusal)
     }
 
     /// The deflection from the load.
-    pub(super) fn deflected(
+    fn deflected(
         &self,
-        given: &GivenDeviations,
+        inputs: &Inputs,
         geometry: &Geometry,
         mesh_force: f64,
     ) -> Result<Deflected, Refusal> {
-        let teeth = || self.teeth(geometry);
-        let loaded = || LoadedPairs::of(given.method, geometry, teeth);
-        let pairs = self.loaded.get_or_init(loaded);
-        let pairs = pairs.as_ref().map_err(|refusal| *refusal)?;
+        let teeth = || self.teeth(inputs, geometry);
+        let loaded = || LoadedPairs::of(inputs.method, geometry, teeth);
+        let pairs = self.loaded.get_or_init(loaded).as_ref().map_err(|refusal| *refusal)?;
         pairs.deflected(teeth()?, mesh_force)
     }
+}
+
+/// Whether inputs differ only in load and deviations, which no stage but those two reads before the
+/// first contact.
+#[must_use]
+pub fn differ_in_load_alone(one: &Inputs, other: &Inputs) -> bool {
+    let mut alike = one.clone();
+    alike.drive = other.drive;
+    alike.deflection = other.deflection;
+    alike.base_pitch_deviation = other.base_pitch_deviation;
+    alike.driver.base_pitch = other.driver.base_pitch;
+    alike.driven.base_pitch = other.driven.base_pitch;
+    alike.combination = other.combination;
+    alike.backlash = other.backlash;
+    alike.driven.tip_relief = other.driven.tip_relief;
+    alike.driver.root_relief = other.driver.root_relief;
+    alike == *other
 }

@@ -82,7 +82,7 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
         if couples {
             Mesh::with_neighbours(inputs, geometry, &flanks, load, 1e-3, &neighbours).unwrap()
         } else {
-            Mesh::new(inputs, geometry, load.0, load.1, 1e-3).unwrap()
+            Mesh::new(inputs, geometry, load, 1e-3).unwrap()
         }
     };
     Rattling {
