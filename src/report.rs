@@ -9,6 +9,7 @@ pub mod explain;
 pub mod export;
 pub mod fields;
 pub mod graphs;
+pub mod json;
 mod layout;
 pub mod page;
 pub mod pictures;
@@ -19,6 +20,7 @@ pub mod stations;
 pub mod stiffness;
 pub mod svg;
 pub mod sweep;
+pub mod table;
 pub mod text;
 pub mod tolerance;
 pub mod trade;
@@ -97,6 +99,8 @@ pub struct Report {
     pub notes: Vec<Note>,
     /// The requested quantities and stations.
     pub selection: Selection,
+    /// Solutions of other, fast methods for the verdict of text and pages.
+    pub others: Vec<Solution>,
 }
 
 impl Report {
@@ -127,7 +131,26 @@ impl Report {
     ) -> Report {
         let mut notes = model::notes(&inputs, &solution);
         notes.extend(selection.quantities().filter_map(|quantity| not_finite(quantity, &solution)));
-        Report { name, case, inputs, solution, notes, selection }
+        Report { name, case, inputs, solution, notes, selection, others: Vec::new() }
+    }
+
+    /// The report with the load at rest, if `dynamic` governs, and the closed forms. A method that
+    /// refuses the case is left out.
+    #[must_use]
+    pub fn with_others(mut self) -> Report {
+        let governing = self.solution.method;
+        let stages = Stages::of(Stage::Clearing).and(Stages::of(Stage::Impact));
+        let at_rest = (governing == Method::Dynamic).then_some(Method::Static);
+        let methods = at_rest.into_iter().chain([Method::Exact, Method::Paper]);
+        let methods = methods.filter(|&method| method != governing);
+        if self.selection.is_whole() {
+            self.others = methods
+                .filter_map(|method| {
+                    model::solve(&Inputs { method, ..self.inputs.clone() }, stages).ok()
+                })
+                .collect();
+        }
+        self
     }
 
     /// The title of the case, empty without one; not sanitized for a terminal.
@@ -221,8 +244,8 @@ fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
     })
 }
 
-/// Heading of the quantities of the free impact if the method resolves the impact itself.
-pub const FREE_IMPACT: &str = "Free impact at D, closed form";
+/// Start of the headings of the free impact if the method resolves the impact itself.
+const FREE_IMPACT: &str = "Free impact at D, closed form: ";
 
 /// A group of quantities.
 #[derive(Debug, Clone, Copy)]
@@ -264,6 +287,13 @@ impl Group {
     #[must_use]
     pub fn is_beside(&self, method: Method) -> bool {
         method.shares_load() && self.quantities().any(Quantity::is_of_free_impact)
+    }
+
+    /// The heading in the results of a method.
+    #[must_use]
+    pub fn heading(&self, method: Method) -> String {
+        let beside = if self.is_beside(method) { FREE_IMPACT } else { "" };
+        format!("{beside}{}", self.title)
     }
 
     // The last stages first; the closed form of the resolved impact at the end.

@@ -10,7 +10,7 @@ use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance}
 use crate::model::{Inputs, Quantity, Refusal};
 use crate::report::compare::Refused;
 use crate::report::pictures::Unsolved;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A case that is ready to solve.
 pub(super) struct Opened {
@@ -58,6 +58,17 @@ impl Opened {
     pub(super) fn report_problem(&self, problem: Problem, streams: &mut Streams) {
         streams.say(&placed(&self.document, problem, &self.edits));
     }
+}
+
+/// Runs a command on each case. The exit code is the greatest of all.
+pub(super) fn each(
+    paths: &[PathBuf],
+    mut run: impl FnMut(&Path) -> Result<Exit, Failure>,
+) -> Result<Exit, Failure> {
+    paths.iter().try_fold(Exit::Done, |worst, path| match run(path) {
+        Ok(exit) | Err(Failure::Reported(exit)) => Ok(worst.max(exit)),
+        Err(failure) => Err(failure),
+    })
 }
 
 /// Reads a case and applies the changes of the command line.
@@ -201,21 +212,16 @@ pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), String>
 }
 
 fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
+    if let ReadError::Bad(faults) = error {
+        for fault in faults {
+            streams.say(&fault.to_string());
+        }
+        return Exit::BadCase;
+    }
+    streams.say(&error.to_string());
     match error {
-        ReadError::Bad(faults) => {
-            for fault in faults {
-                streams.say(&fault.to_string());
-            }
-            Exit::BadCase
-        }
-        ReadError::NewerFormat(_) => {
-            streams.say(&error.to_string());
-            Exit::NewerFormat
-        }
-        _ => {
-            streams.say(&error.to_string());
-            Exit::Unreadable
-        }
+        ReadError::NewerFormat(_) => Exit::NewerFormat,
+        _ => Exit::Unreadable,
     }
 }
 
@@ -227,27 +233,19 @@ fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
         let worded = on_command_line(setting, &problem);
         return format!("{}, {worded}", document.name());
     }
-    let written: Vec<String> = edits
-        .variant
-        .iter()
-        .map(|variant| format!("--variant {variant}"))
-        .chain(settings.iter().map(Setting::written))
-        .collect();
-    let fault = document.fault(in_variant(document, problem, edits));
+    let variant = edits.variant.as_deref();
+    // The key of the variant's override, if there is one.
+    let own = variant.and_then(|name| document.case.variant(name).ok());
+    let own = own.filter(|own| own.overrides(&problem.field));
+    let field = own.map_or_else(|| problem.field.clone(), |own| own.place(&problem.field));
+    let fault = document.fault(Problem { field, ..problem });
+    let variant = variant.map(|name| format!("--variant {name}"));
+    let written: Vec<String> =
+        variant.into_iter().chain(settings.iter().map(Setting::written)).collect();
     if written.is_empty() {
         fault.to_string()
     } else {
         format!("{fault} (with {})", written.join(" "))
-    }
-}
-
-/// A problem with the key of the variant's override, if there is one.
-fn in_variant(document: &Document, problem: Problem, edits: &Edits) -> Problem {
-    let variant = edits.variant.as_deref();
-    let variant = variant.and_then(|name| document.case.variant(name).ok());
-    match variant.filter(|variant| variant.overrides(&problem.field)) {
-        Some(variant) => Problem { field: variant.place(&problem.field), ..problem },
-        None => problem,
     }
 }
 

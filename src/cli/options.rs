@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
-use crate::report::sweep::TableFormat;
-use crate::study::shard::Shard;
+use crate::study::shard::{self, Shard};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
 use clap::{Arg, Args, ValueEnum, ValueHint};
@@ -41,11 +40,21 @@ pub enum RowFormat {
     Json,
 }
 
-impl From<RowFormat> for TableFormat {
-    fn from(format: RowFormat) -> TableFormat {
+impl From<RowFormat> for shard::Format {
+    fn from(format: RowFormat) -> shard::Format {
         match format {
-            RowFormat::Csv => TableFormat::Csv,
-            RowFormat::Json => TableFormat::Json,
+            RowFormat::Csv => shard::Format::Csv,
+            RowFormat::Json => shard::Format::Json,
+        }
+    }
+}
+
+impl From<OutputFormat> for shard::Format {
+    fn from(format: OutputFormat) -> shard::Format {
+        match format {
+            OutputFormat::Text => shard::Format::Text,
+            OutputFormat::Json => shard::Format::Json,
+            OutputFormat::Csv => shard::Format::Csv,
         }
     }
 }

@@ -61,15 +61,22 @@ impl Absence {
                 Absence::NoBacklash
             }
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
-            (Stage::SteadyMotion, _) => not_steady(solution),
+            (Stage::SteadyMotion, _) if let Some(Err(refusal)) = solution.steady => {
+                Absence::Withheld(refusal)
+            }
             (Stage::SpeedRun, _) if let Some(Err(refusal)) = solution.over_speed => {
                 Absence::Withheld(refusal)
             }
-            (Stage::Static | Stage::Dynamic | Stage::SpeedRun, _) => Absence::NotReached,
+            (Stage::Static | Stage::Dynamic | Stage::SteadyMotion | Stage::SpeedRun, _) => {
+                Absence::NotReached
+            }
             (Stage::StaticSpectrum, _) if let Some(Err(refusal)) = solution.static_spectrum => {
                 Absence::Withheld(refusal)
             }
-            (Stage::Clearing, _) if !is_without => cleared(solution),
+            (Stage::Clearing, _) if !is_without => {
+                let withheld = solution.clearing.and_then(|clearing| clearing.withheld);
+                withheld.map_or(Absence::NotReached, Absence::Withheld)
+            }
             (_, Some(refusal)) => Absence::Withheld(refusal),
             _ if is_without => no_contact,
             _ if solution.position.is_none() => Absence::NoFreeImpact,
@@ -111,21 +118,19 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
         let (number, unit) = units::system::shown(value, "um", 3, system);
         format!("{number} {unit}")
     };
-    match solution.method {
-        _ if total <= 0.0 => {
-            let shown = Quantity::find("total_deviation")
-                .map(|quantity| shown_in(quantity, total + 0.0, system));
-            shown.map_or_else(|| why.to_owned(), |shown| format!("{why}, Δ = {shown}"))
-        }
-        Method::Paper => format!("{why} although Δ is {}", printed(total)),
-        Method::Static => solution.margin().map_or_else(
-            || why.to_owned(),
-            |gap| format!("a gap of {} remains before E at rest", printed(gap)),
-        ),
-        _ => match solution.lead_at_rest().filter(|&lead| lead > 0.0) {
-            Some(lead) => format!("{why}; at rest the tooth touches, {} early", printed(lead)),
+    match (solution.method, solution.margin(), solution.lead_at_rest()) {
+        _ if total <= 0.0 => match Quantity::find("total_deviation") {
+            Some(quantity) => format!("{why}, Δ = {}", shown_in(quantity, total + 0.0, system)),
             None => why.to_owned(),
         },
+        (Method::Paper, ..) => format!("{why} although Δ is {}", printed(total)),
+        (Method::Static, Some(gap), _) => {
+            format!("a gap of {} remains before E at rest", printed(gap))
+        }
+        (Method::Exact | Method::Dynamic | Method::Auto, _, Some(lead)) if lead > 0.0 => {
+            format!("{why}; at rest the tooth touches, {} early", printed(lead))
+        }
+        _ => why.to_owned(),
     }
 }
 
@@ -137,22 +142,6 @@ pub fn listed(names: &[&str]) -> String {
         [one] => (*one).to_owned(),
         [others @ .., last] => format!("{} and {last}", others.join(", ")),
     }
-}
-
-/// Why there is no steady motion.
-fn not_steady(solution: &Solution) -> Absence {
-    match &solution.steady {
-        Some(Err(refusal)) => Absence::Withheld(*refusal),
-        _ => Absence::NotReached,
-    }
-}
-
-/// Why the required relief is unknown.
-fn cleared(solution: &Solution) -> Absence {
-    solution
-        .clearing
-        .and_then(|clearing| clearing.withheld)
-        .map_or(Absence::NotReached, Absence::Withheld)
 }
 
 fn has_friction(solution: &Solution) -> bool {

@@ -3,29 +3,29 @@
 
 use std::io::{self, Write};
 
-use super::{FREE_IMPACT, Report, Selection, common_unit, groups, shown_with, value_as_in};
+use super::json::{Json, measured, object, reason, write_line};
+use super::layout::{WIDTH, item, plain_markdown};
+use super::table::{Cell, Column, Table, text, widths};
+use super::{Report, Selection, common_unit, digest, groups, shown_with, value, value_as_in};
 use crate::case::changes::{between, label, text_of};
 use crate::case::fields::index_of;
 use crate::case::file::FORMAT;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::units::system::counted;
+use crate::case::units::system::{counted, named};
 use crate::case::{Case, FIELDS, Problem};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
-use crate::report::data::{cell, subject, write_line, write_rows};
-use crate::report::layout::{WIDTH, count, item, plain_markdown, widest};
-use crate::report::{digest, value};
-use serde_json::{Map, Value, json};
+use crate::report::data::subject;
 
 /// Text of an absent value.
 const NONE: &str = "–";
-/// A value of a refused column.
+/// A value of a refused case.
 const REFUSED: &str = "refused";
 
 /// A case, or one of its variants.
 #[derive(Debug)]
-pub struct Column {
+pub struct ComparedCase {
     /// The file and the variant, such as `gear.toml:relieved`.
     pub name: String,
     /// The file as the user named it.
@@ -38,7 +38,7 @@ pub struct Column {
     pub found: Result<Report, Vec<Refused>>,
 }
 
-/// A problem because of which a column has no results.
+/// A problem because of which a case has no results.
 #[derive(Debug)]
 pub struct Refused {
     /// The problem.
@@ -47,143 +47,174 @@ pub struct Refused {
     pub line: String,
 }
 
-/// Columns to compare; the differences refer to the first one.
+/// Cases to compare; the differences refer to the first one.
 #[derive(Debug)]
 pub struct Comparison {
-    /// The columns.
-    pub columns: Vec<Column>,
+    /// The cases.
+    pub cases: Vec<ComparedCase>,
     /// The requested quantities; empty for all.
     pub selection: Selection,
 }
 
-struct Group {
-    title: String,
-    rows: Vec<Row>,
-}
-
+/// An input or a quantity of every case.
 pub(super) struct Row {
     pub(super) symbol: String,
     pub(super) label: String,
     pub(super) unit: &'static str,
-    /// The value of each column.
     pub(super) values: Vec<String>,
-    /// The difference of each column from the first; empty for the first one.
+    /// The difference of each case from the first; empty for the first one.
     pub(super) differences: Vec<String>,
 }
 
-impl Comparison {
-    /// Whether no column has results.
-    #[must_use]
-    pub fn is_all_refused(&self) -> bool {
-        self.columns.iter().all(|column| column.found.is_err())
+impl Row {
+    /// The value of each case, and its difference behind it.
+    fn into_cells(self, with_unit: bool) -> impl Iterator<Item = Cell> {
+        let unit = if with_unit { self.unit } else { "" };
+        let pairs = self.values.into_iter().zip(self.differences).enumerate();
+        pairs.flat_map(move |(at, (value, difference))| {
+            let is_bare = unit.is_empty() || [NONE, REFUSED].contains(&value.as_str());
+            let value = if is_bare { value } else { format!("{value} {unit}") };
+            [value].into_iter().chain((at > 0).then_some(difference)).map(Cell::from)
+        })
+    }
+}
+
+/// Rows with a title.
+type Group = (String, Vec<Row>);
+
+impl ComparedCase {
+    /// Solves a case; `refused` gives each problem its place.
+    pub fn solve(
+        name: String,
+        case: Case,
+        selection: &Selection,
+        refused: impl FnOnce(Vec<Problem>) -> Vec<Refused>,
+    ) -> ComparedCase {
+        let solved = case.inputs().and_then(|inputs| {
+            Report::solve(name.clone(), case.clone(), inputs, selection.clone())
+                .map_err(|refusal| vec![Problem::from(&refusal).at_given(&case)])
+        });
+        let found = solved.map_err(refused);
+        ComparedCase { name, file: String::new(), variant: None, case, found }
     }
 
-    /// The refused columns as error lines.
+    fn solution(&self) -> Option<&Solution> {
+        Some(&self.found.as_ref().ok()?.solution)
+    }
+
+    fn method(&self) -> Option<&'static str> {
+        Some(self.solution()?.method.name())
+    }
+
+    fn outcome(&self) -> &'static str {
+        self.solution().map_or(REFUSED, |solution| solution.outcome.name())
+    }
+
+    /// The value of a quantity as the method of the case defines it.
+    fn value(&self, quantity: &Quantity) -> Option<f64> {
+        value(quantity, self.solution()?)
+    }
+
+    /// The name with its method.
+    fn named(&self) -> String {
+        let method = self.method().map(|method| format!(" ({method})"));
+        sanitize(&(self.name.clone() + &method.unwrap_or_default()))
+    }
+
+    /// The outcome, or the reason for its absence.
+    fn described(&self) -> String {
+        sanitize(&match &self.found {
+            Ok(report) => digest::sentence(&report.solution, System::Metric),
+            Err(refused) => {
+                let problems = refused.iter().map(|refused| refused.problem.to_string());
+                format!("Refused: {}.", problems.collect::<Vec<_>>().join("; "))
+            }
+        })
+    }
+}
+
+impl Comparison {
+    /// Whether no case has results.
+    #[must_use]
+    pub fn is_all_refused(&self) -> bool {
+        self.cases.iter().all(|case| case.found.is_err())
+    }
+
+    /// The refused cases as error lines.
     pub fn refusals(&self) -> impl Iterator<Item = String> {
-        let refused = self.columns.iter().filter_map(|column| column.found.as_ref().err());
+        let refused = self.cases.iter().filter_map(|case| case.found.as_ref().err());
         refused.flatten().map(|refused| refused.line.clone())
     }
 
-    /// The inputs that differ and the quantities, in one table.
-    pub(super) fn brief(&self) -> Vec<Row> {
-        let results = self.groups().into_iter().flat_map(|group| group.rows);
-        self.inputs().rows.into_iter().chain(results).collect()
-    }
-
-    /// The method of the first results, which defines the quantities.
-    fn method(&self) -> Option<Method> {
-        let mut found = self.columns.iter().filter_map(Column::solution);
-        found.next().map(|solution| solution.method)
-    }
-
-    fn values(&self, quantity: &Quantity) -> Vec<Option<f64>> {
-        let method = self.method();
-        let of = |column: &Column| value_as_in(quantity, column.solution()?, method?);
-        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
-        self.columns.iter().map(of).map(finite).collect()
-    }
-
-    /// The quantities in the order of the first method, in groups unless the user names some.
-    fn groups(&self) -> Vec<Group> {
-        let Some(method) = self.method() else {
-            return Vec::new();
-        };
-        let group = |title: String, quantities: Vec<&'static Quantity>| {
-            let rows = quantities.into_iter();
-            let rows = rows.filter_map(|quantity| self.row(quantity, method)).collect();
-            Group { title, rows }
-        };
-        if !self.selection.is_whole() {
-            return vec![group("Results".to_owned(), self.selection.only.clone())];
-        }
-        let all = groups(method).into_iter().map(|known| {
-            let title = if known.is_beside(method) {
-                format!("{FREE_IMPACT}: {}", known.title)
-            } else {
-                known.title.to_owned()
+    /// The inputs that differ, and the quantities in the order of the first method, in groups unless
+    /// the user names some.
+    pub(super) fn groups(&self) -> Vec<Group> {
+        let mut found = vec![("Inputs that differ".to_owned(), self.inputs())];
+        if let Some(method) = self.cases.iter().find_map(|case| Some(case.solution()?.method)) {
+            let rows = |quantities: &mut dyn Iterator<Item = &'static Quantity>| {
+                quantities.filter_map(|quantity| self.row(quantity, method)).collect()
             };
-            group(title, known.quantities().collect())
-        });
-        all.filter(|group| !group.rows.is_empty()).collect()
+            if self.selection.is_whole() {
+                let all = groups(method).into_iter();
+                found.extend(
+                    all.map(|group| (group.heading(method), rows(&mut group.quantities()))),
+                );
+            } else {
+                found.push(("Results".to_owned(), rows(&mut self.selection.quantities())));
+            }
+        }
+        found.retain(|(_, rows)| !rows.is_empty());
+        found
     }
 
     fn row(&self, quantity: &'static Quantity, method: Method) -> Option<Row> {
-        let values = self.values(quantity);
-        let given = values.iter().copied().flatten();
-        given.clone().next()?;
-        let unit = common_unit(quantity, given.clone(), System::Metric);
-        let shown = |(column, value): (&Column, &Option<f64>)| match (value, &column.found) {
+        let of = |case: &ComparedCase| value_as_in(quantity, case.solution()?, method);
+        let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
+        let values: Vec<Option<f64>> = self.cases.iter().map(of).map(finite).collect();
+        let last = *values.iter().flatten().last()?;
+        let unit = common_unit(quantity, values.iter().copied().flatten(), System::Metric);
+        let shown = |(case, value): (&ComparedCase, &Option<f64>)| match (value, &case.found) {
             (Some(value), _) => shown_with(quantity, *value, unit).number,
             (None, Ok(_)) => NONE.to_owned(),
             (None, Err(_)) => REFUSED.to_owned(),
         };
-        let base = values.first().copied().flatten();
-        let against = |(at, value): (usize, &Option<f64>)| match (base, *value) {
+        let against = |(at, value): (usize, &Option<f64>)| match (values[0], *value) {
             (Some(base), Some(value)) if at > 0 => difference(quantity, value, base, unit),
             _ => String::new(),
         };
         Some(Row {
             symbol: quantity.symbol_in(method).to_owned(),
             label: quantity.label_in(method).to_owned(),
-            unit: given.last().map_or("", |value| shown_with(quantity, value, unit).unit),
-            values: self.columns.iter().zip(&values).map(shown).collect(),
+            unit: shown_with(quantity, last, unit).unit,
+            values: self.cases.iter().zip(&values).map(shown).collect(),
             differences: values.iter().enumerate().map(against).collect(),
         })
     }
 
-    /// The inputs that differ between the columns, including limits and distributions.
-    fn inputs(&self) -> Group {
-        let fields = FIELDS.iter().map(|field| field.key.to_owned());
-        let first = self.columns.first().into_iter();
-        let changes = first.flat_map(|first| self.columns.iter().map(move |other| (first, other)));
-        let others = changes
-            .flat_map(|(first, other)| between(&first.case, &other.case))
-            .map(|change| change.key)
-            .filter(|key| key.starts_with("limits.") || key.starts_with("spread."));
-        let mut keys: Vec<String> = Vec::new();
-        for key in fields.chain(others) {
-            if !keys.contains(&key) && !["title", "notes"].contains(&key.as_str()) {
-                keys.push(key);
+    /// The inputs that differ between the cases, including limits and distributions.
+    fn inputs(&self) -> Vec<Row> {
+        let Some(first) = self.cases.first() else { return Vec::new() };
+        let mut keys: Vec<String> = FIELDS.iter().map(|field| field.key.to_owned()).collect();
+        for change in self.cases.iter().flat_map(|other| between(&first.case, &other.case)) {
+            let is_other = ["limits.", "spread."].iter().any(|start| change.key.starts_with(start));
+            if is_other && !keys.contains(&change.key) {
+                keys.push(change.key);
             }
         }
-        Group {
-            title: "Inputs that differ".to_owned(),
-            rows: keys.iter().filter_map(|key| self.input(key)).collect(),
-        }
+        keys.retain(|key| !["title", "notes"].contains(&key.as_str()));
+        keys.iter().filter_map(|key| self.input(key)).collect()
     }
 
     fn input(&self, key: &str) -> Option<Row> {
-        let field = index_of(key);
-        let text = |column: &Column| {
-            let text = match field {
-                Some(field) => column.case.effective(field).map(str::to_owned),
-                None => text_of(&column.case, key),
+        let text = |case: &ComparedCase| {
+            let text = match index_of(key) {
+                Some(field) => case.case.effective(field).map(str::to_owned),
+                None => text_of(&case.case, key),
             };
-            text.unwrap_or_else(|| NONE.to_owned())
+            text.map_or_else(|| NONE.to_owned(), |text| sanitize(&text))
         };
-        let values: Vec<String> = self.columns.iter().map(text).collect();
-        let differs = values.iter().any(|value| *value != values[0]);
-        differs.then(|| Row {
+        let values: Vec<String> = self.cases.iter().map(text).collect();
+        values.iter().any(|value| *value != values[0]).then(|| Row {
             symbol: symbol(key),
             label: label(key),
             unit: "",
@@ -191,54 +222,99 @@ impl Comparison {
             values,
         })
     }
-}
 
-/// The symbol of an input: a field, a limit of a quantity, or the spread of a field.
-fn symbol(key: &str) -> String {
-    let of_field = |key: &str| index_of(key).map(|field| FIELDS[field].symbol);
-    let of_limit = || Quantity::find(key.strip_prefix("limits.")?);
-    let of_spread = || of_field(key.strip_prefix("spread.")?.trim_matches('"'));
-    let limit = of_limit().map(|quantity| format!("{} limit", quantity.symbol));
-    let spread = of_spread().map(|symbol| format!("{symbol} spread"));
-    let field = of_field(key).map(str::to_owned);
-    field.or(limit).or(spread).unwrap_or_default()
-}
-
-impl Column {
-    fn solution(&self) -> Option<&Solution> {
-        Some(&self.found.as_ref().ok()?.solution)
+    /// The headers of the cases, and of their differences.
+    fn letters(&self) -> impl Iterator<Item = String> {
+        let all = (0..self.cases.len()).map(|at| (at, letter(at)));
+        all.flat_map(|(at, letter)| {
+            let difference = (at > 0).then(|| format!("{letter} - A"));
+            [letter].into_iter().chain(difference)
+        })
     }
-}
 
-impl Comparison {
-    /// Writes the comparison as text, at most 80 columns wide.
+    /// Writes the comparison as text, at most 80 columns wide unless one difference needs more.
     ///
     /// # Errors
     /// Errors of the writer.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        for (at, column) in self.columns.iter().enumerate() {
-            for line in heading(at, column) {
+        for (at, case) in self.cases.iter().enumerate() {
+            let name = item(&format!("{}  ", letter(at)), &case.named());
+            for line in name.into_iter().chain(item("   ", &case.described())) {
                 writeln!(out, "{line}")?;
             }
         }
-        let groups: Vec<Group> = std::iter::once(self.inputs())
-            .chain(self.groups())
-            .filter(|group| !group.rows.is_empty())
-            .collect();
-        let layout = Layout::of(&groups, self.columns.len());
-        let others: Vec<usize> = (1..self.columns.len()).collect();
-        for others in others.chunks(layout.others.max(1)) {
-            let is_refused = |at: &&usize| self.columns[**at].found.is_err();
-            let inputs_alone = others.iter().filter(is_refused).count() == others.len();
-            let shown = groups.iter().take(if inputs_alone { 1 } else { groups.len() });
-            for group in shown {
-                writeln!(out, "\n{}", layout.title(group, others))?;
-                for row in &group.rows {
-                    writeln!(out, "{}", layout.line(row, others).trim_end())?;
-                }
+        let (tables, start, in_a_line) = self.text_tables();
+        let others: Vec<usize> = (1..self.cases.len()).collect();
+        for others in others.chunks(in_a_line) {
+            let is_refused = others.iter().all(|&at| self.cases[at].found.is_err());
+            let shown = if is_refused { &tables[..tables.len().min(1)] } else { &tables[..] };
+            let columns = others.iter().flat_map(|at| [start + 2 * at - 1, start + 2 * at]);
+            let columns: Vec<usize> = (0..=start).chain(columns).collect();
+            let shown: Vec<Table> = shown.iter().map(|table| table.of(&columns)).collect();
+            for lines in text(&shown) {
+                writeln!(out, "\n{}", lines.join("\n"))?;
             }
         }
         Ok(())
+    }
+
+    /// A table for each group, the column of the first case, and the number of further cases that
+    /// fit a line. The tables have labels if that fits, or if it takes no more lines.
+    fn text_tables(&self) -> (Vec<Table>, usize, usize) {
+        let letters = self.letters().enumerate().map(|(at, letter)| {
+            let gap = if at == 0 { 3 } else { 2 };
+            let least = if letter.contains('-') { 5 } else { 6 };
+            Column::text("", letter).to_the_right().wide(gap, least)
+        });
+        let names = [Column::text("symbol", "").wide(2, 0), Column::text("label", "")];
+        let columns = names.into_iter().chain([Column::text("unit", "")]).chain(letters);
+        let columns: Vec<Column> = columns.collect();
+        let row = |row: Row| {
+            let names = [row.symbol.as_str(), &row.label, row.unit].map(Cell::from);
+            names.into_iter().chain(row.into_cells(false)).collect()
+        };
+        let table = |(title, rows): Group| {
+            Table::new(title, columns.clone()).with(rows.into_iter().map(row))
+        };
+        let mut tables: Vec<Table> = self.groups().into_iter().map(table).collect();
+        let widths = widths(&tables);
+        let most = |parity: usize| widths.iter().skip(4).skip(parity).step_by(2).copied().max();
+        let value = most(0).max(widths.get(3).copied()).unwrap_or(0);
+        let difference = most(1).unwrap_or(0);
+        for column in tables.iter_mut().flat_map(|table| table.columns.iter_mut().enumerate()) {
+            column.1.least = match column.0 {
+                at if at < 3 => widths[at],
+                at if at > 3 && at % 2 == 1 => difference,
+                _ => value,
+            };
+        }
+        let others = self.cases.len().saturating_sub(1);
+        let fitting = |label: usize| {
+            let names = widths.iter().take(1).chain(widths.get(2)).map(|width| width + 1);
+            let before = 2 + names.sum::<usize>() + label + value + 2;
+            WIDTH.saturating_sub(before) / (value + difference + 4)
+        };
+        let with_labels = fitting(widths.get(1).map_or(0, |width| width + 1));
+        let without = fitting(0).max(1);
+        let lines = |in_a_line: usize| others.div_ceil(in_a_line.max(1));
+        if with_labels >= others || with_labels > 0 && lines(without) >= lines(with_labels) {
+            return (tables, 3, with_labels.max(1));
+        }
+        for table in &mut tables {
+            for row in &mut table.rows {
+                let label = row.remove(1);
+                if row[0] == Cell::from("") {
+                    row[0] = label;
+                }
+            }
+            table.columns.remove(1);
+            table.columns[0].least = 0;
+        }
+        let least = super::table::widths(&tables).first().copied().unwrap_or(0);
+        for table in &mut tables {
+            table.columns[0].least = least;
+        }
+        (tables, 2, without)
     }
 
     /// Writes the comparison as Markdown.
@@ -246,79 +322,128 @@ impl Comparison {
     /// # Errors
     /// Errors of the writer.
     pub fn write_markdown(&self, out: &mut dyn Write) -> io::Result<()> {
-        for (at, column) in self.columns.iter().enumerate() {
-            let (name, sentence) = (plain(&named(column)), plain(&described(column)));
+        for (at, case) in self.cases.iter().enumerate() {
+            let [name, sentence] =
+                [case.named(), case.described()].map(|text| plain_markdown(&text));
             writeln!(out, "- **{}** {name} {sentence}", letter(at))?;
         }
-        let all = std::iter::once(self.inputs()).chain(self.groups());
-        for group in all.filter(|group| !group.rows.is_empty()) {
-            writeln!(out, "\n{}", self.table(&group).join("\n"))?;
+        for (title, rows) in self.groups() {
+            let letters = self.letters().map(|letter| Column::text("", letter).to_the_right());
+            let names = [Column::text("", title), Column::text("", "")];
+            let row = |row: Row| {
+                let names = [row.label.as_str(), &row.symbol].map(Cell::from);
+                names.into_iter().chain(row.into_cells(true)).collect()
+            };
+            let columns = names.into_iter().chain(letters).collect();
+            let table = Table::new("", columns).with(rows.into_iter().map(row));
+            writeln!(out, "\n{}", table.markdown().join("\n"))?;
         }
         Ok(())
     }
 
-    fn table(&self, group: &Group) -> Vec<String> {
-        let others = (1..self.columns.len()).map(letter);
-        let others: Vec<String> =
-            others.map(|letter| format!(" {letter} | {letter} - A |")).collect();
-        let head = format!("| {} | | A |{}", group.title, others.concat());
-        let rule = format!("|---|---|--:|{}", "--:|--:|".repeat(others.len()));
-        let cells = |row: &Row| {
-            let values = row.values.iter().zip(&row.differences).enumerate();
-            let cell = |(at, (value, difference)): (usize, (&String, &String))| {
-                let value = plain(&with_unit(value, row.unit));
-                if at == 0 {
-                    format!(" {value} |")
-                } else {
-                    format!(" {value} | {} |", plain(difference))
-                }
-            };
-            values.map(cell).collect::<String>()
+    /// Writes one row per quantity: its name and unit, the value of each case, and the differences
+    /// from the first one.
+    ///
+    /// # Errors
+    /// Errors of the writer.
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        let names = self.cases.iter().map(|case| sanitize(&case.name));
+        let differences = names.clone().skip(1).map(|name| format!("{name} - reference"));
+        let head = ["quantity", "unit"].map(str::to_owned).into_iter();
+        let columns = head.chain(names).chain(differences).map(|key| Column::text(key, ""));
+        let words = |name: &str, of: fn(&ComparedCase) -> &'static str| {
+            let cells = self.cases.iter().map(of);
+            let blank = self.cases.iter().skip(1).map(|_| "");
+            [name, ""].into_iter().chain(cells).chain(blank).map(Cell::from).collect()
         };
-        let line = |row: &Row| {
-            let (label, symbol) = (plain(&row.label), plain(&row.symbol));
-            format!("| {label} | {symbol} |{}", cells(row))
+        let rows = [
+            words("method", |case| case.method().unwrap_or_default()),
+            words("outcome", ComparedCase::outcome),
+        ];
+        let values = self.quantities().map(|quantity| {
+            let values = self.cases.iter().map(|case| case.value(quantity));
+            let differences = (1..self.cases.len())
+                .map(|at| Some(self.cases[at].value(quantity)? - self.base(quantity, at)?));
+            let names = [quantity.key, quantity.unit].map(Cell::from).into_iter();
+            names.chain(values.chain(differences).map(|value| Cell::number(value, ""))).collect()
+        });
+        Table::new("", columns.collect()).with(rows.into_iter().chain(values)).write_csv(out)
+    }
+
+    /// The quantities with a value in some case.
+    fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
+        let has_value = |quantity: &&'static Quantity| {
+            self.cases.iter().any(|case| case.value(quantity).is_some())
         };
-        let rows = group.rows.iter().map(line);
-        [head, rule].into_iter().chain(rows).collect()
+        self.selection.quantities().filter(has_value)
+    }
+
+    /// The value of the first case, if a difference from it has a meaning: flags have none, and
+    /// values of different definitions have none.
+    fn base(&self, quantity: &Quantity, at: usize) -> Option<f64> {
+        let symbol = |at: usize| Some(quantity.symbol_in(self.cases[at].solution()?.method));
+        let is_alike = at > 0 && !quantity.is_flag() && symbol(at) == symbol(0);
+        self.cases[0].value(quantity).filter(|_| is_alike)
+    }
+
+    /// Writes one object in SI units without absent values, its members in the order of their names.
+    ///
+    /// # Errors
+    /// Errors of the writer.
+    pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
+        let all = object([
+            ("format", FORMAT.into()),
+            ("version", env!("CARGO_PKG_VERSION").into()),
+            ("columns", (0..self.cases.len()).map(|at| self.json_case(at)).collect()),
+        ]);
+        write_line(&serde_json::to_value(all)?, out)
+    }
+
+    fn json_case(&self, at: usize) -> Json {
+        let ComparedCase { name, file, variant, case, found } = &self.cases[at];
+        // The inputs that differ from those of the first case, as written.
+        let inputs = between(&self.cases[0].case, case).into_iter();
+        let inputs = inputs.filter(|change| !change.key.starts_with("variants."));
+        let inputs = inputs.map(|change| (change.key, change.to.unwrap_or_default().into()));
+        let quantities = found.as_ref().ok().map(|report| {
+            let method = report.solution.method;
+            let members = self.quantities().filter_map(|quantity| {
+                let now = self.cases[at].value(quantity)?;
+                let base = self.base(quantity, at);
+                let percent = base.and_then(|base| percent(quantity, now, base));
+                let value = measured(quantity, now, subject(quantity, method)).with([
+                    ("difference", base.map(|base| now - base + 0.0).into()),
+                    ("percent", percent.map(|percent| percent + 0.0).into()),
+                ]);
+                Some((quantity.key, value))
+            });
+            object(members)
+        });
+        let refused = found.as_ref().err().and_then(|refused| refused.first());
+        object([
+            ("name", name.into()),
+            ("case", file.into()),
+            ("variant", variant.as_ref().into()),
+            ("method", self.cases[at].method().into()),
+            ("outcome", self.cases[at].outcome().into()),
+            ("inputs", object(inputs)),
+            ("quantities", quantities.into()),
+            ("refusal", refused.map(|refused| reason(&refused.problem)).into()),
+        ])
     }
 }
 
-/// The column's letter, name, method and outcome.
-fn heading(at: usize, column: &Column) -> Vec<String> {
-    let mut lines = item(&format!("{}  ", letter(at)), &sanitize(&named(column)));
-    lines.extend(item("   ", &sanitize(&described(column))));
-    lines
-}
-
-/// The name of a column with its method.
-fn named(column: &Column) -> String {
-    let method = column.solution().map(|solution| solution.method.name());
-    let method = method.map_or_else(String::new, |method| format!(" ({method})"));
-    format!("{}{method}", column.name)
-}
-
-/// The outcome, or the reason for its absence.
-fn described(column: &Column) -> String {
-    match &column.found {
-        Ok(report) => digest::sentence(&report.solution, System::Metric),
-        Err(refused) => {
-            let problems = refused.iter().map(|refused| refused.problem.to_string());
-            format!("Refused: {}.", problems.collect::<Vec<_>>().join("; "))
-        }
-    }
-}
-
-fn with_unit(value: &str, unit: &str) -> String {
-    if unit.is_empty() || [NONE, REFUSED].contains(&value) {
-        value.to_owned()
+/// The symbol of an input: a field, a limit of a quantity, or the spread of a field.
+fn symbol(key: &str) -> String {
+    let of_field = |key: &str| index_of(key).map(|field| FIELDS[field].symbol);
+    if let Some(quantity) = key.strip_prefix("limits.").and_then(Quantity::find) {
+        format!("{} limit", quantity.symbol)
+    } else if let Some(field) = key.strip_prefix("spread.") {
+        let symbol = of_field(field.trim_matches('"'));
+        symbol.map(|symbol| format!("{symbol} spread")).unwrap_or_default()
     } else {
-        format!("{value} {unit}")
+        of_field(key).unwrap_or_default().to_owned()
     }
-}
-
-fn plain(text: &str) -> String {
-    plain_markdown(&sanitize(text))
 }
 
 /// A to Z, then AA and so on.
@@ -328,242 +453,6 @@ fn letter(at: usize) -> String {
         0 => last.to_string(),
         more => letter(more - 1) + &last.to_string(),
     }
-}
-
-/// Widths of the columns, and the number of columns beside the reference.
-struct Layout {
-    symbol: usize,
-    /// 0 if labels do not fit.
-    label: usize,
-    value: usize,
-    difference: usize,
-    unit: usize,
-    others: usize,
-}
-
-impl Layout {
-    fn of(groups: &[Group], columns: usize) -> Layout {
-        let rows = || groups.iter().flat_map(|group| &group.rows);
-        let most = |of: &dyn Fn(&Row) -> usize| rows().map(of).max().unwrap_or(0);
-        let wide = Layout {
-            symbol: 1 + most(&|row| count(&row.symbol)),
-            label: 1 + most(&|row| count(&row.label)),
-            value: 2 + most(&|row| widest(row.values.iter().map(String::as_str))).max(6),
-            difference: 2 + most(&|row| widest(row.differences.iter().map(String::as_str))).max(5),
-            unit: 1 + most(&|row| count(row.unit)),
-            others: columns.saturating_sub(1),
-        };
-        let fitting = |label: usize| {
-            let before = 2 + wide.symbol + label + wide.value + wide.unit;
-            WIDTH.saturating_sub(before) / (wide.value + wide.difference)
-        };
-        if fitting(wide.label) >= wide.others {
-            return wide;
-        }
-        let (with_labels, without) = (fitting(wide.label), fitting(0).max(1));
-        // Labels are shown if there is room, or if they reduce the number of tables.
-        let tables = |others: usize| wide.others.div_ceil(others.max(1));
-        if with_labels == 0 || tables(without) < tables(with_labels) {
-            return Layout {
-                symbol: 1 + most(&|row| count(short_name(row))),
-                label: 0,
-                others: without,
-                ..wide
-            };
-        }
-        Layout { others: with_labels, ..wide }
-    }
-
-    fn title(&self, group: &Group, others: &[usize]) -> String {
-        let names = 2 + self.symbol + self.label + self.unit;
-        let of = |&at: &usize| {
-            let letter = letter(at);
-            let against = format!("{letter} - A");
-            format!("{letter:>0$}{against:>1$}", self.value, self.difference)
-        };
-        let others: String = others.iter().map(of).collect();
-        let cells = format!("{:>1$}{others}", "A", self.value);
-        // A long title is not cut; the letters move to the right.
-        let title = &group.title;
-        if count(title) < names + self.value - 1 {
-            let room = names.saturating_sub(count(title));
-            let blank = " ".repeat(room);
-            let cut = count(title).saturating_sub(names);
-            format!("{title}{blank}{}", &cells[cut..])
-        } else {
-            let blank = " ".repeat(names);
-            format!("{title}\n{blank}{cells}")
-        }
-    }
-
-    fn line(&self, row: &Row, others: &[usize]) -> String {
-        let (symbol, label) = if self.label > 0 {
-            (row.symbol.as_str(), row.label.as_str())
-        } else {
-            (short_name(row), "")
-        };
-        let (unit, base) = (row.unit, sanitize(&row.values[0]));
-        let (first, second, third, fourth) = (self.symbol, self.label, self.unit, self.value);
-        let head = format!("  {symbol:first$}{label:second$}{unit:third$}{base:>fourth$}");
-        let cells = others.iter().map(|&at| {
-            let (value, difference) = (sanitize(&row.values[at]), &row.differences[at]);
-            format!("{value:>0$}{difference:>1$}", self.value, self.difference)
-        });
-        head + &cells.collect::<String>()
-    }
-}
-
-/// The symbol of a row, or its label if it has none.
-fn short_name(row: &Row) -> &str {
-    if row.symbol.is_empty() { &row.label } else { &row.symbol }
-}
-
-impl Comparison {
-    /// Writes one row per quantity: its name and unit, the value of each column, and the
-    /// differences from the first one.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let names = self.columns.iter().map(|column| sanitize(&column.name));
-        let differences = names.clone().skip(1).map(|name| format!("{name} - reference"));
-        let head = ["quantity", "unit"].map(str::to_owned).into_iter();
-        let words = |name: &str, of: &dyn Fn(&Column) -> &'static str| {
-            let head = [name.to_owned(), String::new()].into_iter();
-            let blank = self.columns.iter().skip(1).map(|_| String::new());
-            let cells = self.columns.iter().map(|column| of(column).to_owned());
-            head.chain(cells).chain(blank).collect()
-        };
-        let rows = [
-            head.chain(names).chain(differences).collect(),
-            words("method", &method),
-            words("outcome", &outcome),
-        ];
-        write_rows(rows.into_iter().chain(self.quantities().map(|known| self.csv_row(known))), out)
-    }
-
-    fn csv_row(&self, quantity: &Quantity) -> Vec<String> {
-        let values: Vec<_> = (0..self.columns.len()).map(|at| self.own(quantity, at)).collect();
-        let cells = values.iter().map(|value| cell(*value));
-        let difference = |at: usize| {
-            let base = self.base(quantity, at);
-            cell(values[at].zip(base).map(|(now, base)| now - base))
-        };
-        [quantity.key, quantity.unit]
-            .map(str::to_owned)
-            .into_iter()
-            .chain(cells)
-            .chain((1..values.len()).map(difference))
-            .collect()
-    }
-
-    /// The quantities with a value in some column.
-    fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
-        let quantities = self.selection.quantities();
-        let columns = 0..self.columns.len();
-        quantities
-            .filter(move |quantity| columns.clone().any(|at| self.own(quantity, at).is_some()))
-    }
-
-    /// The value of a quantity as the method of the column defines it.
-    fn own(&self, quantity: &Quantity, at: usize) -> Option<f64> {
-        value(quantity, self.columns[at].solution()?)
-    }
-
-    /// The value of the first column, if a difference of the column from it has a meaning: flags
-    /// have none, and values of different definitions have none.
-    fn base(&self, quantity: &Quantity, at: usize) -> Option<f64> {
-        let symbol = |at: usize| {
-            let solution = self.columns[at].solution()?;
-            Some(quantity.symbol_in(solution.method))
-        };
-        let is_alike = at > 0 && !quantity.is_flag() && symbol(at) == symbol(0);
-        self.own(quantity, 0).filter(|_| is_alike)
-    }
-
-    /// Writes one object in SI units without absent values.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        let columns = (0..self.columns.len()).map(|at| self.json_column(at));
-        let all = json!({
-            "format": FORMAT,
-            "version": env!("CARGO_PKG_VERSION"),
-            "columns": columns.collect::<Vec<_>>(),
-        });
-        write_line(&all, out)
-    }
-
-    fn json_column(&self, at: usize) -> Value {
-        let column = &self.columns[at];
-        let mut object = json!({
-            "name": column.name,
-            "case": column.file,
-            "outcome": outcome(column),
-            "inputs": self.json_inputs(column),
-        });
-        if let Some(variant) = &column.variant {
-            object["variant"] = json!(variant);
-        }
-        match &column.found {
-            Ok(_) => {
-                object["method"] = json!(method(column));
-                object["quantities"] = self.json_quantities(at);
-            }
-            Err(refused) => {
-                let Some(Refused { problem, .. }) = refused.first() else {
-                    return object;
-                };
-                object["refusal"] =
-                    json!({"field": problem.field, "cause": problem.cause, "fix": problem.fix});
-            }
-        }
-        object
-    }
-
-    /// The inputs that differ from those of the first column, as written.
-    fn json_inputs(&self, column: &Column) -> Value {
-        let changes = self.columns.first().map(|first| between(&first.case, &column.case));
-        let is_input = |key: &str| !key.starts_with("variants.");
-        let texts = changes.into_iter().flatten().filter(|change| is_input(&change.key));
-        let texts = texts.map(|change| (change.key, json!(change.to.unwrap_or_default())));
-        Value::Object(texts.collect())
-    }
-
-    fn json_quantities(&self, at: usize) -> Value {
-        let mut object = Map::new();
-        for quantity in self.quantities() {
-            let Some((now, solution)) = self.own(quantity, at).zip(self.columns[at].solution())
-            else {
-                continue;
-            };
-            let mut member = if quantity.is_flag() {
-                json!({"value": now != 0.0, "unit": quantity.unit})
-            } else {
-                json!({"value": now, "unit": quantity.unit})
-            };
-            if let Some(of) = subject(quantity, solution.method) {
-                member["of"] = json!(of);
-            }
-            if let Some(base) = self.base(quantity, at) {
-                member["difference"] = json!(now - base + 0.0);
-                if let Some(percent) = percent(quantity, now, base) {
-                    member["percent"] = json!(percent + 0.0);
-                }
-            }
-            object.insert(quantity.key.to_owned(), member);
-        }
-        Value::Object(object)
-    }
-}
-
-fn method(column: &Column) -> &'static str {
-    column.solution().map_or("", |solution| solution.method.name())
-}
-
-fn outcome(column: &Column) -> &'static str {
-    column.solution().map_or(REFUSED, |solution| solution.outcome.name())
 }
 
 /// A difference below this fraction of the reference is rounding.
@@ -612,8 +501,7 @@ pub fn difference(quantity: &Quantity, now: f64, base: f64, unit: &'static str) 
     }
     let number = counted((now - base).abs(), unit, 3);
     let sign = if now < base { '-' } else { '+' };
-    let named = crate::case::units::system::named(unit);
-    format!("{sign}{number} {named}").trim_end().to_owned()
+    format!("{sign}{number} {}", named(unit)).trim_end().to_owned()
 }
 
 #[cfg(test)]

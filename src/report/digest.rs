@@ -57,37 +57,31 @@ impl Digest {
         found: Result<&Solution, &Refusal>,
         system: System,
     ) -> Digest {
-        let written = Digest {
+        let (verdicts, method, outcome, short) = match found {
+            Ok(solution) => (
+                verdict::verdicts(case, solution),
+                method(inputs.method, solution),
+                sentence(solution, system),
+                short(solution, system),
+            ),
+            Err(refusal) => (
+                verdict::refused(case, refusal),
+                inputs.method.name().to_owned(),
+                format!("Not solved: {refusal}; {}.", refusal.fix()),
+                "not solved".to_owned(),
+            ),
+        };
+        let limits = verdicts.iter().map(|limit| (limit.standing, limit.sentence(system)));
+        let notes = found.map(|solution| model::notes(inputs, solution)).unwrap_or_default();
+        Digest {
             title: text(case, "title"),
             pair: pair(case),
             load: load(case),
-            ..Digest::default()
-        };
-        match found {
-            Ok(solution) => Digest {
-                method: method(inputs.method, solution),
-                outcome: sentence(solution, system),
-                short: short(solution, system),
-                limits: verdict::verdicts(case, solution)
-                    .iter()
-                    .map(|verdict| (verdict.standing, verdict.sentence(system)))
-                    .collect(),
-                notes: model::notes(inputs, solution)
-                    .into_iter()
-                    .map(|note| note.message)
-                    .collect(),
-                ..written
-            },
-            Err(refusal) => Digest {
-                method: inputs.method.name().to_owned(),
-                outcome: format!("Not solved: {refusal}; {}.", refusal.fix()),
-                short: "not solved".to_owned(),
-                limits: verdict::refused(case, refusal)
-                    .iter()
-                    .map(|verdict| (verdict.standing, verdict.sentence(system)))
-                    .collect(),
-                ..written
-            },
+            method,
+            outcome,
+            short,
+            limits: limits.collect(),
+            notes: notes.into_iter().map(|note| note.message).collect(),
         }
     }
 
@@ -119,77 +113,68 @@ impl Digest {
 /// The outcome of a solve as a sentence; angle and forces if their stages ran.
 #[must_use]
 pub fn sentence(solution: &Solution, system: System) -> String {
-    match solution.outcome {
-        Outcome::CornerContact => {
-            let angle = first_touch(solution).map(|(quantity, angle)| {
-                let shown = shown_in(quantity, angle, system);
-                format!("{} = {shown} before E", quantity.symbol)
-            });
-            let force = force(solution.method, |key| printed(key, solution, system));
-            let found: Vec<String> = angle.into_iter().chain(force).collect();
-            let colon = if found.is_empty() { "" } else { ": " };
-            format!("Corner contact{colon}{}.", found.join("; "))
-        }
-        Outcome::NoCornerContact => {
-            let why = without_contact_in_full(solution, system);
-            let peak = peak(solution, system).map(|peak| format!("; peak force {peak}"));
-            format!("No corner contact: {why}{}.", peak.unwrap_or_default())
-        }
+    let overall = peak(solution, system);
+    if solution.outcome == Outcome::NoCornerContact {
+        let why = without_contact_in_full(solution, system);
+        let peak = overall.map(|peak| format!("; peak force {peak}"));
+        return format!("No corner contact: {why}{}.", peak.unwrap_or_default());
     }
+    let angle = own("approach_angle_driver", solution, system)
+        .map(|(quantity, angle)| format!("{} = {angle} before E", quantity.symbol));
+    let force = own("impact_force", solution, system).map(|(_, force)| force);
+    let force = match (solution.method, force, overall) {
+        (Method::Static, Some(force), Some(overall)) => {
+            Some(format!("force {force} at E, {overall} overall"))
+        }
+        (Method::Dynamic, Some(force), Some(overall)) => {
+            Some(format!("peak force {force} before E, {overall} overall"))
+        }
+        (Method::Static | Method::Dynamic, ..) => None,
+        (_, force, _) => force.map(|force| format!("impact force {force}")),
+    };
+    let found: Vec<String> = angle.into_iter().chain(force).collect();
+    let colon = if found.is_empty() { "" } else { ": " };
+    format!("Corner contact{colon}{}.", found.join("; "))
 }
 
 /// The outcome as a short phrase with the forces of [`sentence`].
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
-    let printed = |key| printed(key, solution, system);
-    let overall = peak(solution, system);
-    if solution.outcome == Outcome::NoCornerContact {
-        let overall = overall.map(|overall| format!(": {overall} overall"));
-        return format!("no corner contact{}", overall.unwrap_or_default());
-    }
-    let force = Quantity::find("impact_force").and_then(|force| force.by(solution.method));
-    match (force.and_then(|force| printed(force.key)), overall) {
-        (Some(force), Some(overall)) => format!("corner contact: {force}, {overall} overall"),
-        (Some(force), None) => format!("corner contact: {force}"),
-        (None, _) => "corner contact".to_owned(),
-    }
+    let overall = peak(solution, system).map(|overall| format!("{overall} overall"));
+    let (outcome, force) = match solution.outcome {
+        Outcome::NoCornerContact => ("no corner contact", None),
+        Outcome::CornerContact => {
+            let force = own("impact_force", solution, system).map(|(_, force)| force);
+            ("corner contact", Some(force))
+        }
+    };
+    let parts: Vec<String> = match force {
+        None => overall.into_iter().collect(),
+        // Without its own force the overall force is not shown.
+        Some(None) => Vec::new(),
+        Some(Some(force)) => [force].into_iter().chain(overall).collect(),
+    };
+    let colon = if parts.is_empty() { "" } else { ": " };
+    format!("{outcome}{colon}{}", parts.join(", "))
 }
 
 /// The greatest force of a tooth, with or without contact before E; the closed forms have none.
 fn peak(solution: &Solution, system: System) -> Option<String> {
-    match solution.method {
-        Method::Static => printed("static_peak_force", solution, system),
-        Method::Dynamic => printed("dynamic_peak_force", solution, system),
-        Method::Paper | Method::Exact | Method::Auto => None,
-    }
+    let key = match solution.method {
+        Method::Static => "static_peak_force",
+        Method::Dynamic => "dynamic_peak_force",
+        Method::Paper | Method::Exact | Method::Auto => return None,
+    };
+    printed(Quantity::find(key)?, solution, system)
 }
 
-/// The driver's roll angle before E at the first contact: the quantity and its value in rad.
-fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64)> {
-    let quantity = Quantity::find("approach_angle_driver")?.by(solution.method)?;
-    Some((quantity, value(quantity, solution)?))
+/// A quantity of the free impact, or its counterpart in the method, with its value.
+fn own(key: &str, solution: &Solution, system: System) -> Option<(&'static Quantity, String)> {
+    let quantity = Quantity::find(key)?.by(solution.method)?;
+    Some((quantity, printed(quantity, solution, system)?))
 }
 
-/// The forces of the incoming tooth as text, if their stages ran.
-fn force(method: Method, printed: impl Fn(&str) -> Option<String>) -> Option<String> {
-    match method {
-        Method::Static => {
-            let (start, peak) = (printed("static_force_at_start")?, printed("static_peak_force")?);
-            Some(format!("force {start} at E, {peak} overall"))
-        }
-        Method::Dynamic => {
-            let before = printed("dynamic_peak_approach_force")?;
-            let overall = printed("dynamic_peak_force")?;
-            Some(format!("peak force {before} before E, {overall} overall"))
-        }
-        Method::Paper | Method::Exact | Method::Auto => {
-            Some(format!("impact force {}", printed("impact_force")?))
-        }
-    }
-}
-
-fn printed(key: &str, solution: &Solution, system: System) -> Option<String> {
-    let quantity = Quantity::find(key)?;
+fn printed(quantity: &Quantity, solution: &Solution, system: System) -> Option<String> {
     Some(shown_in(quantity, value(quantity, solution)?, system).to_string())
 }
 
@@ -241,9 +226,9 @@ fn text(case: &Case, key: &str) -> String {
 }
 
 /// A note if other methods find another outcome: which methods, and why the governing method
-/// counts; from the full text to the shortest.
+/// counts.
 #[must_use]
-pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<[String; 3]> {
+pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<String> {
     let differs = |other: &&&Solution| other.outcome != governing.outcome;
     let names: Vec<&str> = others.iter().filter(differs).map(|other| other.method.name()).collect();
     let find = if names.len() == 1 { "finds" } else { "find" };
@@ -258,11 +243,7 @@ pub fn differing(governing: &Solution, others: &[&Solution]) -> Option<[String; 
         Method::Static => ", and it shares the load among all pairs",
         Method::Paper | Method::Exact | Method::Auto => "",
     };
-    Some([
-        format!("{names} {find} {found}; {own} governs: {chosen}{why}"),
-        format!("{names} {find} {found}; {own} governs"),
-        format!("{own} governs; {names} {}", find.replace("find", "differ")),
-    ])
+    Some(format!("{names} {find} {found}; {own} governs: {chosen}{why}"))
 }
 
 /// The results of the closed forms beside a method that resolves the impact, or of the other closed
@@ -291,32 +272,25 @@ pub fn closed_forms(
 }
 
 fn closed_form(solution: &Solution, system: System) -> Option<String> {
-    let shown = |key| {
-        let quantity = Quantity::find(key)?;
-        Some(shown_in(quantity, value(quantity, solution)?, system))
-    };
+    let shown = |key| printed(Quantity::find(key)?, solution, system);
     let method = solution.method.name();
     Some(match solution.outcome {
         Outcome::NoCornerContact => {
             format!("{method} no corner contact, Δ = {}", shown("total_deviation")?)
         }
         Outcome::CornerContact => {
-            let (quantity, angle) = first_touch(solution)?;
-            let angle = shown_in(quantity, angle, system);
+            let (quantity, angle) = own("approach_angle_driver", solution, system)?;
             format!("{method} {} at {} = {angle}", shown("impact_force")?, quantity.symbol)
         }
     })
 }
 
-/// Decimal places of a relief, by system of units.
-const LEAST_DIGIT: [(System, i32); 2] = [(System::Metric, 3), (System::Inch, 4)];
 /// Significant digits of the additional relief.
 const RELIEF_DIGITS: i32 = 3;
 
-/// The required tip relief of the driven gear by the governing method and by the others, from the
-/// full text to the shortest; `None` without corner contact, or if the relief is unknown.
+/// The required tip relief of the driven gear by the governing method and by the others; `None` without corner contact, or if the relief is unknown.
 #[must_use]
-pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Option<[String; 4]> {
+pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Option<String> {
     let unit = unit(system)?;
     let (given, figures) = figures(governing, unit, system)?;
     Some(phrases(governing.method, given > 0.0, &figures, others, unit, system))
@@ -325,12 +299,7 @@ pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Opt
 /// The same text while the relief of the governing method is not known yet; `given` is the present
 /// relief of the gear, in m.
 #[must_use]
-pub fn pending(
-    method: Method,
-    given: f64,
-    others: &[&Solution],
-    system: System,
-) -> Option<[String; 4]> {
+pub fn pending(method: Method, given: f64, others: &[&Solution], system: System) -> Option<String> {
     let figures = ["...", "..."].map(str::to_owned);
     Some(phrases(method, given > 0.0, &figures, others, unit(system)?, system))
 }
@@ -353,7 +322,7 @@ fn phrases(
     others: &[&Solution],
     unit: &str,
     system: System,
-) -> [String; 4] {
+) -> String {
     let own = method.name();
     let others = others.iter().filter_map(|other| {
         let (_, [more, _]) = figures(other, unit, system)?;
@@ -361,22 +330,12 @@ fn phrases(
     });
     let others: String = others.collect();
     if has_relief {
-        [
-            format!(
-                "Required additional tip relief, driven gear: {own} {more}{others} {unit}; total \
-                    {all} {unit}"
-            ),
-            format!("Relief to add: {own} {more}{others} {unit}; total {all} {unit}"),
-            format!("Required relief: +{more}, total {all} {unit}"),
-            format!("Required Ca2: {all} {unit}"),
-        ]
+        format!(
+            "Required additional tip relief, driven gear: {own} {more}{others} {unit}; total \
+             {all} {unit}"
+        )
     } else {
-        [
-            format!("Required tip relief of the driven gear: {own} {more}{others} {unit}"),
-            format!("Required tip relief: {own} {more}{others} {unit}"),
-            format!("Required relief: {own} {more} {unit}"),
-            format!("Required Ca2: {all} {unit}"),
-        ]
+        format!("Required tip relief of the driven gear: {own} {more}{others} {unit}")
     }
 }
 
@@ -388,7 +347,8 @@ fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2]
     /// The fraction of a digit that is rounding error.
     const NONE: f64 = 1e-9;
     let factor = units::factor(unit).unwrap_or(1.0);
-    let last = LEAST_DIGIT.iter().find(|(own, _)| *own == system).map_or(3, |&(_, last)| last);
+    // Decimal places of um and of thou.
+    let last = if system == System::Inch { 4 } else { 3 };
     let before_point = (least / factor).log10().floor() as i32 + 1;
     let digits = (RELIEF_DIGITS - before_point).clamp(0, last);
     let scale = 10f64.powi(digits);
@@ -401,45 +361,30 @@ fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2]
 /// Significant digits of a frequency or a speed.
 const FREQUENCY_DIGITS: usize = 3;
 
-/// The mesh frequency, the greatest dynamic factor over the speed, and the speed of N = 1, from the
-/// full text to the shortest; `None` if the method has no mesh.
+/// The mesh frequency, the greatest dynamic factor over the speed, and the speed of N = 1; `None` if
+/// the method has no mesh.
 #[must_use]
-pub fn whine(solution: &Solution) -> Option<[String; 4]> {
+pub fn whine(solution: &Solution) -> Option<String> {
     let of = |key| value(Quantity::find(key)?, solution);
     let (frequency, ratio) = (of("mesh_frequency")?, of("resonance_ratio")?);
     let rpm = |speed: f64| rounded(speed * 30.0 / std::f64::consts::PI);
     let (frequency, speed) = (rounded(frequency), rpm(of("resonance_speed")?));
     let now = format!("now N = {}", significant(ratio, 2));
-    let peak = |speed, factor| Some((of(speed)?, of(factor)?));
-    let rising = peak("resonance_peak_speed", "resonance_peak_factor");
-    let falling = peak("resonance_peak_speed_falling", "resonance_peak_factor_falling");
-    let at = |(speed, factor)| format!("{} at {} rpm", significant(factor, 3), rpm(speed));
-    Some(match (rising, falling) {
-        (Some(rising), Some(falling)) => {
-            let greatest = at(if falling.1 > rising.1 { falling } else { rising });
-            let both = if at(rising) == at(falling) {
-                greatest.clone()
+    let at =
+        |speed, factor| Some(format!("{} at {} rpm", significant(of(factor)?, 3), rpm(of(speed)?)));
+    let rising = at("resonance_peak_speed", "resonance_peak_factor");
+    let falling = at("resonance_peak_speed_falling", "resonance_peak_factor_falling");
+    let resonance = format!("N = 1 of the mean stiffness at {speed} rpm ({now})");
+    Some(match rising.zip(falling) {
+        None => format!("Mesh frequency {frequency} Hz; {resonance}"),
+        Some((rising, falling)) => {
+            let both = if rising == falling {
+                rising
             } else {
-                format!("{} rising, {} falling", at(rising), at(falling))
+                format!("{rising} rising, {falling} falling")
             };
-            [
-                format!(
-                    "Greatest dynamic factor {both}; mesh frequency {frequency} Hz, N = 1 of the \
-                        mean stiffness at {speed} rpm ({now})"
-                ),
-                format!("Greatest dynamic factor {both}; {now}"),
-                format!("Peak factor {both}"),
-                format!("Peak factor {greatest}"),
-            ]
+            format!("Greatest dynamic factor {both}; mesh frequency {frequency} Hz, {resonance}")
         }
-        _ => [
-            format!(
-                "Mesh frequency {frequency} Hz; N = 1 of the mean stiffness at {speed} rpm ({now})"
-            ),
-            format!("Mesh {frequency} Hz; N = 1 at {speed} rpm ({now})"),
-            format!("N = 1 at {speed} rpm; {now}"),
-            format!("N = 1 at {speed} rpm"),
-        ],
     })
 }
 
@@ -605,7 +550,7 @@ mod tests {
         let mut inputs = standard_pair(20, 30, 5e-3);
         let mut sentence = |method| {
             inputs.method = method;
-            whine(&solve(&inputs, wanted).unwrap()).unwrap()[0].clone()
+            whine(&solve(&inputs, wanted).unwrap()).unwrap()
         };
         let at_rest = sentence(Method::Static);
         assert!(at_rest.starts_with("Mesh frequency ") && at_rest.contains("N = 1 of the mean"));

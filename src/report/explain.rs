@@ -16,13 +16,12 @@ use crate::model::explanation::{Context, Finding};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Solution, auto};
 use crate::report::absence::Absence;
-use crate::report::data::write_line;
+use crate::report::json::{object, write_line};
 use crate::report::verdict::Beside;
 use crate::report::{Shown, shown, value};
-use derivation::{GLUE, Known};
+use derivation::Known;
 pub use derivation::{How, Leaf, STEP_UNITS, Token, Work, tokens};
 pub use effects::Effect;
-use serde::Serialize;
 pub use text::{Kind, Line, lines, render};
 
 /// An explained quantity.
@@ -96,91 +95,12 @@ pub fn explain(
         derivation,
         leaves,
         source: quantity.source,
-        corrections: quantity
-            .corrections
-            .iter()
-            .filter_map(|equation| correction_of(equation))
-            .collect(),
+        corrections: quantity.corrections.iter().filter_map(correction_of).collect(),
         assumptions: quantity.assumptions_in(&used),
         validity: quantity.checks.iter().filter_map(|check| check(&known.context)).collect(),
         accuracy: effects::accuracy_of(quantity, &known),
         effects: effects::effects_of(quantity, &known),
     }
-}
-
-#[derive(Serialize)]
-struct JsonLine<'a> {
-    case: &'a str,
-    method: &'static str,
-    key: &'static str,
-    symbol: &'static str,
-    label: &'static str,
-    equation: &'static str,
-    unit: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shown: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    missing: Option<&'a str>,
-    meaning: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    beside: Option<&'a str>,
-    derivation: Vec<WorkLine<'a>>,
-    with: Vec<LeafLine<'a>>,
-    source: &'static str,
-    corrections: Vec<CorrectionLine>,
-    assumptions: &'static str,
-    validity: Vec<FindingLine<'a>>,
-    accuracy: &'a [String],
-    sensitivity: Vec<EffectLine<'a>>,
-}
-
-#[derive(Serialize)]
-struct WorkLine<'a> {
-    symbol: &'a str,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    meaning: &'a str,
-    how: &'static str,
-    formula: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    numbers: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shown: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    residual: Option<&'a str>,
-}
-
-#[derive(Serialize)]
-struct LeafLine<'a> {
-    symbol: &'a str,
-    key: &'a str,
-    shown: &'a str,
-    meaning: &'a str,
-}
-
-#[derive(Serialize)]
-struct CorrectionLine {
-    equation: &'static str,
-    error: &'static str,
-    used: &'static str,
-}
-
-#[derive(Serialize)]
-struct FindingLine<'a> {
-    range: &'a str,
-    here: &'a str,
-    inside: bool,
-}
-
-#[derive(Serialize)]
-struct EffectLine<'a> {
-    key: &'a str,
-    text: &'a str,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    step: &'a str,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    change: &'a str,
 }
 
 /// Writes the page as one line; `name` is the name of the case.
@@ -189,84 +109,36 @@ struct EffectLine<'a> {
 /// Errors of the writer.
 pub fn write_json(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()> {
     let quantity = page.quantity;
-    let line = JsonLine {
-        case: name,
-        method: page.method,
-        key: quantity.key,
-        symbol: page.symbol,
-        label: page.label,
-        equation: quantity.equation,
-        unit: quantity.unit,
-        value: page.value,
-        shown: page.shown.as_ref().map(Shown::to_string),
-        missing: page.missing.as_deref(),
-        meaning: page.meaning,
-        beside: page.beside.as_deref(),
-        derivation: page.derivation.iter().map(WorkLine::of).collect(),
-        with: page.leaves.iter().map(LeafLine::of).collect(),
-        source: page.source,
-        corrections: page
-            .corrections
-            .iter()
-            .map(|correction| CorrectionLine::of(correction))
-            .collect(),
-        assumptions: page.assumptions,
-        validity: page.validity.iter().map(FindingLine::of).collect(),
-        accuracy: &page.accuracy,
-        sensitivity: page.effects.iter().map(EffectLine::of).collect(),
-    };
+    let corrections = page.corrections.iter().map(|Correction { equation, error, used }| {
+        let parts = [("equation", equation), ("error", error), ("used", used)];
+        object(parts.map(|(key, &text)| (key, text.into())))
+    });
+    let validity = page.validity.iter().map(|Finding { range, here, inside }| {
+        object([("range", range.into()), ("here", here.into()), ("inside", (*inside).into())])
+    });
+    let line = object([
+        ("case", name.into()),
+        ("method", page.method.into()),
+        ("key", quantity.key.into()),
+        ("symbol", page.symbol.into()),
+        ("label", page.label.into()),
+        ("equation", quantity.equation.into()),
+        ("unit", quantity.unit.into()),
+        ("value", page.value.into()),
+        ("shown", page.shown.as_ref().map(Shown::to_string).into()),
+        ("missing", page.missing.as_ref().into()),
+        ("meaning", page.meaning.into()),
+        ("beside", page.beside.as_ref().into()),
+        ("derivation", page.derivation.iter().map(Work::json).collect()),
+        ("with", page.leaves.iter().map(Leaf::json).collect()),
+        ("source", page.source.into()),
+        ("corrections", corrections.collect()),
+        ("assumptions", page.assumptions.into()),
+        ("validity", validity.collect()),
+        ("accuracy", page.accuracy.iter().collect()),
+        ("sensitivity", page.effects.iter().map(Effect::json).collect()),
+    ]);
     write_line(&line, out)
-}
-
-impl WorkLine<'_> {
-    fn of(work: &Work) -> WorkLine<'_> {
-        WorkLine {
-            symbol: work.symbol,
-            meaning: work.meaning,
-            how: match work.how {
-                How::Equals => "equals",
-                How::Solves => "solves",
-                How::Described => "described",
-            },
-            formula: &work.formula,
-            numbers: work.numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")),
-            shown: work.shown.as_ref().map(Shown::to_string),
-            residual: work.residual.as_deref(),
-        }
-    }
-}
-
-impl CorrectionLine {
-    fn of(correction: &Correction) -> CorrectionLine {
-        CorrectionLine {
-            equation: correction.equation,
-            error: correction.error,
-            used: correction.used,
-        }
-    }
-}
-
-impl LeafLine<'_> {
-    fn of(leaf: &Leaf) -> LeafLine<'_> {
-        LeafLine { symbol: leaf.symbol, key: leaf.key, shown: &leaf.shown, meaning: leaf.meaning }
-    }
-}
-
-impl FindingLine<'_> {
-    fn of(finding: &Finding) -> FindingLine<'_> {
-        FindingLine { range: &finding.range, here: &finding.here, inside: finding.inside }
-    }
-}
-
-impl EffectLine<'_> {
-    fn of(effect: &Effect) -> EffectLine<'_> {
-        EffectLine {
-            key: effect.key,
-            text: &effect.text,
-            step: &effect.step,
-            change: &effect.change,
-        }
-    }
 }
 
 /// A misprint and its correction.
@@ -386,6 +258,6 @@ pub static CORRECTIONS: &[Correction] = &[
 ];
 
 /// The correction of an equation.
-fn correction_of(equation: &str) -> Option<&'static Correction> {
-    CORRECTIONS.iter().find(|correction| correction.equation == equation)
+fn correction_of(equation: &&str) -> Option<&'static Correction> {
+    CORRECTIONS.iter().find(|correction| correction.equation == *equation)
 }

@@ -110,5 +110,5 @@ pub fn subject(
         Some(Err(Refusal::Stopped)) => return Err(Refusal::Stopped),
         found => found.and_then(Result::ok),
     };
-    Ok(Subject { reports: with_other_method(report), speeds, studies, file })
+    Ok(Subject { reports: with_other_method(report.with_others()), speeds, studies, file })
 }

@@ -1,11 +1,10 @@
 //! The lists of the fields of a case and of the quantities of a result, for readers and scripts.
 
-use super::data::write_line;
-use super::layout::{count, flow, widest};
+use super::json::{Json, object, write_line};
+use super::table::{Cell, Column, Table};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{FIELDS, Field};
-use crate::model::QUANTITIES;
-use serde::Serialize;
+use crate::model::{QUANTITIES, Quantity};
 use std::io::{self, Write};
 
 /// Greatest width of a line of a list.
@@ -15,19 +14,34 @@ const WIDTH: usize = 100;
 const TO_EXPLAIN: &str =
     "`tipstrike explain KEY [CASE]` shows the formula of a quantity with the numbers of a case.";
 
-const FIELD_HEAD: [&str; 6] = ["key", "symbol", "unit", "range", "default", "meaning"];
-const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"];
+/// Every field, for a reader.
+fn field_table() -> Table {
+    let columns = ["key", "symbol", "unit", "range", "default", "meaning"];
+    let rows = FIELDS.iter().map(|field| {
+        let (range, meaning) = (range_text(field), meaning(field));
+        [field.key, field.symbol, unit(field), &range, default(field), &meaning]
+            .map(Cell::from)
+            .to_vec()
+    });
+    Table::new("", columns.map(|key| Column::text(key, key)).to_vec()).with(rows)
+}
+
+/// Every quantity; the stage is for scripts alone.
+fn quantity_table() -> Table {
+    let columns = ["key", "symbol", "label", "unit", "equation", "stage"];
+    let rows =
+        QUANTITIES.iter().map(|Quantity { key, symbol, label, unit, equation, stage, .. }| {
+            [key, symbol, label.trim_start(), unit, equation, stage.name()].map(Cell::from).to_vec()
+        });
+    Table::new("", columns.map(|key| Column::text(key, key)).to_vec()).with(rows)
+}
 
 /// Writes every field as a table.
 ///
 /// # Errors
 /// Errors of the writer.
 pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
-    let rows = FIELDS.iter().map(|field| {
-        [field.key, field.symbol, unit(field), &range_text(field), default(field), &meaning(field)]
-            .map(str::to_owned)
-    });
-    write_table(FIELD_HEAD, rows.collect(), out)
+    write_list(&field_table(), out)
 }
 
 /// Writes every quantity as a table.
@@ -35,18 +49,16 @@ pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// Errors of the writer.
 pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
-    let rows = QUANTITIES.iter().map(|quantity| {
-        [
-            quantity.key,
-            quantity.symbol,
-            quantity.unit,
-            quantity.equation,
-            quantity.label.trim_start(),
-        ]
-        .map(str::to_owned)
-    });
-    write_table(QUANTITY_HEAD, rows.collect(), out)?;
+    let mut table = quantity_table().of(&[0, 1, 3, 4, 2]);
+    table.columns[4].title = "meaning".into();
+    write_list(&table, out)?;
     writeln!(out, "\n{TO_EXPLAIN}")
+}
+
+fn write_list(table: &Table, out: &mut dyn Write) -> io::Result<()> {
+    let mut table = table.clone();
+    table.columns[0].gap = 0;
+    table.wrapped(WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
 /// Writes every field as JSON, one object per line.
@@ -54,7 +66,24 @@ pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// Errors of the writer.
 pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
-    FIELDS.iter().try_for_each(|field| write_line(&FieldLine::new(field), out))
+    FIELDS.iter().try_for_each(|field| {
+        let (from, to) = range(field).unzip();
+        let choices = Some(choices(field)).filter(|choices| !choices.is_empty());
+        let default = if let Absent::Default(text) = field.absent { Some(text) } else { None };
+        let line = object([
+            ("key", field.key.into()),
+            ("symbol", field.symbol.into()),
+            ("label", field.label.into()),
+            ("unit", unit(field).into()),
+            ("from", from.into()),
+            ("to", to.into()),
+            ("choices", choices.map(|choices| choices.iter().copied().collect::<Json>()).into()),
+            ("required", (field.absent == Absent::Refused).into()),
+            ("default", default.into()),
+            ("help", field.help.into()),
+        ]);
+        write_line(&line, out)
+    })
 }
 
 /// Writes every quantity as JSON, one object per line.
@@ -62,63 +91,7 @@ pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// Errors of the writer.
 pub fn write_quantities_json(out: &mut dyn Write) -> io::Result<()> {
-    QUANTITIES.iter().try_for_each(|quantity| {
-        let line = QuantityLine {
-            key: quantity.key,
-            symbol: quantity.symbol,
-            label: quantity.label.trim_start(),
-            unit: quantity.unit,
-            equation: quantity.equation,
-            stage: quantity.stage.name(),
-        };
-        write_line(&line, out)
-    })
-}
-
-#[derive(Serialize)]
-struct FieldLine {
-    key: &'static str,
-    symbol: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    from: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    to: Option<f64>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    choices: &'static [&'static str],
-    required: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    default: Option<&'static str>,
-    help: &'static str,
-}
-
-impl FieldLine {
-    fn new(field: &Field) -> FieldLine {
-        let (from, to) = range(field).unzip();
-        FieldLine {
-            key: field.key,
-            symbol: field.symbol,
-            label: field.label,
-            unit: unit(field),
-            from,
-            to,
-            choices: choices(field),
-            required: field.absent == Absent::Refused,
-            default: if let Absent::Default(text) = field.absent { Some(text) } else { None },
-            help: field.help,
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct QuantityLine {
-    key: &'static str,
-    symbol: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    equation: &'static str,
-    stage: &'static str,
+    quantity_table().objects().try_for_each(|line| write_line(&line, out))
 }
 
 fn unit(field: &Field) -> &'static str {
@@ -164,37 +137,10 @@ fn default(field: &Field) -> &'static str {
     }
 }
 
-/// A table whose last column wraps over several lines.
-fn write_table<const N: usize>(
-    head: [&str; N],
-    rows: Vec<[String; N]>,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let rows: Vec<[String; N]> = std::iter::once(head.map(str::to_owned)).chain(rows).collect();
-    let widths: [usize; N] =
-        std::array::from_fn(|column| widest(rows.iter().map(|row| row[column].as_str())));
-    for row in &rows {
-        let Some((last, cells)) = row.split_last() else {
-            continue;
-        };
-        let mut lead = cells
-            .iter()
-            .zip(widths)
-            .map(|(cell, width)| format!("{cell:width$} "))
-            .collect::<Vec<_>>()
-            .concat();
-        let indent = count(&lead);
-        for line in flow(last.split(' '), WIDTH.saturating_sub(indent).max(20)) {
-            writeln!(out, "{}", (lead + &line).trim_end())?;
-            lead = " ".repeat(indent);
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::layout::count;
 
     #[test]
     fn every_field_is_listed_within_the_width() {

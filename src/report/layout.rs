@@ -70,11 +70,6 @@ fn is_number(word: &str) -> bool {
     word.contains(is_digit) && word.parse::<f64>().is_ok()
 }
 
-/// The greatest length of the texts, in characters.
-pub(super) fn widest<'a>(texts: impl IntoIterator<Item = &'a str>) -> usize {
-    texts.into_iter().map(count).max().unwrap_or(0)
-}
-
 /// Number of characters of a text; each character of the tables takes one column.
 pub(super) fn count(text: &str) -> usize {
     text.chars().count()

@@ -4,20 +4,21 @@ use std::fmt::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::charts::SolvedCase;
+use super::compare::{ComparedCase, Comparison, Refused, Row};
+use super::layout::plain_markdown as plain;
 use super::pictures::{Picture, pictures};
+use super::table::{Cell, Column, Table};
 use super::verdict::verdicts;
-use super::{FREE_IMPACT, Report, common_unit, groups, shown_with, text, value};
+use super::{Report, Selection, common_unit, groups, shown_with, text, value};
 use crate::case::changes::label;
+use crate::case::fields::index_of;
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
-use crate::case::{Case, FIELDS, Problem};
+use crate::case::{Case, FIELDS};
 use crate::model::dynamic::speeds::SpeedCurve;
 use crate::model::inputs::Method;
-use crate::model::{Inputs, Quantity, Solution};
-use crate::report::Selection;
-use crate::report::compare::{Column as ComparedCase, Comparison, Refused, Row};
-use crate::report::layout::plain_markdown as plain;
+use crate::model::{Inputs, Quantity};
 use crate::study::batch::{Control, Stopped};
 use crate::study::condition::{distinct, headline};
 use crate::study::statistics::{Estimate, PERCENTILES};
@@ -37,48 +38,23 @@ pub struct Subject {
     pub file: String,
 }
 
-/// A column of the page.
-struct Column {
+/// A case of the page.
+struct PageCase {
     name: String,
     title: String,
     method: &'static str,
     notes_of_case: String,
     verdict: Vec<String>,
-    limits: Vec<LimitLine>,
+    /// Whether each limit is met, with its word and its sentence.
+    limits: Vec<(bool, &'static str, String)>,
     notes: Vec<String>,
-    studies: Vec<StudyTable>,
+    studies: Vec<Table>,
     /// The file without its comments.
     lines: String,
     /// The whole file as a data URL.
     link: String,
     /// The file's name without folders.
     file_name: String,
-}
-
-struct LimitLine {
-    word: &'static str,
-    is_met: bool,
-    words: String,
-}
-
-struct InputRow {
-    label: String,
-    symbol: &'static str,
-    /// The text of each case and whether it is the default.
-    values: Vec<(String, bool)>,
-}
-
-struct Table {
-    title: String,
-    rows: Vec<ResultRow>,
-}
-
-struct ResultRow {
-    label: &'static str,
-    symbol: &'static str,
-    values: Vec<String>,
-    unit: &'static str,
-    source: &'static str,
 }
 
 #[derive(Template)]
@@ -95,30 +71,25 @@ pub struct Page<'a> {
     subjects: &'a [Subject],
     title: String,
     version: &'static str,
-    columns: Vec<Column>,
-    inputs: Vec<InputRow>,
-    tables: Vec<Table>,
+    cases: Vec<PageCase>,
+    inputs: Table,
+    results: Vec<Table>,
 }
 
 impl<'a> Page<'a> {
     /// The page of some cases; empty without cases.
     #[must_use]
     pub fn of(subjects: &'a [Subject]) -> Page<'a> {
-        let own: Vec<&Report> =
+        let reports: Vec<&Report> =
             subjects.iter().filter_map(|subject| subject.reports.first()).collect();
-        let columns: Vec<Column> = subjects.iter().filter_map(column).collect();
-        Page {
-            subjects,
-            title: match columns.as_slice() {
-                [] => String::new(),
-                [only] => only.title.clone(),
-                several => format!("{} gear pairs side by side", several.len()),
-            },
-            version: env!("CARGO_PKG_VERSION"),
-            inputs: inputs(&own),
-            tables: tables(&own),
-            columns,
-        }
+        let cases: Vec<PageCase> = subjects.iter().filter_map(PageCase::of).collect();
+        let title = match cases.as_slice() {
+            [] => String::new(),
+            [only] => only.title.clone(),
+            several => format!("{} gear pairs side by side", several.len()),
+        };
+        let (inputs, results) = (inputs(&reports, &cases), results(&reports, &cases));
+        Page { subjects, title, version: env!("CARGO_PKG_VERSION"), cases, inputs, results }
     }
 
     /// Renders a self-contained HTML page.
@@ -129,81 +100,117 @@ impl<'a> Page<'a> {
         let on_page = pictures().filter(|picture| picture.is_on_page());
         let (of_one, of_all): (Vec<Picture>, Vec<Picture>) =
             on_page.partition(|picture| picture.is_of_one_case());
-        let cases = self.cases();
-        let page = Html {
-            page: self,
-            charts: of_all.iter().filter_map(|picture| picture.draw(&cases)).collect(),
-            own: cases
-                .iter()
-                .map(|case| {
-                    let drawn = of_one.iter().filter_map(|picture| picture.draw(&[*case]));
-                    drawn.collect()
-                })
-                .collect(),
+        let cases = self.subjects.iter().zip(&self.cases).map(|(subject, case)| SolvedCase {
+            name: if self.is_single() { "" } else { &case.title },
+            reports: &subject.reports,
+            speeds: subject.speeds.as_ref(),
+        });
+        let cases: Vec<SolvedCase> = cases.collect();
+        let drawn = |pictures: &[Picture], cases: &[SolvedCase]| {
+            pictures.iter().filter_map(|picture| picture.draw(cases)).collect::<Vec<String>>()
         };
-        page.render()
-    }
-
-    fn cases(&self) -> Vec<SolvedCase<'_>> {
-        let columns = self.subjects.iter().zip(&self.columns);
-        columns
-            .map(|(subject, column)| SolvedCase {
-                name: if self.is_single() { "" } else { &column.title },
-                reports: &subject.reports,
-                speeds: subject.speeds.as_ref(),
-            })
-            .collect()
+        let own = cases.iter().map(|&case| drawn(&of_one, &[case]).concat()).collect();
+        Html { page: self, charts: drawn(&of_all, &cases), own }.render()
     }
 
     /// Renders Markdown, without charts.
     #[must_use]
     pub fn markdown(&self) -> String {
-        render(self)
+        let mut parts = vec![
+            format!("# {}", plain(&self.title)),
+            format!("Corner contact of spur gear pairs, computed by tipstrike {}.", self.version),
+            "## Verdict".to_owned(),
+        ];
+        for case in &self.cases {
+            parts.extend((!self.is_single()).then(|| format!("### {}", plain(&case.title))));
+            parts.extend(case.verdict.iter().map(|sentence| plain(sentence)));
+            let notes = Some(&case.notes_of_case).filter(|notes| !notes.is_empty());
+            let notes = notes.map_or_else(String::new, |notes| format!(". {}", plain(notes)));
+            parts.push(format!("{}, method {}{notes}", plain(&case.name), case.method));
+        }
+        parts.extend(self.list("## Limits", |case| {
+            let limits = case.limits.iter();
+            limits.map(|(_, word, sentence)| format!("{word}: {sentence}")).collect()
+        }));
+        parts.push("## Inputs that differ from their defaults".to_owned());
+        parts.push(self.inputs.markdown().join("\n"));
+        parts.push("## Results".to_owned());
+        let rows = self.results.iter().flat_map(|table| table.rows.iter().cloned());
+        let columns = self.results.first().map(|table| table.columns.clone());
+        let results = Table::new("", columns.unwrap_or_default()).with(rows);
+        parts.push(results.markdown().join("\n"));
+        parts.extend(self.has_studies().then(|| "## Studies".to_owned()));
+        for case in &self.cases {
+            let whose = format!(" of {}", plain(&case.title));
+            let whose = if self.is_single() { "" } else { &whose };
+            for study in &case.studies {
+                parts.push(format!("### {}{whose}", plain(&study.title)));
+                parts.push(study.markdown().join("\n"));
+                parts.extend(study.notes.iter().map(|note| plain(note)));
+            }
+        }
+        parts.extend(self.list("## Notes", |case| case.notes.clone()));
+        parts.push("## Case files".to_owned());
+        for PageCase { name, lines, .. } in &self.cases {
+            // More backticks than the text contains.
+            let longest = lines.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+            let fence = "`".repeat(longest.max(2) + 1);
+            parts.push(format!("{}, without comments:", plain(name)));
+            parts.push(format!("{fence}toml\n{lines}\n{fence}"));
+        }
+        parts.join("\n\n") + "\n"
+    }
+
+    /// A heading and a list of the lines of every case; nothing without lines.
+    fn list(&self, heading: &str, of: impl Fn(&PageCase) -> Vec<String>) -> Vec<String> {
+        let lines = self.cases.iter().flat_map(|case| {
+            let whose = format!("{}: ", plain(&case.title));
+            let whose = if self.is_single() { String::new() } else { whose };
+            of(case).into_iter().map(move |line| format!("- {whose}{}", plain(&line)))
+        });
+        let lines: Vec<String> = lines.collect();
+        if lines.is_empty() { lines } else { vec![heading.to_owned(), lines.join("\n")] }
     }
 
     fn is_single(&self) -> bool {
-        self.columns.len() == 1
+        self.cases.len() == 1
     }
 
     fn has_limits(&self) -> bool {
-        self.columns.iter().any(|column| !column.limits.is_empty())
+        self.cases.iter().any(|case| !case.limits.is_empty())
     }
 
     fn has_studies(&self) -> bool {
-        self.columns.iter().any(|column| !column.studies.is_empty())
+        self.cases.iter().any(|case| !case.studies.is_empty())
     }
 
     fn has_notes(&self) -> bool {
-        self.columns.iter().any(|column| !column.notes.is_empty())
+        self.cases.iter().any(|case| !case.notes.is_empty())
     }
 }
 
-fn column(subject: &Subject) -> Option<Column> {
-    let report = subject.reports.first()?;
-    let limits = verdicts(&report.case, &report.solution);
-    let title =
-        if report.title().is_empty() { report.name.clone() } else { report.title().to_owned() };
-    let file_name = report.name.rsplit('/').next().unwrap_or_default();
-    Some(Column {
-        name: sanitize(&report.name),
-        title: sanitize(&title),
-        method: report.solution.method.name(),
-        notes_of_case: one_line(report.text("notes")),
-        verdict: text::verdict(report),
-        limits: limits
-            .iter()
-            .map(|verdict| LimitLine {
-                word: verdict.standing.word(),
-                is_met: verdict.standing.holds(),
-                words: verdict.to_string(),
-            })
-            .collect(),
-        notes: report.notes.iter().map(|note| sanitize(&note.message)).collect(),
-        studies: subject.studies.tables(&report.case),
-        lines: without_comments(&subject.file),
-        link: address(&subject.file),
-        file_name: sanitize(file_name),
-    })
+impl PageCase {
+    fn of(subject: &Subject) -> Option<PageCase> {
+        let report = subject.reports.first()?;
+        let limits = verdicts(&report.case, &report.solution);
+        let limits = limits.iter().map(|verdict| {
+            (verdict.standing.holds(), verdict.standing.word(), verdict.to_string())
+        });
+        let title = if report.title().is_empty() { &report.name } else { report.title() };
+        Some(PageCase {
+            name: sanitize(&report.name),
+            title: sanitize(title),
+            method: report.solution.method.name(),
+            notes_of_case: one_line(report.text("notes")),
+            verdict: text::verdict(report),
+            limits: limits.collect(),
+            notes: report.notes.iter().map(|note| sanitize(&note.message)).collect(),
+            studies: subject.studies.tables(&report.case),
+            lines: without_comments(&subject.file),
+            link: address(&subject.file),
+            file_name: sanitize(report.name.rsplit('/').next().unwrap_or_default()),
+        })
+    }
 }
 
 /// A text as a data URL that a browser can save.
@@ -219,8 +226,19 @@ fn address(text: &str) -> String {
     address
 }
 
+/// Columns of labels and symbols, then one of numbers for each header.
+fn columns(name: &'static str, headers: impl IntoIterator<Item = String>) -> Vec<Column> {
+    let numbers = headers.into_iter().map(|header| Column::text("", header).to_the_right());
+    let names = [Column::text("label", name), Column::text("symbol", "")];
+    names.into_iter().chain(numbers).collect()
+}
+
+fn titles(cases: &[PageCase]) -> impl Iterator<Item = String> {
+    cases.iter().map(|case| case.title.clone())
+}
+
 /// The fields that differ from their defaults in at least one case.
-fn inputs(reports: &[&Report]) -> Vec<InputRow> {
+fn inputs(reports: &[&Report], cases: &[PageCase]) -> Table {
     let defaults = Case::empty();
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
         let is_default = |case: &Case| match (case.value(at), defaults.value(at)) {
@@ -228,227 +246,40 @@ fn inputs(reports: &[&Report]) -> Vec<InputRow> {
             _ => case.is_replaced(at) || case.effective(at) == defaults.effective(at),
         };
         let is_words = matches!(field.key, "title" | "notes");
-        if is_words || reports.iter().all(|report| is_default(&report.case)) {
-            return None;
-        }
+        let differs = !reports.iter().all(|report| is_default(&report.case));
         let values = reports.iter().map(|report| {
-            let text = report.case.effective(at).unwrap_or("–");
-            (sanitize(text), is_default(&report.case))
+            let text = sanitize(report.case.effective(at).unwrap_or("–"));
+            if is_default(&report.case) { Cell::Default(text) } else { Cell::Text(text) }
         });
-        Some(InputRow { label: label(field.key), symbol: field.symbol, values: values.collect() })
+        let names = [label(field.key), field.symbol.to_owned()].map(Cell::from);
+        (!is_words && differs).then(|| names.into_iter().chain(values).collect())
     });
-    rows.collect()
+    Table::new("", columns("input", titles(cases))).with(rows)
 }
 
 /// The results in groups, in the order of the method of the first case.
-fn tables(reports: &[&Report]) -> Vec<Table> {
-    let Some(first) = reports.first() else {
-        return Vec::new();
-    };
+fn results(reports: &[&Report], cases: &[PageCase]) -> Vec<Table> {
+    let Some(first) = reports.first() else { return Vec::new() };
     let method = first.solution.method;
-    let solutions: Vec<&Solution> = reports.iter().map(|report| &report.solution).collect();
-    let tables = groups(method).into_iter().map(|group| Table {
-        title: if group.is_beside(method) {
-            format!("{FREE_IMPACT}: {}", group.title)
-        } else {
-            group.title.to_owned()
-        },
-        rows: group.quantities().filter_map(|quantity| row(quantity, &solutions)).collect(),
-    });
-    tables.filter(|table| !table.rows.is_empty()).collect()
-}
-
-fn row(quantity: &'static Quantity, solutions: &[&Solution]) -> Option<ResultRow> {
-    let values: Vec<Option<f64>> =
-        solutions.iter().map(|solution| value(quantity, solution)).collect();
-    let given = values.iter().copied().flatten();
-    given.clone().next()?;
-    let unit = common_unit(quantity, given, System::Metric);
-    let method = solutions.first()?.method;
-    let mut shown_unit = "";
-    let texts = values.iter().map(|value| match value {
-        Some(value) => {
-            let shown = shown_with(quantity, *value, unit);
-            shown_unit = shown.unit;
-            shown.number
-        }
-        None => "–".to_owned(),
-    });
-    let values = texts.collect();
-    Some(ResultRow {
-        label: quantity.label_in(method),
-        symbol: quantity.symbol_in(method),
-        values,
-        unit: shown_unit,
-        source: quantity.equation,
-    })
-}
-
-fn render(page: &Page<'_>) -> String {
-    let sections = [
-        heading(page),
-        verdict_list(page),
-        limits(page),
-        input_table(page),
-        results(page),
-        studies(page),
-        notes(page),
-        files(page),
-    ];
-    let sections: Vec<String> = sections
-        .into_iter()
-        .filter(|lines| !lines.is_empty())
-        .map(|lines| lines.join("\n"))
-        .collect();
-    sections.join("\n\n") + "\n"
-}
-
-fn heading(page: &Page<'_>) -> Vec<String> {
-    vec![
-        format!("# {}", plain(&page.title)),
-        String::new(),
-        format!("Corner contact of spur gear pairs, computed by tipstrike {}.", page.version),
-    ]
-}
-
-fn verdict_list(page: &Page<'_>) -> Vec<String> {
-    let mut lines = vec!["## Verdict".to_owned()];
-    for column in &page.columns {
-        if !page.is_single() {
-            lines.extend([String::new(), format!("### {}", plain(&column.title))]);
-        }
-        for sentence in &column.verdict {
-            lines.extend([String::new(), plain(sentence)]);
-        }
-        let notes = match column.notes_of_case.as_str() {
-            "" => String::new(),
-            notes => format!(". {}", plain(notes)),
+    let row = |quantity: &'static Quantity| {
+        let values = reports.iter().map(|report| value(quantity, &report.solution));
+        let given = values.clone().flatten();
+        let unit = common_unit(quantity, given.clone(), System::Metric);
+        let shown_unit = shown_with(quantity, given.last()?, unit).unit;
+        let shown = |value: Option<f64>| {
+            value.map_or(Cell::None("–"), |value| shown_with(quantity, value, unit).number.into())
         };
-        let (name, method) = (plain(&column.name), column.method);
-        lines.extend([String::new(), format!("{name}, method {method}{notes}")]);
-    }
-    lines
-}
-
-fn limits(page: &Page<'_>) -> Vec<String> {
-    list(page, "## Limits", |column| {
-        let lines = column.limits.iter();
-        lines.map(|limit| format!("{}: {}", limit.word, limit.words)).collect()
-    })
-}
-
-fn notes(page: &Page<'_>) -> Vec<String> {
-    list(page, "## Notes", |column| column.notes.clone())
-}
-
-/// The lines of every case under a heading; empty without lines.
-fn list(page: &Page<'_>, title: &str, of: impl Fn(&Column) -> Vec<String>) -> Vec<String> {
-    let mut lines = Vec::new();
-    for column in &page.columns {
-        for line in of(column) {
-            let whose = if page.is_single() {
-                String::new()
-            } else {
-                format!("{}: ", plain(&column.title))
-            };
-            lines.push(format!("- {whose}{}", plain(&line)));
-        }
-    }
-    if !lines.is_empty() {
-        lines.splice(0..0, [title.to_owned(), String::new()]);
-    }
-    lines
-}
-
-fn input_table(page: &Page<'_>) -> Vec<String> {
-    let mut lines = vec!["## Inputs that differ from their defaults".to_owned(), String::new()];
-    lines.extend(header(page, &["input", ""], &[]));
-    for row in &page.inputs {
-        let values = row.values.iter().map(|(text, _)| text.as_str());
-        let cells = [row.label.as_str(), row.symbol].into_iter().chain(values);
-        lines.push(table_row(cells));
-    }
-    lines
-}
-
-fn results(page: &Page<'_>) -> Vec<String> {
-    let mut lines = vec!["## Results".to_owned(), String::new()];
-    lines.extend(header(page, &["quantity", ""], &["unit", "source"]));
-    for row in page.tables.iter().flat_map(|table| &table.rows) {
-        let values = row.values.iter().map(String::as_str);
-        let cells = [row.label.trim(), row.symbol].into_iter().chain(values);
-        lines.push(table_row(cells.chain([row.unit, row.source])));
-    }
-    lines
-}
-
-fn studies(page: &Page<'_>) -> Vec<String> {
-    let mut lines = Vec::new();
-    for column in &page.columns {
-        for study in &column.studies {
-            let whose = if page.is_single() {
-                String::new()
-            } else {
-                format!(" of {}", plain(&column.title))
-            };
-            let numbers = study.names.len().saturating_sub(3);
-            lines.extend([String::new(), format!("### {}{whose}", plain(&study.title))]);
-            lines.push(String::new());
-            lines.push(table_row(study.names.iter().map(String::as_str)));
-            lines.push(format!("|---|---|{}---|", "---:|".repeat(numbers)));
-            let rows = study.rows.iter();
-            lines.extend(rows.map(|row| table_row(row.iter().map(String::as_str))));
-            let sentences = study.sentences.iter();
-            lines.extend(sentences.flat_map(|one| [String::new(), plain(one)]));
-        }
-    }
-    if !lines.is_empty() {
-        lines.insert(0, "## Studies".to_owned());
-    }
-    lines
-}
-
-/// The header row with one column per case, and the separator row.
-fn header(page: &Page<'_>, before: &[&str], after: &[&str]) -> [String; 2] {
-    let titles = page.columns.iter().map(|column| column.title.as_str());
-    let names = before.iter().copied().chain(titles);
-    let left = |count: usize| "---|".repeat(count);
-    [
-        table_row(names.chain(after.iter().copied())),
-        format!(
-            "|{}{}{}",
-            left(before.len()),
-            "---:|".repeat(page.columns.len()),
-            left(after.len())
-        ),
-    ]
-}
-
-fn table_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
-    let cells: Vec<String> = cells.map(plain).collect();
-    format!("| {} |", cells.join(" | "))
-}
-
-fn files(page: &Page<'_>) -> Vec<String> {
-    let mut lines = vec!["## Case files".to_owned()];
-    for column in &page.columns {
-        let fence = fence(&column.lines);
-        lines.extend([
-            String::new(),
-            format!("{}, without comments:", plain(&column.name)),
-            String::new(),
-            format!("{fence}toml"),
-            column.lines.clone(),
-            fence,
-        ]);
-    }
-    lines
-}
-
-/// A text in backticks, with more backticks than the text contains.
-fn fence(text: &str) -> String {
-    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
-    "`".repeat(longest.max(2) + 1)
+        let names = [quantity.label_in(method).trim(), quantity.symbol_in(method)].map(Cell::from);
+        let source = [shown_unit, quantity.equation].map(Cell::from);
+        Some(names.into_iter().chain(values.map(shown)).chain(source).collect())
+    };
+    let mut columns = columns("quantity", titles(cases));
+    columns.extend(["unit", "source"].map(|key| Column::text(key, key)));
+    let table = |group: &super::Group| {
+        Table::new(group.heading(method), columns.clone()).with(group.quantities().filter_map(row))
+    };
+    let tables = groups(method).into_iter().map(table);
+    tables.filter(|table| !table.rows.is_empty()).collect()
 }
 
 /// Samples of a closed form, as in the command `tolerance`.
@@ -466,13 +297,6 @@ const OF_VARIANTS: [&str; 4] =
 pub struct Studies {
     variants: Option<Comparison>,
     tolerance: Option<(Tolerance, Samples)>,
-}
-
-struct StudyTable {
-    title: String,
-    names: Vec<String>,
-    rows: Vec<Vec<String>>,
-    sentences: Vec<String>,
 }
 
 impl Studies {
@@ -493,21 +317,17 @@ impl Studies {
             go_on: &|| !is_stopped.load(Ordering::Relaxed),
             progress: &|done, of| is_stopped.store(!go_on(done, of), Ordering::Relaxed),
         };
-        let samples = if inputs.method.shares_load() || inputs.method == Method::Auto {
-            FEW_SAMPLES
-        } else {
-            SAMPLES
-        };
+        let is_slow = inputs.method.shares_load() || inputs.method == Method::Auto;
+        let samples = if is_slow { FEW_SAMPLES } else { SAMPLES };
         let size = Size { samples, seed: SEED, ranked: Some(0) };
-        let study = Tolerance::of(case, inputs, &[], size).ok();
-        let sampled = study.map(|study| {
-            let samples = study.run(inputs, &control)?;
-            Ok((study, samples))
-        });
-        Ok(Studies { variants, tolerance: sampled.transpose()? })
+        let tolerance = match Tolerance::of(case, inputs, &[], size) {
+            Ok(study) => Some((study.run(inputs, &control)?, study)),
+            Err(_) => None,
+        };
+        Ok(Studies { variants, tolerance: tolerance.map(|(samples, study)| (study, samples)) })
     }
 
-    fn tables(&self, case: &Case) -> Vec<StudyTable> {
+    fn tables(&self, case: &Case) -> Vec<Table> {
         let variants = self.variants.iter().map(of_variants);
         let tolerance = self.tolerance.iter();
         let tolerance = tolerance.map(|(study, samples)| of_tolerance(case, study, samples));
@@ -539,63 +359,40 @@ fn variants(
         if !go_on(at, count) {
             return Err(Stopped);
         }
-        let found = case.inputs().and_then(|inputs| {
-            Report::solve(name.to_owned(), case.clone(), inputs, selection.clone())
-                .map_err(|refusal| vec![Problem::from(&refusal).at_given(&case)])
-        });
-        Ok(ComparedCase {
-            name: name.to_owned(),
-            file: String::new(),
-            variant: (at > 0).then(|| name.to_owned()),
-            case,
-            found: found.map_err(|problems| problems.into_iter().map(refused).collect()),
-        })
+        Ok(ComparedCase::solve(name.to_owned(), case, &selection, |problems| {
+            let line = |problem| Refused { line: format!("{name}: {problem}"), problem };
+            problems.into_iter().map(line).collect()
+        }))
     });
-    let columns = solved.collect::<Result<Vec<_>, _>>()?;
-    Ok(Some(Comparison { columns, selection }))
+    Ok(Some(Comparison { cases: solved.collect::<Result<_, _>>()?, selection }))
 }
 
-fn refused(problem: Problem) -> Refused {
-    Refused { line: format!("{}: {}: {}", problem.field, problem.cause, problem.fix), problem }
-}
-
-fn of_variants(comparison: &Comparison) -> StudyTable {
-    let columns = comparison.columns.iter();
-    let names = columns.clone().map(|column| sanitize(&column.name));
-    let cells = |row: &Row| {
-        let values = row.values.iter().zip(&row.differences);
+fn of_variants(comparison: &Comparison) -> Table {
+    let names = comparison.cases.iter().map(|case| sanitize(&case.name));
+    let mut columns = columns("", names);
+    columns.push(Column::text("unit", ""));
+    let row = |Row { symbol, label, unit, values, differences }: Row| {
+        let values = values.into_iter().zip(differences);
         let values = values.map(|(value, difference)| match difference.as_str() {
-            "" => sanitize(value),
-            difference => format!("{} ({difference})", sanitize(value)),
+            "" => value,
+            difference => format!("{value} ({difference})"),
         });
-        let label = [sanitize(&row.label), sanitize(&row.symbol)];
-        let cells = label.into_iter().chain(values);
-        cells.chain([row.unit.to_owned()]).collect()
+        let cells = [label, symbol].into_iter().chain(values).chain([unit.to_owned()]);
+        cells.map(Cell::from).collect()
     };
-    let refused = columns.filter_map(|column| Some((&column.name, column.found.as_ref().err()?)));
-    let sentences = refused.flat_map(|(name, all)| {
-        let lines = all.iter().map(move |one| format!("{name}: {}", one.line));
-        lines.map(|line| sanitize(&line))
-    });
-    StudyTable {
-        title: "Variants, with the differences from the case".to_owned(),
-        names: [String::new(), String::new()]
-            .into_iter()
-            .chain(names)
-            .chain([String::new()])
-            .collect(),
-        rows: comparison.brief().iter().map(cells).collect(),
-        sentences: sentences.collect(),
+    let rows = comparison.groups().into_iter().flat_map(|(_, rows)| rows).map(row);
+    Table {
+        notes: comparison.refusals().map(|line| sanitize(&line)).collect(),
+        ..Table::new("Variants, with the differences from the case", columns).with(rows)
     }
 }
 
-fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> StudyTable {
+fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
     let summary = study.summary(samples);
-    let design = &study.design;
     let percentiles = PERCENTILES.iter().map(|percent| format!("P{percent}"));
-    let names = ["quantity", ""].map(str::to_owned).into_iter();
-    let figures = ["mean", "standard deviation", "unit"].map(str::to_owned);
-    let names = names.chain(percentiles).chain(figures).collect();
+    let figures = ["mean", "standard deviation"].map(str::to_owned);
+    let mut columns = columns("quantity", percentiles.chain(figures));
+    columns.push(Column::text("unit", "unit"));
     let rows = summary.quantities.iter().filter_map(|of| {
         let (quantity, found) = (of.quantity, of.figures.as_ref()?);
         let ends = [found.range.0, found.range.1].into_iter();
@@ -603,33 +400,29 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> StudyTable
         let shown = |value: f64| shown_with(quantity, value, unit);
         let values = found.percentiles.iter().map(|one| one.value);
         let values = values.chain([found.mean.value, found.deviation]);
-        let label = [quantity.label, quantity.symbol].map(str::to_owned);
-        let cells = label.into_iter().chain(values.map(|value| shown(value).number));
-        let unit = shown(found.mean.value).unit.to_owned();
-        Some(cells.chain([unit]).collect())
+        let names = [quantity.label, quantity.symbol].map(Cell::from).into_iter();
+        let cells = names.chain(values.map(|value| shown(value).number.into()));
+        Some(cells.chain([shown(found.mean.value).unit.into()]).collect())
     });
-    let refused = design.samples - summary.solved;
-    let refused = if refused == 0 { String::new() } else { format!(", {refused} refused") };
     let spread = case.spread.iter().map(|spread| {
-        let field = FIELDS.iter().position(|field| field.key == spread.field);
-        let value = field.and_then(|field| case.effective(field));
-        format!("{} {}, {}", spread.field, value.unwrap_or_default(), spread.in_words())
+        let value = index_of(spread.field).and_then(|field| case.effective(field));
+        let value = value.unwrap_or_default();
+        sanitize(&format!("{} {value}, {}", spread.field, spread.in_words()))
     });
-    let spread: Vec<String> = spread.map(|words| sanitize(&words)).collect();
+    let spread: Vec<String> = spread.collect();
     let contact = summary.contact.map(|found| chance("corner contact", &found));
     let limits = summary.limits.iter().filter_map(|limit| {
         let name = format!("{} > {}", limit.quantity.key, sanitize(&limit.limit.text));
         Some(chance(&name, limit.probability.as_ref()?))
     });
-    StudyTable {
-        title: format!("Tolerance, {} samples{refused}, seed {SEED}", design.samples),
-        names,
-        rows: rows.collect(),
-        sentences: [format!("Spread: {}.", spread.join("; "))]
-            .into_iter()
-            .chain(contact)
-            .chain(limits)
-            .collect(),
+    let samples = study.design.samples;
+    let refused = Some(samples - summary.solved).filter(|&refused| refused > 0);
+    let refused = refused.map_or_else(String::new, |refused| format!(", {refused} refused"));
+    let spread = format!("Spread: {}.", spread.join("; "));
+    let title = format!("Tolerance, {samples} samples{refused}, seed {SEED}");
+    Table {
+        notes: [spread].into_iter().chain(contact).chain(limits).collect(),
+        ..Table::new(title, columns).with(rows)
     }
 }
 

@@ -2,14 +2,10 @@
 
 use std::io::{self, Write};
 
-use serde::Serialize;
-
-use super::data::{ValueWithUnit, write_line};
+use super::json::{measured, object, reason, write_line};
 use super::shown;
-use super::sweep::Reason;
 use crate::case::fields::FIELDS;
 use crate::case::sanitize::sanitize;
-use crate::model::Quantity;
 use crate::numeric::decimal::shortest;
 use crate::study::axis::{AxisRange, with_unit};
 use crate::study::condition::{Condition, State};
@@ -68,34 +64,33 @@ impl SeekReport<'_> {
             self.method,
             self.key()
         )?;
-        match self.answer() {
+        let answer = self.answer();
+        match answer {
             "crossings" => {}
             "unknown" => {
                 writeln!(out, "  unknown: the condition is unknown at every point of the range")?;
             }
             answer => writeln!(out, "  {answer}")?,
         }
-        for crossing in &self.found.crossings {
-            self.write_crossing(crossing, out)?;
+        for Crossing { lower, upper } in &self.found.crossings {
+            let middle = self.rounded(lower.at + 0.5 * (upper.at - lower.at));
+            let (below, above) = (word(&lower.state), word(&upper.state));
+            writeln!(out, "  crossing at {middle}: {below} below, {above} above")?;
+            let [from, to] = [lower, upper].map(|sample| self.value(sample.at));
+            writeln!(out, "    bracket {from} to {to}{}", self.values(lower, upper))?;
         }
-        if self.answer() != "always" && self.answer() != "never" {
-            self.write_segments(out)?;
+        if ["always", "never"].contains(&answer) {
+            return Ok(());
+        }
+        for Segment { from, to, state } in &self.found.segments {
+            let reason = match state {
+                State::Unknown(problem) => format!(": {problem}"),
+                _ => String::new(),
+            };
+            let [from, to] = [*from, *to].map(|end| self.rounded(end));
+            writeln!(out, "  {} from {from} to {to}{reason}", word(state))?;
         }
         Ok(())
-    }
-
-    fn write_crossing(&self, crossing: &Crossing, out: &mut dyn Write) -> io::Result<()> {
-        let Crossing { lower, upper } = crossing;
-        let (below, above) = (word(&lower.state), word(&upper.state));
-        let [from, to] = [self.value(lower.at), self.value(upper.at)];
-        writeln!(out, "  crossing at {}: {below} below, {above} above", self.middle(crossing))?;
-        writeln!(out, "    bracket {from} to {to}{}", self.values(lower, upper))
-    }
-
-    /// The middle of a bracket.
-    fn middle(&self, crossing: &Crossing) -> String {
-        let (lower, upper) = (crossing.lower.at, crossing.upper.at);
-        self.rounded(lower + 0.5 * (upper - lower))
     }
 
     /// A value with the digits that a bracket supports.
@@ -103,30 +98,14 @@ impl SeekReport<'_> {
         self.value(format!("{number:.9e}").parse().unwrap_or(number))
     }
 
+    /// The values of the quantity of the condition at both ends of a bracket.
     fn values(&self, lower: &Sample, upper: &Sample) -> String {
-        let printed = |sample: &Sample| match (self.condition.quantity(), sample.value) {
-            (Some(quantity), Some(value)) => shown(quantity, value).to_string(),
-            _ => "no value".to_owned(),
-        };
-        match self.condition.quantity() {
-            Some(quantity) => {
-                format!(", {} {} to {}", quantity.key, printed(lower), printed(upper))
-            }
-            None => String::new(),
-        }
-    }
-
-    fn write_segments(&self, out: &mut dyn Write) -> io::Result<()> {
-        for segment in &self.found.segments {
-            let reason = match &segment.state {
-                State::Unknown(problem) => format!(": {problem}"),
-                _ => String::new(),
-            };
-            let [from, to] = [segment.from, segment.to].map(|end| self.rounded(end));
-            let word = word(&segment.state);
-            writeln!(out, "  {word} from {from} to {to}{reason}")?;
-        }
-        Ok(())
+        let Some(quantity) = self.condition.quantity() else { return String::new() };
+        let [from, to] = [lower, upper].map(|sample| match sample.value {
+            Some(value) => shown(quantity, value).to_string(),
+            None => "no value".to_owned(),
+        });
+        format!(", {} {from} to {to}", quantity.key)
     }
 
     /// Writes the result as one JSON object on one line.
@@ -134,31 +113,47 @@ impl SeekReport<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        let quantity = self.condition.quantity();
         let unit = self.range.unit.as_str();
-        let line = Line {
-            case: self.name,
-            title: self.title,
-            version: env!("CARGO_PKG_VERSION"),
-            method: self.method,
-            vary: self.key(),
-            unit: if unit.is_empty() { "1" } else { unit },
-            from: self.range.from,
-            to: self.range.to,
-            until: &self.condition.text,
-            answer: self.answer(),
-            crossings: self
-                .found
-                .crossings
-                .iter()
-                .map(|crossing| Bracket {
-                    from: End::of(&crossing.lower, quantity),
-                    to: End::of(&crossing.upper, quantity),
-                })
-                .collect(),
-            segments: self.found.segments.iter().map(Part::of).collect(),
-            solves: self.found.solves,
+        let end = |sample: &Sample| {
+            let quantity = self.condition.quantity();
+            let value = quantity.and_then(|known| Some(measured(known, sample.value?, None)));
+            object([
+                ("at", sample.at.into()),
+                ("state", name(&sample.state).into()),
+                ("quantity", value.into()),
+            ])
         };
+        let crossings =
+            self.found.crossings.iter().map(|crossing| {
+                object([("from", end(&crossing.lower)), ("to", end(&crossing.upper))])
+            });
+        let segments = self.found.segments.iter().map(|segment| {
+            let refusal = match &segment.state {
+                State::Unknown(problem) => Some(reason(problem)),
+                _ => None,
+            };
+            object([
+                ("from", segment.from.into()),
+                ("to", segment.to.into()),
+                ("state", name(&segment.state).into()),
+                ("refusal", refusal.into()),
+            ])
+        });
+        let line = object([
+            ("case", self.name.into()),
+            ("title", self.title.into()),
+            ("version", env!("CARGO_PKG_VERSION").into()),
+            ("method", self.method.into()),
+            ("vary", self.key().into()),
+            ("unit", if unit.is_empty() { "1" } else { unit }.into()),
+            ("from", self.range.from.into()),
+            ("to", self.range.to.into()),
+            ("until", (&self.condition.text).into()),
+            ("answer", self.answer().into()),
+            ("crossings", crossings.collect()),
+            ("segments", segments.collect()),
+            ("solves", self.found.solves.into()),
+        ]);
         write_line(&line, out)
     }
 }
@@ -177,70 +172,5 @@ fn name(state: &State) -> &'static str {
     match state {
         State::NotMet => "not-met",
         other => word(other),
-    }
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    case: &'a str,
-    title: &'a str,
-    version: &'static str,
-    method: &'a str,
-    vary: &'static str,
-    unit: &'a str,
-    from: f64,
-    to: f64,
-    until: &'a str,
-    answer: &'static str,
-    crossings: Vec<Bracket>,
-    segments: Vec<Part<'a>>,
-    solves: usize,
-}
-
-#[derive(Serialize)]
-struct Bracket {
-    from: End,
-    to: End,
-}
-
-#[derive(Serialize)]
-struct End {
-    at: f64,
-    state: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    quantity: Option<ValueWithUnit>,
-}
-
-impl End {
-    fn of(sample: &Sample, quantity: Option<&Quantity>) -> End {
-        End {
-            at: sample.at,
-            state: name(&sample.state),
-            quantity: quantity
-                .and_then(|quantity| Some(ValueWithUnit::new(quantity, sample.value?))),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct Part<'a> {
-    from: f64,
-    to: f64,
-    state: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    refusal: Option<Reason<'a>>,
-}
-
-impl Part<'_> {
-    fn of(segment: &Segment) -> Part<'_> {
-        Part {
-            from: segment.from,
-            to: segment.to,
-            state: name(&segment.state),
-            refusal: match &segment.state {
-                State::Unknown(problem) => Some(Reason::of(problem)),
-                _ => None,
-            },
-        }
     }
 }

@@ -2,14 +2,13 @@
 
 use std::io::{self, Write};
 
+use super::json::{Json, object, write_line};
 use super::layout::{WIDTH, item};
+use super::table::{Cell, Column, Table};
 use crate::case::sanitize::sanitize;
 use crate::model::explanation::tidy;
 use crate::model::inputs::{Method, ReliefShape};
-use crate::report::data::write_line;
-use crate::report::layout::widest;
 use crate::study::relief::{Choice, MOST_LOAD, MapPoint, Specification, TipReliefs};
-use serde::Serialize;
 
 /// A relief to specify with the name of its case.
 #[derive(Clone, Copy)]
@@ -35,10 +34,8 @@ impl ReliefReport<'_> {
         for line in self.lines() {
             // Rows of tables fit; only sentences are wrapped.
             let is_short = line.chars().count() <= WIDTH;
-            let parts = if is_short { vec![line] } else { item("", &line) };
-            for part in parts {
-                writeln!(out, "{part}")?;
-            }
+            let line = if is_short { line } else { item("", &line).join("\n") };
+            writeln!(out, "{line}")?;
         }
         Ok(())
     }
@@ -48,33 +45,29 @@ impl ReliefReport<'_> {
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         let found = self.found;
-        let mut lines = vec![self.demand()];
-        lines.push(String::new());
-        lines.extend(self.answer());
-        lines.push(String::new());
-        lines.push(self.margin());
-        lines.push(self.contact_ratio());
-        if found.is_cut {
-            lines.push("The search ended with its budget; a better relief may exist.".to_owned());
-        }
-        lines.push(String::new());
-        lines.push(
-            "Choices: amounts C_a, gap and transmission error TE in um, lengths L in mm; TE peak to \
-             peak, its maximum and mean over the loads"
-                .to_owned(),
-        );
-        lines.extend(choices(found));
-        lines.push(String::new());
-        lines.push("Transmission error peak to peak over the load, um (Harris map)".to_owned());
-        lines.extend(harris(found));
-        lines.push(String::new());
-        lines.push(
-            "Greatest transmission error over the loads by length and amount of the relief, um; \
-             - corner contact at the greatest load, * the relief to specify"
-                .to_owned(),
-        );
-        lines.extend(map(found));
-        lines
+        let head = |lines: &[&str]| lines.iter().map(|line| (*line).to_owned()).collect();
+        let is_cut = "The search ended with its budget; a better relief may exist.".to_owned();
+        [
+            vec![self.demand(), String::new()],
+            self.answer(),
+            vec![String::new(), self.margin(), self.contact_ratio()],
+            Some(is_cut).filter(|_| found.is_cut).into_iter().collect(),
+            head(&[
+                "",
+                "Choices: amounts C_a, gap and transmission error TE in um, lengths L in mm; TE peak to \
+                 peak, its maximum and mean over the loads",
+            ]),
+            choices(found),
+            head(&["", "Transmission error peak to peak over the load, um (Harris map)"]),
+            harris(found),
+            head(&[
+                "",
+                "Greatest transmission error over the loads by length and amount of the relief, um; \
+                 - corner contact at the greatest load, * the relief to specify",
+            ]),
+            map(found),
+        ]
+        .concat()
     }
 
     fn demand(&self) -> String {
@@ -163,7 +156,40 @@ impl ReliefReport<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        line(self.name, self.title, self.found, out)
+        let found = self.found;
+        let choice = |choice: &Choice| {
+            object([
+                ("name", choice.name.into()),
+                ("relief", relief(&choice.reliefs)),
+                ("transmission_errors", choice.errors.iter().copied().collect()),
+                ("margin", choice.margin.into()),
+            ])
+        };
+        let point = |point: &MapPoint| {
+            object([
+                ("relief", relief(&point.reliefs)),
+                ("transmission_error", point.error.into()),
+                ("margin", point.margin.into()),
+            ])
+        };
+        let line = object([
+            ("case", self.name.into()),
+            ("title", self.title.into()),
+            ("version", env!("CARGO_PKG_VERSION").into()),
+            ("method", found.method.name().into()),
+            ("torque", found.torque.into()),
+            ("loads", found.loads.iter().copied().collect()),
+            ("tolerance", found.demand.tolerance.into()),
+            ("relief", relief(&found.chosen().reliefs)),
+            ("margin", found.chosen().margin.into()),
+            ("greatest_load", found.greatest_load.into()),
+            ("unloaded_contact_ratio", found.unloaded_contact_ratio.into()),
+            ("choices", found.choices.iter().map(choice).collect()),
+            ("map", found.map.iter().flatten().map(point).collect()),
+            ("tries", found.tries.into()),
+            ("is_complete", (!found.is_cut).into()),
+        ]);
+        write_line(&line, out)
     }
 
     /// Writes the choices and then the map over amount and length as CSV in SI units.
@@ -171,30 +197,42 @@ impl ReliefReport<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut rows = csv::Writer::from_writer(out);
-        rows.write_record([
-            "choice",
-            "best",
-            "shape",
-            "driver.tip_relief [m]",
-            "driver.tip_relief_length [m]",
-            "driven.tip_relief [m]",
-            "driven.tip_relief_length [m]",
-            "transmission_error [m]",
-            "margin [m]",
-        ])?;
-        let found = self.found;
-        for (at, choice) in found.choices.iter().enumerate() {
-            let name = (choice.name, if at == found.best { "true" } else { "false" });
-            let error = choice.greatest_error();
-            rows.write_record(record(name, &choice.reliefs, error, choice.margin))?;
-        }
-        for point in found.map.iter().flatten() {
-            let name = ("map", "");
-            rows.write_record(record(name, &point.reliefs, point.error, point.margin))?;
-        }
-        rows.flush()
+        let texts = ["choice", "best", "shape"].map(|key| Column::text(key, ""));
+        let lengths = [
+            "driver.tip_relief",
+            "driver.tip_relief_length",
+            "driven.tip_relief",
+            "driven.tip_relief_length",
+            "transmission_error",
+            "margin",
+        ];
+        let lengths = lengths.map(|key| Column::number(key, "", "m", ("1", 0)));
+        let row = |name: &str, best: &str, reliefs: &TipReliefs, error: f64, margin: f64| {
+            let texts = [name, best, shape(reliefs.shape)].map(Cell::from);
+            let ([driver, driven], lengths) = (reliefs.amounts, reliefs.lengths);
+            let numbers = [driver, lengths[0], driven, lengths[1], error, margin];
+            [texts.to_vec(), numbers.map(|number| number.to_string().into()).to_vec()].concat()
+        };
+        let choices = self.found.choices.iter().enumerate().map(|(at, choice)| {
+            let best = if at == self.found.best { "true" } else { "false" };
+            row(choice.name, best, &choice.reliefs, choice.greatest_error(), choice.margin)
+        });
+        let map = self.found.map.iter().flatten();
+        let map = map.map(|point| row("map", "", &point.reliefs, point.error, point.margin));
+        Table::new("", texts.into_iter().chain(lengths).collect())
+            .with(choices.chain(map))
+            .write_csv(out)
     }
+}
+
+fn relief(reliefs: &TipReliefs) -> Json {
+    let gear = |at: usize| {
+        object([
+            ("tip_relief", reliefs.amounts[at].into()),
+            ("tip_relief_length", reliefs.lengths[at].into()),
+        ])
+    };
+    object([("shape", shape(reliefs.shape).into()), ("driver", gear(0)), ("driven", gear(1))])
 }
 
 /// The reliefs as values of the fields of a case, rounded as the report prints them.
@@ -215,19 +253,6 @@ pub fn settings(reliefs: &TipReliefs) -> Vec<(&'static str, String)> {
     settings
 }
 
-fn record(
-    (name, is_best): (&str, &str),
-    reliefs: &TipReliefs,
-    error: f64,
-    margin: f64,
-) -> [String; 9] {
-    let [driver, driven] = reliefs.amounts;
-    let [driver_length, driven_length] = reliefs.lengths;
-    let numbers = [driver, driver_length, driven, driven_length, error, margin];
-    let [a, b, c, d, e, f] = numbers.map(|number| number.to_string());
-    [name.to_owned(), is_best.to_owned(), shape(reliefs.shape).to_owned(), a, b, c, d, e, f]
-}
-
 /// One row per choice.
 fn choices(found: &Specification) -> Vec<String> {
     let head = ["  choice", "C_a1", "L_1", "C_a2", "L_2", "max TE", "mean TE", "gap"];
@@ -237,7 +262,7 @@ fn choices(found: &Specification) -> Vec<String> {
         let length = |at: usize| {
             if reliefs.amounts[at] > 0.0 { mm(reliefs.lengths[at]) } else { "-".to_owned() }
         };
-        [
+        vec![
             format!("{mark}{}", choice.name),
             um(reliefs.amounts[0]),
             length(0),
@@ -248,26 +273,23 @@ fn choices(found: &Specification) -> Vec<String> {
             tidy(choice.margin * 1e6, 2),
         ]
     });
-    let head = head.map(str::to_owned);
-    table(&std::iter::once(head.to_vec()).chain(rows.map(|row| row.to_vec())).collect::<Vec<_>>())
+    Table::of_texts(head.map(str::to_owned).to_vec(), rows).lines()
 }
 
 /// One row per load: the relief of the case and the relief to specify.
 fn harris(found: &Specification) -> Vec<String> {
-    let chosen = found.chosen();
-    let cells = |name: &str, values: Vec<String>| {
+    let row = |name: &str, values: &mut dyn Iterator<Item = String>| {
         std::iter::once(format!("  {name}")).chain(values).collect::<Vec<_>>()
     };
-    let errors = |choice: &Choice| {
-        let errors = choice.errors.iter();
-        errors.map(|error| tidy(error * 1e6, 3)).collect::<Vec<_>>()
+    let errors = |name, choice: &Choice| {
+        row(name, &mut choice.errors.iter().map(|error| tidy(error * 1e6, 3)))
     };
-    let loads = found.loads.iter().map(|&load| format!("{} %", percent(load)));
-    table(&[
-        cells("load", loads.collect()),
-        cells("relief of the case", errors(&found.choices[0])),
-        cells("relief to specify", errors(chosen)),
-    ])
+    let loads = row("load", &mut found.loads.iter().map(|&load| format!("{} %", percent(load))));
+    let rows = [
+        errors("relief of the case", &found.choices[0]),
+        errors("relief to specify", found.chosen()),
+    ];
+    Table::of_texts(loads, rows).lines()
 }
 
 /// One row per length: the greatest transmission error by amount.
@@ -282,12 +304,13 @@ fn map(found: &Specification) -> Vec<String> {
         let error = if point.margin < 0.0 { "-".to_owned() } else { tidy(point.error * 1e6, 2) };
         if is_chosen(point) { format!("*{error}") } else { error }
     };
-    let mut rows = amounts(found.map.first().map_or(&[], Vec::as_slice));
-    rows.extend(found.map.iter().map(|row| {
+    let mut head = amounts(found.map.first().map_or(&[], Vec::as_slice)).into_iter();
+    let rows = found.map.iter().map(|row| {
         let length = row.first().map(|point| length(point.reliefs.lengths));
         std::iter::once(length.unwrap_or_default()).chain(row.iter().map(cell)).collect()
-    }));
-    table(&rows)
+    });
+    let first = head.next().unwrap_or_default();
+    Table::of_texts(first, head.chain(rows)).lines()
 }
 
 /// The header rows with the amounts: one row, or one per gear.
@@ -310,130 +333,6 @@ fn length(lengths: [f64; 2]) -> String {
         format!("  length {driver} mm")
     } else {
         format!("  length {driver}/{driven} mm")
-    }
-}
-
-/// Aligns the first column to the left and the others to the right.
-fn table(rows: &[Vec<String>]) -> Vec<String> {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let cell = |row: &Vec<String>, at: usize| row.get(at).cloned().unwrap_or_default();
-    let widths: Vec<usize> = (0..columns)
-        .map(|at| {
-            let cells: Vec<String> = rows.iter().map(|row| cell(row, at)).collect();
-            widest(cells.iter().map(String::as_str))
-        })
-        .collect();
-    let line = |row: &Vec<String>| {
-        let cells = (0..columns).map(|at| {
-            let (text, width) = (cell(row, at), widths[at]);
-            if at == 0 { format!("{text:width$}") } else { format!(" {text:>width$}") }
-        });
-        cells.collect::<String>().trim_end().to_owned()
-    };
-    rows.iter().map(line).collect()
-}
-
-/// Writes the specification on one line.
-///
-/// # Errors
-/// Errors of the writer.
-fn line(name: &str, title: &str, found: &Specification, out: &mut dyn Write) -> io::Result<()> {
-    let line = Line {
-        case: name,
-        title,
-        version: env!("CARGO_PKG_VERSION"),
-        method: found.method.name(),
-        torque: found.torque,
-        loads: &found.loads,
-        tolerance: found.demand.tolerance,
-        relief: Reliefs::of(&found.chosen().reliefs),
-        margin: found.chosen().margin,
-        greatest_load: found.greatest_load,
-        unloaded_contact_ratio: found.unloaded_contact_ratio,
-        choices: found.choices.iter().map(JsonChoice::of).collect(),
-        map: found.map.iter().flatten().map(JsonPoint::of).collect(),
-        tries: found.tries,
-        is_complete: !found.is_cut,
-    };
-    write_line(&line, out)
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    case: &'a str,
-    title: &'a str,
-    version: &'static str,
-    method: &'a str,
-    torque: f64,
-    loads: &'a [f64],
-    tolerance: f64,
-    relief: Reliefs,
-    margin: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    greatest_load: Option<f64>,
-    unloaded_contact_ratio: f64,
-    choices: Vec<JsonChoice<'a>>,
-    map: Vec<JsonPoint>,
-    tries: u64,
-    is_complete: bool,
-}
-
-#[derive(Serialize)]
-struct Reliefs {
-    shape: &'static str,
-    driver: OneRelief,
-    driven: OneRelief,
-}
-
-#[derive(Serialize)]
-struct OneRelief {
-    tip_relief: f64,
-    tip_relief_length: f64,
-}
-
-impl Reliefs {
-    fn of(reliefs: &TipReliefs) -> Reliefs {
-        let one = |at: usize| OneRelief {
-            tip_relief: reliefs.amounts[at],
-            tip_relief_length: reliefs.lengths[at],
-        };
-        Reliefs { shape: shape(reliefs.shape), driver: one(0), driven: one(1) }
-    }
-}
-
-#[derive(Serialize)]
-struct JsonChoice<'a> {
-    name: &'a str,
-    relief: Reliefs,
-    transmission_errors: &'a [f64],
-    margin: f64,
-}
-
-impl JsonChoice<'_> {
-    fn of(choice: &Choice) -> JsonChoice<'_> {
-        JsonChoice {
-            name: choice.name,
-            relief: Reliefs::of(&choice.reliefs),
-            transmission_errors: &choice.errors,
-            margin: choice.margin,
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct JsonPoint {
-    relief: Reliefs,
-    transmission_error: f64,
-    margin: f64,
-}
-
-impl JsonPoint {
-    fn of(point: &MapPoint) -> JsonPoint {
-        JsonPoint {
-            relief: Reliefs::of(&point.reliefs),
-            transmission_error: point.error,
-            margin: point.margin,
-        }
     }
 }
 

@@ -2,17 +2,15 @@
 
 use std::io::{self, Write};
 
-use serde::Serialize;
-use serde_json::{Map, Value};
-
-use super::data::{cell, write_line, write_rows};
+use super::json::{Json, object, sorted, write_line};
 use super::layout::{WIDTH, flow, item};
+use super::table::{Cell, Column, Table};
 use crate::case::sanitize::sanitize;
 use crate::model::Refusal;
 use crate::model::inputs::ToothCompliance;
 use crate::numeric::decimal::significant;
 use crate::study::stiffness::{
-    Comparison, FIELD, FieldPoint, GearComparison, PathComparison, PathPoint, Point,
+    Comparison, FIELD, FieldPoint, Flanks, GearComparison, PathComparison, PathPoint, Point,
 };
 
 /// The factor from um mm/N to m²/N.
@@ -35,11 +33,9 @@ pub struct StiffnessReport<'a> {
 /// # Errors
 /// Errors of the writer.
 pub fn write(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let mut sections = vec![heading(report), legend(report.comparison)];
-    for gear in &report.comparison.gears {
-        sections.push(gear_section(report.comparison, gear));
-    }
-    let path = &report.comparison.path;
+    let Comparison { flanks, path } = report.comparison;
+    let mut sections = vec![heading(report), legend(flanks)];
+    sections.extend(flanks.gears.iter().map(|gear| gear_section(flanks, gear)));
     sections.push(path_section("one pair", path, |point| &point.pair));
     sections.push(path_section("all pairs in contact", path, |point| &point.mesh));
     let sections: Vec<_> = sections.iter().map(|lines| lines.join("\n")).collect();
@@ -55,9 +51,9 @@ fn heading(report: &StiffnessReport<'_>) -> Vec<String> {
     lines
 }
 
-fn legend(comparison: &Comparison) -> Vec<String> {
-    let names: Vec<_> = comparison.models.iter().map(|model| model.name()).collect();
-    let half_width = significant(comparison.contact_half_width / MILLIMETRE, 4);
+fn legend(flanks: &Flanks) -> Vec<String> {
+    let names: Vec<_> = flanks.models.iter().map(|model| model.name()).collect();
+    let half_width = significant(flanks.contact_half_width / MILLIMETRE, 4);
     let notes = [
         "Compliances in um mm/N, per unit face width.".to_owned(),
         format!("{}: tooth without contact; in brackets the difference from FE.", names.join(", ")),
@@ -75,7 +71,7 @@ fn legend(comparison: &Comparison) -> Vec<String> {
     notes.iter().flat_map(|note| item("", note)).collect()
 }
 
-fn gear_section(comparison: &Comparison, gear: &GearComparison) -> Vec<String> {
+fn gear_section(flanks: &Flanks, gear: &GearComparison) -> Vec<String> {
     let radius = |metres: f64| significant(metres / MILLIMETRE, 6);
     let mut lines = vec![format!(
         "{}: z {}, form circle {} mm, tip {} mm",
@@ -85,17 +81,32 @@ fn gear_section(comparison: &Comparison, gear: &GearComparison) -> Vec<String> {
         radius(gear.tip_radius)
     )];
     if !gear.points.is_empty() {
-        lines.push(head(&comparison.models));
-        lines.extend(gear.points.iter().map(row));
+        let field = [("FE", 10), ("surface", 10), ("neighbour", 11)];
+        let field = field.map(|(title, width)| right(title, width));
+        let columns = columns("r [mm]", &flanks.models).chain(field).collect();
+        let row = |point: &Point| {
+            let whole = point.field.map(|field| field.depth);
+            let models =
+                point.models.iter().map(|&model| compliance(model) + &difference(model, whole));
+            let field =
+                FIELDS.iter().take(3).map(|(_, of)| compliance(point.field.as_ref().map(of)));
+            let cells = std::iter::once(radius(point.radius)).chain(models).chain(field);
+            cells.map(Cell::Text).collect()
+        };
+        lines.extend(Table::new("", columns).with(gear.points.iter().map(row)).lines());
     }
     lines.extend(remarks(gear).iter().flat_map(|remark| item("  - ", remark)));
     lines
 }
 
-fn head(models: &[ToothCompliance]) -> String {
-    let models: Vec<_> = models.iter().map(|model| format!(" {:>16}", model.name())).collect();
-    let models = models.concat();
-    format!("{:>8}{models}{:>10}{:>10}{:>11}", "r [mm]", "FE", "surface", "neighbour")
+fn right(title: &str, least: usize) -> Column {
+    Column { is_right: true, ..Column::text("", title.to_owned()).wide(0, least) }
+}
+
+/// The columns of a place and of the models.
+fn columns(place: &str, models: &[ToothCompliance]) -> impl Iterator<Item = Column> {
+    let models = models.iter().map(|model| right(model.name(), 16).wide(1, 16));
+    std::iter::once(right(place, 8)).chain(models)
 }
 
 /// A table of stiffness over the path of contact.
@@ -105,23 +116,19 @@ fn path_section(
     of: fn(&PathPoint) -> &Vec<Option<f64>>,
 ) -> Vec<String> {
     let field = path.models.iter().position(|model| model.name() == FIELD);
-    let names: Vec<_> = path.models.iter().map(|model| format!(" {:>16}", model.name())).collect();
     let title = format!("Stiffness of {pairs} over the path of contact, in N/(um mm):");
-    let mut lines = vec![title, format!("{:>8}{}", "s [mm]", names.concat())];
-    lines.extend(path.points.iter().map(|point| {
-        let values = of(point);
-        let reference = field.and_then(|field| values[field]);
-        let cells: Vec<_> = values
-            .iter()
-            .enumerate()
-            .map(|(model, value)| {
-                let other = reference.filter(|_| Some(model) != field);
-                format!(" {:>16}", stiffness(*value, other))
-            })
-            .collect();
-        format!("{:>8}{}", significant(point.way / MILLIMETRE, 4), cells.concat())
-    }));
-    lines
+    let row = |point: &PathPoint| {
+        let reference = field.and_then(|field| of(point)[field]);
+        let cell = |(model, value): (usize, &Option<f64>)| {
+            let other = reference.filter(|_| Some(model) != field);
+            stiffness(*value, other)
+        };
+        let cells = of(point).iter().enumerate().map(cell);
+        let place = significant(point.way / MILLIMETRE, 4);
+        std::iter::once(place).chain(cells).map(Cell::Text).collect()
+    };
+    let columns = columns("s [mm]", &path.models).collect();
+    Table::new(title, columns).with(path.points.iter().map(row)).lines()
 }
 
 fn stiffness(value: Option<f64>, reference: Option<f64>) -> String {
@@ -140,30 +147,8 @@ fn difference(value: Option<f64>, reference: Option<f64>) -> String {
     if percent > LARGEST { format!(" ({factor:.0} x)") } else { format!(" ({percent:+.0} %)") }
 }
 
-fn row(point: &Point) -> String {
-    let whole = point.field.map(|field| field.depth);
-    let models: Vec<_> = point
-        .models
-        .iter()
-        .map(|model| format!(" {:>16}", with_difference(*model, whole)))
-        .collect();
-    let models = models.concat();
-    let field = |of: fn(&FieldPoint) -> f64| compliance(point.field.as_ref().map(of));
-    format!(
-        "{:>8}{models}{:>10}{:>10}{:>11}",
-        significant(point.radius / MILLIMETRE, 6),
-        field(|field| field.depth),
-        field(|field| field.surface),
-        field(|field| field.ahead)
-    )
-}
-
 fn compliance(value: Option<f64>) -> String {
     value.map_or("-".to_owned(), |value| significant(value / MICRON_MILLIMETRE, 4))
-}
-
-fn with_difference(value: Option<f64>, reference: Option<f64>) -> String {
-    compliance(value) + &difference(value, reference)
 }
 
 /// The twist of the body, and the reasons for missing values.
@@ -202,74 +187,42 @@ fn reason(gear: &GearComparison) -> Option<String> {
 ///
 /// # Errors
 /// Errors of the writer.
-pub fn write_csv(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
-    let models = comparison.models.iter().map(|model| column(model.name()));
-    let header = ["gear".to_owned(), "radius [m]".to_owned()].into_iter().chain(models).chain([
-        column(FIELD),
-        "contact_half_width [m]".to_owned(),
-        column("finite-element-surface"),
-        column("neighbour-ahead"),
-        column("neighbour-behind"),
-    ]);
-    let rows = comparison
-        .gears
-        .iter()
-        .flat_map(|gear| gear.points.iter().map(|point| csv_row(comparison, gear, point)));
-    write_rows(std::iter::once(header.collect()).chain(rows), out)
+pub fn write_csv(flanks: &Flanks, out: &mut dyn Write) -> io::Result<()> {
+    let compliance = |name: &str| Column::number(key(name), "", "m2/N", ("1", 0));
+    let [radius, half_width] =
+        ["radius", "contact_half_width"].map(|key| Column::number(key, "", "m", ("1", 0)));
+    let field = FIELDS.map(|(name, _)| compliance(name));
+    let [depth, surface, ahead, behind] = field;
+    let columns = [Column::text("gear", ""), radius]
+        .into_iter()
+        .chain(flanks.models.iter().map(|model| compliance(model.name())))
+        .chain([depth, half_width, surface, ahead, behind]);
+    let row = |gear: &GearComparison, point: &Point| {
+        let [depth, surface, ahead, behind] = FIELDS.map(|(_, of)| point.field.as_ref().map(of));
+        let half_width = Some(flanks.contact_half_width);
+        let numbers = std::iter::once(Some(point.radius))
+            .chain(point.models.iter().copied())
+            .chain([depth, half_width, surface, ahead, behind])
+            .map(|value| Cell::number(value, ""));
+        std::iter::once(gear.gear.into()).chain(numbers).collect()
+    };
+    let rows = flanks.gears.iter();
+    let rows = rows.flat_map(|gear| gear.points.iter().map(move |point| row(gear, point)));
+    Table::new("", columns.collect()).with(rows).write_csv(out)
 }
+
+type Compliance = fn(&FieldPoint) -> f64;
+
+/// The compliances of the finite elements.
+const FIELDS: [(&str, Compliance); 4] = [
+    (FIELD, |field| field.depth),
+    ("finite-element-surface", |field| field.surface),
+    ("neighbour-ahead", |field| field.ahead),
+    ("neighbour-behind", |field| field.behind),
+];
 
 fn key(name: &str) -> String {
     name.replace('-', "_")
-}
-
-fn column(name: &str) -> String {
-    format!("{} [m2/N]", key(name))
-}
-
-fn csv_row(comparison: &Comparison, gear: &GearComparison, point: &Point) -> Vec<String> {
-    let field = |of: fn(&FieldPoint) -> f64| cell(point.field.as_ref().map(of));
-    [gear.gear.to_owned(), cell(Some(point.radius))]
-        .into_iter()
-        .chain(point.models.iter().copied().map(cell))
-        .chain([
-            field(|field| field.depth),
-            cell(Some(comparison.contact_half_width)),
-            field(|field| field.surface),
-            field(|field| field.ahead),
-            field(|field| field.behind),
-        ])
-        .collect()
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    case: &'a str,
-    title: &'a str,
-    version: &'static str,
-    contact_half_width: f64,
-    gears: Vec<GearLine>,
-    path: Vec<PathLine>,
-}
-
-#[derive(Serialize)]
-struct PathLine {
-    way: f64,
-    pair_stiffness: Map<String, Value>,
-    mesh_stiffness: Map<String, Value>,
-}
-
-#[derive(Serialize)]
-struct GearLine {
-    gear: &'static str,
-    form_radius: f64,
-    tip_radius: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    twist: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    refusal: Option<String>,
-    #[serde(skip_serializing_if = "Map::is_empty")]
-    gaps: Map<String, Value>,
-    points: Vec<Map<String, Value>>,
 }
 
 /// Writes one line of JSON in SI units without absent values.
@@ -277,63 +230,44 @@ struct GearLine {
 /// # Errors
 /// Errors of the writer.
 pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let comparison = report.comparison;
-    let line = Line {
-        case: report.name,
-        title: report.title,
-        version: env!("CARGO_PKG_VERSION"),
-        contact_half_width: comparison.contact_half_width,
-        gears: comparison.gears.iter().map(|gear| gear_line(comparison, gear)).collect(),
-        path: path_lines(&comparison.path),
+    let Comparison { flanks, path } = report.comparison;
+    let by_model = |values: &[Option<f64>]| {
+        let pairs = path.models.iter().zip(values);
+        sorted(pairs.map(|(model, value)| (key(model.name()), (*value).into())))
     };
+    let place = |point: &PathPoint| {
+        object([
+            ("way", point.way.into()),
+            ("pair_stiffness", by_model(&point.pair)),
+            ("mesh_stiffness", by_model(&point.mesh)),
+        ])
+    };
+    let line = object([
+        ("case", report.name.into()),
+        ("title", report.title.into()),
+        ("version", env!("CARGO_PKG_VERSION").into()),
+        ("contact_half_width", flanks.contact_half_width.into()),
+        ("gears", flanks.gears.iter().map(|gear| gear_line(flanks, gear)).collect()),
+        ("path", path.points.iter().map(place).collect()),
+    ]);
     write_line(&line, out)
 }
 
-fn path_lines(path: &PathComparison) -> Vec<PathLine> {
-    let by_model = |values: &[Option<f64>]| -> Map<String, Value> {
-        let pairs = path.models.iter().zip(values);
-        pairs.filter_map(|(model, value)| Some((key(model.name()), (*value)?.into()))).collect()
+fn gear_line(flanks: &Flanks, gear: &GearComparison) -> Json {
+    let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), (&gap.reason).into()));
+    let point = |point: &Point| {
+        let models = flanks.models.iter().map(|model| model.name()).zip(&point.models);
+        let models = models.map(|(name, value)| (key(name), (*value).into()));
+        let field = FIELDS.map(|(name, of)| (key(name), point.field.as_ref().map(of).into()));
+        sorted([(key("radius"), point.radius.into())].into_iter().chain(models).chain(field))
     };
-    let line = |point: &PathPoint| PathLine {
-        way: point.way,
-        pair_stiffness: by_model(&point.pair),
-        mesh_stiffness: by_model(&point.mesh),
-    };
-    path.points.iter().map(line).collect()
-}
-
-fn gear_line(comparison: &Comparison, gear: &GearComparison) -> GearLine {
-    let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), gap.reason.as_str().into()));
-    let points = gear.points.iter().map(|point| json_point(comparison, point));
-    GearLine {
-        gear: gear.gear,
-        form_radius: gear.form_radius,
-        tip_radius: gear.tip_radius,
-        twist: gear.twist,
-        refusal: reason(gear),
-        gaps: gaps.collect(),
-        points: points.collect(),
-    }
-}
-
-fn json_point(comparison: &Comparison, point: &Point) -> Map<String, Value> {
-    let models = comparison
-        .models
-        .iter()
-        .zip(&point.models)
-        .filter_map(|(model, value)| Some((model.name(), (*value)?)));
-    let field = point.field.iter().flat_map(|field| {
-        [
-            (FIELD, field.depth),
-            ("finite-element-surface", field.surface),
-            ("neighbour-ahead", field.ahead),
-            ("neighbour-behind", field.behind),
-        ]
-    });
-    [("radius", point.radius)]
-        .into_iter()
-        .chain(models)
-        .chain(field)
-        .map(|(name, value)| (key(name), value.into()))
-        .collect()
+    object([
+        ("gear", gear.gear.into()),
+        ("form_radius", gear.form_radius.into()),
+        ("tip_radius", gear.tip_radius.into()),
+        ("twist", gear.twist.into()),
+        ("refusal", reason(gear).into()),
+        ("gaps", (!gear.gaps.is_empty()).then(|| sorted(gaps)).into()),
+        ("points", gear.points.iter().map(point).collect()),
+    ])
 }

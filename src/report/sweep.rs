@@ -2,40 +2,12 @@
 
 use std::io::{self, Write};
 
-use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
-
-use super::data::{ValueWithUnit, cell, write_line, write_rows};
-use crate::case::Problem;
+use super::json::{Json, measured, object, reason, write_line};
+use super::table::{Cell, Column, Table};
 use crate::model::Quantity;
-use crate::study::batch::{PointOutcome, Refused, Rows};
+use crate::study::batch::{PointOutcome, Rows};
+use crate::study::shard::Format;
 use crate::study::sweep::Grid;
-
-/// The format of a sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TableFormat {
-    /// A header and one row per point.
-    Csv,
-    /// One object per line and point.
-    Json,
-}
-
-impl TableFormat {
-    /// The name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            TableFormat::Csv => "csv",
-            TableFormat::Json => "json",
-        }
-    }
-
-    /// The format with a name.
-    #[must_use]
-    pub fn named(name: &str) -> TableFormat {
-        if name == TableFormat::Json.name() { TableFormat::Json } else { TableFormat::Csv }
-    }
-}
 
 /// Writer of a sweep to a file or a stream.
 #[derive(Clone, Copy)]
@@ -44,8 +16,8 @@ pub struct SweepTable<'a> {
     pub grid: &'a Grid,
     /// The columns after those of the varied fields.
     pub quantities: &'a [&'static Quantity],
-    /// The format.
-    pub format: TableFormat,
+    /// The format: JSON lines, otherwise CSV.
+    pub format: Format,
 }
 
 impl SweepTable<'_> {
@@ -54,17 +26,10 @@ impl SweepTable<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn begin(&self, out: &mut dyn Write) -> io::Result<()> {
-        if self.format == TableFormat::Json {
-            return Ok(());
+        match self.format {
+            Format::Json => Ok(()),
+            _ => self.table().write_csv_header(out),
         }
-        let varied = self.grid.axes.iter().map(|axis| match axis.unit.as_str() {
-            "" => axis.key().to_owned(),
-            unit => format!("{} [{unit}]", axis.key()),
-        });
-        let computed =
-            self.quantities.iter().map(|quantity| format!("{} [{}]", quantity.key, quantity.unit));
-        let header = varied.chain(computed).chain(["outcome".to_owned()]);
-        write_rows([header.collect()], out)
     }
 
     /// Writes rows.
@@ -72,107 +37,52 @@ impl SweepTable<'_> {
     /// # Errors
     /// Errors of the writer.
     pub fn write(&self, rows: &Rows, out: &mut dyn Write) -> io::Result<()> {
-        match self.format {
-            TableFormat::Csv => self.write_csv(rows, out),
-            TableFormat::Json => self.write_json(rows, out),
+        let mut points = rows.range().enumerate();
+        if self.format == Format::Json {
+            return points
+                .try_for_each(|(row, index)| write_line(&self.line(rows, row, index), out));
         }
+        let cells = points.map(|(row, index)| self.cells(rows, row, index));
+        self.table().with(cells).write_csv_rows(out)
     }
 
-    fn write_csv(&self, rows: &Rows, out: &mut dyn Write) -> io::Result<()> {
-        let lines = rows.range().enumerate().map(|(row, index)| {
-            let varied = self.grid.places(index);
-            varied
-                .map(|(axis, at)| axis.points[at].text.clone())
-                .chain(rows.values(row).map(cell))
-                .chain([rows.outcomes[row].name().to_owned()])
-                .collect()
-        });
-        write_rows(lines, out)
+    /// The columns: the varied fields in their units, the quantities in SI units, the outcome.
+    fn table(&self) -> Table {
+        let varied = self
+            .grid
+            .axes
+            .iter()
+            .map(|axis| Column { unit: axis.unit.clone().into(), ..Column::text(axis.key(), "") });
+        let computed = self.quantities.iter();
+        let computed = computed.map(|known| Column::number(known.key, "", known.unit, ("1", 0)));
+        Table::new("", varied.chain(computed).chain([Column::text("outcome", "")]).collect())
     }
 
-    fn write_json(&self, rows: &Rows, out: &mut dyn Write) -> io::Result<()> {
-        for (row, index) in rows.range().enumerate() {
-            let line = Line {
-                varied: Varied(self.grid, index),
-                outcome: rows.outcomes[row].name(),
-                quantities: Computed(self.quantities, rows, row),
-                refusal: rows.refusal(row).map(Reason::of),
+    fn cells(&self, rows: &Rows, row: usize, index: usize) -> Vec<Cell> {
+        let varied = self.grid.places(index).map(|(axis, at)| axis.points[at].text.as_str().into());
+        let computed = rows.values(row).map(|value| Cell::number(value, ""));
+        varied.chain(computed).chain([rows.outcomes[row].name().into()]).collect()
+    }
+
+    fn line(&self, rows: &Rows, row: usize, index: usize) -> Json {
+        let varied = self.grid.places(index).map(|(axis, at)| {
+            let (point, unit) = (&axis.points[at], axis.unit.as_str());
+            let unit = if unit.is_empty() { "1" } else { unit };
+            let value = match point.number {
+                Some(value) => object([("value", value.into()), ("unit", unit.into())]),
+                None => point.text.as_str().into(),
             };
-            write_line(&line, out)?;
-        }
-        Ok(())
-    }
-
-    /// Refused points in one sentence.
-    #[must_use]
-    pub fn refused(&self, refused: &Refused, of: usize) -> String {
-        let Refused { count, first, problem } = refused;
-        let which = if *count == 1 { "" } else { "the first " };
-        format!("{count} of {of} points refused, {which}at {}: {problem}", self.grid.point(*first))
-    }
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    varied: Varied<'a>,
-    outcome: &'static str,
-    #[serde(skip_serializing_if = "Computed::is_refused")]
-    quantities: Computed<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    refusal: Option<Reason<'a>>,
-}
-
-#[derive(Serialize)]
-pub(super) struct Reason<'a> {
-    field: &'a str,
-    cause: &'a str,
-    fix: &'a str,
-}
-
-impl Reason<'_> {
-    pub(super) fn of(problem: &Problem) -> Reason<'_> {
-        Reason { field: &problem.field, cause: &problem.cause, fix: &problem.fix }
-    }
-}
-
-struct Varied<'a>(&'a Grid, usize);
-
-#[derive(Serialize)]
-struct Given<'a> {
-    value: f64,
-    unit: &'a str,
-}
-
-impl Serialize for Varied<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Varied(grid, index) = *self;
-        let mut map = serializer.serialize_map(Some(grid.axes.len()))?;
-        for (axis, at) in grid.places(index) {
-            let point = &axis.points[at];
-            let unit = if axis.unit.is_empty() { "1" } else { axis.unit.as_str() };
-            match point.number {
-                Some(value) => map.serialize_entry(axis.key(), &Given { value, unit })?,
-                None => map.serialize_entry(axis.key(), &point.text)?,
-            }
-        }
-        map.end()
-    }
-}
-
-struct Computed<'a>(&'a [&'static Quantity], &'a Rows, usize);
-
-impl Computed<'_> {
-    fn is_refused(&self) -> bool {
-        self.1.outcomes[self.2] == PointOutcome::Refused
-    }
-}
-
-impl Serialize for Computed<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Computed(quantities, rows, row) = *self;
-        let values = quantities.iter().zip(rows.values(row));
-        serializer.collect_map(values.filter_map(|(quantity, value)| {
-            Some((quantity.key, ValueWithUnit::new(quantity, value?)))
-        }))
+            (axis.key(), value)
+        });
+        let is_solved = rows.outcomes[row] != PointOutcome::Refused;
+        let values = self.quantities.iter().zip(rows.values(row));
+        let values =
+            values.filter_map(|(known, value)| Some((known.key, measured(known, value?, None))));
+        object([
+            ("varied", object(varied)),
+            ("outcome", rows.outcomes[row].name().into()),
+            ("quantities", is_solved.then(|| object(values)).into()),
+            ("refusal", rows.refusal(row).map(reason).into()),
+        ])
     }
 }

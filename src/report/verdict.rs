@@ -4,14 +4,13 @@ use std::fmt;
 use std::io::{self, Write};
 
 use super::absence::Absence;
+use super::json::{object, write_line};
 use super::{shown_in, value};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::case::{Case, Limit};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Refusal, Solution, Stage, Stages};
-use crate::report::data::write_line;
-use serde::Serialize;
 
 /// The comparison of a quantity with its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,17 +96,15 @@ impl Beside {
     /// The counterpart as a sentence, with the value in metric or inch units.
     #[must_use]
     pub fn sentence(&self, system: System) -> String {
-        let own = self.own.and_then(|(key, value)| Some((Quantity::find(key)?, value)));
         let method = self.method.name();
-        match own {
-            Some((own, Some(value))) => {
-                let value = shown_in(own, value, system);
-                format!("the free impact. Method {method}: {} {value}", own.key)
+        let quantity = self.own.and_then(|(key, _)| Quantity::find(key));
+        match (self.own, quantity) {
+            (Some((key, Some(value))), Some(quantity)) => {
+                let value = shown_in(quantity, value, system);
+                format!("the free impact. Method {method}: {key} {value}")
             }
-            Some((own, None)) => {
-                format!("the free impact; {method} has {} instead", own.key)
-            }
-            None => format!("the free impact; {method} has no such quantity"),
+            (Some((key, _)), _) => format!("the free impact; {method} has {key} instead"),
+            (None, _) => format!("the free impact; {method} has no such quantity"),
         }
     }
 }
@@ -115,40 +112,33 @@ impl Beside {
 /// The verdict on every limit, in the order of the case.
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
-    let is_limited = |beside: &Beside| {
-        case.limits.iter().any(|limit| beside.own.is_some_and(|(own, _)| own == limit.quantity))
-    };
-    let of_case = |verdict: Verdict<'a>| Verdict {
-        beside: verdict.beside.map(|beside| Beside { is_limited: is_limited(&beside), ..beside }),
-        ..verdict
-    };
-    case.limits.iter().map(|limit| of_case(verdict(limit, solution))).collect()
+    let mut verdicts: Vec<_> = case.limits.iter().map(|limit| verdict(limit, solution)).collect();
+    for beside in verdicts.iter_mut().filter_map(|verdict| verdict.beside.as_mut()) {
+        beside.is_limited = beside
+            .own
+            .is_some_and(|(own, _)| case.limits.iter().any(|limit| own == limit.quantity));
+    }
+    verdicts
 }
 
 /// The stages for every limit of a case.
 #[must_use]
 pub fn stages(case: &Case) -> Stages {
-    of_all(limited(case))
+    limited(case).fold(Stages::of(Stage::Geometry), |stages, quantity| {
+        stages.and(Stages::of(quantity.stage))
+    })
 }
 
 /// The stages of the counterparts of the limited quantities in a method.
 #[must_use]
 pub fn stages_beside(case: &Case, method: Method) -> Stages {
-    of_all(
-        limited(case)
-            .filter(|quantity| quantity.is_of_free_impact())
-            .filter_map(|quantity| quantity.by(method)),
-    )
+    let beside = limited(case).filter(|quantity| quantity.is_of_free_impact());
+    let beside = beside.filter_map(|quantity| quantity.by(method));
+    beside.fold(Stages::of(Stage::Geometry), |stages, own| stages.and(Stages::of(own.stage)))
 }
 
 fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
     case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity))
-}
-
-fn of_all(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
-    quantities.fold(Stages::of(Stage::Geometry), |stages, quantity| {
-        stages.and(Stages::of(quantity.stage))
-    })
 }
 
 /// The verdict on one limit.
@@ -183,10 +173,8 @@ impl Verdict<'_> {
     /// The value as a fraction of the limit, if both are in range.
     #[must_use]
     pub fn part(&self) -> Option<f64> {
-        let value = self.value.filter(|&value| {
-            self.limit.value > 0.0 && self.limit.value.is_finite() && value >= 0.0
-        })?;
-        Some(value / self.limit.value)
+        let (value, limit) = (self.value?, self.limit.value);
+        (limit > 0.0 && limit.is_finite() && value >= 0.0).then(|| value / limit)
     }
 
     /// The verdict as a sentence, with the value in metric or inch units, and the limit as the user
@@ -194,17 +182,11 @@ impl Verdict<'_> {
     #[must_use]
     pub fn sentence(&self, system: System) -> String {
         let statement = self.statement(system);
-        let Some(beside) = self.beside else {
-            return statement;
-        };
+        let Some(beside) = self.beside else { return statement };
+        let above = if self.is_exceeded_beside() { ", above this limit" } else { "" };
         let is_unlimited = beside.own.is_some() && !beside.is_limited;
-        let also = match (self.is_exceeded_beside(), is_unlimited) {
-            (true, true) => ", above this limit; this quantity has no limit",
-            (true, false) => ", above this limit",
-            (false, true) => "; this quantity has no limit",
-            (false, false) => "",
-        };
-        format!("{statement} for {}{also}", beside.sentence(system))
+        let also = if is_unlimited { "; this quantity has no limit" } else { "" };
+        format!("{statement} for {}{above}{also}", beside.sentence(system))
     }
 
     /// Whether the counterpart in the method exceeds the limit on the free impact.
@@ -243,44 +225,6 @@ impl fmt::Display for Verdict<'_> {
     }
 }
 
-#[derive(Serialize)]
-struct Line<'a> {
-    case: &'a str,
-    method: &'static str,
-    standing: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    quantity: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    limit: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    unit: Option<&'static str>,
-    /// `free-impact` if the method resolves the impact itself.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    of: Option<&'static str>,
-    /// The counterpart in the method.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    own: Option<Own>,
-    message: String,
-}
-
-#[derive(Serialize)]
-struct Own {
-    quantity: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    unit: Option<&'static str>,
-}
-
-impl Own {
-    fn of(beside: &Beside) -> Option<Own> {
-        let (quantity, value) = beside.own?;
-        Some(Own { quantity, value, unit: Quantity::find(quantity).map(|own| own.unit) })
-    }
-}
-
 /// Writes the verdicts on a case, one line each; one line for a case without limits.
 ///
 /// # Errors
@@ -291,29 +235,34 @@ pub fn write_json(
     method: Method,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    if verdicts.is_empty() {
-        let message = "no limits".to_owned();
-        let standing = Standing::Within.name();
-        let method = method.name();
-        let (quantity, value, limit, unit, of, own) = (None, None, None, None, None, None);
-        return write_line(
-            &Line { case, method, standing, quantity, value, limit, unit, of, own, message },
-            out,
-        );
-    }
-    let line = |verdict: &Verdict| Line {
-        case,
-        method: method.name(),
-        standing: verdict.standing.name(),
-        quantity: Some(verdict.limit.quantity),
-        value: verdict.value,
-        limit: Some(verdict.limit.value),
-        unit: Quantity::find(verdict.limit.quantity).map(|quantity| quantity.unit),
-        of: verdict.beside.map(|_| "free-impact"),
-        own: verdict.beside.as_ref().and_then(Own::of),
-        message: verdict.to_string(),
+    let start = |standing: Standing| {
+        object([
+            ("case", case.into()),
+            ("method", method.name().into()),
+            ("standing", standing.name().into()),
+        ])
     };
-    verdicts.iter().try_for_each(|verdict| write_line(&line(verdict), out))
+    if verdicts.is_empty() {
+        return write_line(&start(Standing::Within).with([("message", "no limits".into())]), out);
+    }
+    verdicts.iter().try_for_each(|verdict| {
+        let Verdict { limit, value, standing, beside, .. } = verdict;
+        let unit = |key| Quantity::find(key).map(|quantity| quantity.unit);
+        // The counterpart in the method, if the method resolves the impact itself.
+        let own = beside.and_then(|beside| beside.own).map(|(key, value)| {
+            object([("quantity", key.into()), ("value", value.into()), ("unit", unit(key).into())])
+        });
+        let line = start(*standing).with([
+            ("quantity", limit.quantity.into()),
+            ("value", (*value).into()),
+            ("limit", limit.value.into()),
+            ("unit", unit(limit.quantity).into()),
+            ("of", beside.map(|_| "free-impact").into()),
+            ("own", own.into()),
+            ("message", verdict.to_string().into()),
+        ]);
+        write_line(&line, out)
+    })
 }
 
 #[cfg(test)]

@@ -7,9 +7,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
-use crate::case::evaluate::Point;
 use crate::case::{Evaluator, Problem, violated_rule};
-use crate::model::{Inputs, Outcome, Quantity, Refusal, Stages};
+use crate::model::{Inputs, Outcome, Quantity, Refusal, Solution, Stages};
 
 /// How often the progress is reported.
 const TICK: Duration = Duration::from_millis(50);
@@ -19,13 +18,13 @@ pub trait Points: Sync {
     /// The number of points.
     fn count(&self) -> usize;
 
+    /// A point as settings, such as `operation.speed = 500 rpm, driven.tip_relief = 16 um`.
+    fn point(&self, _index: usize) -> String {
+        String::new()
+    }
+
     /// A function that writes points into inputs on one thread.
     fn sequence(&self) -> Sequence<'_>;
-
-    /// Whether the points differ from the case only in load and deviations.
-    fn differ_in_load_alone(&self, _inputs: &Inputs) -> bool {
-        false
-    }
 }
 
 /// Writes the values of the point with an index into inputs of the case or of another point. Fails
@@ -270,7 +269,6 @@ struct PointSolver<'a> {
     inputs: Inputs,
     evaluator: Evaluator,
     wanted: Stages,
-    differ_in_load_alone: bool,
 }
 
 impl<'a> PointSolver<'a> {
@@ -280,14 +278,14 @@ impl<'a> PointSolver<'a> {
             sequence: batch.points.sequence(),
             inputs: batch.inputs.clone(),
             evaluator: Evaluator::default(),
-            differ_in_load_alone: batch.points.differ_in_load_alone(batch.inputs),
             wanted: stages
                 .fold(Stages::NONE, |stages, quantity| stages.and(Stages::of(quantity.stage))),
             batch,
         }
     }
 
-    /// Adds the row of a point.
+    /// Adds the row of a point. A quantity that is absent refuses the point as it refuses a plain
+    /// solve.
     fn solve(
         &mut self,
         index: usize,
@@ -297,52 +295,36 @@ impl<'a> PointSolver<'a> {
         if !go_on() {
             return Err(Stopped);
         }
-        let problem = match self.point(index, rows, go_on) {
-            Ok(None) => return Ok(()),
-            Ok(Some(refusal)) => Problem::from(&refusal),
-            Err(Unsolved::Stopped) => return Err(Stopped),
-            Err(Unsolved::Refused(problem)) => problem,
+        let quantities = self.batch.quantities;
+        let refused = match self.point(index, go_on) {
+            Ok(solution) => {
+                let values = || quantities.iter().map(|quantity| quantity.finite_value(solution));
+                match solution.withheld {
+                    Some(refusal) if values().any(|value| value.is_none()) => refusal.into(),
+                    _ => {
+                        rows.push(PointOutcome::Solved(solution.outcome), values());
+                        return Ok(());
+                    }
+                }
+            }
+            Err(refused) => refused,
         };
-        let problem = problem.at_given_diameter(&self.inputs);
-        let none = self.batch.quantities.iter().map(|_| None);
-        rows.push(PointOutcome::Refused, none);
-        rows.refusals.push((index, problem));
+        let Unsolved::Refused(problem) = refused else { return Err(Stopped) };
+        rows.push(PointOutcome::Refused, quantities.iter().map(|_| None));
+        rows.refusals.push((index, problem.at_given_diameter(&self.inputs)));
         Ok(())
     }
 
-    /// Adds the row of a solved point, or returns the reason why a quantity is absent.
-    fn point(
-        &mut self,
-        index: usize,
-        rows: &mut Rows,
-        go_on: &dyn Fn() -> bool,
-    ) -> Result<Option<Refusal>, Unsolved> {
-        let batch = self.batch;
+    fn point(&mut self, index: usize, go_on: &dyn Fn() -> bool) -> Result<&Solution, Unsolved> {
         (self.sequence)(index, &mut self.inputs)?;
         // No quantity reads the stations.
         self.inputs.stations = Some(1);
-        let method = self.inputs.method;
-        let wanted = self.wanted.and(method.deciding_stages());
+        let wanted = self.wanted.and(self.inputs.method.deciding_stages());
         let fits = |inputs: &Inputs| match violated_rule(inputs) {
             Some(problem) => Err(Unsolved::from(problem)),
             None => Ok(()),
         };
-        let point = Point {
-            inputs: &self.inputs,
-            wanted,
-            differs_in_load_alone: self.differ_in_load_alone,
-        };
-        let solution = self.evaluator.solve_point(&point, fits, &|_| go_on())?;
-        let values = || {
-            let all = batch.quantities.iter();
-            all.map(|quantity| quantity.finite_value(solution))
-        };
-        // Refuses as a plain solve does if a named quantity is absent.
-        if solution.withheld.is_some() && values().any(|value| value.is_none()) {
-            return Ok(solution.withheld);
-        }
-        rows.push(PointOutcome::Solved(solution.outcome), values());
-        Ok(None)
+        self.evaluator.solve_point(&self.inputs, wanted, fits, &|_| go_on())
     }
 }
 
@@ -377,6 +359,17 @@ pub struct Refused {
     pub problem: Problem,
 }
 
+impl Refused {
+    /// The refused points in one sentence.
+    #[must_use]
+    pub fn sentence(&self, points: &dyn Points) -> String {
+        let Refused { count, first, problem } = self;
+        let which = if *count == 1 { "" } else { "the first " };
+        let (of, point) = (points.count(), points.point(*first));
+        format!("{count} of {of} points refused, {which}at {point}: {problem}")
+    }
+}
+
 /// Every reason, in the order of the first points.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Refusals(pub Vec<Refused>);
@@ -384,19 +377,15 @@ pub struct Refusals(pub Vec<Refused>);
 impl Refusals {
     /// Counts the refused points of these rows.
     pub fn count(&mut self, rows: &Rows) {
-        for (index, problem) in &rows.refusals {
-            self.add(*index, problem);
-        }
-    }
-
-    fn add(&mut self, index: usize, problem: &Problem) {
-        let is_same = |other: &&mut Refused| {
-            let other = &other.problem;
-            other.field == problem.field && words(&other.fix).eq(words(&problem.fix))
-        };
-        match self.0.iter_mut().find(is_same) {
-            Some(same) => same.count += 1,
-            None => self.0.push(Refused { count: 1, first: index, problem: problem.clone() }),
+        for (first, problem) in &rows.refusals {
+            let is_same = |other: &&mut Refused| {
+                let other = &other.problem;
+                other.field == problem.field && words(&other.fix).eq(words(&problem.fix))
+            };
+            match self.0.iter_mut().find(is_same) {
+                Some(same) => same.count += 1,
+                None => self.0.push(Refused { count: 1, first: *first, problem: problem.clone() }),
+            }
         }
     }
 
@@ -409,7 +398,7 @@ impl Refusals {
 
 /// The characters of a text without its numbers.
 fn words(text: &str) -> impl Iterator<Item = char> {
-    text.chars().filter(|character| !character.is_ascii_digit() && !".+-".contains(*character))
+    text.chars().filter(|letter| !letter.is_ascii_digit() && !".+-".contains(*letter))
 }
 
 /// Greatest number of points of a chunk.

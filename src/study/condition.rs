@@ -6,40 +6,34 @@ use crate::case::{Case, Limit, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity};
 
-/// How a quantity compares with its limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Relation {
-    /// At most the limit.
-    AtMost,
-    /// Below the limit.
-    Below,
-    /// At least the limit.
-    AtLeast,
-    /// Above the limit.
-    Above,
+/// A relation of a quantity to its limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Relation {
+    /// Whether the limit is the greatest value; an absent quantity is below every limit.
+    is_upper: bool,
+    /// Whether the limit itself does not meet the condition.
+    is_strict: bool,
 }
 
-impl Relation {
-    /// Every sign, the longer ones first.
-    const SIGNS: [(&'static str, Relation); 4] = [
-        ("<=", Relation::AtMost),
-        (">=", Relation::AtLeast),
-        ("<", Relation::Below),
-        (">", Relation::Above),
-    ];
+/// Every sign, the longer ones first.
+const SIGNS: [(&str, Relation); 4] = [
+    ("<=", AT_MOST),
+    (">=", AT_LEAST),
+    ("<", Relation { is_upper: true, is_strict: true }),
+    (">", Relation { is_upper: false, is_strict: true }),
+];
+const AT_MOST: Relation = Relation { is_upper: true, is_strict: false };
+const AT_LEAST: Relation = Relation { is_upper: false, is_strict: false };
 
-    fn is_met(self, value: f64, limit: f64) -> bool {
-        match self {
-            Relation::AtMost => value <= limit,
-            Relation::Below => value < limit,
-            Relation::AtLeast => value >= limit,
-            Relation::Above => value > limit,
-        }
+impl Relation {
+    /// The distance of a value from the limit, above 0 where the condition is met.
+    fn margin(self, value: f64, limit: f64) -> f64 {
+        if self.is_upper { limit - value } else { value - limit }
     }
 
-    /// Whether an absent quantity is within the limit.
-    fn is_met_without_value(self) -> bool {
-        matches!(self, Relation::AtMost | Relation::Below)
+    fn is_met(self, value: f64, limit: f64) -> bool {
+        let margin = self.margin(value, limit);
+        margin > 0.0 || margin == 0.0 && !self.is_strict
     }
 }
 
@@ -82,7 +76,7 @@ impl Condition {
     /// # Errors
     /// Returns an error if the quantity, the sign, the value or the outcome is unknown.
     pub fn parse(text: &str) -> Result<Condition, Problem> {
-        let sign = Relation::SIGNS
+        let sign = SIGNS
             .into_iter()
             .filter_map(|(sign, relation)| Some((text.find(sign)?, sign, relation)))
             .min_by_key(|(at, sign, _)| (*at, std::cmp::Reverse(sign.len())));
@@ -125,12 +119,9 @@ impl Condition {
         let Some(quantity) = missing else {
             return Ok(());
         };
-        let others = Method::ALL.into_iter().map(Method::name);
-        let computes = |name: &&str| {
-            let method = Method::ALL.into_iter().find(|method| method.name() == *name);
-            method.is_some_and(|method| method.stages().has(quantity.stage))
-        };
-        let others: Vec<&str> = others.filter(computes).collect();
+        let computes = |method: &Method| method.stages().has(quantity.stage);
+        let others = Method::ALL.into_iter().filter(computes).map(Method::name);
+        let others: Vec<&str> = others.collect();
         let cause = format!("method {} does not compute {}", method.name(), quantity.key);
         let fix = format!("use --method with one of {}", others.join(", "));
         Err(problem(quantity.key, cause, fix))
@@ -151,7 +142,7 @@ impl Condition {
             Kind::Compared(key, relation, limit) => {
                 match (rows.values(row).next().flatten(), is_without(key, outcome)) {
                     (Some(value), _) => relation.is_met(value, limit),
-                    (None, true) => relation.is_met_without_value(),
+                    (None, true) => relation.is_upper,
                     (None, false) => {
                         return State::Unknown(problem(
                             key,
@@ -170,8 +161,7 @@ impl Condition {
     pub fn margin(&self, value: f64) -> Option<f64> {
         match self.kind {
             Kind::Outcome(_) => None,
-            Kind::Compared(_, Relation::AtMost | Relation::Below, limit) => Some(limit - value),
-            Kind::Compared(_, Relation::AtLeast | Relation::Above, limit) => Some(value - limit),
+            Kind::Compared(_, relation, limit) => Some(relation.margin(value, limit)),
         }
     }
 }
@@ -221,8 +211,8 @@ fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
         ));
     }
     match value.trim() {
-        "true" | "yes" => Ok(Kind::Compared(key, Relation::AtLeast, 1.0)),
-        "false" | "no" => Ok(Kind::Compared(key, Relation::AtMost, 0.0)),
+        "true" | "yes" => Ok(Kind::Compared(key, AT_LEAST, 1.0)),
+        "false" | "no" => Ok(Kind::Compared(key, AT_MOST, 0.0)),
         other => Err(problem(
             key,
             format!("{} is neither true nor false", quoted(other)),
@@ -245,15 +235,14 @@ pub fn headline(case: &Case, methods: &[Method]) -> Vec<&'static Quantity> {
         .filter(|limit| !limit.text.is_empty())
         .filter_map(|limit| Quantity::find(limit.quantity))
         .collect();
+    let force = Quantity::find("impact_force").into_iter();
     if limited.is_empty() {
-        let force = Quantity::find("impact_force");
-        return distinct(force.into_iter().flat_map(|force| in_methods(force, methods)));
+        return distinct(force.flat_map(|force| in_methods(force, methods)));
     }
-    let with_counterparts = |quantity: &'static Quantity| {
-        let counterparts = in_methods(quantity, methods);
-        std::iter::once(quantity).chain(counterparts)
+    let all = |quantity: &'static Quantity| {
+        std::iter::once(quantity).chain(in_methods(quantity, methods))
     };
-    distinct(limited.into_iter().flat_map(with_counterparts))
+    distinct(limited.into_iter().flat_map(all))
 }
 
 /// The counterpart of a quantity of the free impact in each method; for `auto`, in each method that
@@ -263,8 +252,7 @@ fn in_methods(quantity: &'static Quantity, methods: &[Method]) -> Vec<&'static Q
         Method::Auto => vec![Method::Exact, Method::Static, Method::Dynamic],
         one => vec![*one],
     };
-    let all = methods.iter().flat_map(single);
-    all.filter_map(|method| quantity.by(method)).collect()
+    methods.iter().flat_map(single).filter_map(|method| quantity.by(method)).collect()
 }
 
 /// Quantities without duplicates, in the order of their first occurrence.
@@ -286,15 +274,12 @@ mod tests {
     #[test]
     fn a_condition_compares_a_quantity_or_an_outcome() {
         for (text, kind) in [
-            ("impact_force<=2.5 kN", Kind::Compared("impact_force", Relation::AtMost, 2500.0)),
-            ("F_S < 2500 N", Kind::Compared("impact_force", Relation::Below, 2500.0)),
-            ("contact_ratio>=1.4", Kind::Compared("contact_ratio", Relation::AtLeast, 1.4)),
-            ("contact_ratio>1.4", Kind::Compared("contact_ratio", Relation::Above, 1.4)),
+            ("impact_force<=2.5 kN", Kind::Compared("impact_force", AT_MOST, 2500.0)),
+            ("F_S < 2500 N", Kind::Compared("impact_force", SIGNS[2].1, 2500.0)),
+            ("contact_ratio>=1.4", Kind::Compared("contact_ratio", AT_LEAST, 1.4)),
+            ("contact_ratio>1.4", Kind::Compared("contact_ratio", SIGNS[3].1, 1.4)),
             ("outcome=no-corner-contact", Kind::Outcome(Outcome::NoCornerContact)),
-            (
-                "dynamic_contact_lost=false",
-                Kind::Compared("dynamic_contact_lost", Relation::AtMost, 0.0),
-            ),
+            ("dynamic_contact_lost=false", Kind::Compared("dynamic_contact_lost", AT_MOST, 0.0)),
         ] {
             assert_eq!(Condition::parse(text).unwrap().kind, kind, "{text}");
         }

@@ -3,7 +3,7 @@
 
 mod search;
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 
 use crate::case::units::{self, Dimension};
@@ -171,7 +171,9 @@ pub fn specify(
     let meter = Meter::new(WORK);
     let bench = PreparedMesh::new(&at_rest, &solution, demand, &loads, grid.most_relief())?;
     let searching = |part: f64| go_on(SEARCH * (part / USUAL_WORK).min(1.0));
-    let search = Search::new(&bench, &grid, &meter, &searching);
+    let (known, tries) = (RefCell::default(), Cell::new(0));
+    let search =
+        Search { bench: &bench, grid: &grid, meter: &meter, go_on: &searching, known, tries };
     let found = search.best_of_each_kind()?;
     let figures = Figures {
         inputs: &at_rest,
@@ -217,7 +219,7 @@ pub fn specify(
         choices,
         best,
         loads,
-        tries: search.tries(),
+        tries: search.tries.get(),
         is_cut: !meter.spend(0),
     })
 }

@@ -9,7 +9,6 @@ use crate::case::{Case, Problem, Spread, field_range, units};
 use crate::model::Inputs;
 use crate::model::deviation::base_pitch_tolerance;
 use crate::model::inputs::{Combination, Gear};
-use crate::model::solve::differ_in_load_alone;
 use crate::numeric::decimal::{shortest, significant};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -83,37 +82,28 @@ impl Design {
     }
 
     fn numbers(&self) -> Numbers<'_> {
-        Numbers {
-            design: self,
-            first: Stream::of(self, 0),
-            second: Stream::of(self, 1),
-            mixed: vec![0.0; self.distributions.len()],
-        }
-    }
-
-    /// A point as settings, such as `deviations.base_pitch = 1.6e-5 m`.
-    #[must_use]
-    pub fn point(&self, index: usize) -> String {
-        let values = self.distributions.iter().zip(self.values(index));
-        let settings: Vec<String> = values
-            .map(|(distribution, value)| {
-                let unit = distribution.unit();
-                format!(
-                    "{} = {}",
-                    distribution.key(),
-                    super::axis::with_unit(&format!("{value:?}"), unit)
-                )
-            })
-            .collect();
-        let rule = self.draws_known_deviations();
-        let rule = rule.then(|| "deviations.combination = sum".to_owned());
-        settings.into_iter().chain(rule).collect::<Vec<_>>().join(", ")
+        let [first, second] = [0, 1].map(|stream| Stream::of(self, stream));
+        Numbers { design: self, first, second, mixed: vec![0.0; self.distributions.len()] }
     }
 }
 
 impl Points for Design {
     fn count(&self) -> usize {
         self.samples + self.ranked * (self.distributions.len() + 1)
+    }
+
+    /// The settings, such as `deviations.base_pitch = 1.6e-5 m`.
+    fn point(&self, index: usize) -> String {
+        let values = self.distributions.iter().zip(self.values(index));
+        let setting = |(distribution, value): (&Distribution, f64)| {
+            let value = with_unit(&format!("{value:?}"), distribution.unit());
+            format!("{} = {value}", distribution.key())
+        };
+        let mut settings: Vec<String> = values.map(setting).collect();
+        if self.draws_known_deviations() {
+            settings.push("deviations.combination = sum".to_owned());
+        }
+        settings.join(", ")
     }
 
     fn sequence(&self) -> Sequence<'_> {
@@ -136,15 +126,6 @@ impl Points for Design {
             }
             Ok(())
         })
-    }
-
-    fn differ_in_load_alone(&self, inputs: &Inputs) -> bool {
-        let is_of_load = |distribution: &Distribution| {
-            let mut changed = inputs.clone();
-            distribution.put(f64::MIN_POSITIVE, &mut changed);
-            differ_in_load_alone(inputs, &changed)
-        };
-        self.distributions.iter().all(is_of_load)
     }
 }
 
@@ -183,53 +164,41 @@ impl Numbers<'_> {
 }
 
 /// Samples in which each has its own position in a stream of random numbers, so that its values do
-/// not depend on the order of reading. They are computed in blocks, since a processor computes
-/// independent values side by side.
+/// not depend on the order of reading.
 struct Stream<'a> {
     distributions: &'a [Distribution],
     generator: ChaCha8Rng,
-    /// The first sample of the block.
-    first: usize,
-    /// The values of the block, sample by sample; empty before the first read.
+    /// The sample at which the generator is.
+    next: usize,
+    /// The values of the sample before.
     values: Vec<f64>,
 }
 
 impl Stream<'_> {
-    /// Samples of a block.
-    const BLOCK: usize = 32;
-
     fn of(design: &Design, stream: u64) -> Stream<'_> {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&design.seed.to_le_bytes());
         let mut generator = ChaCha8Rng::from_seed(key);
         generator.set_stream(stream);
-        Stream { distributions: &design.distributions, generator, first: 0, values: Vec::new() }
+        Stream { distributions: &design.distributions, generator, next: 0, values: Vec::new() }
     }
 
     /// The values of a sample in SI, in the order of the distributions.
     fn sample(&mut self, number: usize) -> &[f64] {
-        let first = number / Self::BLOCK * Self::BLOCK;
-        if self.values.is_empty() || self.first != first {
-            self.read(first);
-        }
-        let width = self.distributions.len();
-        &self.values[(number - first) * width..][..width]
-    }
-
-    fn read(&mut self, first: usize) {
         /// Words of 32 bits that a value reads.
         const WORDS: u128 = 2;
-        let width = self.distributions.len();
-        self.generator.set_word_pos(WORDS * first as u128 * width as u128);
-        self.first = first;
-        self.values.clear();
-        let numbers = (0..Self::BLOCK * width).map(|_| random_part(&mut self.generator));
-        self.values.extend(numbers);
-        for (field, distribution) in self.distributions.iter().enumerate() {
-            for value in self.values.iter_mut().skip(field).step_by(width) {
-                *value = distribution.quantile(*value);
+        if self.next != number + 1 {
+            if self.next != number {
+                let values = number as u128 * self.distributions.len() as u128;
+                self.generator.set_word_pos(WORDS * values);
             }
+            let distributions = self.distributions.iter();
+            let generator = &mut self.generator;
+            self.values.clear();
+            self.values.extend(distributions.map(|one| one.quantile(random_part(generator))));
+            self.next = number + 1;
         }
+        &self.values
     }
 }
 

@@ -1,6 +1,5 @@
 //! Shards: parts of a study in separate files, which `gather` combines.
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::hash::Hasher;
@@ -8,7 +7,7 @@ use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::batch::{PointOutcome, Rows};
+use super::batch::{Batch, PointOutcome, Points, Rows};
 use super::sweep::Grid;
 use super::tolerance::{Size, Tolerance};
 use crate::case::sanitize::quoted;
@@ -16,6 +15,18 @@ use crate::case::{Case, Document, Problem, unknown_quantity};
 use crate::model::{Inputs, Quantity};
 use serde::{Deserialize, Serialize};
 use siphasher::sip::SipHasher24;
+
+/// The format of the output of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// Text in usual units.
+    Text,
+    /// JSON.
+    Json,
+    /// A header and one row per point.
+    Csv,
+}
 
 /// A case and the study of that case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,7 +38,7 @@ pub struct Request {
     /// The keys of the quantities.
     pub quantities: Vec<String>,
     /// The format of the output.
-    pub format: String,
+    pub format: Format,
     /// The points.
     pub points: PointsRequest,
 }
@@ -56,54 +67,79 @@ pub enum PointsRequest {
     },
 }
 
-/// A study that is restored from a request.
-pub struct Restored {
+/// A study that is ready to be solved, or to be gathered from its shards.
+pub struct Study {
+    /// The name of the case, as the user gave it.
+    pub name: String,
     /// The case.
     pub case: Case,
     /// The inputs of the model.
     pub inputs: Inputs,
     /// The quantities.
     pub quantities: Vec<&'static Quantity>,
+    /// The format of the output.
+    pub format: Format,
     /// The points.
-    pub study: Study,
+    pub kind: Kind,
 }
 
-/// The points of a restored study.
-pub enum Study {
+/// The points of a study.
+pub enum Kind {
     /// The points of `sweep`.
     Sweep(Grid),
     /// The points of `tolerance`.
     Tolerance(Tolerance),
 }
 
-impl Request {
-    /// Restores the study.
+impl Study {
+    /// The points.
+    #[must_use]
+    pub fn points(&self) -> &dyn Points {
+        match &self.kind {
+            Kind::Sweep(grid) => grid,
+            Kind::Tolerance(study) => &study.design,
+        }
+    }
+
+    /// The study for the solver.
+    #[must_use]
+    pub fn batch(&self) -> Batch<'_> {
+        Batch { inputs: &self.inputs, points: self.points(), quantities: &self.quantities }
+    }
+
+    /// The request that restores the study.
+    #[must_use]
+    pub fn request(&self, case: String, points: PointsRequest) -> Request {
+        let quantities = self.quantities.iter().map(|known| known.key.to_owned()).collect();
+        Request { name: self.name.clone(), case, quantities, format: self.format, points }
+    }
+
+    /// Restores a study.
     ///
     /// # Errors
     /// Returns an error if this version did not write the request.
-    pub fn restore(&self) -> Result<Restored, Problem> {
-        let document = Document::parse(&self.name, &self.case).map_err(|faults| Problem {
+    pub fn restore(request: &Request) -> Result<Study, Problem> {
+        let document = Document::parse(&request.name, &request.case).map_err(|faults| Problem {
             field: "case".to_owned(),
             cause: faults.first().map(ToString::to_string).unwrap_or_default(),
             fix: "run the shard again".to_owned(),
         })?;
         let case = document.case;
         let inputs = case.inputs().map_err(|mut problems| problems.swap_remove(0))?;
-        let quantities = self
-            .quantities
-            .iter()
-            .map(|key| Quantity::find(key).ok_or_else(|| unknown_quantity("quantities", key)))
-            .collect::<Result<Vec<_>, _>>()?;
-        let study = match &self.points {
+        let known =
+            |key: &String| Quantity::find(key).ok_or_else(|| unknown_quantity("quantities", key));
+        let quantities = request.quantities.iter().map(known).collect::<Result<Vec<_>, _>>()?;
+        let kind = match &request.points {
             PointsRequest::Sweep { vary, points, log } => {
-                Study::Sweep(Grid::parse(vary, points, *log).map_err(|(_, problem)| problem)?)
+                Kind::Sweep(Grid::parse(vary, points, *log).map_err(|(_, problem)| problem)?)
             }
             PointsRequest::Tolerance { samples, seed, ranked } => {
                 let size = Size { samples: *samples, seed: *seed, ranked: Some(*ranked) };
-                Study::Tolerance(Tolerance::of(&case, &inputs, &quantities, size)?)
+                Kind::Tolerance(Tolerance::of(&case, &inputs, &quantities, size)?)
             }
         };
-        Ok(Restored { case, inputs, quantities, study })
+        let (name, format) = (request.name.clone(), request.format);
+        Ok(Study { name, case, inputs, quantities, format, kind })
     }
 }
 
@@ -420,18 +456,18 @@ pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, ShardError> 
     let (request, of) = (one.header.request.clone(), one.header.shard.of);
     let name = |shard: &Complete| shard.path.display().to_string();
     let first = name(one);
-    let is_foreign = |shard: &&Complete| shard.header.request != request;
-    if let Some(foreign) = shards.iter().find(is_foreign) {
-        let foreign = name(foreign);
-        return wrong(format!(
-            "{foreign}: this shard belongs to another study than {first}: gather one study at a time"
-        ));
-    }
-    if let Some(other) = shards.iter().find(|shard| shard.header.shard.of != of) {
-        let (file, shard) = (name(other), other.header.shard);
-        return wrong(format!(
-            "{file}: shard {shard}, and {first} is one of {of}: use one number of shards"
-        ));
+    for shard in &shards {
+        let (file, own) = (name(shard), shard.header.shard);
+        if shard.header.request != request {
+            return wrong(format!(
+                "{file}: this shard belongs to another study than {first}: gather one study at a time"
+            ));
+        }
+        if own.of != of {
+            return wrong(format!(
+                "{file}: shard {own}, and {first} is one of {of}: use one number of shards"
+            ));
+        }
     }
     shards.sort_by_key(|shard| shard.header.shard.number);
     let same = |pair: &&[Complete]| pair[0].header.shard == pair[1].header.shard;
@@ -440,11 +476,11 @@ pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, ShardError> 
         let shard = twice[0].header.shard;
         return wrong(format!("{file}: shard {shard} is in {other}, too: leave one of them out"));
     }
-    let known: BTreeSet<usize> = shards.iter().map(|shard| shard.header.shard.number).collect();
-    let missing: Vec<String> = (1..=of)
-        .filter(|number| !known.contains(number))
-        .map(|number| format!("{number}/{of}"))
-        .collect();
+    let is_missing = |number: &usize| {
+        shards.binary_search_by_key(number, |shard| shard.header.shard.number).is_err()
+    };
+    let missing = (1..=of).filter(is_missing).map(|number| format!("{number}/{of}"));
+    let missing: Vec<String> = missing.collect();
     if missing.is_empty() {
         return Ok(shards);
     }

@@ -4,9 +4,9 @@ use crate::model::compliance::contact::HalfWidth;
 use crate::model::compliance::tooth::{Tooth, ToothModel, field_of};
 use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity, Teeth};
 use crate::model::field::Field;
-use crate::model::geometry::{Circles, Geometry, LoadInputs, geometry, mesh_force};
+use crate::model::geometry::{Circles, Geometry, geometry, mesh_force};
 use crate::model::inputs::{Gear, ToothCompliance};
-use crate::model::masses::{MassInputs, Masses};
+use crate::model::masses::Masses;
 use crate::model::profile::Profile;
 use crate::model::{Inputs, Refusal};
 use nalgebra::{DMatrix, DVector};
@@ -40,12 +40,8 @@ pub struct Flanks {
 /// The compliances of both gears, and the stiffness over the path of contact.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// Hertz half-width of the contact at the pitch point under the mesh force, in m.
-    pub contact_half_width: f64,
-    /// The models in the order of [`Point::models`].
-    pub models: Vec<ToothCompliance>,
-    /// Driver and driven gear.
-    pub gears: [GearComparison; 2],
+    /// The compliances of both gears.
+    pub flanks: Flanks,
     /// Stiffness of each pair and of the mesh over the path of contact.
     pub path: PathComparison,
 }
@@ -113,8 +109,7 @@ pub struct FieldPoint {
 /// # Errors
 /// The refusals of the geometry, and [`Refusal::BoreTooLarge`].
 pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
-    let Flanks { contact_half_width, models, gears } = compare_flanks(inputs, points)?;
-    Ok(Comparison { contact_half_width, models, gears, path: compare_path(inputs, points)? })
+    Ok(Comparison { flanks: compare_flanks(inputs, points)?, path: compare_path(inputs, points)? })
 }
 
 /// Compares the models over both flanks, without the path of contact.
@@ -129,8 +124,16 @@ pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal>
     let contact_half_width = HalfWidth::of(&elasticity).at(&place, mesh_force);
     let models: Vec<_> =
         ToothCompliance::ALL.into_iter().filter(|model| model.name() != FIELD).collect();
-    let flanks = flanks(inputs, &geometry, &place);
-    let gears = flanks.map(|flank| flank.compare(inputs, &models, points, contact_half_width));
+    let flank = |name, gear, elastic: ElasticGear, circles, pitch_radius| {
+        let profile = Profile::of(&elastic.rack, circles);
+        let flank = Flank { name, gear, elastic, circles, pitch_radius, profile };
+        flank.compare(inputs, &models, points, contact_half_width)
+    };
+    let (Elasticity { driver, driven, .. }, of) = (elasticity, &geometry);
+    let gears = [
+        flank("driver", &inputs.driver, driver, &of.driver, place.radius_driver),
+        flank("driven", &inputs.driven, driven, &of.driven, place.radius_driven),
+    ];
     Ok(Flanks { contact_half_width, models, gears })
 }
 
@@ -147,8 +150,8 @@ pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Re
 fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
     let geometry = geometry::<f64>(&inputs.shape())?;
     // Refuses a bore that leaves no gear body.
-    Masses::of(&MassInputs::of(inputs), &geometry)?;
-    let mesh_force = mesh_force(&LoadInputs::of(inputs), &geometry);
+    Masses::of(&inputs.bodies(), &geometry)?;
+    let mesh_force = mesh_force(inputs.torque(), &geometry);
     Ok((geometry, mesh_force))
 }
 
@@ -160,39 +163,6 @@ struct Flank<'a> {
     circles: &'a Circles,
     pitch_radius: f64,
     profile: Profile,
-}
-
-/// The gears, with the pitch point as the place of contact that gives their pitch circles.
-fn flanks<'a>(
-    inputs: &'a Inputs,
-    geometry: &'a Geometry,
-    pitch_point: &ContactPlace,
-) -> [Flank<'a>; 2] {
-    let elasticity = inputs.elasticity();
-    let flank = |name, gear, elastic: ElasticGear, circles, pitch_radius| Flank {
-        name,
-        gear,
-        elastic,
-        circles,
-        pitch_radius,
-        profile: Profile::of(&elastic.rack, circles),
-    };
-    [
-        flank(
-            "driver",
-            &inputs.driver,
-            elasticity.driver,
-            &geometry.driver,
-            pitch_point.radius_driver,
-        ),
-        flank(
-            "driven",
-            &inputs.driven,
-            elasticity.driven,
-            &geometry.driven,
-            pitch_point.radius_driven,
-        ),
-    ]
 }
 
 impl Flank<'_> {
@@ -447,7 +417,7 @@ mod tests {
         let mut inputs = standard_pair(20, 110, 5e-3);
         inputs.driver.bore_radius = 20e-3;
         inputs.driven.bore_radius = 60e-3;
-        let found = compare(&inputs, 3).unwrap();
+        let found = compare_flanks(&inputs, 3).unwrap();
         let kuang_yang = |gear: &GearComparison| {
             let values = gear.points.iter().map(|point| point.models[0]);
             values.flatten().count()
@@ -465,13 +435,13 @@ mod tests {
         let mut inputs = standard_pair(20, 30, 5e-3);
         inputs.driver.bore_radius = 20e-3;
         inputs.driven.bore_radius = 20e-3;
-        let before = compare(&inputs, 5).unwrap();
+        let before = compare_flanks(&inputs, 5).unwrap();
         inputs.module *= 2.0;
         for gear in [&mut inputs.driver, &mut inputs.driven] {
             gear.young /= 3.0;
             gear.bore_radius *= 2.0;
         }
-        let after = compare(&inputs, 5).unwrap();
+        let after = compare_flanks(&inputs, 5).unwrap();
         for (before, after) in before.gears.iter().zip(&after.gears) {
             assert_eq!(before.points.len(), 5);
             for (before, after) in before.points.iter().zip(&after.points) {

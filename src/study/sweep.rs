@@ -101,21 +101,17 @@ impl Grid {
             axis.points[at].put(axis.field, inputs);
         }
     }
-
-    /// A point as settings, such as `operation.speed = 500 rpm, driven.tip_relief = 16 um`.
-    #[must_use]
-    pub fn point(&self, index: usize) -> String {
-        let settings: Vec<String> = self
-            .places(index)
-            .map(|(axis, at)| format!("{} = {}", axis.key(), axis.with_unit(at)))
-            .collect();
-        settings.join(", ")
-    }
 }
 
 impl Points for Grid {
     fn count(&self) -> usize {
         self.axes.iter().map(|axis| axis.points.len()).product()
+    }
+
+    fn point(&self, index: usize) -> String {
+        let setting =
+            |(axis, at): (&Axis, usize)| format!("{} = {}", axis.key(), axis.with_unit(at));
+        self.places(index).map(setting).collect::<Vec<_>>().join(", ")
     }
 
     fn sequence(&self) -> Sequence<'_> {

@@ -1,9 +1,7 @@
 //! Tolerance studies: the results of a case with distributed fields.
 
-use std::borrow::Cow;
-
 use super::batch::{Batch, Control, PointOutcome, Points, Refusals, Rows, Stopped, solve_all};
-use super::condition::{State, distinct, headline};
+use super::condition::{distinct, headline};
 use super::sample::{Design, Distribution, Member};
 use super::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
 use crate::case::{Case, Limit, Problem};
@@ -129,31 +127,28 @@ impl Tolerance {
     fn exceedance(&self, limit: &Limit, samples: &Samples) -> Option<Exceedance> {
         let quantity = Quantity::find(limit.quantity)?;
         let at = self.quantities.iter().position(|known| known.key == quantity.key)?;
-        let (mut above, mut known) = (0, 0);
-        for sample in 0..self.design.samples {
-            match limit_state(quantity, limit, samples.outcomes[sample], samples.value(at, sample))
-            {
-                Some(State::NotMet) => (above, known) = (above + 1, known + 1),
-                Some(_) => known += 1,
-                None => {}
+        let exceeds = |sample| {
+            let PointOutcome::Solved(outcome) = samples.outcomes[sample] else { return None };
+            match samples.value(at, sample) {
+                Some(value) => Some(value > limit.value),
+                // Without contact there is no value above the limit.
+                None => (outcome == Outcome::NoCornerContact || quantity.is_of_free_impact())
+                    .then_some(false),
             }
-        }
+        };
+        let states: Vec<bool> = (0..self.design.samples).filter_map(exceeds).collect();
+        let above = states.iter().filter(|&&is_above| is_above).count();
         Some(Exceedance {
             quantity,
             limit: limit.clone(),
-            known,
-            probability: probability(above, known),
+            known: states.len(),
+            probability: probability(above, states.len()),
         })
     }
 
     fn quantity(&self, at: usize, samples: &Samples) -> OfQuantity {
-        let column = &samples.columns[at][..self.design.samples];
-        let is_absent = |value: &f64| value.is_nan();
-        let values: Cow<[f64]> = if column.iter().any(is_absent) {
-            column.iter().copied().filter(|value| !is_absent(value)).collect()
-        } else {
-            column.into()
-        };
+        let column = samples.columns[at][..self.design.samples].iter().copied();
+        let values: Vec<f64> = column.filter(|value| !value.is_nan()).collect();
         let ranked = self.ranked(at, samples);
         OfQuantity {
             quantity: self.quantities[at],
@@ -176,27 +171,6 @@ impl Tolerance {
             })
         };
         (0..self.design.ranked).filter_map(of).collect()
-    }
-}
-
-/// Whether a sample meets a limit; `None` if the sample is refused or the quantity is absent for
-/// another reason than no contact.
-fn limit_state(
-    quantity: &Quantity,
-    limit: &Limit,
-    outcome: PointOutcome,
-    value: Option<f64>,
-) -> Option<State> {
-    let PointOutcome::Solved(outcome) = outcome else {
-        return None;
-    };
-    match value {
-        Some(value) if value > limit.value => Some(State::NotMet),
-        Some(_) => Some(State::Met),
-        None if outcome == Outcome::NoCornerContact || quantity.is_of_free_impact() => {
-            Some(State::Met)
-        }
-        None => None,
     }
 }
 

@@ -1,22 +1,20 @@
 //! Run time against accuracy: every method with several settings and every compliance, each timed
 //! and compared with one reference.
 
-mod clock;
-mod results;
-mod second;
-
+use std::fmt;
 use std::hint::black_box;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
-use clock::Batches;
-pub use clock::{Build, Patience, Time};
-pub use results::{
-    Differences, Figures, METHODS, MeasuredSetting, Model, Reference, STATIONS, Setting, Trade,
-    greatest,
-};
+use crate::case::Case;
+use crate::case::fields::{AUTO, index_of};
+use crate::model::compliance::ElasticGear;
+use crate::model::compliance::tooth::field_gear;
+use crate::model::impact::StiffnessModels;
+use crate::model::inputs::{Gear, Method};
+use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages, auto};
+
+/// How long each setting is timed for a reliable figure; no time means a single run.
+pub const STEADY: Duration = Duration::from_millis(25);
 
 /// The parameters of a trade study.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,20 +22,103 @@ pub struct TradeParameters {
     /// Accepted error of a setting, relative to the reference; also the tolerance of method `auto`.
     pub within: f64,
     /// How long each setting is timed.
-    pub patience: Patience,
+    pub patience: Duration,
 }
 
-const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
-
-/// Answers for the comparison, with their curves; only the running measurement needs them.
-struct References {
-    truth: Option<Arc<Answer>>,
-    /// Best settings with their answers.
-    best: Vec<(Setting, Arc<Answer>)>,
+/// The methods and their settings, measured on one case.
+#[derive(Debug, Clone)]
+pub struct Trade {
+    /// The accepted error of a setting.
+    pub within: f64,
+    /// Number of settings to measure.
+    pub planned: usize,
+    /// The settings measured so far.
+    pub settings: Vec<MeasuredSetting>,
+    /// The reference, or the refusal.
+    pub reference: Result<Reference, Refusal>,
+    /// Model error of each method: its finest setting against the reference.
+    pub models: Vec<Model>,
+    /// Seconds to build the fields of both gears, or the reason why one has none.
+    pub build: Result<Build, Refusal>,
 }
 
-/// Measures every setting on the case: first the errors, then all times in rounds until the median
-/// of each is steady. `show` receives the results after each setting and each round.
+/// The answer of method `dynamic` with the finest setting, by the default compliance: the elastic
+/// field if both gears have one.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    /// The setting of the reference.
+    pub setting: Setting,
+    /// The values in SI, in the order of [`Subject::ALL`].
+    pub values: [Option<f64>; Subject::ALL.len()],
+}
+
+/// Relative differences in the order of [`Subject::ALL`]; `None` if a method has no such quantity.
+pub type Differences = [Option<f64>; Subject::ALL.len()];
+
+/// The model error of a method.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Its finest setting.
+    pub setting: Setting,
+    /// Difference of this setting from the reference.
+    pub off: Differences,
+    /// The outcome of this setting, if it solves the case.
+    pub outcome: Option<Outcome>,
+}
+
+/// A setting with its time and errors.
+#[derive(Debug, Clone)]
+pub struct MeasuredSetting {
+    /// The setting.
+    pub setting: Setting,
+    /// Whether it is the setting of the case.
+    pub is_current: bool,
+    /// The measured figures, or the refusal of the case.
+    pub found: Result<Figures, Refusal>,
+    /// Whether no other setting is both faster and more accurate.
+    pub is_on_front: bool,
+    /// Whether the error is within the accepted error.
+    pub qualifies: bool,
+}
+
+/// Time and errors.
+#[derive(Debug, Clone)]
+pub struct Figures {
+    /// The setting that the solve used: another one if method `auto` chose it.
+    pub taken: Setting,
+    /// Time of a solve of the stages that the answer needs.
+    pub time: Time,
+    /// Evaluations of the motion in method `dynamic`, see
+    /// [`Effort`](crate::model::dynamic::Effort).
+    pub evaluations: Option<u64>,
+    /// Difference from the finest setting of the same method.
+    pub numerical: Differences,
+    /// Difference from the reference.
+    pub total: Differences,
+}
+
+/// The run time of a solve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Time {
+    /// The median of the runs, in s.
+    pub seconds: f64,
+    /// Half the interquartile range of the runs, in s.
+    pub spread: f64,
+    /// Number of measured runs.
+    pub runs: usize,
+}
+
+/// Seconds to build the field of each gear; later solves read the cached fields.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Build {
+    /// Driver.
+    pub driver: f64,
+    /// Driven gear.
+    pub driven: f64,
+}
+
+/// Measures error and time of every setting on the case. `show` receives the results after each
+/// setting.
 ///
 /// # Errors
 /// [`Refusal::Stopped`] if `go_on` returns false; the refusal of the model if no method solves the
@@ -49,47 +130,74 @@ pub fn trade(
     show: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
     let inputs = &Inputs { within: parameters.within, ..inputs.clone() };
-    let settings = settings(inputs);
-    let (mut trade, references) = References::find(inputs, parameters, settings.len(), go_on)?;
-    show(&trade);
-    let mut rounds = Rounds::begin(inputs, parameters.patience, go_on);
-    for setting in settings {
-        let measured = references.measure(inputs, setting, &mut rounds)?;
-        trade.settings.push(measured);
-        trade.judge();
-        trade.part = rounds.part(trade.planned);
-        show(&trade);
-    }
-    while rounds.go_on() {
-        for (measured, time) in trade.settings.iter_mut().zip(rounds.round()?) {
-            if let (Ok(figures), Some(time)) = (&mut measured.found, time) {
-                figures.time = time;
-            }
-        }
-        trade.judge();
-        trade.part = rounds.part(trade.planned);
-        show(&trade);
-    }
-    let refusals = trade.settings.iter().map(|measured| measured.found.as_ref().err());
-    match refusals.collect::<Option<Vec<_>>>() {
-        Some(refusals) if !refusals.is_empty() => Err(*refusals[0]),
-        _ => Ok(trade),
-    }
-}
-
-/// Every setting, including that of the case.
-fn settings(inputs: &Inputs) -> Vec<Setting> {
-    let (mut settings, current) = (Setting::all(inputs), Setting::of(inputs));
+    let mut settings = Setting::all(inputs);
+    let current = Setting::of(inputs);
     if !settings.contains(&current) {
         settings.push(current);
     }
-    settings
+    let finest = finest(inputs)
+        .into_iter()
+        .map(|setting| {
+            let solution = stopped(solve(&setting.inputs(inputs), go_on))?;
+            Ok((setting, solution.map(|solution| Answer::of(&solution))))
+        })
+        .collect::<Result<Vec<_>, Refusal>>()?;
+    let (reference, truth) = &finest[REFERENCE];
+    let off = |found: &Answer| truth.as_ref().map_or(NO_DIFFERENCES, |truth| found.all_off(truth));
+    let model = |(setting, found): &(Setting, Result<Answer, Refusal>)| Model {
+        setting: *setting,
+        off: found.as_ref().map_or(NO_DIFFERENCES, off),
+        outcome: found.as_ref().ok().map(|found| found.outcome),
+    };
+    let mut trade = Trade {
+        within: parameters.within,
+        planned: settings.len(),
+        // The capacity is exact, because a measurement stays in memory with its case.
+        settings: Vec::with_capacity(settings.len()),
+        reference: truth
+            .as_ref()
+            .map(|truth| Reference { setting: *reference, values: truth.values })
+            .map_err(|refusal| *refusal),
+        models: finest.iter().map(model).collect(),
+        build: Build::measure(inputs),
+    };
+    show(&trade);
+    for setting in settings {
+        let of_setting = setting.inputs(inputs);
+        let found = stopped(timed(parameters.patience, || solve(&of_setting, go_on)))?;
+        let found = found.map(|(solution, time)| {
+            let answer = Answer::of(&solution);
+            let taken = setting.taken(inputs, answer.method);
+            let best = finest.iter().find(|(best, _)| best.is_finer_or_coarser(&taken));
+            let best = best.and_then(|(_, best)| best.as_ref().ok());
+            Figures {
+                taken,
+                time,
+                evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.effort.evaluations),
+                numerical: best.map_or(NO_DIFFERENCES, |best| answer.all_off(best)),
+                total: off(&answer),
+            }
+        });
+        let is_current = setting == current;
+        let (is_on_front, qualifies) = (false, false);
+        trade.settings.push(MeasuredSetting { setting, is_current, found, is_on_front, qualifies });
+        trade.judge();
+        show(&trade);
+    }
+    match trade.settings.iter().find(|measured| measured.found.is_ok()) {
+        Some(_) => Ok(trade),
+        None => Err(trade.settings[0].found.as_ref().err().copied().unwrap_or(Refusal::Stopped)),
+    }
 }
+
+const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
+
+/// The index of the reference among the finest settings.
+const REFERENCE: usize = 3;
 
 /// The finest setting of each method, and of the method and compliance of the case.
 fn finest(inputs: &Inputs) -> Vec<Setting> {
-    let mut settings: Vec<Setting> =
-        METHODS.iter().map(|&method| Setting::usual(method, inputs).best()).collect();
+    let mut settings = METHODS.map(|method| Setting::usual(method, inputs).best()).to_vec();
     let own = Setting::of(inputs).best();
     if own.models.is_some() && own.method != Method::Auto && !settings.contains(&own) {
         settings.push(own);
@@ -97,210 +205,349 @@ fn finest(inputs: &Inputs) -> Vec<Setting> {
     settings
 }
 
-impl References {
-    /// The reference, its check, and the finest setting of each method.
-    fn find(
-        inputs: &Inputs,
-        parameters: &TradeParameters,
-        planned: usize,
-        go_on: &dyn Fn() -> bool,
-    ) -> Result<(Trade, References), Refusal> {
-        let (reference, truth) = stopped(reference(inputs, go_on))?.map_or_else(
-            |refusal| (Err(refusal), None),
-            |(reference, truth)| (Ok(reference), Some(Arc::new(truth))),
-        );
-        let (mut models, mut best) = (Vec::new(), Vec::new());
-        for setting in finest(inputs) {
-            let found = match (&reference, &truth) {
-                (Ok(reference), Some(truth)) if setting == reference.setting => {
-                    Some(Arc::clone(truth))
-                }
-                _ => stopped(answer_of(inputs, setting, go_on))?.ok().map(Arc::new),
-            };
-            let off = found
-                .as_ref()
-                .zip(truth.as_ref())
-                .map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
-            models.push(Model { setting, off, outcome: found.as_ref().map(|found| found.outcome) });
-            best.extend(found.map(|found| (setting, found)));
-        }
-        // The capacity is exact, because a measurement stays in memory with its case.
-        let settings = Vec::with_capacity(planned);
-        let trade = Trade {
-            within: parameters.within,
-            planned,
-            settings,
-            part: 0.0,
-            reference,
-            models,
-            build: Build::measure(inputs, parameters.patience),
-            cheapest: None,
-        };
-        Ok((trade, References { truth, best }))
-    }
-
-    /// Errors of a setting, with a first time.
-    fn measure(
-        &self,
-        inputs: &Inputs,
-        setting: Setting,
-        rounds: &mut Rounds<'_>,
-    ) -> Result<MeasuredSetting, Refusal> {
-        let found = rounds.first(setting)?.map(|(answer, time)| {
-            let taken = setting.taken(inputs, answer.method);
-            self.figures(&answer, taken, time)
-        });
-        let is_current = setting == Setting::of(inputs);
-        Ok(MeasuredSetting { setting, is_current, found, is_on_front: false, qualifies: false })
-    }
-
-    fn figures(&self, answer: &Answer, taken: Setting, time: Time) -> Figures {
-        let best = self.best.iter().find(|(setting, _)| setting.is_finer_or_coarser(&taken));
-        let numerical = best.map_or(NO_DIFFERENCES, |(_, best)| differences(answer, best));
-        let total = self.truth.as_ref().map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
-        Figures { taken, time, evaluations: answer.evaluations, numerical, total }
-    }
-}
-
-/// Fraction of the progress for the first run of every setting.
-const FIRST_LOOK: f64 = 0.2;
-
-struct Rounds<'a> {
-    inputs: &'a Inputs,
-    patience: Patience,
-    is_wanted: &'a dyn Fn() -> bool,
-    timed: Vec<Timed>,
-    begun: Instant,
-    /// Total time of the first runs.
-    first_look: Duration,
-    done: u32,
-}
-
-/// A setting and its times, if it solves the case.
-struct Timed {
-    inputs: Inputs,
-    batches: Option<Batches>,
-}
-
-impl<'a> Rounds<'a> {
-    fn begin(
-        inputs: &'a Inputs,
-        patience: Patience,
-        is_wanted: &'a dyn Fn() -> bool,
-    ) -> Rounds<'a> {
-        let begun = Instant::now();
-        Rounds {
-            inputs,
-            patience,
-            is_wanted,
-            timed: Vec::new(),
-            begun,
-            first_look: Duration::ZERO,
-            done: 0,
-        }
-    }
-
-    /// Adds a setting: returns its answer and the time of one solve, or its refusal.
-    fn first(&mut self, setting: Setting) -> Result<Result<(Answer, Time), Refusal>, Refusal> {
-        if !(self.is_wanted)() {
-            return Err(Refusal::Stopped);
-        }
-        let inputs = setting.inputs(self.inputs);
-        let (mut batches, mut found) = (Batches::default(), None);
-        batches.add(Duration::ZERO, || found.insert(solve(&inputs, self.is_wanted)).is_ok());
-        let found = stopped(found.unwrap_or(Err(Refusal::Stopped)))?;
-        let time = batches.time();
-        self.timed.push(Timed { inputs, batches: time.is_some().then_some(batches) });
-        self.first_look = self.begun.elapsed();
-        Ok(found.and_then(|solution| Ok((Answer::of(&solution), time.ok_or(Refusal::Stopped)?))))
-    }
-
-    /// Whether to measure another round: a time is not steady yet, and the round ends within the
-    /// time limit.
-    fn go_on(&self) -> bool {
-        let gone = self.begun.elapsed().saturating_sub(self.first_look);
-        let round = if self.done == 0 { self.first_look } else { gone / self.done };
-        let is_unsteady =
-            |timed: &Timed| timed.batches.as_ref().is_some_and(|batches| !batches.are_steady());
-        gone + round <= self.patience.most && self.timed.iter().any(is_unsteady)
-    }
-
-    /// Measures every setting once more; returns the times so far.
-    fn round(&mut self) -> Result<Vec<Option<Time>>, Refusal> {
-        self.done += 1;
-        for Timed { inputs, batches } in &mut self.timed {
-            let once = || {
-                (self.is_wanted)() && black_box(solve(black_box(inputs), self.is_wanted)).is_ok()
-            };
-            if batches.as_mut().is_some_and(|batches| !batches.add(self.patience.batch, once)) {
-                return Err(Refusal::Stopped);
-            }
-        }
-        Ok(self.timed.iter().map(|timed| timed.batches.as_ref()?.time()).collect())
-    }
-
-    /// The progress, from 0 to 1, for a number of settings.
-    fn part(&self, planned: usize) -> f64 {
-        if self.timed.len() < planned {
-            return FIRST_LOOK * self.timed.len() as f64 / planned as f64;
-        }
-        if !self.go_on() {
-            return 1.0;
-        }
-        let gone = self.begun.elapsed().saturating_sub(self.first_look);
-        let part = gone.as_secs_f64() / self.patience.most.as_secs_f64().max(1e-9);
-        FIRST_LOOK + (1.0 - FIRST_LOOK) * part.min(1.0)
-    }
-}
-
-/// The reference with its full answer.
-fn reference(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, Answer), Refusal> {
-    let setting = Setting::usual(Method::Dynamic, inputs).best();
-    let inputs = setting.inputs(inputs);
-    let solution = solve(&inputs, go_on)?;
-    let answer = Answer::of(&solution);
-    let second = stopped(second::independent_solution(&inputs, &solution, go_on))?;
-    let off = |second: second::Second| {
-        Subject::ALL
-            .map(|subject| relative_difference(second.value(subject), answer.value(subject)))
-    };
-    let disagreement = second.map(off);
-    Ok((
-        Reference {
-            setting,
-            values: Subject::ALL.map(|subject| answer.value(subject)),
-            disagreement,
-        },
-        answer,
-    ))
-}
-
-/// Relative difference of two results; `None` if one is absent.
-fn relative_difference(second: Option<f64>, first: Option<f64>) -> Option<f64> {
-    match (second?, first?) {
-        // Also if both are 0.
-        (second, first) if first.to_bits() == second.to_bits() => Some(0.0),
-        (second, first) => Some(((second - first) / first).abs()),
-    }
-}
-
-fn differences(answer: &Answer, truth: &Answer) -> Differences {
-    Subject::ALL.map(|subject| answer.off(truth, subject))
-}
-
-fn answer_of(
-    inputs: &Inputs,
-    setting: Setting,
-    go_on: &dyn Fn() -> bool,
-) -> Result<Answer, Refusal> {
-    solve(&setting.inputs(inputs), go_on).map(|solution| Answer::of(&solution))
-}
-
 /// Passes on a stop as an error, and any other refusal as a result.
 fn stopped<T>(found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
     match found {
         Err(Refusal::Stopped) => Err(Refusal::Stopped),
         other => Ok(other),
+    }
+}
+
+/// Solves once, then repeats the solve for a time. The first run fills the caches: it counts only
+/// if it is the only one.
+fn timed(
+    patience: Duration,
+    solve: impl Fn() -> Result<Solution, Refusal>,
+) -> Result<(Solution, Time), Refusal> {
+    let run = || {
+        let begun = Instant::now();
+        let solution = black_box(solve()?);
+        Ok((solution, begun.elapsed().as_secs_f64()))
+    };
+    let (solution, first) = run()?;
+    let (begun, mut seconds) = (Instant::now(), Vec::new());
+    while begun.elapsed() < patience {
+        seconds.push(run()?.1);
+    }
+    if seconds.is_empty() {
+        seconds.push(first);
+    }
+    seconds.sort_by(f64::total_cmp);
+    let runs = seconds.len();
+    let quarter = |part: usize| seconds[(runs - 1) * part / 4];
+    let spread = 0.5 * (quarter(3) - quarter(1));
+    Ok((solution, Time { seconds: quarter(2), spread, runs }))
+}
+
+impl Build {
+    fn measure(inputs: &Inputs) -> Result<Build, Refusal> {
+        let of = |gear: &Gear| {
+            let begun = Instant::now();
+            black_box(field_gear(&ElasticGear::of(inputs, gear)).build()?);
+            Ok::<f64, Refusal>(begun.elapsed().as_secs_f64())
+        };
+        Ok(Build { driver: of(&inputs.driver)?, driven: of(&inputs.driven)? })
+    }
+}
+
+/// The greatest difference, if any.
+#[must_use]
+pub fn greatest(differences: &Differences) -> Option<f64> {
+    differences.iter().flatten().copied().reduce(f64::max)
+}
+
+impl Trade {
+    /// The progress of the measurement, from 0 to 1.
+    #[must_use]
+    pub fn part(&self) -> f64 {
+        self.settings.len() as f64 / self.planned as f64
+    }
+
+    /// The model error of the method and compliance of a setting.
+    #[must_use]
+    pub fn model(&self, setting: &Setting) -> Option<&Model> {
+        self.models.iter().find(|model| model.setting.is_finer_or_coarser(setting))
+    }
+
+    /// The compared compliances, first that of the reference.
+    #[must_use]
+    pub fn compliances(&self) -> Vec<StiffnessModels> {
+        let reference = self.reference.as_ref().ok().map(|reference| &reference.setting);
+        let settings = self.settings.iter().map(|measured| &measured.setting);
+        let mut found: Vec<StiffnessModels> = Vec::new();
+        for models in reference.into_iter().chain(settings).filter_map(|setting| setting.models) {
+            if !found.contains(&models) {
+                found.push(models);
+            }
+        }
+        found
+    }
+
+    /// The default setting of a method and compliance.
+    #[must_use]
+    pub fn usual(&self, method: Method, models: StiffnessModels) -> Option<&MeasuredSetting> {
+        self.settings.iter().find(|measured| {
+            let setting = &measured.setting;
+            (setting.method, setting.models) == (method, Some(models))
+                && *setting == setting.usual_fineness()
+        })
+    }
+
+    /// The fastest setting that qualifies; `None` if no method finds corner contact: without a
+    /// force, no setting can reduce its error.
+    #[must_use]
+    pub fn recommended(&self) -> Option<&MeasuredSetting> {
+        self.cheapest_where(|_| true).filter(|_| !self.is_without_contact())
+    }
+
+    /// Whether every method that solves the case finds no corner contact.
+    #[must_use]
+    pub fn is_without_contact(&self) -> bool {
+        let mut outcomes = self.models.iter().filter_map(|model| model.outcome).peekable();
+        outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
+    }
+
+    /// Marks the settings that qualify and the settings on the front.
+    pub fn judge(&mut self) {
+        let point = |one: &MeasuredSetting| Some((one.total()?, one.seconds()));
+        let points: Vec<_> = self.settings.iter().map(point).collect();
+        for (measured, point) in self.settings.iter_mut().zip(&points) {
+            measured.qualifies = point.is_some_and(|(total, _)| total <= self.within);
+            measured.is_on_front = point.is_some_and(|point| {
+                let is_worse = |other: &(f64, f64)| {
+                    other.0 <= point.0 && other.1 <= point.1 && *other != point
+                };
+                !points.iter().flatten().any(is_worse)
+            });
+        }
+    }
+
+    /// The fastest of the admitted settings that qualifies, among the methods from which `auto`
+    /// chooses: `auto` itself uses one of these, and `paper` repeats `exact`. Of settings whose
+    /// times are not distinguishable, the most accurate.
+    #[must_use]
+    pub fn cheapest_where(&self, admitted: impl Fn(&Setting) -> bool) -> Option<&MeasuredSetting> {
+        let is_candidate = |measured: &&MeasuredSetting| {
+            measured.qualifies
+                && auto::METHODS.contains(&measured.setting.method)
+                && admitted(&measured.setting)
+        };
+        let candidates = || self.settings.iter().filter(is_candidate);
+        let by = |key: fn(&MeasuredSetting) -> f64| {
+            move |one: &&MeasuredSetting, other: &&MeasuredSetting| key(one).total_cmp(&key(other))
+        };
+        let fastest = candidates().min_by(by(MeasuredSetting::seconds))?;
+        let spread = |measured: &MeasuredSetting| {
+            measured.found.as_ref().map_or(0.0, |figures| figures.time.spread)
+        };
+        let ties = |measured: &&MeasuredSetting| {
+            measured.seconds() - fastest.seconds() <= spread(measured) + spread(fastest)
+        };
+        candidates().filter(ties).min_by(by(|one| one.total().unwrap_or(f64::INFINITY)))
+    }
+}
+
+impl MeasuredSetting {
+    /// Time of a solve in s; infinite without a solve.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.found.as_ref().map_or(f64::INFINITY, |figures| figures.time.seconds)
+    }
+
+    /// The greatest total error, if the setting answers all needed subjects.
+    #[must_use]
+    pub fn total(&self) -> Option<f64> {
+        let total = &self.found.as_ref().ok()?.total;
+        let is_answered = |subject: &Subject| total[*subject as usize].is_some();
+        greatest(total).filter(|_| Subject::NEEDED.iter().all(is_answered))
+    }
+}
+
+/// The compared methods, fastest first.
+pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
+/// The compared numbers of intervals between stations.
+pub const STATIONS: [usize; 8] = [8, 16, 32, 64, 128, 256, 512, 1024];
+/// The compared tolerances besides the default one.
+const TOLERANCES: [f64; 7] = [1e-3, 1e-4, 1e-5, 1e-7, 1e-8, 1e-9, 1e-10];
+/// Number of intervals of the finest setting of a method.
+const BEST_STATIONS: usize = 4096;
+/// Tolerance of the finest setting.
+const BEST_TOLERANCE: f64 = 1e-12;
+
+/// A method with a compliance and a fineness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// The method.
+    pub method: Method,
+    /// Compliance of teeth and contact; `None` if method `auto` chooses it.
+    pub models: Option<StiffnessModels>,
+    /// Number of intervals between the first contact and E; `None` for as many as the curve needs.
+    pub stations: Option<usize>,
+    /// Relative tolerance of the peak force; in method `dynamic` only.
+    pub tolerance: Option<f64>,
+    /// Geometry and position in double-double arithmetic.
+    pub accurate: bool,
+}
+
+impl Setting {
+    /// Every compared setting: each method coarse and fine with the default compliance, then the
+    /// default setting of each method with every other compliance that covers the pair.
+    #[must_use]
+    pub fn all(inputs: &Inputs) -> Vec<Setting> {
+        let usual = |method| Setting::usual(method, inputs);
+        let dynamic = usual(Method::Dynamic);
+        let tolerances =
+            TOLERANCES.map(|tolerance| Setting { tolerance: Some(tolerance), ..dynamic });
+        let fineness = [Method::Paper, Method::Exact, Method::Static]
+            .into_iter()
+            .flat_map(|method| usual(method).with_stations())
+            .chain(tolerances)
+            .chain(dynamic.with_stations())
+            .chain(tolerances[0].with_stations())
+            .chain([Setting { stations: None, models: None, ..usual(Method::Auto) }]);
+        let others = StiffnessModels::covering(inputs).flat_map(|models| {
+            METHODS.map(|method| Setting { models: Some(models), ..usual(method) })
+        });
+        let mut settings: Vec<Setting> = Vec::new();
+        for setting in fineness.chain(others) {
+            if !settings.contains(&setting) {
+                settings.push(setting);
+            }
+        }
+        settings
+    }
+
+    /// The setting of a case that sets only the method.
+    #[must_use]
+    pub fn usual(method: Method, inputs: &Inputs) -> Setting {
+        let inputs = Inputs { method, ..inputs.clone() };
+        Setting {
+            method,
+            models: Some(StiffnessModels::by_default(&inputs)),
+            stations: None,
+            tolerance: None,
+            accurate: false,
+        }
+        .usual_fineness()
+    }
+
+    /// The same method and compliance with the default fineness.
+    #[must_use]
+    pub fn usual_fineness(self) -> Setting {
+        let usual = Inputs::default();
+        Setting {
+            stations: usual.stations,
+            tolerance: (self.method == Method::Dynamic).then_some(usual.tolerance),
+            accurate: false,
+            ..self
+        }
+    }
+
+    /// This setting with every number of stations, and with as many as the curve needs.
+    fn with_stations(self) -> impl Iterator<Item = Setting> {
+        STATIONS
+            .into_iter()
+            .map(Some)
+            .chain([None])
+            .map(move |stations| Setting { stations, ..self })
+    }
+
+    /// The finest setting of the same method and compliance, the reference of the numerical error.
+    #[must_use]
+    pub fn best(self) -> Setting {
+        Setting {
+            stations: Some(BEST_STATIONS),
+            tolerance: (self.method == Method::Dynamic).then_some(BEST_TOLERANCE),
+            accurate: !self.method.shares_load(),
+            ..self
+        }
+    }
+
+    /// Whether both settings differ only in their fineness.
+    #[must_use]
+    pub fn is_finer_or_coarser(&self, other: &Setting) -> bool {
+        self.method == other.method && self.models == other.models
+    }
+
+    /// The setting of some inputs.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> Setting {
+        let is_left_to_auto = inputs.method == Method::Auto && inputs.tooth_compliance.is_none();
+        Setting {
+            method: inputs.method,
+            models: (!is_left_to_auto).then(|| StiffnessModels::of(inputs)),
+            stations: inputs.stations,
+            tolerance: (inputs.method == Method::Dynamic).then_some(inputs.tolerance),
+            accurate: inputs.accurate,
+        }
+    }
+
+    /// The inputs of the same pair with this setting.
+    #[must_use]
+    pub fn inputs(&self, inputs: &Inputs) -> Inputs {
+        let inputs = self.models.map_or_else(
+            || Inputs { tooth_compliance: None, ..inputs.clone() },
+            |models| models.in_place_of(inputs),
+        );
+        Inputs {
+            method: self.method,
+            stations: self.stations,
+            tolerance: self.tolerance.unwrap_or(inputs.tolerance),
+            accurate: self.accurate,
+            ..inputs
+        }
+    }
+
+    /// The setting that the solve used: another one if method `auto` chose it.
+    #[must_use]
+    pub fn taken(&self, inputs: &Inputs, method: Method) -> Setting {
+        let inputs = Inputs { method, ..self.inputs(inputs) };
+        Setting { method, models: Some(StiffnessModels::of(&inputs)), ..*self }
+    }
+
+    /// The number of stations in the syntax of a case file.
+    #[must_use]
+    pub fn stations_text(&self) -> String {
+        self.stations.map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
+    }
+
+    /// Writes the setting into a case. If the case names no compliance and the setting has the
+    /// default compliance, the case still names none.
+    pub fn apply(&self, case: &mut Case) {
+        write(case, "model.method", self.method.name());
+        write(case, "model.stations", &self.stations_text());
+        write(case, "model.accurate", if self.accurate { "true" } else { "false" });
+        if let Some(tolerance) = self.tolerance {
+            write(case, "model.tolerance", &format!("{tolerance:e}"));
+        }
+        let own = case.inputs().ok().and_then(|inputs| Setting::of(&inputs).models);
+        if own == self.models {
+            return;
+        }
+        write(case, "model.tooth_compliance", self.models.map_or("", |models| models.tooth.name));
+        if let Some(contact) = self.models.and_then(|models| models.contact) {
+            write(case, "model.contact_compliance", contact.name);
+        }
+    }
+}
+
+fn write(case: &mut Case, key: &str, text: &str) {
+    if let Some(field) = index_of(key) {
+        case.write(field, text);
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} with ", self.method.name())?;
+        if let Some(models) = self.models {
+            write!(f, "{}, ", models.names())?;
+        }
+        write!(f, "{} stations", self.stations_text())?;
+        if let Some(tolerance) = self.tolerance {
+            write!(f, " and tolerance {tolerance:e}")?;
+        }
+        if self.accurate { f.write_str(", accurate") } else { Ok(()) }
     }
 }
 
@@ -347,19 +594,6 @@ impl Subject {
         }
     }
 
-    /// The label of the subject.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            Subject::FirstContact => "first contact angle",
-            Subject::PeakForce => "peak force",
-            Subject::PeakApproachForce => "peak force before E",
-            Subject::Duration => "duration of the impact",
-            Subject::FrictionRatio => "friction ratio",
-            Subject::Curve => "force from D to E",
-        }
-    }
-
     /// The quantity of a method for this subject; `None` for the curve, and if the method has no
     /// such quantity.
     #[must_use]
@@ -396,9 +630,6 @@ pub struct Answer {
     values: [Option<f64>; Subject::ALL.len()],
     /// Driver's angle before E in rad and force in N, from the first contact to E.
     curve: Vec<(f64, f64)>,
-    /// Evaluations of the motion in method `dynamic`, see
-    /// [`Effort`](crate::model::dynamic::Effort).
-    pub evaluations: Option<u64>,
 }
 
 /// The stages that the answer of a method needs.
@@ -419,6 +650,9 @@ pub fn stages(method: Method) -> Stages {
 /// The refusal, also if a part of the answer is withheld; [`Refusal::Stopped`] if `go_on` returns
 /// false.
 fn solve(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<Solution, Refusal> {
+    if !go_on() {
+        return Err(Refusal::Stopped);
+    }
     let solution = model::solve_while(inputs, stages(inputs.method), &|_| go_on())?;
     match solution.withheld.or(solution.stations_withheld) {
         Some(refusal) => Err(refusal),
@@ -438,7 +672,6 @@ impl Answer {
             outcome: solution.outcome,
             values: Subject::ALL.map(value),
             curve: curve(solution),
-            evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.effort.evaluations),
         }
     }
 
@@ -446,6 +679,11 @@ impl Answer {
     #[must_use]
     pub fn value(&self, subject: Subject) -> Option<f64> {
         self.values[subject as usize]
+    }
+
+    /// The error of every subject, see [`Answer::off`].
+    fn all_off(&self, truth: &Answer) -> Differences {
+        Subject::ALL.map(|subject| self.off(truth, subject))
     }
 
     /// The error of this answer, relative to `truth`; `None` if one of the methods has no such
@@ -580,5 +818,55 @@ mod tests {
         assert_eq!(on_time.off(&shared, Subject::Curve), Some(1.0));
         let also = Answer { outcome: Outcome::NoCornerContact, ..shared };
         assert!(Subject::NEEDED.iter().all(|&subject| on_time.off(&also, subject) == Some(0.0)));
+    }
+
+    fn table_1() -> Inputs {
+        Case::table_1().inputs().unwrap()
+    }
+
+    #[test]
+    fn every_setting_is_listed_once_and_applies_to_the_case() {
+        let settings = Setting::all(&table_1());
+        for models in StiffnessModels::covering(&table_1()) {
+            for method in METHODS {
+                let is_it = |one: &&Setting| one.method == method && one.models == Some(models);
+                assert!(settings.iter().any(|one| is_it(&one)), "{method:?} {models:?}");
+            }
+        }
+        for (at, setting) in settings.iter().enumerate() {
+            assert!(!settings[..at].contains(setting), "{setting} twice");
+            let mut case = Case::table_1();
+            setting.apply(&mut case);
+            assert_eq!(Setting::of(&case.inputs().unwrap()), *setting);
+        }
+    }
+
+    #[test]
+    fn the_usual_setting_is_that_of_a_case_that_names_the_method_alone() {
+        let mut case = Case::table_1();
+        let usual = Setting::usual(Method::Dynamic, &table_1());
+        case.set("model.tooth_compliance", "").unwrap();
+        usual.apply(&mut case);
+        let compliance = index_of("model.tooth_compliance").unwrap();
+        assert_eq!(case.text(compliance), None, "the default needs no name");
+        for key in ["model.stations", "model.tolerance", "model.accurate"] {
+            case.set(key, "").unwrap();
+        }
+        assert_eq!(Setting::of(&case.inputs().unwrap()), usual);
+    }
+
+    #[test]
+    fn a_setting_prints_method_models_and_fineness() {
+        let inputs = table_1();
+        assert_eq!(
+            Setting::usual(Method::Dynamic, &inputs).best().to_string(),
+            "dynamic with finite-element, 4096 stations and tolerance 1e-12"
+        );
+        let auto = Setting::all(&inputs).into_iter().find(|one| one.method == Method::Auto);
+        assert_eq!(auto.unwrap().to_string(), "auto with auto stations");
+        assert_eq!(
+            Setting::usual(Method::Paper, &inputs).best().to_string(),
+            "paper with kuang-yang and logarithmic, 4096 stations, accurate"
+        );
     }
 }

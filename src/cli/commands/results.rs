@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::case::sanitize::sanitize;
-use crate::case::{Case, Document, Problem};
+use crate::case::{Case, Document};
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::options::{
@@ -15,11 +15,11 @@ use crate::cli::options::{
 use crate::cli::output::{Exit, Failure, check_out, follow, write_to};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stages};
-use crate::report::compare::{Column, Comparison};
+use crate::report::compare::{ComparedCase, Comparison};
 use crate::report::explain::{explain, render, write_json};
 use crate::report::export::{ReportFormat, subject};
 use crate::report::pictures::{NoPicture, find, pictures};
-use crate::report::verdict::{self, Standing, Verdict, refused, stages, stages_beside, verdicts};
+use crate::report::verdict::{self, Standing, refused, stages, stages_beside, verdicts};
 use crate::report::{Report, Selection, data, text};
 use crate::study::condition::distinct;
 use clap::builder::PossibleValuesParser;
@@ -48,50 +48,25 @@ pub struct SolveOptions {
 }
 
 pub(super) fn run_solve(options: &SolveOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let edits = edits_to_solve(options);
-    let selection = selected(options);
-    let (mut first, mut worst) = (true, Exit::Done);
-    for path in &options.input.cases {
-        let report = cases::open(path, &edits, streams)
-            .and_then(|opened| solve_opened(&opened, &selection, streams));
-        match report {
-            Ok(report) => {
-                print(&report, options.output.format, first, streams.output.as_mut())?;
-                first = false;
-            }
-            Err(exit) => worst = worst.max(exit),
-        }
-    }
-    Ok(worst)
-}
-
-/// The changes of the command line, including `--stations` as a field.
-fn edits_to_solve(options: &SolveOptions) -> Edits {
-    let stations =
-        options.stations.clone().map(|value| Setting::by("--stations", "model.stations", &value));
     let mut edits = options.input.changes.edits();
+    let stations = options.stations.iter();
+    let stations = stations.map(|value| Setting::by("--stations", "model.stations", value));
     edits.settings.extend(stations);
-    edits
-}
-
-fn selected(options: &SolveOptions) -> Selection {
+    let format = options.output.format;
     let only = distinct(options.only.iter().flatten().copied());
-    let whole_json = options.output.format == OutputFormat::Json && only.is_empty();
-    Selection { only, stations: options.stations.is_some() || whole_json }
-}
-
-fn solve_opened(
-    opened: &Opened,
-    selection: &Selection,
-    streams: &mut Streams,
-) -> Result<Report, Exit> {
-    let Opened { name, document, inputs, .. } = opened;
-    let solved =
-        Report::solve(name.clone(), document.case.clone(), inputs.clone(), selection.clone());
-    match solved.and_then(in_full) {
-        Ok(report) => Ok(report),
-        Err(refusal) => Err(opened.refused(&refusal, streams)),
-    }
+    let whole_json = format == OutputFormat::Json && only.is_empty();
+    let selection = Selection { only, stations: options.stations.is_some() || whole_json };
+    let mut is_first = true;
+    cases::each(&options.input.cases, |path| {
+        let opened = cases::open(path, &edits, streams)?;
+        let Opened { name, document, inputs, .. } = &opened;
+        let (case, inputs) = (document.case.clone(), inputs.clone());
+        let solved = Report::solve(name.clone(), case, inputs, selection.clone());
+        let report =
+            solved.and_then(in_full).map_err(|refusal| opened.refused(&refusal, streams))?;
+        print(report, format, std::mem::take(&mut is_first), streams.output.as_mut())?;
+        Ok(Exit::Done)
+    })
 }
 
 /// Refuses a report that lacks a requested quantity if the model withheld results.
@@ -103,17 +78,15 @@ fn in_full(report: Report) -> Result<Report, Refusal> {
     }
 }
 
-fn print(
-    report: &Report,
-    format: OutputFormat,
-    first: bool,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+fn print(report: Report, format: OutputFormat, first: bool, out: &mut dyn Write) -> io::Result<()> {
     match format {
-        OutputFormat::Text if first => text::write(report, out),
-        OutputFormat::Text => writeln!(out).and_then(|()| text::write(report, out)),
-        OutputFormat::Json => data::write_json(report, out),
-        OutputFormat::Csv => data::write_csv(report, first, out),
+        OutputFormat::Text => {
+            let blank = if first { "" } else { "\n" };
+            out.write_all(blank.as_bytes())?;
+            text::write(&report.with_others(), out)
+        }
+        OutputFormat::Json => data::write_json(&report, out),
+        OutputFormat::Csv => data::write_csv(&report, first, out),
     }
 }
 
@@ -137,15 +110,9 @@ pub struct CheckOptions {
 
 pub(super) fn run_check(options: &CheckOptions, streams: &mut Streams) -> Result<Exit, Failure> {
     let edits = options.input.changes.edits();
-    let mut worst = Exit::Done;
-    for path in &options.input.cases {
-        let exit = match cases::open(path, &edits, streams) {
-            Ok(opened) => check(&opened, options.output.format, streams)?,
-            Err(exit) => exit,
-        };
-        worst = worst.max(exit);
-    }
-    Ok(worst)
+    cases::each(&options.input.cases, |path| {
+        check(&cases::open(path, &edits, streams)?, options.output.format, streams)
+    })
 }
 
 fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit, Failure> {
@@ -158,11 +125,15 @@ fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit
         && !verdicts.is_empty();
     let refusal = refusal.filter(|_| !is_settled);
     if refusal.is_none() || !verdicts.is_empty() {
+        let (name, out) = (&opened.name, streams.output.as_mut());
         match format {
-            Listing::Text => tell(&verdicts, &opened.name, &mut streams.output)?,
-            Listing::Json => {
-                verdict::write_json(&verdicts, &opened.name, method, &mut streams.output)?;
+            Listing::Json => verdict::write_json(&verdicts, name, method, out)?,
+            Listing::Text if verdicts.is_empty() => {
+                writeln!(out, "ok {}: no limits", sanitize(name))?;
             }
+            Listing::Text => verdicts.iter().try_for_each(|verdict| {
+                writeln!(out, "{} {}: {verdict}", verdict.standing.word(), sanitize(name))
+            })?,
         }
     }
     if let Some(refusal) = refusal {
@@ -170,16 +141,6 @@ fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit
     }
     let holds = verdicts.iter().all(|verdict| verdict.standing.holds());
     Ok(if holds { Exit::Done } else { Exit::Exceeded })
-}
-
-fn tell(verdicts: &[Verdict], name: &str, out: &mut dyn Write) -> io::Result<()> {
-    let name = sanitize(name);
-    if verdicts.is_empty() {
-        return writeln!(out, "ok {name}: no limits");
-    }
-    verdicts
-        .iter()
-        .try_for_each(|verdict| writeln!(out, "{} {name}: {verdict}", verdict.standing.word()))
 }
 
 /// Solves the stages of the limits and of their counterparts in the method.
@@ -279,16 +240,8 @@ impl FormatChoice for CompareFormat {
     const DEFAULT: &str = "text";
 }
 
-impl CompareOptions {
-    /// The changes of every case, for a variant or for the case itself.
-    fn edits(&self, variant: Option<&str>) -> Edits {
-        let settings = self.settings.iter().cloned();
-        Edits {
-            variant: variant.map(str::to_owned),
-            settings: settings.chain(by_method(self.method)).collect(),
-        }
-    }
-}
+/// A file, and a case of it with the changes of the command line.
+type Edited = (String, Edits, Document);
 
 pub(super) fn run_compare(
     options: &CompareOptions,
@@ -296,57 +249,39 @@ pub(super) fn run_compare(
 ) -> Result<Exit, Failure> {
     let selection =
         Selection { only: distinct(options.only.iter().flatten().copied()), stations: false };
-    let (mut cases, mut worst) = (Vec::new(), Exit::Done);
-    for path in &options.cases {
-        let found = cases::read(path, streams)
-            .and_then(|document| edited(options, path, &document, streams));
-        match found {
-            Ok(found) => cases.extend(found),
-            Err(exit) => worst = worst.max(exit),
-        }
-    }
-    let columns = follow("cases", |report| {
-        let count = cases.len();
-        let cases = cases.into_iter().enumerate();
-        let wanted = cases.take_while(|(at, _)| report(*at, count));
-        wanted.map(|(_, case)| case.solve(&selection)).collect::<Vec<_>>()
+    let mut found = Vec::new();
+    let worst = cases::each(&options.cases, |path| {
+        let document = cases::read(path, streams)?;
+        found.extend(edited(options, path, &document).map_err(|line| {
+            streams.say(&line);
+            Exit::Usage
+        })?);
+        Ok(Exit::Done)
+    })?;
+    let cases = follow("cases", |report| {
+        let count = found.len();
+        let wanted = found.into_iter().enumerate().take_while(|(at, _)| report(*at, count));
+        wanted.map(|(_, edited)| solve(edited, &selection)).collect::<Vec<_>>()
     });
-    if columns.len() < 2 && worst == Exit::Done {
-        let name = columns.first().map_or("", |column| column.name.as_str());
+    if cases.len() < 2 && worst == Exit::Done {
+        let name = cases.first().map_or("", |case| case.name.as_str());
         return Err(Failure::Usage(format!(
             "{name}: the case has no variants: name a second case, or add a table [variants.NAME]"
         )));
     }
-    if columns.is_empty() {
+    if cases.is_empty() {
         return Ok(worst);
     }
-    write_comparison(&Comparison { columns, selection }, options.output.format, streams)
-        .map(|exit| exit.max(worst))
-}
-
-fn write_comparison(
-    comparison: &Comparison,
-    format: CompareFormat,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
+    let comparison = Comparison { cases, selection };
     let out = streams.output.as_mut();
-    match format {
+    match options.output.format {
         CompareFormat::Text => comparison.write(out)?,
         CompareFormat::Csv => comparison.write_csv(out)?,
         CompareFormat::Json => comparison.write_json(out)?,
         CompareFormat::Md => comparison.write_markdown(out)?,
     }
-    for line in comparison.refusals() {
-        streams.say(&line);
-    }
-    Ok(if comparison.is_all_refused() { Exit::BadCase } else { Exit::Done })
-}
-
-/// A case, or one of its variants, with the changes of the command line.
-struct Edited {
-    file: String,
-    edits: Edits,
-    document: Document,
+    comparison.refusals().for_each(|line| streams.say(&line));
+    Ok(if comparison.is_all_refused() { worst.max(Exit::BadCase) } else { worst })
 }
 
 /// The case itself, then its variants.
@@ -354,34 +289,26 @@ fn edited(
     options: &CompareOptions,
     path: &Path,
     document: &Document,
-    streams: &mut Streams,
-) -> Result<Vec<Edited>, Exit> {
+) -> Result<Vec<Edited>, String> {
     let all = document.case.variants.iter().map(|variant| &variant.name);
     let variants: Vec<&String> =
         if options.variants.is_empty() { all.collect() } else { options.variants.iter().collect() };
-    let names = std::iter::once(None).chain(variants.into_iter().map(|name| Some(name.as_str())));
+    let names = std::iter::once(None).chain(variants.into_iter().map(Some));
     let edited = names.map(|variant| {
-        let (mut document, edits) = (document.clone(), options.edits(variant));
+        let settings = options.settings.iter().cloned().chain(by_method(options.method));
+        let edits = Edits { variant: variant.cloned(), settings: settings.collect() };
+        let mut document = document.clone();
         cases::edit(&mut document, &edits)?;
-        Ok(Edited { file: path.display().to_string(), edits, document })
+        Ok((path.display().to_string(), edits, document))
     });
-    edited.collect::<Result<_, String>>().map_err(|line| {
-        streams.say(&line);
-        Exit::Usage
-    })
+    edited.collect()
 }
 
-impl Edited {
-    fn solve(self, selection: &Selection) -> Column {
-        let Edited { file, edits, document } = self;
-        let (case, name) = (&document.case, cases::named(file.clone(), &edits));
-        let solved = case.inputs().and_then(|inputs| {
-            Report::solve(name.clone(), case.clone(), inputs, selection.clone())
-                .map_err(|refusal| vec![Problem::from(&refusal).at_given(case)])
-        });
-        let found = solved.map_err(|problems| cases::refused(&document, problems, &edits));
-        Column { name, file, variant: edits.variant, case: document.case, found }
-    }
+fn solve((file, edits, document): Edited, selection: &Selection) -> ComparedCase {
+    let (case, name) = (document.case.clone(), cases::named(file.clone(), &edits));
+    let place = |problems| cases::refused(&document, problems, &edits);
+    let solved = ComparedCase::solve(name, case, selection, place);
+    ComparedCase { file, variant: edits.variant.clone(), ..solved }
 }
 
 const PLOT_HELP: &str = "The chart shows the method of the case. If the method has no \
@@ -444,12 +371,6 @@ fn draw(opened: &Opened, options: &PlotOptions, streams: &mut Streams) -> Result
     })
 }
 
-/// Solves a case with every quantity, and the stations on request.
-fn solve_to_draw(opened: &Opened, stations: bool, streams: &mut Streams) -> Result<Report, Exit> {
-    let solved = opened.unsolved().solve(stations);
-    solved.map_err(|refusal| opened.refused(&refusal, streams))
-}
-
 fn charts() -> PossibleValuesParser {
     PossibleValuesParser::new(pictures().map(|picture| picture.key))
 }
@@ -478,27 +399,26 @@ pub(super) fn run_report(options: &ReportOptions, streams: &mut Streams) -> Resu
             ReportFormat::ENDINGS
         )));
     };
-    let cases: Vec<&Path> = options.input.cases.iter().map(AsRef::as_ref).collect();
-    check_out(Some(&options.out), &cases)?;
+    let paths: Vec<&Path> = options.input.cases.iter().map(AsRef::as_ref).collect();
+    check_out(Some(&options.out), &paths)?;
     let edits = options.input.changes.edits();
-    let (mut subjects, mut worst) = (Vec::new(), Exit::Done);
-    for path in cases {
-        let solved = cases::open(path, &edits, streams).and_then(|opened| {
-            let report = solve_to_draw(&opened, format.has_stations(), streams)?;
+    let mut subjects = Vec::new();
+    let worst = cases::each(&options.input.cases, |path| {
+        let opened = cases::open(path, &edits, streams)?;
+        let solved = opened.unsolved().solve(format.has_stations());
+        // Ctrl-C ends the program.
+        let found = solved.and_then(|report| {
             let file = opened.document.render();
-            // Ctrl-C ends the program.
-            let subject = follow("parts", |go_on| subject(report, file, format, go_on));
-            subject.map_err(|refusal| opened.refused(&refusal, streams))
+            follow("parts", |go_on| subject(report, file, format, go_on))
         });
-        match solved {
-            Ok(subject) => subjects.push(subject),
-            Err(exit) => worst = worst.max(exit),
-        }
+        subjects.push(found.map_err(|refusal| opened.refused(&refusal, streams))?);
+        Ok(Exit::Done)
+    })?;
+    if !subjects.is_empty() {
+        let text = format.render(&subjects)?;
+        write_to(Some(&options.out), streams.output.as_mut(), |sink| {
+            sink.write_all(text.as_bytes())
+        })?;
     }
-    if subjects.is_empty() {
-        return Ok(worst);
-    }
-    let text = format.render(&subjects)?;
-    write_to(Some(&options.out), streams.output.as_mut(), |sink| sink.write_all(text.as_bytes()))?;
     Ok(worst)
 }

@@ -19,7 +19,7 @@ use crate::study::condition::Condition;
 use crate::study::relief::{self, Demand, NoRelief, specify};
 use crate::study::seek::{SeekError, USUAL_SCAN, seek};
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare};
-use crate::study::trade::{Patience, Trade, TradeParameters, trade};
+use crate::study::trade::{STEADY, Trade, TradeParameters, trade};
 use clap::Args;
 
 const SEEK_HELP: &str = "A crossing is a value at which the condition changes, with a bracket of 1e-9 of the value. `always` and `never` \
@@ -210,8 +210,8 @@ pub(super) fn run_stiffness(
         OutputFormat::Text => write(&report, streams.output.as_mut())?,
         OutputFormat::Json => write_json(&report, streams.output.as_mut())?,
         OutputFormat::Csv => {
-            write_csv(&comparison, streams.output.as_mut())?;
-            for gear in &comparison.gears {
+            write_csv(&comparison.flanks, streams.output.as_mut())?;
+            for gear in &comparison.flanks.gears {
                 if let Some(sentence) = no_field(gear) {
                     streams.say(&format!("{name}: {}: {sentence}", gear.gear));
                 }
@@ -256,12 +256,12 @@ pub(super) fn run_trade(options: &TradeOptions, streams: &mut Streams) -> Result
     let opened = cases::open(&options.input.case, &options.edits, streams)?;
     let parameters = TradeParameters {
         within: options.within.unwrap_or(opened.inputs.within),
-        patience: Patience::STEADY,
+        patience: STEADY,
     };
     let found = follow("settings", |report| {
         let (done, planned) = (Cell::new(0), Cell::new(1));
         let mut show = |sofar: &Trade| {
-            done.set((sofar.part * sofar.planned as f64) as usize);
+            done.set(sofar.settings.len());
             planned.set(sofar.planned);
         };
         let go_on = || report(done.get(), planned.get());

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::case::Problem;
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::options::{
@@ -12,15 +11,14 @@ use crate::cli::options::{
 };
 use crate::cli::output::{Exit, Failure, Running, Sink, check_out, write_to};
 use crate::model::Quantity;
-use crate::model::inputs::Method;
 use crate::report::absence::Absence;
-use crate::report::sweep::{SweepTable, TableFormat};
-use crate::report::tolerance::{ToleranceReport, is_all_refused};
+use crate::report::sweep::SweepTable;
+use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::Axis;
-use crate::study::batch::{Batch, Control, Points, Refusals, solve_all};
+use crate::study::batch::{Refusals, Rows, Stopped, solve_all};
 use crate::study::condition::{distinct, headline};
 use crate::study::shard::{
-    Complete, PointsRequest, Request, Restored, Shard, ShardError, ShardWriter, Study, in_order,
+    Complete, Format, Header, Kind, PointsRequest, ShardError, ShardWriter, Study, in_order,
 };
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{MOST_SAMPLES, Samples, Size, Tolerance, USUAL_SAMPLES};
@@ -64,10 +62,10 @@ pub struct SweepOptions {
 }
 
 pub(super) fn run_sweep(options: &SweepOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let grid = Grid::parse(&options.vary, &options.points, options.log)
+    let SweepOptions { vary, points, log, .. } = options;
+    let grid = Grid::parse(vary, points, *log)
         .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
-    let out = options.running.destination.out.as_deref();
-    check_out(out, &[&options.input.case])?;
+    check_out(options.running.destination.out.as_deref(), &[&options.input.case])?;
     let edits = options.changes.edits();
     let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
     cases::keep_varied(&edits.settings, &keys)?;
@@ -78,52 +76,18 @@ pub(super) fn run_sweep(options: &SweepOptions, streams: &mut Streams) -> Result
     for sentence in idle(&grid, &opened) {
         streams.say(&sentence);
     }
-    let quantities = quantities(options, &grid, &opened);
+    let quantities = if options.only.is_empty() {
+        headline(&opened.document.case, &grid.methods(&opened.inputs))
+    } else {
+        distinct(options.only.iter().flatten().copied())
+    };
     for sentence in absent(&quantities, &grid, &opened) {
         streams.say(&sentence);
     }
-    let table =
-        SweepTable { grid: &grid, quantities: &quantities, format: options.output.format.into() };
-    if let Some(shard) = options.running.shard {
-        let request = sweep_request(options, &opened, &table);
-        let batch = batch(&opened, &table);
-        return run_shard(shard, &request, &batch, &options.running, streams);
-    }
-    let refusals = write_points(options, &opened, &table, streams)?;
-    Ok(report_sweep(&table, &refusals, &opened.name, streams))
-}
-
-/// Reports the refused points of a written sweep.
-fn report_sweep(
-    table: &SweepTable,
-    refusals: &Refusals,
-    name: &str,
-    streams: &mut Streams,
-) -> Exit {
-    let count = table.grid.count();
-    for refused in &refusals.0 {
-        streams.say(&format!("{name}: {}", table.refused(refused, count)));
-    }
-    if refusals.total() == count { Exit::BadCase } else { Exit::Done }
-}
-
-/// The request for the shard files of the study.
-fn sweep_request(options: &SweepOptions, opened: &Opened, table: &SweepTable) -> Request {
-    Request {
-        name: opened.name.clone(),
-        case: opened.document.render(),
-        quantities: table.quantities.iter().map(|known| known.key.to_owned()).collect(),
-        format: table.format.name().to_owned(),
-        points: PointsRequest::Sweep {
-            vary: options.vary.clone(),
-            points: options.points.clone(),
-            log: options.log,
-        },
-    }
-}
-
-fn batch<'a>(opened: &'a Opened, table: &SweepTable<'a>) -> Batch<'a> {
-    Batch { inputs: &opened.inputs, points: table.grid, quantities: table.quantities }
+    let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };
+    let format = options.output.format.into();
+    let study = of_case(opened, quantities, format, Kind::Sweep(grid));
+    run_study(&study, points, &options.running, streams)
 }
 
 /// The quantities that no method of the sweep computes.
@@ -147,41 +111,6 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     grid.put(0, &mut inputs);
     let warning = |axis: &Axis| opened.without_effect(axis.field, &inputs);
     grid.axes.iter().filter_map(warning).collect()
-}
-
-/// The quantities that the user names, otherwise the headline quantities of every method of the
-/// grid.
-fn quantities(options: &SweepOptions, grid: &Grid, opened: &Opened) -> Vec<&'static Quantity> {
-    if !options.only.is_empty() {
-        return distinct(options.only.iter().flatten().copied());
-    }
-    let methods: Vec<Method> = grid.methods(&opened.inputs);
-    headline(&opened.document.case, &methods)
-}
-
-/// Solves the points and writes their rows as they arrive.
-fn write_points(
-    options: &SweepOptions,
-    opened: &Opened,
-    table: &SweepTable,
-    streams: &mut Streams,
-) -> Result<Refusals, Failure> {
-    let out = options.running.destination.out.as_deref();
-    let mut sink = Sink::open(out, streams.output.as_mut())?;
-    let batch = batch(opened, table);
-    let running = Running::new("points", options.running.threads.jobs);
-    let mut refusals = Refusals::default();
-    let mut written = table.begin(&mut sink);
-    let mut take = |rows| {
-        refusals.count(&rows);
-        written = table.write(&rows, &mut sink);
-        written.is_ok()
-    };
-    let solved =
-        running.run(|control| solve_all(&batch, 0..table.grid.count(), control, &mut take));
-    written.map_err(|error| sink.failure(error))?;
-    solved?;
-    sink.finish().map(|()| refusals)
 }
 
 const TOLERANCE_HELP: &str = "A distribution is a line of [spread]: the field in quotes, then { \
@@ -227,12 +156,18 @@ pub(super) fn run_tolerance(
     options: &ToleranceOptions,
     streams: &mut Streams,
 ) -> Result<Exit, Failure> {
-    let out = options.running.destination.out.as_deref();
-    check_size(options)?;
-    check_out(out, &[&options.case])?;
+    let ToleranceOptions { samples, seed, ranking, .. } = *options;
+    if !(2..=MOST_SAMPLES).contains(&samples) {
+        let fix = format!("--samples {samples}: write a number from 2 to {MOST_SAMPLES}");
+        return Err(Failure::Usage(fix));
+    }
+    check_out(options.running.destination.out.as_deref(), &[&options.case])?;
     let mut opened = cases::open(&options.case, &options.changes.edits(), streams)?;
-    opened.need(options.only.iter().flatten().copied());
-    let study = study(options, &opened).map_err(|problem| {
+    let only: Vec<_> = options.only.iter().flatten().copied().collect();
+    opened.need(only.iter().copied());
+    let size = Size { samples, seed, ranked: ranking };
+    let study = Tolerance::of(&opened.document.case, &opened.inputs, &only, size);
+    let study = study.map_err(|problem| {
         opened.report_problem(problem, streams);
         Exit::BadCase
     })?;
@@ -241,91 +176,10 @@ pub(super) fn run_tolerance(
             streams.say(&sentence);
         }
     }
-    if let Some(shard) = options.running.shard {
-        let request = tolerance_request(options, &opened, &study);
-        let batch =
-            Batch { inputs: &opened.inputs, points: &study.design, quantities: &study.quantities };
-        return run_shard(shard, &request, &batch, &options.running, streams);
-    }
-    let solve = |control: &Control| study.run(&opened.inputs, control);
-    let samples = Running::new("solves", options.running.threads.jobs).run(solve)?;
-    let whole = ToleranceReport {
-        name: &opened.name,
-        case: &opened.document.case,
-        method: opened.inputs.method.name(),
-        study: &study,
-        samples: &samples,
-    };
-    write_samples(name_of(options.output.format), &whole, out, streams)
-}
-
-/// Writes a study in a format, and reports its refused samples.
-fn write_samples(
-    format: &str,
-    whole: &ToleranceReport,
-    out: Option<&Path>,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    // Rows are written as they arrive. The figures take time, during which a signal must still end
-    // the program; therefore they are complete before the file is created.
-    let mut figures = Vec::new();
-    match format {
-        "json" => whole.write_json(&mut figures),
-        "csv" => Ok(()),
-        _ => whole.write(&mut figures),
-    }
-    .map_err(Failure::Stream)?;
-    write_to(out, streams.output.as_mut(), |sink| match format {
-        "csv" => whole.write_csv(sink),
-        _ => sink.write_all(&figures),
-    })?;
-    Ok(report_samples(whole, streams))
-}
-
-/// Reports the refused samples of a written study.
-fn report_samples(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
-    for refused in &whole.samples.refusals.0 {
-        streams.say(&format!("{}: {}", whole.name, whole.refused(refused)));
-    }
-    if is_all_refused(whole.samples) { Exit::BadCase } else { Exit::Done }
-}
-
-/// The request for the shard files of the study.
-fn tolerance_request(options: &ToleranceOptions, opened: &Opened, study: &Tolerance) -> Request {
-    Request {
-        name: opened.name.clone(),
-        case: opened.document.render(),
-        quantities: study.quantities.iter().map(|known| known.key.to_owned()).collect(),
-        format: name_of(options.output.format).to_owned(),
-        points: PointsRequest::Tolerance {
-            samples: study.design.samples,
-            seed: study.design.seed,
-            ranked: study.design.ranked,
-        },
-    }
-}
-
-/// The name of a format on the command line.
-fn name_of(format: OutputFormat) -> &'static str {
-    match format {
-        OutputFormat::Text => "text",
-        OutputFormat::Json => "json",
-        OutputFormat::Csv => "csv",
-    }
-}
-
-fn check_size(options: &ToleranceOptions) -> Result<(), Failure> {
-    let samples = options.samples;
-    if (2..=MOST_SAMPLES).contains(&samples) {
-        return Ok(());
-    }
-    Err(Failure::Usage(format!("--samples {samples}: write a number from 2 to {MOST_SAMPLES}")))
-}
-
-fn study(options: &ToleranceOptions, opened: &Opened) -> Result<Tolerance, Problem> {
-    let only: Vec<_> = options.only.iter().flatten().copied().collect();
-    let size = Size { samples: options.samples, seed: options.seed, ranked: options.ranking };
-    Tolerance::of(&opened.document.case, &opened.inputs, &only, size)
+    let points = PointsRequest::Tolerance { samples, seed, ranked: study.design.ranked };
+    let (format, quantities) = (options.output.format.into(), study.quantities.clone());
+    let study = of_case(opened, quantities, format, Kind::Tolerance(study));
+    run_study(&study, points, &options.running, streams)
 }
 
 /// The options of the command.
@@ -343,126 +197,159 @@ pub(super) fn run_gather(options: &GatherOptions, streams: &mut Streams) -> Resu
     let files: Vec<&Path> = options.files.iter().map(AsRef::as_ref).collect();
     let out = options.destination.out.as_deref();
     check_out(out, &files)?;
-    let shards = files.iter().map(|file| Complete::read(file));
-    let shards = shards.collect::<Result<Vec<_>, _>>().and_then(in_order);
-    let shards = shards.map_err(|unfit| report_unfit(unfit, streams))?;
-    let request = shards[0].header.request.clone();
-    let restored =
-        request.restore().map_err(|problem| unrestored(&shards[0], &problem, streams))?;
-    write_gathered(&shards, &request, &restored, out, streams)
+    let gathered = files.iter().map(|file| Complete::read(file)).collect::<Result<Vec<_>, _>>();
+    let gathered = gathered.and_then(in_order).and_then(|shards| {
+        let Header { shard, request, .. } = &shards[0].header;
+        let study = Study::restore(request)
+            .map_err(|problem| ShardError::Wrong(format!("shard {shard}: {problem}")))?;
+        Ok((shards, study))
+    });
+    let (shards, study) = gathered.map_err(|unfit| {
+        let (line, exit) = match unfit {
+            ShardError::Unreadable(line) => (line, Exit::Unreadable),
+            ShardError::Wrong(line) => (line, Exit::BadCase),
+        };
+        streams.say(&line);
+        exit
+    })?;
+    let count = study.points().count();
+    write_study(&study, out, streams, |take| {
+        shards.iter().try_for_each(|shard| {
+            shard.rows(shard.header.shard.range(count).start, take).map_err(Ended::Unwritten)
+        })
+    })
 }
 
-fn report_unfit(unfit: ShardError, streams: &mut Streams) -> Exit {
-    let (line, exit) = match unfit {
-        ShardError::Unreadable(line) => (line, Exit::Unreadable),
-        ShardError::Wrong(line) => (line, Exit::BadCase),
-    };
-    streams.say(&line);
-    exit
+fn of_case(
+    opened: Opened,
+    quantities: Vec<&'static Quantity>,
+    format: Format,
+    kind: Kind,
+) -> (Study, String) {
+    let text = opened.document.render();
+    let Opened { name, document, inputs, .. } = opened;
+    (Study { name, case: document.case, inputs, quantities, format, kind }, text)
 }
 
-fn unrestored(shard: &Complete, problem: &Problem, streams: &mut Streams) -> Exit {
-    let line = format!("shard {}: {problem}", shard.header.shard);
-    report_unfit(ShardError::Wrong(line), streams)
+/// Receives the rows of a study in order.
+type Take<'a> = &'a mut dyn FnMut(Rows) -> io::Result<()>;
+
+/// Why the rows of a study end early.
+enum Ended {
+    /// The rows cannot be read or written.
+    Unwritten(io::Error),
+    /// Ctrl-C ends the study.
+    Stopped,
 }
 
-fn write_gathered(
-    shards: &[Complete],
-    request: &Request,
-    restored: &Restored,
-    out: Option<&Path>,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    match &restored.study {
-        Study::Sweep(grid) => {
-            let mut sink = Sink::open(out, streams.output.as_mut())?;
-            let table = SweepTable {
-                grid,
-                quantities: &restored.quantities,
-                format: TableFormat::named(&request.format),
-            };
-            let refusals =
-                rows_of_sweep(shards, &table, &mut sink).map_err(|error| sink.failure(error))?;
-            sink.finish()?;
-            Ok(report_sweep(&table, &refusals, &request.name, streams))
-        }
-        Study::Tolerance(study) => {
-            let samples = samples(shards, study)?;
-            let report = ToleranceReport {
-                name: &request.name,
-                case: &restored.case,
-                method: restored.inputs.method.name(),
-                study,
-                samples: &samples,
-            };
-            write_samples(&request.format, &report, out, streams)
+impl Ended {
+    fn failure(self, sink: &Sink) -> Failure {
+        match self {
+            Ended::Unwritten(error) => sink.failure(error),
+            Ended::Stopped => Failure::Interrupted,
         }
     }
 }
 
-fn rows_of_sweep(shards: &[Complete], table: &SweepTable, sink: &mut Sink) -> io::Result<Refusals> {
-    let mut refusals = Refusals::default();
-    table.begin(sink)?;
-    let grid: &Grid = table.grid;
-    for shard in shards {
-        let first = shard.header.shard.range(grid.count()).start;
-        shard.rows(first, &mut |rows| {
-            refusals.count(&rows);
-            table.write(&rows, sink)
-        })?;
-    }
-    Ok(refusals)
-}
-
-fn samples(shards: &[Complete], study: &Tolerance) -> io::Result<Samples> {
-    let mut samples = Samples::of(study);
-    for shard in shards {
-        let first = shard.header.shard.range(study.design.count()).start;
-        shard.rows(first, &mut |rows| {
-            samples.add(&rows);
-            Ok(())
-        })?;
-    }
-    Ok(samples)
-}
-
-/// Solves the points of a shard and writes them.
-fn run_shard(
-    shard: Shard,
-    request: &Request,
-    batch: &Batch,
+/// Solves the points of a study and writes the results, or writes one of its shards.
+fn run_study(
+    (study, case): &(Study, String),
+    points: PointsRequest,
     options: &StudyOptions,
     streams: &mut Streams,
 ) -> Result<Exit, Failure> {
-    let mut sink = Sink::open(options.destination.out.as_deref(), streams.output.as_mut())?;
-    let running = Running::new("points", options.threads.jobs);
-    match write_shard(shard, request, batch, &running, &mut sink) {
-        Ok(true) => sink.finish().map(|()| Exit::Done),
-        Ok(false) => Err(Failure::Interrupted),
-        Err(error) => Err(sink.failure(error)),
-    }
+    let out = options.destination.out.as_deref();
+    let what = match (&study.kind, options.shard) {
+        (Kind::Tolerance(_), None) => "solves",
+        _ => "points",
+    };
+    let running = Running::new(what, options.threads.jobs);
+    let count = study.points().count();
+    let solve = |range, take: Take| {
+        let mut written = Ok(());
+        let solved = running.run(|control| {
+            solve_all(&study.batch(), range, control, &mut |rows| {
+                written = take(rows);
+                written.is_ok()
+            })
+        });
+        written.map_err(Ended::Unwritten)?;
+        solved.map_err(|Stopped| Ended::Stopped)
+    };
+    let Some(shard) = options.shard else {
+        return write_study(study, out, streams, |take| solve(0..count, take));
+    };
+    let mut sink = Sink::open(out, streams.output.as_mut())?;
+    let request = study.request(case.clone(), points);
+    let write = |sink: &mut Sink| {
+        let mut writer = ShardWriter::begin(shard, &request, sink).map_err(Ended::Unwritten)?;
+        solve(shard.range(count), &mut |rows| writer.write(&rows))?;
+        writer.finish().map_err(Ended::Unwritten)
+    };
+    write(&mut sink).map_err(|ended| ended.failure(&sink))?;
+    sink.finish()?;
+    Ok(Exit::Done)
 }
 
-/// Writes the shard. Returns false if the study was stopped.
-fn write_shard(
-    shard: Shard,
-    request: &Request,
-    batch: &Batch,
-    running: &Running,
-    sink: &mut Sink,
-) -> io::Result<bool> {
-    let mut writer = ShardWriter::begin(shard, request, sink)?;
-    let mut written = Ok(());
-    let range = shard.range(batch.points.count());
-    let solved = running.run(|control| {
-        solve_all(batch, range, control, &mut |rows| {
-            written = writer.write(&rows);
-            written.is_ok()
-        })
-    });
-    written?;
-    if solved.is_err() {
-        return Ok(false);
+/// Writes the results of a study and reports its refused points. Rows of a sweep are written as
+/// they arrive.
+fn write_study(
+    study: &Study,
+    out: Option<&Path>,
+    streams: &mut Streams,
+    rows: impl FnOnce(Take) -> Result<(), Ended>,
+) -> Result<Exit, Failure> {
+    let refusals = match &study.kind {
+        Kind::Sweep(grid) => {
+            let (quantities, format) = (&study.quantities, study.format);
+            let table = SweepTable { grid, quantities, format };
+            let (mut sink, mut refusals) =
+                (Sink::open(out, streams.output.as_mut())?, Refusals::default());
+            table.begin(&mut sink).map_err(|error| sink.failure(error))?;
+            let written = rows(&mut |rows| {
+                refusals.count(&rows);
+                table.write(&rows, &mut sink)
+            });
+            written.map_err(|ended| ended.failure(&sink))?;
+            sink.finish()?;
+            refusals
+        }
+        Kind::Tolerance(tolerance) => {
+            let mut samples = Samples::of(tolerance);
+            let found = rows(&mut |rows| {
+                samples.add(&rows);
+                Ok(())
+            });
+            found.map_err(|ended| match ended {
+                Ended::Unwritten(error) => Failure::Stream(error),
+                Ended::Stopped => Failure::Interrupted,
+            })?;
+            let report = ToleranceReport {
+                name: &study.name,
+                case: &study.case,
+                method: study.inputs.method,
+                study: tolerance,
+                samples: &samples,
+            };
+            // The figures take time, during which a signal must still end the program; therefore
+            // they are complete before the file is created.
+            let mut figures = Vec::new();
+            match study.format {
+                Format::Text => report.write(&mut figures),
+                Format::Json => report.write_json(&mut figures),
+                Format::Csv => Ok(()),
+            }
+            .map_err(Failure::Stream)?;
+            write_to(out, streams.output.as_mut(), |sink| match study.format {
+                Format::Csv => report.write_csv(sink),
+                _ => sink.write_all(&figures),
+            })?;
+            samples.refusals
+        }
+    };
+    for refused in &refusals.0 {
+        streams.say(&format!("{}: {}", study.name, refused.sentence(study.points())));
     }
-    writer.finish().map(|()| true)
+    let is_all = refusals.total() == study.points().count();
+    Ok(if is_all { Exit::BadCase } else { Exit::Done })
 }

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::case::fields::Kind;
+use crate::case::fields::{Kind, index_of};
 use crate::case::{Case, FIELDS, units};
 use crate::model::compliance::{contact_of, model_of};
 use crate::model::explanation::{Context, Equation, Formula, Step, tidy};
@@ -10,6 +10,7 @@ use crate::model::impact::StiffnessModels;
 use crate::model::quantities::{spread_force, steps};
 use crate::model::{QUANTITIES, Quantity};
 use crate::numeric::decimal::significant;
+use crate::report::json::{Json, object, unless_empty};
 use crate::report::{Shown, shown, value};
 
 /// Significant digits of a step.
@@ -75,127 +76,145 @@ pub struct Leaf {
     pub is_quantity: bool,
 }
 
-/// The derivation of a quantity, and the symbols that its formulas read from elsewhere.
-pub(super) fn derivation_of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
-    let mut work = derived(&Target::of(quantity, known), quantity.formula, known);
-    let mut seen = vec![quantity.symbol_in(known.context.solution.method)];
-    let mut leaves = Vec::new();
-    let mut open = symbols_of(quantity.formula, known);
-    let mut next = 0;
-    while let Some(symbol) = open.get(next).cloned() {
-        next += 1;
-        let Some(source) =
-            known.source(&symbol).filter(|source| !seen.contains(&source.symbol(known)))
-        else {
-            continue;
+impl Work {
+    pub(super) fn json(&self) -> Json {
+        let how = match self.how {
+            How::Equals => "equals",
+            How::Solves => "solves",
+            How::Described => "described",
         };
-        seen.push(source.symbol(known));
-        let value = known.value(source);
-        match source {
-            Source::Step(step) => {
-                let target = Target::step(step.symbol, step.meaning, value, step.unit);
-                work.extend(derived(&target, step.formula, known));
-                open.extend(symbols_of(step.formula, known));
-            }
-            Source::Force(force) => {
-                let target = Target::step(&force.symbol, &force.meaning, value, "N");
-                let formula = Formula::Words("a separate solution with these models");
-                work.extend(derived(&target, formula, known));
-            }
-            Source::Quantity(_) | Source::Field(_) => leaves.extend(source.leaf(known)),
-        }
-    }
-    (work, leaves)
-}
-
-struct Target {
-    symbol: &'static str,
-    meaning: &'static str,
-    value: Option<f64>,
-    digits: usize,
-    shown: Option<Shown>,
-}
-
-impl Target {
-    fn of(quantity: &'static Quantity, known: &Known) -> Target {
-        let value = known.value(Source::Quantity(quantity));
-        Target {
-            symbol: quantity.symbol_in(known.context.solution.method),
-            meaning: "",
-            value,
-            digits: quantity.digits,
-            shown: value.map(|value| shown(quantity, value)),
-        }
+        object([
+            ("symbol", self.symbol.into()),
+            ("meaning", unless_empty(self.meaning)),
+            ("how", how.into()),
+            ("formula", (&self.formula).into()),
+            ("numbers", self.numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")).into()),
+            ("shown", self.shown.as_ref().map(Shown::to_string).into()),
+            ("residual", self.residual.as_ref().into()),
+        ])
     }
 
+    /// A step before it has a formula.
     fn step(
         symbol: &'static str,
         meaning: &'static str,
         value: Option<f64>,
         unit: &'static str,
-    ) -> Target {
-        let shown = value.map(|value| Shown {
-            number: tidy(value / factor(unit).unwrap_or(1.0), STEP_DIGITS),
-            unit: if unit == "1" { "" } else { unit },
-        });
-        Target { symbol, meaning, value, digits: STEP_DIGITS, shown }
-    }
-
-    fn work(&self, how: How, formula: String) -> Work {
+    ) -> Work {
         Work {
-            symbol: self.symbol,
-            meaning: self.meaning,
-            formula,
-            how,
+            symbol,
+            meaning,
+            formula: String::new(),
+            how: How::Described,
             numbers: None,
-            shown: self.shown.clone(),
-            digits: self.digits,
-            value: self.value,
+            shown: value.map(|value| Shown {
+                number: tidy(value / factor(unit).unwrap_or(1.0), STEP_DIGITS),
+                unit: if unit == "1" { "" } else { unit },
+            }),
+            digits: STEP_DIGITS,
+            value,
             residual: None,
         }
     }
 }
 
-/// The formula of a target: with numbers if it is explicit, with both sides if it is an equation.
-fn derived(target: &Target, formula: Formula, known: &Known) -> Vec<Work> {
+impl Leaf {
+    pub(super) fn json(&self) -> Json {
+        object([
+            ("symbol", self.symbol.into()),
+            ("key", self.key.into()),
+            ("shown", (&self.shown).into()),
+            ("meaning", self.meaning.into()),
+        ])
+    }
+}
+
+/// The derivation of a quantity, and the symbols that its formulas read from elsewhere.
+pub(super) fn derivation_of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
+    let own = known.quantity(quantity);
+    let mut work = derived(
+        Work {
+            digits: quantity.digits,
+            shown: own.value.map(|value| shown(quantity, value)),
+            ..Work::step(own.symbol, "", own.value, quantity.shown)
+        },
+        quantity.formula,
+        known,
+    );
+    let mut seen = vec![own.symbol];
+    let mut leaves = Vec::new();
+    let mut open = symbols_of(quantity.formula, known);
+    let mut next = 0;
+    while let Some(symbol) = open.get(next) {
+        next += 1;
+        let source = known.source(symbol).filter(|source| !seen.contains(&source.symbol));
+        let Some(source) = source else { continue };
+        seen.push(source.symbol);
+        let Source { symbol, meaning, value, unit, origin } = source;
+        let (key, text) = match origin {
+            Origin::Step(formula) => {
+                work.extend(derived(Work::step(symbol, meaning, value, unit), formula, known));
+                open.extend(symbols_of(formula, known));
+                continue;
+            }
+            Origin::Quantity(quantity) => {
+                let text = value.map(|value| shown(quantity, value));
+                (quantity.key, text.map(|text| with_unit(&text.number, text.unit)))
+            }
+            Origin::Field(field) => {
+                (FIELDS[field].key, value.map(|value| known.field_text(field, value)))
+            }
+        };
+        leaves.push(Leaf {
+            symbol,
+            shown: text.unwrap_or_else(|| "no value".to_owned()),
+            value,
+            meaning,
+            key,
+            is_quantity: matches!(origin, Origin::Quantity(_)),
+        });
+    }
+    (work, leaves)
+}
+
+/// The work with its formula: with numbers if it is explicit, with both sides if it is an equation.
+fn derived(work: Work, formula: Formula, known: &Known) -> Vec<Work> {
     match formula.resolved(known.context.inputs) {
         Formula::Given(key) => {
-            let text = FIELDS
-                .iter()
-                .position(|field| field.key == key)
-                .and_then(|field| known.case.effective(field));
-            let text = format!("the case gives {key} = {}", text.unwrap_or_default());
-            vec![target.work(How::Described, text)]
+            let text = index_of(key).and_then(|field| known.case.effective(field));
+            let formula = format!("the case gives {key} = {}", text.unwrap_or_default());
+            vec![Work { formula, ..work }]
         }
         Formula::Words(words) | Formula::Found(words, _) => {
-            vec![target.work(How::Described, words.to_owned())]
+            vec![Work { formula: words.to_owned(), ..work }]
         }
-        Formula::Solved(equation) => solved(target, equation, known),
+        Formula::Solved(equation) => solved(work, equation, known),
         other => {
-            let text = other.explicit(&known.context).unwrap_or_default();
+            let formula = other.explicit(&known.context).unwrap_or_default();
             let digits = match other {
-                _ if symbols(&text) == [text.as_str()] => target.digits,
+                _ if symbols(&formula) == [formula.as_str()] => work.digits,
                 Formula::Difference(_) => DIFFERENCE_DIGITS,
-                _ => target.digits + MORE_DIGITS,
+                _ => work.digits + MORE_DIGITS,
             };
-            let term = |symbol: &str| known.term(symbol);
-            let numbers = target.value.and_then(|_| substituted(&text, digits, &term));
-            vec![Work { numbers, ..target.work(How::Equals, text) }]
+            let term = |symbol: &str| known.term(symbol, digits);
+            let numbers = work.value.and_then(|_| substituted(&formula, &term));
+            vec![Work { numbers, formula, how: How::Equals, ..work }]
         }
     }
 }
 
 /// The root of an equation, its agreement, and both sides.
-fn solved(target: &Target, equation: &'static Equation, known: &Known) -> Vec<Work> {
-    let sides = target.value.and_then(|_| (equation.sides)(&known.context));
-    let mut work = vec![Work {
-        residual: sides.map(agreement),
-        ..target.work(How::Solves, equation.text.to_owned())
-    }];
-    let side = |name, at: usize| Target::step(name, "", sides.map(|s| s[at]), equation.unit);
-    work.extend(derived(&side("left side", 0), equation.left, known));
-    work.extend(derived(&side("right side", 1), equation.right, known));
-    work
+fn solved(work: Work, equation: &'static Equation, known: &Known) -> Vec<Work> {
+    let sides = work.value.and_then(|_| (equation.sides)(&known.context));
+    let residual = sides.map(agreement);
+    let root = Work { residual, formula: equation.text.to_owned(), how: How::Solves, ..work };
+    let side = |name, at: usize, formula| {
+        let value = sides.map(|sides| sides[at]);
+        derived(Work::step(name, "", value, equation.unit), formula, known)
+    };
+    let (left, right) =
+        (side("left side", 0, equation.left), side("right side", 1, equation.right));
+    [root].into_iter().chain(left).chain(right).collect()
 }
 
 /// How closely the two sides of an equation agree.
@@ -218,43 +237,6 @@ fn symbols_of(formula: Formula, known: &Known) -> Vec<String> {
     }
 }
 
-impl Source {
-    fn symbol(self, known: &Known) -> &'static str {
-        match self {
-            Source::Quantity(quantity) => quantity.symbol_in(known.context.solution.method),
-            Source::Step(step) => step.symbol,
-            Source::Force(force) => &force.symbol,
-            Source::Field(field) => FIELDS[field].symbol,
-        }
-    }
-
-    /// The leaf of a quantity or of a field; steps and forces have a derivation instead.
-    fn leaf(self, known: &Known) -> Option<Leaf> {
-        let (symbol, value) = (self.symbol(known), known.value(self));
-        let (text, meaning, key) = match self {
-            Source::Quantity(quantity) => {
-                let text = value.map(|value| shown(quantity, value));
-                let text = text.map(|shown| with_unit(&shown.number, shown.unit));
-                let label = quantity.label_in(known.context.solution.method);
-                (text, label.trim_start(), quantity.key)
-            }
-            Source::Field(field) => {
-                let text = known.term(symbol).map(|term| term.text(STEP_DIGITS));
-                (text, FIELDS[field].label, FIELDS[field].key)
-            }
-            Source::Step(_) | Source::Force(_) => return None,
-        };
-        Some(Leaf {
-            symbol,
-            shown: text.unwrap_or_else(|| "no value".to_owned()),
-            value,
-            meaning,
-            key,
-            is_quantity: matches!(self, Source::Quantity(_)),
-        })
-    }
-}
-
 /// A no-break space, between a number and its unit.
 pub(super) const GLUE: &str = "\u{a0}";
 
@@ -262,25 +244,6 @@ pub(super) const GLUE: &str = "\u{a0}";
 const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "acos", "atan2", "ln", "inv", "min", "max"];
 
 const SUPERSCRIPTS: [char; 3] = ['²', '³', '⁴'];
-
-/// The value of a symbol.
-#[derive(Debug, Clone, PartialEq)]
-enum Term {
-    /// A text of the case.
-    Written(String),
-    /// A value in a unit.
-    Value(f64, &'static str),
-}
-
-impl Term {
-    /// The value with its unit, with at most `digits` significant digits.
-    pub(super) fn text(&self, digits: usize) -> String {
-        match self {
-            Term::Written(text) => text.clone(),
-            Term::Value(value, unit) => with_unit(&tidy(*value, digits), unit),
-        }
-    }
-}
 
 /// A number and its unit, if it has one.
 fn with_unit(number: &str, unit: &str) -> String {
@@ -354,9 +317,8 @@ pub(super) fn symbols(text: &str) -> Vec<String> {
     tokens.into_iter().filter_map(symbol).collect()
 }
 
-/// The formula with the value and the unit of each symbol, with at most `digits` digits; `None` if
-/// a symbol has no value.
-fn substituted(text: &str, digits: usize, term: &dyn Fn(&str) -> Option<Term>) -> Option<String> {
+/// The formula with the value and the unit of each symbol; `None` if a symbol has no value.
+fn substituted(text: &str, term: &dyn Fn(&str) -> Option<String>) -> Option<String> {
     let tokens = tokens(text)?;
     let mut written = String::new();
     // Whether the last token ends an operand, and whether a function expects its argument.
@@ -373,7 +335,7 @@ fn substituted(text: &str, digits: usize, term: &dyn Fn(&str) -> Option<Term>) -
         }
         let operand = match token {
             Token::Number(number) => Some(number.to_owned()),
-            Token::Symbol(symbol) => Some(term(symbol)?.text(digits)),
+            Token::Symbol(symbol) => Some(term(symbol)?),
             Token::Unit(unit) => Some(format!("1 {unit}")),
             Token::Function(name) => {
                 written += name;
@@ -447,24 +409,28 @@ pub(super) struct Known<'a> {
     pub(super) context: Context<'a>,
 }
 
-/// The source of the value of a symbol.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Source {
+/// A symbol of a formula: its value in SI, the unit of its text, and its origin.
+struct Source {
+    symbol: &'static str,
+    meaning: &'static str,
+    value: Option<f64>,
+    unit: &'static str,
+    origin: Origin,
+}
+
+enum Origin {
     /// A quantity, which has a page of its own.
     Quantity(&'static Quantity),
-    /// A step that formulas share.
-    Step(&'static Step),
-    /// The impact force by another stiffness model.
-    Force(&'static Force),
+    /// A step that formulas share, or the impact force by another stiffness model.
+    Step(Formula),
     /// A field of the case, by index.
     Field(usize),
 }
 
 /// The impact force by another stiffness model.
-#[derive(Debug)]
-pub(super) struct Force {
-    pub(super) symbol: String,
-    pub(super) meaning: String,
+struct Force {
+    symbol: String,
+    meaning: String,
     models: StiffnessModels,
 }
 
@@ -478,17 +444,50 @@ static FORCES: LazyLock<Vec<Force>> = LazyLock::new(|| {
 });
 
 impl Known<'_> {
-    /// The source of the value of a symbol.
-    pub(super) fn source(&self, symbol: &str) -> Option<Source> {
+    /// A quantity as a symbol of a formula.
+    fn quantity(&self, quantity: &'static Quantity) -> Source {
         let method = self.context.solution.method;
-        let quantity = QUANTITIES
-            .iter()
-            .find(|quantity| quantity.symbol_in(method) == symbol && !quantity.is_flag())
-            .map(Source::Quantity);
-        let step = || self.step(symbol).map(Source::Step);
-        let force = || FORCES.iter().find(|force| force.symbol == symbol).map(Source::Force);
-        let field = || FIELDS.iter().position(|field| field.symbol == symbol).map(Source::Field);
-        quantity.or_else(step).or_else(force).or_else(field)
+        Source {
+            symbol: quantity.symbol_in(method),
+            meaning: quantity.label_in(method).trim_start(),
+            value: value(quantity, self.context.solution),
+            unit: quantity.shown,
+            origin: Origin::Quantity(quantity),
+        }
+    }
+
+    fn source(&self, symbol: &str) -> Option<Source> {
+        let Context { inputs, solution, .. } = self.context;
+        let is_meant = |quantity: &&Quantity| {
+            quantity.symbol_in(solution.method) == symbol && !quantity.is_flag()
+        };
+        let mut source = if let Some(quantity) = QUANTITIES.iter().find(is_meant) {
+            self.quantity(quantity)
+        } else if let Some(&Step { symbol, meaning, unit, formula, value }) = self.step(symbol) {
+            let (value, origin) = (value(&self.context), Origin::Step(formula));
+            Source { symbol, meaning, value, unit, origin }
+        } else if let Some(force) = FORCES.iter().find(|force| force.symbol == symbol) {
+            let covers = (force.models.tooth.covers)(inputs);
+            Source {
+                symbol: &force.symbol,
+                meaning: &force.meaning,
+                value: covers.then(|| spread_force(inputs, &force.models)).flatten(),
+                unit: "N",
+                origin: Origin::Step(Formula::Words("a separate solution with these models")),
+            }
+        } else {
+            let field = FIELDS.iter().position(|field| field.symbol == symbol)?;
+            let derived = || self.case.derived(field, self.context.given);
+            Source {
+                symbol: FIELDS[field].symbol,
+                meaning: FIELDS[field].label,
+                value: self.case.value(field).or_else(derived),
+                unit: "",
+                origin: Origin::Field(field),
+            }
+        };
+        source.value = source.value.filter(|value| value.is_finite()).map(|value| value + 0.0);
+        Some(source)
     }
 
     /// A step whose value no field of the case gives; the torque can be either.
@@ -500,38 +499,14 @@ impl Known<'_> {
         steps().chain(models).find(|step| step.symbol == symbol && !is_given(step))
     }
 
-    /// The value of a source in SI.
-    pub(super) fn value(&self, source: Source) -> Option<f64> {
-        let found = match source {
-            Source::Quantity(quantity) => value(quantity, self.context.solution),
-            Source::Step(step) => (step.value)(&self.context),
-            Source::Force(force) => {
-                let inputs = self.context.inputs;
-                let covers = (force.models.tooth.covers)(inputs);
-                covers.then(|| spread_force(inputs, &force.models)).flatten()
-            }
-            Source::Field(field) => self.field_value(field),
-        };
-        found.filter(|value| value.is_finite()).map(|value| value + 0.0)
-    }
-
-    /// The value of a symbol as text of a formula.
-    fn term(&self, symbol: &str) -> Option<Term> {
-        let source = self.source(symbol)?;
-        let value = self.value(source)?;
-        let in_unit = |unit| Term::Value(value / factor(unit).unwrap_or(1.0), unit);
-        Some(match source {
-            Source::Quantity(quantity) => in_unit(quantity.shown),
-            Source::Step(step) => in_unit(step.unit),
-            Source::Force(_) => in_unit("N"),
-            Source::Field(field) => Term::Written(self.field_text(field, value)),
+    /// The value of a symbol as text of a formula, with at most `digits` significant digits.
+    fn term(&self, symbol: &str, digits: usize) -> Option<String> {
+        let Source { value, unit, origin, .. } = self.source(symbol)?;
+        let value = value?;
+        Some(match origin {
+            Origin::Field(field) => self.field_text(field, value),
+            _ => with_unit(&tidy(value / factor(unit).unwrap_or(1.0), digits), unit),
         })
-    }
-
-    /// The value of a field, given or derived.
-    fn field_value(&self, field: usize) -> Option<f64> {
-        let given = self.case.value(field);
-        given.or_else(|| self.case.derived(field, self.context.given))
     }
 
     /// The value of a field as the user wrote it; in the usual unit of the field if that text would
@@ -541,15 +516,10 @@ impl Known<'_> {
             Kind::Number(_, range, _) => range.unit,
             _ => "",
         };
-        let written = self.case.effective(field).and_then(plainly_written);
-        let is_written = self.case.effective(field).is_some();
-        written.unwrap_or_else(|| {
-            if is_written {
-                units::text(value, usual)
-            } else {
-                with_unit(&tidy(value / factor(usual).unwrap_or(1.0), DERIVED_DIGITS), usual)
-            }
-        })
+        match self.case.effective(field) {
+            Some(text) => plainly_written(text).unwrap_or_else(|| units::text(value, usual)),
+            None => with_unit(&tidy(value / factor(usual).unwrap_or(1.0), DERIVED_DIGITS), usual),
+        }
     }
 }
 
@@ -571,18 +541,19 @@ fn plainly_written(text: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{GLUE, Term, substituted, symbols};
+    use super::{GLUE, substituted, symbols};
 
-    fn term(symbol: &str) -> Option<Term> {
-        Some(match symbol {
-            "v" => Term::Value(0.821_063_9, "m/s"),
-            "b" => Term::Written("8 mm".to_owned()),
-            "M" => Term::Value(0.113_731_2, "kg"),
-            "q" => Term::Value(0.127_770_4, "um mm/N"),
-            "x" => Term::Value(-0.3, "1"),
-            "α" => Term::Written("20 deg".to_owned()),
+    fn term(symbol: &str) -> Option<String> {
+        let text = match symbol {
+            "v" => "0.82106 m/s",
+            "b" => "8 mm",
+            "M" => "0.11373 kg",
+            "q" => "0.12777 um mm/N",
+            "x" => "-0.3",
+            "α" => "20 deg",
             _ => return None,
-        })
+        };
+        Some(text.to_owned())
     }
 
     #[test]
@@ -600,7 +571,7 @@ mod tests {
             ("π b cos α", "π · 8 mm · cos(20 deg)"),
             ("(1 + x²) [N/(um mm)]", "(1 + (-0.3)²) · 1 N/(um mm)"),
         ] {
-            let found = substituted(formula, 5, &term).map(|text| text.replace(GLUE, " "));
+            let found = substituted(formula, &term).map(|text| text.replace(GLUE, " "));
             assert_eq!(found.as_deref(), Some(expected), "{formula}");
         }
     }
@@ -608,7 +579,7 @@ mod tests {
     #[test]
     fn a_formula_without_a_value_for_a_symbol_has_no_numbers() {
         for formula in ["b unknown", "b ? 2"] {
-            assert_eq!(substituted(formula, 5, &term), None, "{formula}");
+            assert_eq!(substituted(formula, &term), None, "{formula}");
         }
         assert_eq!(symbols("ha*1 + r_b2' cos T_S,32"), ["ha*1", "r_b2'", "T_S,32"]);
     }

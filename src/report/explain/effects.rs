@@ -11,6 +11,7 @@ use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::numeric::decimal::significant;
+use crate::report::json::{Json, object, unless_empty};
 use crate::report::{shown, value, value_as_in};
 
 /// The tolerance of the motion at which a small step is distinguishable.
@@ -29,6 +30,17 @@ pub struct Effect {
     pub step: String,
     /// The change of the quantity; empty without a change.
     pub change: String,
+}
+
+impl Effect {
+    pub(super) fn json(&self) -> Json {
+        object([
+            ("key", self.key.into()),
+            ("text", (&self.text).into()),
+            ("step", unless_empty(&self.step)),
+            ("change", unless_empty(&self.change)),
+        ])
+    }
 }
 
 /// The fields behind a quantity, in the order of the form. For method `auto`, the tolerance follows

@@ -4,7 +4,8 @@ use super::derivation::{GLUE, How, Leaf, Work};
 use super::effects::Effect;
 use super::{Correction, Page};
 use crate::case::sanitize::sanitize;
-use crate::report::layout::{WIDTH, count, flow, widest};
+use crate::report::layout::{WIDTH, count, flow};
+use crate::report::table::{Cell, Column, Table};
 
 /// The kind of a line, which decides its style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,14 +162,14 @@ fn with_meaning(mut lines: Vec<Line>, meaning: &str, more: &str, width: usize) -
 }
 
 fn leaves(leaves: &[Leaf], width: usize) -> Vec<Line> {
-    let symbols = widest(leaves.iter().map(|leaf| leaf.symbol));
-    let values = widest(leaves.iter().map(|leaf| leaf.shown.as_str()));
-    let line = |leaf: &Leaf| {
-        let lead = format!("  {:symbols$}  {:values$}  ", leaf.symbol, leaf.shown);
-        let more = " ".repeat(lead.chars().count());
-        block(Kind::Text, &format!("{} ({})", leaf.meaning, leaf.key), &lead, &more, width)
-    };
-    leaves.iter().flat_map(line).collect()
+    let columns = [("symbol", 2), ("value", 2), ("meaning", 2)];
+    let columns = columns.map(|(key, gap)| Column::text(key, "").wide(gap, 0)).to_vec();
+    let rows = leaves.iter().map(|leaf| {
+        let meaning = format!("{} ({})", leaf.meaning, leaf.key);
+        vec![leaf.symbol.into(), leaf.shown.as_str().into(), meaning.into()]
+    });
+    let lines = Table::new("", columns).with(rows).wrapped(width);
+    lines.into_iter().map(|line| Line::new(Kind::Text, line)).collect()
 }
 
 fn corrections(page: &Page, width: usize) -> Vec<Line> {
@@ -202,24 +203,26 @@ fn validity(page: &Page, width: usize) -> Vec<Line> {
 fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
     let (acting, idle): (Vec<&Effect>, Vec<&Effect>) =
         effects.iter().partition(|effect| !effect.change.is_empty());
-    let column = |of: fn(&Effect) -> &str| widest(acting.iter().map(|effect| of(effect)));
-    let [symbol, key] = [column(|effect| effect.symbol), column(|effect| effect.key)];
-    let [text, step] = [column(|effect| &effect.text), column(|effect| &effect.step)];
-    let change = column(|effect| &effect.change);
-    let full = symbol + key + text + step + change + 10;
-    let mut lines = Vec::new();
-    for effect in acting {
-        let Effect { symbol: symbols, key: keys, text: texts, step: steps, change: changes } =
-            effect;
-        let row = format!("{keys:key$}  {texts:text$}  {steps:>step$}  {changes:>change$}");
-        lines.extend(match full {
-            _ if full <= width => {
-                vec![Line::new(Kind::Text, format!("  {symbols:symbol$}  {row}"))]
-            }
-            _ if full - symbol - 2 <= width => vec![Line::new(Kind::Text, format!("  {row}"))],
-            _ => paragraph(&format!("{keys} = {texts}: {steps} gives {changes}"), 2, width),
-        });
-    }
+    let column = Column::text("", "").wide(2, 0);
+    let number = column.clone().to_the_right();
+    let columns = vec![column.clone(), column.clone(), column, number.clone(), number];
+    let row = |effect: &&Effect| {
+        let Effect { key, symbol, text, step, change } = effect;
+        [symbol, key, text.as_str(), step, change].map(Cell::from).to_vec()
+    };
+    let table = Table::new("", columns).with(acting.iter().map(row));
+    let fits = |lines: &Vec<String>| lines.iter().all(|line| count(line) <= width);
+    let rows = Some(table.lines()).filter(fits);
+    let rows = rows.or_else(|| Some(table.of(&[1, 2, 3, 4]).lines()).filter(fits));
+    let mut lines: Vec<Line> = match rows {
+        Some(rows) => rows.into_iter().map(|row| Line::new(Kind::Text, row)).collect(),
+        None => acting
+            .iter()
+            .flat_map(|Effect { key, text, step, change, .. }| {
+                paragraph(&format!("{key} = {text}: {step} gives {change}"), 2, width)
+            })
+            .collect(),
+    };
     let field = |effect: &&Effect| format!("{} = {}", effect.key, effect.text).replace(' ', GLUE);
     if !idle.is_empty() {
         let lead = if lines.is_empty() {

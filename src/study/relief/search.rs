@@ -16,11 +16,10 @@ use crate::model::{Inputs, Refusal, Solution};
 /// A relief in whole steps: amounts on driver and driven gear, then lengths.
 type Steps = [i32; 4];
 
-/// The kinds of relief in the order of the answer: the shape, the name, and the name if both gears
-/// have the same relief.
-const KINDS: [(ReliefShape, &str, &str); 2] = [
-    (ReliefShape::Linear, "linear", "linear, both alike"),
-    (ReliefShape::Parabolic, "parabolic", "parabolic, both alike"),
+/// The kinds of relief: the shape, the name, and the name if both gears have the same relief.
+const KINDS: [(ReliefShape, [&str; 2]); 2] = [
+    (ReliefShape::Linear, ["linear", "linear, both alike"]),
+    (ReliefShape::Parabolic, ["parabolic", "parabolic, both alike"]),
 ];
 
 /// Start lengths, relative to the longest length.
@@ -76,67 +75,52 @@ impl Grid {
         }
     }
 
+    /// The same amount on both gears, as far as the tips allow it.
+    fn equal(&self, amount: i32, [one, other]: [i32; 2]) -> Steps {
+        let [driver, driven] = self.most_amounts.map(|most| amount.min(most));
+        [driver, driven, one, other]
+    }
+
     fn has(&self, steps: Steps) -> bool {
-        let within = |steps: i32, least: i32, most: i32| (least..=most).contains(&steps);
-        within(steps[0], 0, self.most_amounts[0])
-            && within(steps[1], 0, self.most_amounts[1])
-            && within(steps[2], self.least_length, self.most_length)
-            && within(steps[3], self.least_length, self.most_length)
+        let lengths = self.least_length..=self.most_length;
+        let has_amount = |at: usize| (0..=self.most_amounts[at]).contains(&steps[at]);
+        has_amount(0) && has_amount(1) && lengths.contains(&steps[2]) && lengths.contains(&steps[3])
     }
 }
 
-/// The cost of a relief: the transmission error, or the overlap with corner contact. Any overlap
-/// costs more than any error.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-enum Cost {
-    Error(f64),
-    Overlap(f64),
-}
+/// The cost of a relief: whether it has corner contact, then the overlap, otherwise the transmission
+/// error. Any overlap costs more than any error.
+type Cost = (bool, f64);
+
+/// A relief with its cost.
+type Tried = (Steps, Cost);
 
 pub(super) struct Search<'a> {
-    bench: &'a PreparedMesh,
-    grid: &'a Grid,
-    meter: &'a Meter,
-    go_on: &'a dyn Fn(f64) -> bool,
-    known: RefCell<HashMap<(bool, Steps), Cost>>,
-    tries: Cell<u64>,
+    pub(super) bench: &'a PreparedMesh,
+    pub(super) grid: &'a Grid,
+    pub(super) meter: &'a Meter,
+    pub(super) go_on: &'a dyn Fn(f64) -> bool,
+    pub(super) known: RefCell<HashMap<(bool, Steps), Cost>>,
+    /// The number of evaluated reliefs.
+    pub(super) tries: Cell<u64>,
 }
 
-impl<'a> Search<'a> {
-    pub(super) fn new(
-        bench: &'a PreparedMesh,
-        grid: &'a Grid,
-        meter: &'a Meter,
-        go_on: &'a dyn Fn(f64) -> bool,
-    ) -> Search<'a> {
-        Search { bench, grid, meter, go_on, known: RefCell::default(), tries: Cell::default() }
-    }
-
-    /// The number of evaluated reliefs.
-    pub(super) fn tries(&self) -> u64 {
-        self.tries.get()
-    }
-
-    /// The best relief of each kind without corner contact.
+impl Search<'_> {
+    /// The best relief of each kind without corner contact, those with equal gears last.
     ///
     /// # Errors
     /// Returns an error if no kind has such a relief, or if the user stops the search.
     pub(super) fn best_of_each_kind(&self) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
         let (mut own, mut alike) = (Vec::new(), Vec::new());
-        for (shape, name, name_alike) in KINDS {
+        for (shape, names) in KINDS {
             let best_alike = self.best(shape, true, None)?;
             let best = self.best(shape, false, best_alike)?;
-            let named = |name, best: Option<(Steps, Cost)>| {
-                best.map(|(steps, _)| (name, self.grid.reliefs(shape, steps)))
-            };
-            own.extend(named(name, best));
-            alike.extend(named(name_alike, best_alike));
+            let named = |name, best: Option<Tried>| Some((name, self.grid.reliefs(shape, best?.0)));
+            own.extend(named(names[0], best));
+            alike.extend(named(names[1], best_alike));
         }
         own.append(&mut alike);
-        if own.is_empty() {
-            return Err(self.none());
-        }
-        Ok(own)
+        if own.is_empty() { Err(self.none()) } else { Ok(own) }
     }
 
     /// Why no relief prevents corner contact.
@@ -159,53 +143,41 @@ impl<'a> Search<'a> {
         &self,
         shape: ReliefShape,
         is_alike: bool,
-        start: Option<(Steps, Cost)>,
-    ) -> Result<Option<(Steps, Cost)>, NoRelief> {
+        start: Option<Tried>,
+    ) -> Result<Option<Tried>, NoRelief> {
+        let by_cost = |one: &Tried, other: &Tried| {
+            one.1.partial_cmp(&other.1).unwrap_or(std::cmp::Ordering::Equal)
+        };
         let mut starts = self.starts(shape, is_alike)?;
-        starts
-            .sort_by(|one, other| one.1.partial_cmp(&other.1).unwrap_or(std::cmp::Ordering::Equal));
+        starts.sort_by(by_cost);
         starts.truncate(FOLLOWED[usize::from(is_alike)]);
-        let mut best: Option<(Steps, Cost)> = None;
+        let directions = directions(is_alike);
+        let mut found = Vec::new();
         for start in starts.into_iter().chain(start) {
-            let found = self.followed(shape, is_alike, start)?;
-            if best.is_none_or(|best| found.1 < best.1) {
-                best = Some(found);
-            }
+            found.push(self.followed(shape, &directions, start)?);
         }
-        Ok(best.filter(|(_, cost)| matches!(cost, Cost::Error(_))))
+        Ok(found.into_iter().min_by(by_cost).filter(|(_, (overlaps, _))| !overlaps))
     }
 
     /// Reliefs of several lengths with the least amounts without corner contact, and with greater
     /// amounts.
-    fn starts(&self, shape: ReliefShape, is_alike: bool) -> Result<Vec<(Steps, Cost)>, NoRelief> {
+    fn starts(&self, shape: ReliefShape, is_alike: bool) -> Result<Vec<Tried>, NoRelief> {
         let grid = self.grid;
         let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
         let length = |part: f64| (part * most).round().max(least) as i32;
-        let parts: Vec<f64> = if is_alike {
+        let lengths: Vec<[i32; 2]> = if is_alike {
             let part = |at: u32| f64::from(at) / f64::from(PARTS_ALIKE);
-            (1..=PARTS_ALIKE).map(part).collect()
+            (1..=PARTS_ALIKE).map(|at| [length(part(at)); 2]).collect()
         } else {
-            PARTS.to_vec()
+            PARTS.iter().flat_map(|one| PARTS.map(|other| [length(*one), length(other)])).collect()
         };
-        let mut starts: Vec<(Steps, Cost)> = Vec::new();
-        for &one in &parts {
-            for &other in &parts {
-                if is_alike && one.to_bits() != other.to_bits() {
-                    continue;
-                }
-                let lengths = [length(one), length(other)];
-                let clears = self.least_clear(shape, lengths)?;
-                for times in TIMES {
-                    let amount = (f64::from(clears) * times).round() as i32;
-                    let steps = [
-                        amount.min(grid.most_amounts[0]),
-                        amount.min(grid.most_amounts[1]),
-                        lengths[0],
-                        lengths[1],
-                    ];
-                    if starts.iter().all(|(known, _)| *known != steps) {
-                        starts.push((steps, self.cost(shape, steps)?));
-                    }
+        let mut starts: Vec<Tried> = Vec::new();
+        for lengths in lengths {
+            let clears = self.least_clear(shape, lengths)?;
+            for times in TIMES {
+                let steps = grid.equal((f64::from(clears) * times).round() as i32, lengths);
+                if starts.iter().all(|(known, _)| *known != steps) {
+                    starts.push((steps, self.cost(shape, steps)?));
                 }
             }
         }
@@ -217,15 +189,15 @@ impl<'a> Search<'a> {
     /// whose deflection causes an overlap again.
     fn least_clear(&self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
         const STRIDES: i32 = 24;
-        let most = self.grid.most_amounts;
-        let clears = |amount: i32| {
-            let steps = [amount.min(most[0]), amount.min(most[1]), lengths[0], lengths[1]];
-            Ok::<bool, NoRelief>(matches!(self.cost(shape, steps)?, Cost::Error(_)))
+        let overlaps = |amount: i32| {
+            let (overlaps, _) = self.cost(shape, self.grid.equal(amount, lengths))?;
+            Ok::<bool, NoRelief>(overlaps)
         };
-        let greatest = most[0].max(most[1]);
+        let [one, other] = self.grid.most_amounts;
+        let greatest = one.max(other);
         let stride = (greatest / STRIDES).max(1);
         let (mut low, mut high) = (-1, 0);
-        while !clears(high)? {
+        while overlaps(high)? {
             if high >= greatest {
                 return Ok(greatest);
             }
@@ -233,10 +205,10 @@ impl<'a> Search<'a> {
         }
         while high - low > 1 {
             let middle = i32::midpoint(low, high);
-            if clears(middle)? {
-                high = middle;
-            } else {
+            if overlaps(middle)? {
                 low = middle;
+            } else {
+                high = middle;
             }
         }
         Ok(high)
@@ -246,30 +218,26 @@ impl<'a> Search<'a> {
     fn followed(
         &self,
         shape: ReliefShape,
-        is_alike: bool,
-        start: (Steps, Cost),
-    ) -> Result<(Steps, Cost), NoRelief> {
-        let directions = directions(is_alike);
-        let (mut at, mut cost) = start;
-        let mut stride = STRIDE;
+        directions: &[Steps],
+        start: Tried,
+    ) -> Result<Tried, NoRelief> {
+        let (mut best, mut stride) = (start, STRIDE);
         while stride > 0 {
-            let mut better = None;
-            for direction in &directions {
+            let (at, before) = best;
+            for direction in directions {
                 let next: Steps = std::array::from_fn(|axis| at[axis] + stride * direction[axis]);
-                if !self.grid.has(next) {
-                    continue;
-                }
-                let found = self.cost(shape, next)?;
-                if found < better.map_or(cost, |(_, best)| best) {
-                    better = Some((next, found));
+                if self.grid.has(next) {
+                    let cost = self.cost(shape, next)?;
+                    if cost < best.1 {
+                        best = (next, cost);
+                    }
                 }
             }
-            match better {
-                Some(found) => (at, cost) = found,
-                None => stride /= 2,
+            if best.1 == before {
+                stride /= 2;
             }
         }
-        Ok((at, cost))
+        Ok(best)
     }
 
     /// The cost of a relief. Once the budget is spent, a relief that is not cached costs an
@@ -283,17 +251,17 @@ impl<'a> Search<'a> {
             return Err(NoRelief::Refused(Refusal::Stopped));
         }
         if !self.meter.spend(0) {
-            return Ok(Cost::Overlap(f64::INFINITY));
+            return Ok((true, f64::INFINITY));
         }
         self.tries.set(self.tries.get() + 1);
-        let (reliefs, [errors, corners]) = (self.grid.reliefs(shape, steps), self.bench.costs());
+        let (reliefs, [errors, corners]) = (self.grid.reliefs(shape, steps), self.bench.costs);
         self.meter.spend(corners);
         let overlap = self.bench.overlap(&reliefs);
         let cost = if overlap > 0.0 {
-            Cost::Overlap(overlap)
+            (true, overlap)
         } else {
             self.meter.spend(errors);
-            Cost::Error(self.error(&reliefs))
+            (false, self.error(&reliefs))
         };
         self.known.borrow_mut().insert(key, cost);
         Ok(cost)
@@ -344,13 +312,9 @@ impl<'a> Search<'a> {
 
 /// Every direction to a neighbour; both gears together if they have the same relief.
 fn directions(is_alike: bool) -> Vec<Steps> {
-    let of = |index: i32| {
-        let digit = |place: u32| index / 3i32.pow(place) % 3 - 1;
-        [digit(0), digit(1), digit(2), digit(3)]
-    };
+    let of = |index: i32| [1, 3, 9, 27].map(|power| index / power % 3 - 1);
     let is_wanted = |steps: &Steps| {
-        let is_same = steps[0] == steps[1] && steps[2] == steps[3];
-        *steps != [0; 4] && (!is_alike || is_same)
+        *steps != [0; 4] && (!is_alike || steps[0] == steps[1] && steps[2] == steps[3])
     };
     (0..81).map(of).filter(is_wanted).collect()
 }
@@ -418,23 +382,17 @@ impl PreparedMesh {
         let loads = loads.iter().map(over_pitch).collect::<Result<Vec<_>, _>>()?;
         let corners = survey.corners(solution.mesh_force)?;
         let pairs = corners.places.iter().map(|place| place.radii.len() as u64);
-        let corner_cost: u64 = pairs.sum();
         Ok(PreparedMesh {
             geometry: solution.geometry,
             reliefs: bare.reliefs(),
             tolerance: demand.tolerance,
             costs: [
                 loads.iter().map(Pitch::cost).sum(),
-                tolerances(demand.tolerance).len() as u64 * corner_cost,
+                tolerances(demand.tolerance).len() as u64 * pairs.sum::<u64>(),
             ],
             loads,
             corners,
         })
-    }
-
-    /// The costs of the transmission error and of the corners of one relief.
-    fn costs(&self) -> [u64; 2] {
-        self.costs
     }
 
     /// The peak-to-peak transmission error at each load, in m.
@@ -612,7 +570,7 @@ impl<'a> Survey<'a> {
         let mut inputs = self.inputs.mesh();
         // The places apply the root reliefs together with the tip reliefs.
         (inputs.reliefs.driver.root, inputs.reliefs.driven.root) = (0.0, 0.0);
-        Mesh::new(&inputs, &self.solution.geometry, force, error, self.reach)
+        Mesh::new(&inputs, &self.solution.geometry, (force, error), self.reach)
     }
 
     fn over_pitch(&self, force: f64) -> Result<Pitch, Refusal> {

@@ -1,0 +1,406 @@
+//! A table of results: columns, rows and notes, with writers for text, CSV, JSON, Markdown and
+//! HTML.
+
+use std::borrow::Cow;
+use std::io::{self, Write};
+
+use csv::{ErrorKind, Writer};
+
+use super::json::{Json, object};
+use super::layout::{count, flow, plain_markdown};
+use super::number;
+
+/// Columns, rows and notes. A row has one cell per column.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    /// The heading of the table; empty for none.
+    pub title: String,
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The rows.
+    pub rows: Vec<Vec<Cell>>,
+    /// Sentences below the table.
+    pub notes: Vec<String>,
+}
+
+/// A column: the name for scripts, the header for readers, and the unit and digits of its numbers.
+#[derive(Debug, Clone, Default)]
+pub struct Column {
+    /// The name in CSV and JSON.
+    pub key: Cow<'static, str>,
+    /// The header for a reader.
+    pub title: Cow<'static, str>,
+    /// The unit in CSV; empty for texts.
+    pub unit: Cow<'static, str>,
+    /// The unit in which text shows the numbers.
+    pub shown: &'static str,
+    /// Significant digits of the numbers in text.
+    pub digits: usize,
+    /// Whether the cells are aligned to the right.
+    pub is_right: bool,
+    /// Blanks before the column in text.
+    pub gap: usize,
+    /// Least width in text.
+    pub least: usize,
+}
+
+/// A value of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// A value in SI, shown in the unit and with the digits of the column.
+    Number(f64),
+    /// A value in SI with its text.
+    Shown(f64, String),
+    /// A text.
+    Text(String),
+    /// A text that is a default; faint in HTML.
+    Default(String),
+    /// No value, with the mark or the reason that a reader sees.
+    None(&'static str),
+}
+
+impl Column {
+    /// A column of texts, aligned to the left.
+    pub fn text(key: impl Into<Cow<'static, str>>, title: impl Into<Cow<'static, str>>) -> Column {
+        Column { key: key.into(), title: title.into(), gap: 1, ..Column::default() }
+    }
+
+    /// A column of numbers, aligned to the right: their unit in SI, and the unit and the digits in
+    /// text.
+    pub fn number(
+        key: impl Into<Cow<'static, str>>,
+        title: impl Into<Cow<'static, str>>,
+        unit: &'static str,
+        (shown, digits): (&'static str, usize),
+    ) -> Column {
+        Column { unit: unit.into(), shown, digits, ..Column::text(key, title) }.to_the_right()
+    }
+
+    /// The same column, aligned to the right.
+    #[must_use]
+    pub fn to_the_right(self) -> Column {
+        Column { is_right: true, ..self }
+    }
+
+    /// The same column with other blanks before it and another least width.
+    #[must_use]
+    pub fn wide(self, gap: usize, least: usize) -> Column {
+        Column { gap, least, ..self }
+    }
+
+    fn header(&self) -> String {
+        if self.unit.is_empty() {
+            self.key.to_string()
+        } else {
+            format!("{} [{}]", self.key, self.unit)
+        }
+    }
+
+    fn shown<'a>(&self, cell: &'a Cell) -> Cow<'a, str> {
+        match cell {
+            Cell::Number(value) => number(*value, self.shown, self.digits).into(),
+            Cell::Shown(_, text) | Cell::Text(text) | Cell::Default(text) => text.into(),
+            Cell::None(mark) => (*mark).into(),
+        }
+    }
+
+    fn aligned(&self, text: &str, width: usize) -> String {
+        let gap = self.gap;
+        let cell = if self.is_right { format!("{text:>width$}") } else { format!("{text:width$}") };
+        format!("{:gap$}{cell}", "")
+    }
+}
+
+impl Cell {
+    /// A number, or the mark of its absence.
+    #[must_use]
+    pub fn number(value: Option<f64>, mark: &'static str) -> Cell {
+        value.map_or(Cell::None(mark), Cell::Number)
+    }
+
+    /// The shortest text that parses to the same number; empty for an absent value.
+    fn record(&self) -> Cow<'_, str> {
+        match self {
+            Cell::Number(value) | Cell::Shown(value, _) => format!("{value:?}").into(),
+            Cell::Text(text) | Cell::Default(text) => text.into(),
+            Cell::None(_) => "".into(),
+        }
+    }
+
+    fn json(&self) -> Json {
+        match self {
+            Cell::Number(value) | Cell::Shown(value, _) => (*value).into(),
+            Cell::Text(text) | Cell::Default(text) => text.into(),
+            Cell::None(_) => Json::Absent,
+        }
+    }
+}
+
+impl<T: Into<String>> From<T> for Cell {
+    fn from(text: T) -> Cell {
+        Cell::Text(text.into())
+    }
+}
+
+/// The widths of the columns of tables with the same columns.
+#[must_use]
+pub fn widths(tables: &[Table]) -> Vec<usize> {
+    let columns = tables.first().map_or(&[][..], |table| &table.columns);
+    let width = |(at, column): (usize, &Column)| {
+        let cells = tables.iter().flat_map(|table| &table.rows).filter_map(|row| row.get(at));
+        let cells = cells.map(|cell| count(&column.shown(cell))).max().unwrap_or(0);
+        cells.max(column.least).max(count(&column.title))
+    };
+    columns.iter().enumerate().map(width).collect()
+}
+
+/// The lines of tables with the same columns, whose widths they share. A title is in the line of
+/// the headers if it ends before the first of them.
+#[must_use]
+pub fn text(tables: &[Table]) -> Vec<Vec<String>> {
+    let Some(Table { columns, .. }) = tables.first() else { return Vec::new() };
+    let widths = widths(tables);
+    let line = |texts: &mut dyn Iterator<Item = Cow<'_, str>>| {
+        let cells = columns.iter().zip(&widths).zip(texts);
+        let line: String =
+            cells.map(|((column, &width), text)| column.aligned(&text, width)).collect();
+        line.trim_end().to_owned()
+    };
+    let lines = |table: &Table| {
+        let mut header = line(&mut columns.iter().map(|column| column.title.as_ref().into()));
+        let blank = count(&header) - count(header.trim_start());
+        let mut lines = Vec::new();
+        if count(&table.title) < blank {
+            header = format!("{}{}", table.title, &header[count(&table.title)..]);
+        } else if !table.title.is_empty() {
+            lines.push(table.title.clone());
+        }
+        lines.extend(Some(header).filter(|header| !header.is_empty()));
+        let cells = |row: &Vec<Cell>| {
+            line(&mut columns.iter().zip(row).map(|(column, cell)| column.shown(cell)))
+        };
+        lines.extend(table.rows.iter().map(cells));
+        lines.extend(table.notes.iter().cloned());
+        lines
+    };
+    tables.iter().map(lines).collect()
+}
+
+impl Table {
+    /// A table without rows.
+    #[must_use]
+    pub fn new(title: impl Into<String>, columns: Vec<Column>) -> Table {
+        Table { title: title.into(), columns, ..Table::default() }
+    }
+
+    /// A table of texts: the first column is aligned to the left, the others to the right.
+    #[must_use]
+    pub fn of_texts(head: Vec<String>, rows: impl IntoIterator<Item = Vec<String>>) -> Table {
+        let column = |(at, title)| match at {
+            0 => Column { gap: 0, ..Column::text("", title) },
+            _ => Column { is_right: true, ..Column::text("", title) },
+        };
+        let cells = |row: Vec<String>| row.into_iter().map(Cell::Text).collect();
+        let columns: Vec<Column> = head.into_iter().enumerate().map(column).collect();
+        Table::new("", columns).with(rows.into_iter().map(cells))
+    }
+
+    /// The table with these rows.
+    #[must_use]
+    pub fn with(self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Table {
+        Table { rows: rows.into_iter().collect(), ..self }
+    }
+
+    /// The table with only these columns.
+    #[must_use]
+    pub fn of(&self, columns: &[usize]) -> Table {
+        let row = |row: &Vec<Cell>| columns.iter().map(|&at| row[at].clone()).collect();
+        Table {
+            title: self.title.clone(),
+            columns: columns.iter().map(|&at| self.columns[at].clone()).collect(),
+            rows: self.rows.iter().map(row).collect(),
+            notes: self.notes.clone(),
+        }
+    }
+
+    /// The lines of the table for a reader.
+    #[must_use]
+    pub fn lines(&self) -> Vec<String> {
+        text(std::slice::from_ref(self)).concat()
+    }
+
+    /// The lines of the table with its last column wrapped at a width.
+    #[must_use]
+    pub fn wrapped(&self, width: usize) -> Vec<String> {
+        let Some((last, before)) = self.columns.split_last() else { return Vec::new() };
+        let all: Vec<usize> = (0..before.len()).collect();
+        let lead = Table { notes: Vec::new(), ..self.of(&all) }.lines();
+        let widest = lead.iter().map(|line| count(line)).max().unwrap_or(0);
+        let texts = self.rows.iter().filter_map(|row| Some(last.shown(row.last()?)));
+        let head = (lead.len() > self.rows.len()).then(|| last.title.clone());
+        let texts = head.into_iter().chain(texts);
+        let indent = widest + last.gap;
+        let rows = lead.into_iter().zip(texts).flat_map(|(mut lead, text)| {
+            let parts = flow(text.split(' '), width.saturating_sub(indent).max(8));
+            parts
+                .into_iter()
+                .map(move |part| {
+                    let line = format!("{:indent$}{part}", std::mem::take(&mut lead));
+                    line.trim_end().to_owned()
+                })
+                .collect::<Vec<_>>()
+        });
+        rows.collect()
+    }
+
+    /// Writes the header as CSV in SI units.
+    ///
+    /// # Errors
+    /// Errors of the writer.
+    pub fn write_csv_header(&self, out: &mut dyn Write) -> io::Result<()> {
+        write_records([self.columns.iter().map(Column::header)], out)
+    }
+
+    /// Writes the rows as CSV in SI units and full precision, without header; an absent value is an
+    /// empty cell.
+    ///
+    /// # Errors
+    /// Errors of the writer.
+    pub fn write_csv_rows(&self, out: &mut dyn Write) -> io::Result<()> {
+        let record = |row| {
+            let cells: &Vec<Cell> = row;
+            cells.iter().map(|cell| cell.record().into_owned())
+        };
+        write_records(self.rows.iter().map(record), out)
+    }
+
+    /// Writes header and rows as CSV.
+    ///
+    /// # Errors
+    /// Errors of the writer.
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.write_csv_header(out)?;
+        self.write_csv_rows(out)
+    }
+
+    /// The rows as objects in SI units without absent values.
+    pub fn objects(&self) -> impl Iterator<Item = Json> {
+        self.rows.iter().map(|row| {
+            let cells = self.columns.iter().zip(row);
+            object(cells.map(|(column, cell)| (column.key.clone(), cell.json())))
+        })
+    }
+
+    /// The table as lines of Markdown, without its title and notes.
+    #[must_use]
+    pub fn markdown(&self) -> Vec<String> {
+        let line = |cells: &mut dyn Iterator<Item = String>| {
+            cells.fold("|".to_owned(), |line, cell| line + &cell + " |")
+        };
+        let rule = |column: &Column| if column.is_right { "--:|" } else { "---|" };
+        let cells = |row: &Vec<Cell>| {
+            let cells = self.columns.iter().zip(row);
+            line(
+                &mut cells
+                    .map(|(column, cell)| format!(" {}", plain_markdown(&column.shown(cell)))),
+            )
+        };
+        let title = |column: &Column| match &*column.title {
+            "" => String::new(),
+            title => format!(" {}", plain_markdown(title)),
+        };
+        let head = [
+            line(&mut self.columns.iter().map(title)),
+            self.columns.iter().fold("|".to_owned(), |line, column| line + rule(column)),
+        ];
+        head.into_iter().chain(self.rows.iter().map(cells)).collect()
+    }
+
+    /// The table as HTML, with headers if `has_head`: the class of a cell is `number`, or the key
+    /// of its column.
+    #[must_use]
+    pub fn html(&self, has_head: bool) -> String {
+        let line = |tag: &str, cells: &mut dyn Iterator<Item = (Cow<'_, str>, &str)>| {
+            let cells = self.columns.iter().zip(cells).map(|(column, (text, faint))| {
+                let class = if column.is_right { "number" } else { &column.key };
+                format!("<{tag} class=\"{class}{faint}\">{}</{tag}>", escaped(&text))
+            });
+            format!("<tr>{}</tr>\n", cells.collect::<String>())
+        };
+        let head = has_head.then(|| {
+            line("th", &mut self.columns.iter().map(|column| (column.title.as_ref().into(), "")))
+        });
+        let rows = self.rows.iter().map(|row| {
+            line(
+                "td",
+                &mut self.columns.iter().zip(row).map(|(column, cell)| {
+                    let faint = if matches!(cell, Cell::Default(_)) { " soft" } else { "" };
+                    (column.shown(cell), faint)
+                }),
+            )
+        });
+        let caption = match self.title.as_str() {
+            "" => String::new(),
+            title => format!("<caption>{}</caption>\n", escaped(title)),
+        };
+        let rows: String = head.into_iter().chain(rows).collect();
+        format!("<table>\n{caption}{rows}</table>\n")
+    }
+}
+
+/// A text as content of HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&#38;").replace('<', "&#60;").replace('>', "&#62;").replace('"', "&#34;")
+}
+
+/// Writes records as CSV.
+pub(super) fn write_records<R: IntoIterator<Item = String>>(
+    records: impl IntoIterator<Item = R>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut writer = Writer::from_writer(out);
+    records.into_iter().try_for_each(|record| writer.write_record(record)).map_err(|error| {
+        match error.into_kind() {
+            // The kind of the error tells the caller of a closed pipe.
+            ErrorKind::Io(error) => error,
+            other => io::Error::other(format!("{other:?}")),
+        }
+    })?;
+    writer.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let columns = vec![
+            Column::text("name", "").wide(2, 0),
+            Column::number("force", "A", "N", ("kN", 3)).wide(2, 6),
+        ];
+        let rows = [
+            vec!["tip|".into(), Cell::Number(1500.0)],
+            vec!["root".into(), Cell::number(None, "–")],
+        ];
+        Table { notes: vec!["note".to_owned()], ..Table::new("Loads", columns).with(rows) }
+    }
+
+    #[test]
+    fn one_table_has_five_writers() {
+        let table = table();
+        assert_eq!(table.lines(), ["Loads        A", "  tip|    1.50", "  root       –", "note"]);
+        let mut csv = Vec::new();
+        table.write_csv(&mut csv).unwrap();
+        assert_eq!(String::from_utf8(csv).unwrap(), "name,force [N]\ntip|,1500.0\nroot,\n");
+        let rows = serde_json::to_string(&table.objects().collect::<Json>()).unwrap();
+        assert_eq!(rows, r#"[{"name":"tip|","force":1500.0},{"name":"root"}]"#);
+        assert_eq!(table.markdown(), ["| | A |", "|---|--:|", "| tip\\| | 1.50 |", "| root | – |"]);
+        assert!(table.html(false).contains("<td class=\"number\">1.50</td>"));
+    }
+
+    #[test]
+    fn a_long_title_has_its_own_line() {
+        let long = Table { title: "A title to the end".to_owned(), ..table() };
+        assert_eq!(long.lines()[..2], ["A title to the end", "             A"]);
+    }
+}
