@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike, value};
 
 use super::lock::Lock;
 use crate::case::changes::Change;
@@ -56,6 +56,21 @@ pub struct Journal {
     pub changes: Vec<Change>,
 }
 
+/// The content of a journal file below its checksum.
+#[derive(Serialize, Deserialize)]
+struct Body {
+    written: u64,
+    session: String,
+    length: u64,
+    /// In hexadecimal, because TOML has no such large integers.
+    hash: String,
+    case: Option<String>,
+    /// A path that is not valid text.
+    case_bytes: Option<Vec<u8>>,
+    #[serde(default)]
+    change: Vec<Change>,
+}
+
 /// Why a text is not a valid journal.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum JournalFault {
@@ -68,9 +83,6 @@ pub enum JournalFault {
     /// The journal was cut or changed after it was written.
     #[error("the journal is damaged")]
     Damaged,
-    /// The journal is complete, but its content is invalid.
-    #[error("the journal has no valid `{0}`")]
-    Misformed(&'static str),
 }
 
 impl Journal {
@@ -80,12 +92,25 @@ impl Journal {
     }
 
     /// The text of a journal file.
-    pub(crate) fn to_text(&self) -> String {
-        let body = self.body();
-        format!(
-            "{OPENING}{FORMAT_KEY}{FORMAT}\n{CHECKSUM_KEY}\"{:016x}\"\n{body}",
-            hash(body.as_bytes())
-        )
+    ///
+    /// # Errors
+    /// Returns an error if TOML cannot represent the journal.
+    pub(crate) fn to_text(&self) -> io::Result<String> {
+        let case = self.case.as_deref();
+        let text = case.and_then(Path::to_str);
+        let bytes = case.filter(|_| text.is_none()).map(sharing::path_bytes);
+        let body = toml_edit::ser::to_string(&Body {
+            written: self.written,
+            session: self.session.clone(),
+            length: self.base_stamp.length,
+            hash: format!("{:016x}", self.base_stamp.hash),
+            case: text.map(str::to_owned),
+            case_bytes: bytes.map(<[u8]>::to_vec),
+            change: self.changes.clone(),
+        })
+        .map_err(io::Error::other)?;
+        let checksum = hash(body.as_bytes());
+        Ok(format!("{OPENING}{FORMAT_KEY}{FORMAT}\n{CHECKSUM_KEY}\"{checksum:016x}\"\n{body}"))
     }
 
     /// Parses the text of a journal file.
@@ -104,27 +129,16 @@ impl Journal {
         if checksum != format!("\"{:016x}\"", hash(body.as_bytes())) {
             return Err(JournalFault::Damaged);
         }
-        let toml: DocumentMut = body.parse().map_err(|_| JournalFault::Damaged)?;
-        read(toml.as_table()).map_err(JournalFault::Misformed)
-    }
-
-    fn body(&self) -> String {
-        let mut toml = DocumentMut::new();
-        toml["written"] = value(self.written.cast_signed());
-        toml["session"] = value(&self.session);
-        toml["length"] = value(self.base_stamp.length.cast_signed());
-        toml["hash"] = value(format!("{:016x}", self.base_stamp.hash));
-        if let Some(case) = &self.case {
-            match case.to_str() {
-                Some(path) => toml["case"] = value(path),
-                None => toml["case_bytes"] = value(hex(case)),
-            }
-        }
-        let changes: ArrayOfTables = self.changes.iter().map(table_of).collect();
-        if !changes.is_empty() {
-            toml["change"] = Item::ArrayOfTables(changes);
-        }
-        toml.to_string()
+        let body: Body = toml_edit::de::from_str(body).map_err(|_| JournalFault::Damaged)?;
+        let hash = u64::from_str_radix(&body.hash, 16).map_err(|_| JournalFault::Damaged)?;
+        let bytes = body.case_bytes.map(sharing::path_from_bytes);
+        Ok(Journal {
+            case: body.case.map(PathBuf::from).or(bytes),
+            base_stamp: Stamp { length: body.length, hash },
+            written: body.written,
+            session: body.session,
+            changes: body.change,
+        })
     }
 }
 
@@ -176,7 +190,7 @@ impl Journals {
     pub(super) fn write(path: &Path, journal: &Journal, lasting: bool) -> io::Result<()> {
         let folder = path.parent().unwrap_or(Path::new("."));
         let mut file = tempfile::Builder::new().prefix(".").tempfile_in(folder)?;
-        file.write_all(journal.to_text().as_bytes())?;
+        file.write_all(journal.to_text()?.as_bytes())?;
         if lasting {
             file.as_file().sync_data()?;
         }
@@ -190,14 +204,12 @@ impl Journals {
         let mut found = Found::default();
         for path in self.named(&stem(case)) {
             match read_file(&path) {
-                Ok(journal) if !journal.is_of(case, stamp) || self.is_written(&journal) => {}
-                Ok(journal) => found.journals.push((path, journal)),
-                Err(Untrusted::Unread(error)) => {
-                    found
-                        .notices
-                        .push(format!("unsaved edits in {} cannot be read: {error}", shown(&path)));
-                }
-                Err(Untrusted::Fault(fault)) => found.notices.push(set_aside(&path, &fault)),
+                Ok(Ok(journal)) if !journal.is_of(case, stamp) || self.is_written(&journal) => {}
+                Ok(Ok(journal)) => found.journals.push((path, journal)),
+                Ok(Err(fault)) => found.notices.push(set_aside(&path, &fault)),
+                Err(error) => found
+                    .notices
+                    .push(format!("unsaved edits in {} cannot be read: {error}", shown(&path))),
             }
         }
         found.journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
@@ -233,9 +245,10 @@ impl Journals {
     }
 
     fn all_left_behind(&self) -> impl Iterator<Item = (PathBuf, Journal)> {
-        let paths = self.named("").into_iter();
-        let journals =
-            paths.filter_map(|path| read_file(&path).ok().map(|journal| (path, journal)));
+        let journals = self.named("").into_iter().filter_map(|path| {
+            let journal = read_file(&path).ok()?.ok()?;
+            Some((path, journal))
+        });
         journals.filter(|(_, journal)| !self.is_written(journal))
     }
 
@@ -358,89 +371,18 @@ fn line_of<'t>(text: &'t str, key: &str) -> Option<(&'t str, &'t str)> {
     text.strip_prefix(key)?.split_once('\n')
 }
 
-fn table_of(change: &Change) -> Table {
-    let mut table = Table::new();
-    table["key"] = value(&change.key);
-    for (name, text) in [("from", &change.from), ("to", &change.to)] {
-        if let Some(text) = text {
-            table[name] = value(text);
-        }
-    }
-    table
-}
-
-fn read(toml: &Table) -> Result<Journal, &'static str> {
-    let number = |key| {
-        toml.get(key)
-            .and_then(Item::as_integer)
-            .and_then(|number| u64::try_from(number).ok())
-            .ok_or(key)
-    };
-    let hash =
-        text_in(toml, "hash").and_then(|text| u64::from_str_radix(text, 16).ok()).ok_or("hash")?;
-    let case = match (text_in(toml, "case"), text_in(toml, "case_bytes")) {
-        (Some(path), _) => Some(PathBuf::from(path)),
-        (None, Some(bytes)) => Some(from_hex(bytes).ok_or("case_bytes")?),
-        (None, None) => None,
-    };
-    let changes = match toml.get("change") {
-        Some(changes) => changes
-            .as_array_of_tables()
-            .ok_or("change")?
-            .iter()
-            .map(change_of)
-            .collect::<Result<_, _>>()?,
-        None => Vec::new(),
-    };
-    Ok(Journal {
-        case,
-        base_stamp: Stamp { length: number("length")?, hash },
-        written: number("written")?,
-        session: text_in(toml, "session").ok_or("session")?.to_owned(),
-        changes,
-    })
-}
-
-fn change_of(table: &Table) -> Result<Change, &'static str> {
-    let text = |key| text_in(table, key).map(str::to_owned);
-    Ok(Change { key: text("key").ok_or("key")?, from: text("from"), to: text("to") })
-}
-
-fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
-    TableLike::get(table, key).and_then(Item::as_str)
-}
-
-// In hexadecimal, because a path need not be valid text.
-fn hex(path: &Path) -> String {
-    sharing::path_bytes(path).iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
-}
-
-fn from_hex(text: &str) -> Option<PathBuf> {
-    let pairs = text.as_bytes().chunks(2);
-    let bytes = pairs
-        .map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
-        .collect::<Option<Vec<u8>>>()?;
-    Some(sharing::path_from_bytes(bytes))
-}
-
-enum Untrusted {
-    Unread(io::Error),
-    Fault(JournalFault),
-}
-
-fn read_file(path: &Path) -> Result<Journal, Untrusted> {
-    let is_file = fs::symlink_metadata(path).map_err(Untrusted::Unread)?.is_file();
-    if !is_file {
-        return Err(Untrusted::Fault(JournalFault::NotOne));
+/// Reads a journal; the inner error if the file is none.
+fn read_file(path: &Path) -> io::Result<Result<Journal, JournalFault>> {
+    if !fs::symlink_metadata(path)?.is_file() {
+        return Ok(Err(JournalFault::NotOne));
     }
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(Untrusted::Unread)?;
-    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(Untrusted::Unread)?;
+    File::open(path)?.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > MOST_BYTES {
-        return Err(Untrusted::Fault(JournalFault::NotOne));
+        return Ok(Err(JournalFault::NotOne));
     }
-    let text = String::from_utf8(bytes).map_err(|_| Untrusted::Fault(JournalFault::Damaged))?;
-    Journal::from_text(&text).map_err(Untrusted::Fault)
+    let text = String::from_utf8(bytes).map_err(|_| JournalFault::Damaged);
+    Ok(text.and_then(|text| Journal::from_text(&text)))
 }
 
 // Returns the message. A journal that cannot be moved remains and is reported again.
@@ -550,13 +492,13 @@ mod tests {
             Journal { case: Some(sharing::path_from_bytes(vec![b'/', 0xff, b'a'])), ..journal() };
         let fresh = Journal { case: None, changes: Vec::new(), ..journal() };
         for journal in [journal(), other, fresh] {
-            assert_eq!(Journal::from_text(&journal.to_text()), Ok(journal));
+            assert_eq!(Journal::from_text(&journal.to_text().expect("TOML")), Ok(journal));
         }
     }
 
     #[test]
     fn no_journal_that_is_cut_or_changed_is_trusted() {
-        let text = journal().to_text();
+        let text = journal().to_text().expect("TOML");
         for (at, _) in text.char_indices() {
             assert!(Journal::from_text(&text[..at]).is_err(), "cut at {at}");
             let changed: String = text
@@ -570,8 +512,19 @@ mod tests {
     }
 
     #[test]
+    fn a_journal_of_an_earlier_version_is_read() {
+        let body = "written = 5\nsession = \"one\"\nlength = 11\nhash = \"00000000000000ff\"\n\
+                    case = \"/c.toml\"\n\n[[change]]\nkey = \"title\"\nto = \"x\"\n";
+        let sum = hash(body.as_bytes());
+        let text = format!("{OPENING}format = 1\nchecksum = \"{sum:016x}\"\n{body}");
+        let journal = Journal::from_text(&text).expect("a journal");
+        assert_eq!(journal.base_stamp, Stamp { length: 11, hash: 255 });
+        assert_eq!((journal.changes.len(), journal.changes[0].from.as_ref()), (1, None));
+    }
+
+    #[test]
     fn a_newer_journal_is_refused_by_its_version() {
-        let newer = journal().to_text().replace("format = 1", "format = 2");
+        let newer = journal().to_text().expect("TOML").replace("format = 1", "format = 2");
         assert_eq!(Journal::from_text(&newer), Err(JournalFault::NewerFormat(2)));
         assert_eq!(Journal::from_text("format = 1\n"), Err(JournalFault::NotOne));
     }

@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use toml_edit::{DocumentMut, Item, value};
+use serde::{Deserialize, Serialize};
 
 use crate::case::file::followed;
 use crate::case::sanitize::sanitize;
@@ -16,9 +16,7 @@ use crate::tui::session;
 
 /// Attempts to lock: another process may delete the lock file between opening and locking it.
 const ATTEMPTS: usize = 5;
-/// Prefix of the name of a session's file until the file is locked.
-const UNLOCKED: &str = ".";
-/// Age above which an unlocked new file is certainly abandoned.
+/// Age above which an unlocked file of a session is certainly abandoned.
 const STALE: Duration = Duration::from_secs(600);
 
 /// Greatest size of a lock file.
@@ -31,68 +29,58 @@ pub(crate) struct Lock {
     path: PathBuf,
 }
 
-/// The result of taking a lock.
-#[derive(Debug)]
-pub(crate) enum LockOutcome {
-    Ours(Lock),
-    /// This process has the lock only if others on this machine respect its text: the file system
-    /// has no locks.
-    Unguarded(Lock, io::Error),
-    /// A running process has the lock.
-    Held(Holder),
-}
-
 impl Lock {
-    /// Takes a lock if no running process has it. The file of an ended process is reused: the
-    /// system releases a lock with its process, so that process numbers and boot ids need not be
-    /// trusted.
+    /// Takes a lock, or names the running process that has it. The file of an ended process is
+    /// reused: the system releases a lock with its process.
     ///
     /// # Errors
-    /// Returns an error if the lock file cannot be created or is not a regular file.
-    pub(crate) fn take(path: &Path) -> io::Result<LockOutcome> {
+    /// Returns an error if the lock file cannot be created or is not a regular file, or if the file
+    /// system has no locks.
+    pub(crate) fn take(path: &Path) -> io::Result<Result<Lock, Holder>> {
         for _ in 0..ATTEMPTS {
             let mut file = open(path)?;
-            let hold = hold(&mut file);
-            if let Hold::Other(holder) = hold {
-                return Ok(LockOutcome::Held(holder));
+            let held = file.try_lock();
+            if let Err(TryLockError::WouldBlock) = held {
+                return Ok(Err(Holder::read(&mut file).unwrap_or_default()));
             }
             let mut lock = Lock { file, path: path.to_owned() };
+            if let Err(TryLockError::Error(error)) = held {
+                return Err(error);
+            }
             if lock.is_in_place() {
                 lock.sign();
-                return Ok(match hold {
-                    Hold::Unguarded(error) => LockOutcome::Unguarded(lock, error),
-                    _ => LockOutcome::Ours(lock),
-                });
+                return Ok(Ok(lock));
             }
         }
         Err(io::Error::other("changes too often"))
     }
 
-    /// A new lock with a unique name. Its file gets that name only after it is locked, so that no
-    /// other process mistakes it for an abandoned file.
+    /// A new lock with a unique name. No process looks for the name before it is in a journal, or
+    /// clears the file before it is old.
     ///
     /// # Errors
     /// Returns an error if the disk is full.
     pub(super) fn create(folder: &Path) -> io::Result<(String, Lock)> {
         clear(folder);
-        let hidden =
-            tempfile::Builder::new().prefix(UNLOCKED).rand_bytes(10).tempfile_in(folder)?;
-        let name = hidden.path().file_name().unwrap_or_default();
-        let name = name.to_string_lossy().replace(UNLOCKED, "");
-        let (LockOutcome::Ours(mut lock) | LockOutcome::Unguarded(mut lock, _)) =
-            Lock::take(hidden.path())?
-        else {
-            return Err(io::Error::other("the name of the session is in use"));
-        };
-        let path = folder.join(&name);
-        hidden.persist_noclobber(&path).map_err(|error| error.error)?;
-        lock.path = path;
+        let hidden = tempfile::Builder::new().prefix("").rand_bytes(10).tempfile_in(folder)?;
+        let (file, path) = hidden.keep().map_err(|error| error.error)?;
+        // Without locks in the file system, the text alone shows that the process runs.
+        drop(file.try_lock());
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let mut lock = Lock { file, path };
+        lock.sign();
         Ok((name, lock))
     }
 
     /// Whether a running process has the lock.
     pub(crate) fn is_held(path: &Path) -> bool {
-        look_at(path).is_ok_and(|mut file| matches!(hold(&mut file), Hold::Other(_)))
+        look_at(path).is_ok_and(|mut file| match file.try_lock() {
+            Ok(()) => false,
+            Err(TryLockError::WouldBlock) => true,
+            Err(TryLockError::Error(_)) => {
+                Holder::read(&mut file).is_some_and(|holder| holder.is_running())
+            }
+        })
     }
 
     // The text only names the process: a lock without it still works.
@@ -125,32 +113,21 @@ impl Drop for Lock {
 }
 
 /// The holder of a lock; the process is 0 if the file does not name it.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) struct Holder {
     /// The host name.
-    pub(crate) host: String,
+    host: String,
     /// The process id.
-    pub(crate) process: u32,
-    /// Start time of the process, in clock ticks since boot: process ids are reused.
-    pub(crate) started: u64,
-    /// The boot id of the machine.
-    pub(crate) boot: String,
+    process: u32,
     /// Time of the lock, in seconds since 1970.
-    pub(crate) since: u64,
+    since: u64,
 }
 
 impl Holder {
     /// This process.
     #[must_use]
     fn ourselves() -> Holder {
-        let process = std::process::id();
-        Holder {
-            host: host(),
-            process,
-            started: started(process).unwrap_or(0),
-            boot: boot(),
-            since: session::now(),
-        }
+        Holder { host: sharing::host(), process: std::process::id(), since: session::now() }
     }
 
     /// The holder as text for a message.
@@ -167,38 +144,21 @@ impl Holder {
         )
     }
 
-    /// Whether the same process is still running, as far as this machine can tell.
-    fn is_alive(&self) -> bool {
-        self.host == host() && self.boot == boot() && started(self.process) == Some(self.started)
+    /// Whether a process of this machine has the number.
+    fn is_running(&self) -> bool {
+        self.host == sharing::host() && sharing::is_running(self.process)
     }
 
-    /// The text of the lock file.
-    pub(crate) fn to_text(&self) -> String {
-        let mut toml = DocumentMut::new();
-        toml["host"] = value(&self.host);
-        toml["process"] = value(i64::from(self.process));
-        toml["started"] = value(self.started.cast_signed());
-        toml["boot"] = value(&self.boot);
-        toml["since"] = value(self.since.cast_signed());
+    fn to_text(&self) -> String {
+        let toml = toml_edit::ser::to_string(self).unwrap_or_default();
         format!("# tipstrike has this case open.\n{toml}")
     }
 
-    pub(super) fn read(file: &mut File) -> Option<Holder> {
+    fn read(file: &mut File) -> Option<Holder> {
         let mut text = String::new();
         file.rewind().ok()?;
         file.take(MOST_BYTES).read_to_string(&mut text).ok()?;
-        let toml: DocumentMut = text.parse().ok()?;
-        let text = |key| toml.get(key).and_then(Item::as_str).map(str::to_owned);
-        let number = |key| {
-            toml.get(key).and_then(Item::as_integer).and_then(|number| u64::try_from(number).ok())
-        };
-        Some(Holder {
-            host: text("host")?,
-            process: number("process")?.try_into().ok()?,
-            started: number("started")?,
-            boot: text("boot")?,
-            since: number("since")?,
-        })
+        toml_edit::de::from_str(&text).ok()
     }
 }
 
@@ -218,26 +178,12 @@ impl Locks {
         if self.0.values().any(|held| held.place == place) {
             return Ok(None);
         }
-        let hold = |lock: Lock| {
-            let place = place.clone();
-            self.0.insert(named, Held { place, _lock: lock });
-        };
-        match Lock::take(&place) {
-            Ok(LockOutcome::Held(holder)) => Ok(Some(holder)),
-            Ok(LockOutcome::Ours(lock)) => {
-                hold(lock);
+        match Lock::take(&place).map_err(|error| unlocked(path, &place, &error))? {
+            Err(holder) => Ok(Some(holder)),
+            Ok(lock) => {
+                self.0.insert(named, Held { place, _lock: lock });
                 Ok(None)
             }
-            Ok(LockOutcome::Unguarded(lock, error)) => {
-                hold(lock);
-                Err(format!(
-                    "{}: the lock is valid on this machine only: {}: do not open this case on \
-                        another machine",
-                    name_of(path),
-                    brief(&error)
-                ))
-            }
-            Err(error) => Err(unlocked(path, &place, &error)),
         }
     }
 
@@ -253,32 +199,12 @@ impl Locks {
     }
 }
 
-enum Hold {
-    Ours,
-    /// The file system has no locks, and the text names no running process.
-    Unguarded(io::Error),
-    Other(Holder),
-}
-
-/// Locks the file, unless another process has locked it.
-fn hold(file: &mut File) -> Hold {
-    match file.try_lock() {
-        Ok(()) => Hold::Ours,
-        Err(TryLockError::WouldBlock) => Hold::Other(Holder::read(file).unwrap_or_default()),
-        Err(TryLockError::Error(error)) => {
-            Holder::read(file).filter(Holder::is_alive).map_or(Hold::Unguarded(error), Hold::Other)
-        }
-    }
-}
-
 /// Deletes the files of killed processes.
 fn clear(folder: &Path) {
-    let files = fs::read_dir(folder).into_iter().flatten().flatten();
-    for file in files {
-        let is_unlocked = file.file_name().to_string_lossy().starts_with(UNLOCKED);
+    for file in fs::read_dir(folder).into_iter().flatten().flatten() {
         let age = file.metadata().and_then(|about| about.modified());
         let is_old = age.is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE));
-        if (is_old || !is_unlocked) && !Lock::is_held(&file.path()) {
+        if is_old && !Lock::is_held(&file.path()) {
             drop(fs::remove_file(file.path()));
         }
     }
@@ -305,22 +231,6 @@ fn regular(file: io::Result<File>, path: &Path) -> io::Result<File> {
         Ok(file) if !file.metadata()?.is_file() => Err(io::Error::other("is not a regular file")),
         other => other,
     }
-}
-
-fn host() -> String {
-    sharing::host()
-}
-
-fn boot() -> String {
-    fs::read_to_string("/proc/sys/kernel/random/boot_id")
-        .map(|text| text.trim().to_owned())
-        .unwrap_or_default()
-}
-
-// Field 22 of `/proc/PID/stat`. Field 2, the name, may contain blanks and brackets.
-fn started(process: u32) -> Option<u64> {
-    let state = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    state.rsplit_once(')')?.1.split_whitespace().nth(19)?.parse().ok()
 }
 
 /// A lock of this session.
@@ -395,10 +305,7 @@ mod tests {
     }
 
     fn ours(path: &Path) -> Lock {
-        match Lock::take(path).expect("a lock") {
-            LockOutcome::Ours(lock) => lock,
-            other => panic!("{other:?}"),
-        }
+        Lock::take(path).expect("a lock").expect("no holder")
     }
 
     #[test]
@@ -406,14 +313,9 @@ mod tests {
         let (_folder, path) = place();
         let lock = ours(&path);
         assert!(Lock::is_held(&path));
-        match Lock::take(&path) {
-            Ok(LockOutcome::Held(holder)) => {
-                assert!(holder.is_alive());
-                assert_eq!((holder.process, &holder.host), (std::process::id(), &host()));
-                assert!(!holder.host.is_empty() && !holder.boot.is_empty());
-            }
-            other => panic!("{other:?}"),
-        }
+        let holder = Lock::take(&path).expect("a lock").expect_err("a holder");
+        assert!(holder.is_running() && !holder.host.is_empty());
+        assert_eq!((holder.process, holder.host), (std::process::id(), sharing::host()));
         drop(lock);
         assert!(!path.exists() && !Lock::is_held(&path));
         drop(ours(&path));
@@ -432,15 +334,11 @@ mod tests {
 
     #[test]
     fn the_lock_file_of_an_ended_process_never_blocks() {
+        // Nobody has locked the file, so that even the text of a running process has no effect.
         let ourselves = Holder::ourselves();
         let dead = Holder { process: u32::MAX / 4, ..ourselves.clone() };
-        let reused = Holder { started: ourselves.started + 1, ..ourselves.clone() };
-        let earlier = Holder { boot: "another".to_owned(), ..ourselves.clone() };
-        for stale in [&dead, &reused, &earlier] {
-            assert!(!stale.is_alive());
-        }
-        // Nobody has locked the file, so that even the text of a running process has no effect.
-        let texts = [dead, reused, earlier, ourselves].map(|holder| holder.to_text());
+        assert!(ourselves.is_running() && !dead.is_running());
+        let texts = [dead, ourselves].map(|holder| holder.to_text());
         for text in texts.iter().map(String::as_str).chain(["", "\0\u{1b}[2J", "process = -1"]) {
             let (_folder, path) = place();
             fs::write(&path, text).expect("room on the disk");
@@ -491,7 +389,7 @@ mod tests {
     fn the_file_of_a_killed_session_is_deleted() {
         let folder = tempfile::tempdir().expect("a folder");
         let old = SystemTime::now() - 2 * STALE;
-        for (name, is_old) in [("killed", false), (".killed", true), (".begins", false)] {
+        for (name, is_old) in [("killed", true), ("begins", false)] {
             let path = folder.path().join(name);
             let file = File::create(path).expect("room on the disk");
             if is_old {
@@ -504,7 +402,7 @@ mod tests {
             .flatten()
             .map(|entry| entry.file_name())
             .collect();
-        assert_eq!(left, [".begins"]);
+        assert_eq!(left, ["begins"]);
     }
 
     #[test]
