@@ -188,10 +188,7 @@ impl Case {
     pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
         let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY };
         let limit = Limit::new(quantity, text).unwrap_or(unread);
-        match self.limits.iter_mut().find(|held| held.quantity == quantity) {
-            Some(held) => *held = limit,
-            None => self.limits.push(limit),
-        }
+        keep(&mut self.limits, limit, |held| held.quantity == quantity);
     }
 
     /// Removes the empty limits except the limit of the named quantity.
@@ -257,12 +254,16 @@ impl Case {
             self.limits.retain(|limit| limit.quantity != quantity);
             return Ok(());
         }
-        let limit = Limit::new(quantity, text)?;
-        match self.limits.iter_mut().find(|held| held.quantity == limit.quantity) {
-            Some(held) => *held = limit,
-            None => self.limits.push(limit),
-        }
+        keep(&mut self.limits, Limit::new(quantity, text)?, |held| held.quantity == quantity);
         Ok(())
+    }
+}
+
+/// Replaces the entry that is the same, or adds the new entry.
+fn keep<T>(entries: &mut Vec<T>, new: T, is_same: impl Fn(&T) -> bool) {
+    match entries.iter_mut().find(|held| is_same(held)) {
+        Some(held) => *held = new,
+        None => entries.push(new),
     }
 }
 

@@ -1,5 +1,8 @@
 //! Reads the terminal: keys, mouse reports and pastes, in a thread that sleeps until bytes arrive.
 //! An unfinished sequence never delays later keys.
+//!
+//! The reader of crossterm keeps such a sequence for ever: after `ESC [ ? 2026 ; 2 $ y`, `ESC [ <` or
+//! a paste without an end, it takes every key, also Ctrl-Q, as a part of it.
 
 use std::io::{self, ErrorKind};
 use std::mem;

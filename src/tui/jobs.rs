@@ -17,7 +17,7 @@ use crate::report::pictures::Picture;
 use crate::report::svg::Chart;
 use crate::study::relief::{Demand, Specification};
 use crate::study::stiffness::Flanks;
-use crate::study::trade::{Patience, Setting, Trade};
+use crate::study::trade::{Setting, Trade};
 
 /// A job of the worker. Its result is an action.
 #[derive(Debug, Clone)]
@@ -28,6 +28,8 @@ pub enum Job {
     Search(PathBuf, String),
     /// Preview a file or a folder.
     Preview(Viewport, System),
+    /// Read a model of another program as a case; the heaviest takes longer than a frame.
+    Model(PathBuf),
     /// List the recent cases.
     Recents,
     /// Solve the examples for their digests.
@@ -119,7 +121,7 @@ pub struct Explained {
 
 impl Job {
     /// Number of kinds.
-    pub(super) const KINDS: usize = 10;
+    pub(super) const KINDS: usize = 11;
 
     /// The kind of the search for the tip relief.
     pub(super) const RELIEF: usize = 8;
@@ -137,6 +139,7 @@ impl Job {
             Job::Variants(_) => (7, "variants"),
             Job::Relief(_) => (Job::RELIEF, "relief"),
             Job::Markdown(_) => (9, "report"),
+            Job::Model(_) => (10, "model"),
         }
     }
 }
@@ -149,7 +152,7 @@ pub struct Measuring {
     /// The pair.
     pub inputs: Inputs,
     /// How long each setting is timed.
-    pub patience: Patience,
+    pub patience: std::time::Duration,
 }
 
 /// Results of a running or finished benchmark.

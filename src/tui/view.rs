@@ -229,7 +229,7 @@ fn focused(app: &App) -> String {
             let name = symbol(quantity.symbol_in(method), app.look.ascii);
             let about = format!(
                 "{name} {}, {} ({}).",
-                quantity.label_in(method).trim(),
+                results::label(quantity, method).trim(),
                 symbol(quantity.equation, app.look.ascii),
                 quantity.key
             );

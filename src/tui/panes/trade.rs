@@ -185,11 +185,7 @@ fn phrases(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> 
     let without_contact = trade.is_without_contact().then(|| NO_CONTACT.to_owned());
     let Some(measured) = marked else {
         let (measured, planned) = (trade.settings.len(), trade.planned);
-        let far = if measured == planned && trade.part < 1.0 {
-            format!("all {planned} settings measured once; repeating")
-        } else {
-            format!("{measured} of {planned} settings measured")
-        };
+        let far = format!("{measured} of {planned} settings measured");
         let far = match &without_contact {
             Some(_) => format!("; {far}"),
             None => far,

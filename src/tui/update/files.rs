@@ -14,6 +14,7 @@ use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::page::Page;
 use crate::tui::dialogs::path::SaveAs;
 use crate::tui::dialogs::question::{Choice, Question};
+use crate::tui::jobs::Job;
 use crate::tui::layout::Pane;
 use crate::tui::line::{CASE_ENDING, Line};
 use crate::tui::session::save::{
@@ -183,7 +184,12 @@ pub(super) fn saved(
 /// Opens a file. If the case is already open, goes to its tab with its unsaved edits.
 pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
     let Some(at) = place_of(app, &path) else {
-        return vec![Effect::Load(path)];
+        if !rexs::is_model(&path) {
+            return vec![Effect::Load(path)];
+        }
+        app.prompts.clear();
+        app.say(format!("reading {}", ascii::printable(&path.display().to_string())));
+        return vec![Effect::Job(Job::Model(path))];
     };
     app.prompts.clear();
     go_to_tab(app, at);

@@ -2,7 +2,7 @@
 
 use super::edit;
 use crate::report::trade::conclusion;
-use crate::study::trade::Patience;
+use crate::study::trade::STEADY;
 use crate::tui::actions::{Effect, Progress};
 use crate::tui::app::App;
 use crate::tui::jobs::{BenchmarkProgress, End, Measuring, Traded};
@@ -23,7 +23,7 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     app.tab.traded = Some(Traded { serial, inputs: inputs.clone(), trade: None, marked: None });
     app.measuring = Some(serial);
     app.progress = Some(Progress { what: MEASURING.to_owned(), part: 0.0 });
-    vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: Patience::STEADY }))]
+    vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: STEADY }))]
 }
 
 /// Stops a hidden benchmark. A terminal that is briefly too small does not stop it.
@@ -44,7 +44,7 @@ pub(super) fn measured(app: &mut App, measured: BenchmarkProgress) {
     let is_latest = app.measuring == Some(serial);
     if let Some(trade) = trade {
         if is_latest {
-            app.progress = Some(Progress { what: MEASURING.to_owned(), part: trade.part });
+            app.progress = Some(Progress { what: MEASURING.to_owned(), part: trade.part() });
         }
         if let Some(traded) = app.traded_of(serial) {
             traded.trade = Some(*trade);

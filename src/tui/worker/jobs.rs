@@ -48,6 +48,11 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
             let preview = folder::preview(&sight, system, go_on)?;
             Action::Previewed(sight, Box::new(preview))
         }
+        Job::Model(path) => {
+            let path = at_home(&path);
+            let result = store::load(&path);
+            Action::Loaded(path, result)
+        }
         Job::Recents => Action::Recents(store::looked_at(store::recents())),
         Job::Examples(system) => Action::Examples(examples(system, go_on)?),
         Job::Export(exporting) => {
@@ -73,7 +78,7 @@ fn failed(job: &Job) -> Action {
 
 fn markdown(reporting: Reporting) -> String {
     let subject = Subject {
-        reports: vec![reporting.report],
+        reports: vec![reporting.report.with_others()],
         speeds: None,
         studies: Studies::default(),
         file: reporting.file,

@@ -234,7 +234,7 @@ fn page(parameters: &ToleranceParameters, study: &Tolerance, samples: &Samples) 
     let report = ToleranceReport {
         name: &parameters.name,
         case: &parameters.case,
-        method: parameters.inputs.method.name(),
+        method: parameters.inputs.method,
         study: &so_far,
         samples,
     };
@@ -243,7 +243,7 @@ fn page(parameters: &ToleranceParameters, study: &Tolerance, samples: &Samples) 
     drop(report.write_for_screen(&mut bytes));
     let mut lines: Vec<String> =
         String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect();
-    let refused = samples.refusals.0.iter().map(|refused| report.refused(refused));
+    let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
     lines.extend(refused);
     Found::Page(lines, solved as f64 / count as f64)
 }
@@ -308,10 +308,10 @@ mod tests {
 
     use super::*;
     use crate::case::Case;
-    use crate::study::trade::Patience;
+    use std::time::Duration;
 
     fn measuring(serial: u64) -> Measuring {
-        Measuring { serial, inputs: Case::table_1().inputs().unwrap(), patience: Patience::ONCE }
+        Measuring { serial, inputs: Case::table_1().inputs().unwrap(), patience: Duration::ZERO }
     }
 
     /// The messages of a benchmark while `go_on` returns true.

@@ -16,20 +16,6 @@ use crate::tui::solver::Answer;
 /// Prefix of a note.
 pub(super) const NOTE: &str = "Note: ";
 
-/// A statement in several lengths, from the full text to the shortest.
-pub(super) struct Gauge(pub(super) Vec<String>);
-
-impl Gauge {
-    pub(super) fn fitting(&self, width: usize) -> String {
-        let fits = self.0.iter().find(|words| words.chars().count() <= width);
-        fits.or(self.0.last()).cloned().unwrap_or_default()
-    }
-
-    pub(super) fn in_full(self) -> String {
-        self.0.into_iter().next().unwrap_or_default() + "."
-    }
-}
-
 /// The outcome of a solve as a sentence.
 #[must_use]
 pub(crate) fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
@@ -57,47 +43,49 @@ pub(crate) fn in_full(pane: &Results<'_>) -> Vec<String> {
     lines.flat_map(|line| [line, String::new()]).collect()
 }
 
-/// One line for each variant that the model refuses.
-pub(super) fn refused_variants<'a>(pane: &Results<'a>) -> impl Iterator<Item = String> + use<'a> {
-    let columns = pane.variants.into_iter().flat_map(|variants| &variants.columns);
-    columns.filter_map(|(name, found)| {
+/// The notes on the answer, and one for each variant that the model refuses.
+pub(super) fn notes(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
+    let notes = answer.notes.iter().map(|note| format!("{NOTE}{}.", note.message));
+    let variants = pane.variants.into_iter().flat_map(|variants| &variants.columns);
+    let refused = variants.filter_map(|(name, found)| {
         let reason = found.as_ref().err()?;
         Some(format!("{NOTE}variant {name} is refused: {reason}."))
-    })
+    });
+    notes.chain(refused).collect()
 }
 
 pub(super) fn shown_in(pane: &Results<'_>, quantity: &Quantity, value: f64) -> Shown {
     report::shown_in(quantity, value, pane.units)
 }
 
-/// The first limit that is not met, in two lengths, with the number of further ones.
-pub(super) fn limit_warning(pane: &Results<'_>, solution: &Solution) -> Option<Vec<String>> {
+/// The first limit that is not met, with the number of further ones.
+pub(super) fn limit_warning(pane: &Results<'_>, solution: &Solution) -> Option<String> {
     let unmet: Vec<Verdict<'_>> =
         written_verdicts(pane, solution).into_iter().filter(|verdict| !is_met(verdict)).collect();
-    let words = unmet.first().and_then(|first| verdict_words(pane, first))?;
+    let words = verdict_words(pane, unmet.first()?)?;
     let more = match unmet.len() {
         1 => String::new(),
         count => format!("; {} more", count - 1),
     };
-    let lines = words.into_iter().map(|words| format!("! {words}{more}"));
-    Some(lines.map(|line| symbol(&line, pane.look.ascii).into_owned()).collect())
+    Some(symbol(&format!("! {words}{more}"), pane.look.ascii).into_owned())
 }
 
-pub(super) fn gauges(pane: &Results<'_>, answer: &Answer) -> Vec<Gauge> {
+/// The figures beside the outcome: other methods, required relief, resonance, spread.
+pub(super) fn figures(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
     let Some(solution) = answer.of(answer.active) else {
         return Vec::new();
     };
-    let ratios =
-        (!solution.method.shares_load()).then(|| ratios(answer, pane.look.ascii)).flatten();
     // `paper` is not compared: it repeats `exact` with misprints.
     let others: Vec<&Solution> = (answer.methods.iter().rev())
         .filter(|(method, _)| *method != answer.active && *method != Method::Paper)
         .filter_map(|(_, found)| found.as_ref().ok())
         .collect();
-    let differing = other_outcomes(answer, solution, &others);
-    let relief = relief(pane, answer, solution, &others);
-    let whine = whine(solution).map(|words| Gauge(words.into()));
-    [differing, relief, whine, band(pane, solution), ratios].into_iter().flatten().collect()
+    // A slow method is not compared before its own result is present.
+    let differing = differing(solution, &others).filter(|_| answer.pending.is_none());
+    let ratios = if solution.method.shares_load() { None } else { ratios(answer) };
+    let figures =
+        [relief(pane, answer, solution), differing, whine(solution), band(pane, solution), ratios];
+    figures.into_iter().flatten().collect()
 }
 
 // The first invalid field in the order of the form with its cause, the number of further ones, and
@@ -124,14 +112,12 @@ fn of_answer(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
     let solution = answer.of(answer.active);
     let outcome = solution.map(|solution| format!("{age}{}", sentence(pane, solution)));
     let limits = solution.map(|solution| limit_sentences(pane, solution));
-    let gauges = gauges(pane, answer).into_iter().map(Gauge::in_full);
-    let notes = answer.notes.iter().map(|note| format!("{NOTE}{}.", note.message));
+    let figures = figures(pane, answer).into_iter().map(|figure| figure + ".");
     outcome
         .into_iter()
         .chain(limits.into_iter().flatten())
-        .chain(gauges)
-        .chain(notes)
-        .chain(refused_variants(pane))
+        .chain(figures)
+        .chain(notes(pane, answer))
         .collect()
 }
 
@@ -164,51 +150,33 @@ fn is_met(verdict: &Verdict<'_>) -> bool {
     verdict.standing.holds() && (is_own_limited || !verdict.is_exceeded_beside())
 }
 
-fn verdict_words(pane: &Results<'_>, verdict: &Verdict<'_>) -> Option<[String; 2]> {
+fn verdict_words(pane: &Results<'_>, verdict: &Verdict<'_>) -> Option<String> {
     let limit = &verdict.limit.text;
     let limited = Quantity::find(verdict.limit.quantity)?;
-    let shown = |quantity: &Quantity, value| report::shown_in(quantity, value, pane.units);
+    let above = |quantity: &Quantity, value| {
+        format!("{} {} > {limit}", quantity.symbol, shown_in(pane, quantity, value))
+    };
     let beside = verdict.beside.and_then(|beside| beside.own);
     Some(match (verdict.standing.holds(), verdict.value, beside) {
         (true, _, Some((key, Some(value)))) => {
-            let own = Quantity::find(key)?;
-            let short = format!("{} {} > {limit}", own.symbol, shown(own, value));
-            [format!("{short}, the limit of {}", limited.symbol), short]
+            format!("{}, the limit of {}", above(Quantity::find(key)?, value), limited.symbol)
         }
-        (_, Some(value), _) => {
-            let short = format!("{} {} > {limit}", limited.symbol, shown(limited, value));
-            [format!("{short}, its limit"), short]
-        }
-        _ => [
-            format!("{} has no value; its limit is {limit}", limited.symbol),
-            format!("{} has no value", limited.symbol),
-        ],
+        (_, Some(value), _) => format!("{}, its limit", above(limited, value)),
+        _ => format!("{} has no value; its limit is {limit}", limited.symbol),
     })
 }
 
-// A slow method is not compared before its own result is present.
-fn other_outcomes(answer: &Answer, solution: &Solution, others: &[&Solution]) -> Option<Gauge> {
-    let found = differing(solution, others).filter(|_| answer.pending.is_none());
-    found.map(|words| Gauge(words.into()))
-}
-
 // The required relief, or a placeholder while the worker computes it.
-fn relief(
-    pane: &Results<'_>,
-    answer: &Answer,
-    solution: &Solution,
-    others: &[&Solution],
-) -> Option<Gauge> {
+fn relief(pane: &Results<'_>, answer: &Answer, solution: &Solution) -> Option<String> {
     let (units, given) = (pane.units, answer.inputs.driven.tip_relief);
     let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
-    let pending = || digest::pending(solution.method, given, others, units);
-    digest::relief(solution, others, units)
-        .or_else(|| is_to_come.then(pending).flatten())
-        .map(|words| Gauge(words.into()))
+    let pending = || digest::pending(solution.method, given, &[], units);
+    // The table has the relief by the other methods.
+    digest::relief(solution, &[], units).or_else(|| is_to_come.then(pending).flatten())
 }
 
 // The spread of the force over the stiffness models.
-fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
+fn band(pane: &Results<'_>, solution: &Solution) -> Option<String> {
     if solution.outcome == Outcome::NoCornerContact {
         return None;
     }
@@ -225,43 +193,29 @@ fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
         report::shown_with(quantity, band.high, unit),
     );
     let parts = format!("{:+.1} to {:+.1} %", percent(band.low), percent(band.high));
-    let (whose, force) = if solution.method.shares_load() {
-        ("Free impact with other stiffness models", "free F_S")
+    let whose = if solution.method.shares_load() {
+        "Free impact with other stiffness models"
     } else {
-        ("Other stiffness models", "F_S")
+        "Other stiffness models"
     };
-    Some(Gauge(vec![
-        format!("{whose}: F_S {low} to {high} ({parts})"),
-        format!("{whose}: F_S {parts}"),
-        format!("Other stiffness: {force} {parts}"),
-        format!("Models: {force} {parts}"),
-        format!("Models: {parts}"),
-    ]))
+    Some(format!("{whose}: F_S {low} to {high} ({parts})"))
 }
 
 // The error of the printed equations, if both methods find a contact.
-fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
+fn ratios(answer: &Answer) -> Option<String> {
     let (paper, exact) = (answer.of(Method::Paper)?, answer.of(Method::Exact)?);
     let ratio = |key| {
         let quantity = Quantity::find(key)?;
         let (paper, exact) = ((quantity.value)(paper)?, (quantity.value)(exact)?);
-        let times = match answer.active {
-            Method::Paper => times(exact / paper)?,
-            _ => times(paper / exact)?,
-        };
-        Some((symbol(quantity.symbol, ascii), times))
+        times(if answer.active == Method::Paper { exact / paper } else { paper / exact })
     };
-    let ((angle, of_angle), (force, of_force)) =
-        (ratio("approach_angle_driver")?, ratio("impact_force")?);
-    let (in_full, method) = match answer.active {
-        Method::Paper => ("Method exact gives", "exact"),
-        _ => ("The printed equations give", "paper"),
+    let (of_angle, of_force) = (ratio("approach_angle_driver")?, ratio("impact_force")?);
+    let which = if answer.active == Method::Paper {
+        "Method exact gives"
+    } else {
+        "The printed equations give"
     };
-    Some(Gauge(vec![
-        format!("{in_full} {of_angle} this angle and {of_force} this force"),
-        format!("{method}: {of_angle} {angle}, {of_force} {force}"),
-        format!("{method}: {of_force} {force}"),
-    ]))
+    Some(format!("{which} {of_angle} this angle and {of_force} this force"))
 }
 
 // A ratio as a multiple, a fraction or a percentage.
