@@ -14,14 +14,14 @@ mod table;
 use table::{Row, Table};
 use tipstrike::model::inputs::Method;
 use tipstrike::report::trade::plot::{Plot, Point, Series, svg};
-use tipstrike::study::trade::{METHODS, Patience, Setting, Subject, greatest};
+use tipstrike::study::trade::{METHODS, STEADY, Setting, Subject};
 
 fn main() {
     // `cargo test --benches` and `cargo bench -- --test` only check that the benchmark starts.
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
-    let trades = table::trades(&Patience::STEADY);
+    let trades = table::trades(STEADY);
     let made = Table::of(&trades);
     println!("{}", made.markdown());
     println!("{}", models(&trades));
@@ -35,10 +35,8 @@ fn main() {
 
 /// The model error of each method, one line per case.
 fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
-    let mut lines = vec![
-        "| case | paper | exact | static | two ways to the reference |".to_owned(),
-        "|---|---|---|---|---|".to_owned(),
-    ];
+    let mut lines =
+        vec!["| case | paper | exact | static |".to_owned(), "|---|---|---|---|".to_owned()];
     for (name, trade) in trades {
         let percent = |method: Method| {
             let mut models = trade.models.iter();
@@ -50,14 +48,8 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
             });
             needed.join(" / ")
         };
-        let check = trade
-            .reference
-            .as_ref()
-            .ok()
-            .and_then(|reference| greatest(reference.disagreement.as_ref().ok()?));
-        let check = check.map_or("-".to_owned(), |off| format!("{off:.0e}"));
         lines.push(format!(
-            "| `{name}` | {} | {} | {} | {check} |",
+            "| `{name}` | {} | {} | {} |",
             percent(Method::Paper),
             percent(Method::Exact),
             percent(Method::Static)

@@ -1,4 +1,5 @@
-//! Every invalid file is refused at the correct place with cause and fix, all faults in one run.
+//! Every invalid file is refused at the correct place with cause and fix: a syntax error alone,
+//! otherwise all faults in one run.
 use tipstrike::case::Document;
 use tipstrike::case::file::{Fault, FaultKind, MOST_BYTES};
 
@@ -86,7 +87,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("poisson = 0.3", "poisson = −0.3", 0, 11, "driver.poisson", "not the minus sign", "write -0.3"),
     ("stations = 64", "stations = 0", 0, 12, "model.stations", "below the limit of 1", "from 1 to 10000"),
     ("teeth = 20", "teeth = twenty", 0, 9, "driver.teeth", "does not begin with a number",
-        "whole number, such as 20"),
+        "whole number from 5 to 1000, such as 20"),
     ("poisson = 0.3", "poisson = \"30 %\"", 0, 11, "driver.poisson", "quotes",
         "write poisson = 0.3, without quotes"),
     ("stations = 64", "stations = \"many\"", 0, 12, "model.stations", "quotes", "write stations = "),
@@ -233,21 +234,21 @@ fn an_empty_file_lacks_every_required_value() {
 #[test]
 fn one_run_reports_all_faults_in_their_order_in_the_file() {
     let text = GOOD
-        .replacen(MODULE, "module = 5 mm", 1)
+        .replacen(MODULE, "module = 5", 1)
         .replacen("teeth = 20", "teeth = 20.5", 1)
         .replacen("poisson = 0.3", "poison = 0.3", 1)
-        .replacen("speed = \"2000 rpm\"", "speed = \"2000", 1)
         .replacen("method = \"exact\"", "method = \"papr\"", 1);
     expect(
         &text,
         &[
-            (11, 10, "pair.module", "not in quotes", "write \"5 mm\""),
+            (11, 10, "pair.module", "has no unit", "write \"5 mm\""),
             (15, 9, "driver.teeth", "not a whole number", "20"),
             (21, 1, "driver.poison", "unknown key", "did you mean poisson?"),
-            (44, 14, "operation.speed", "invalid basic string", "close the string"),
             (47, 10, "model.method", "unknown choice", "did you mean paper?"),
         ],
     );
+    let broken = text.replacen("speed = \"2000 rpm\"", "speed = \"2000", 1);
+    expect(&broken, &[(44, 14, "operation.speed", "invalid basic string", "close the string")]);
 }
 
 #[test]
@@ -328,27 +329,21 @@ fn no_depth_and_no_length_is_too_much() {
 
 #[test]
 fn a_flood_of_faults_is_cut() {
-    let found = faults(&format!("{GOOD}[pair.x]\n{}", "? = 1\n".repeat(100_000)));
-    assert_eq!(found.len(), 101);
-    assert_eq!(found[100].cause, "and 99900 more faults");
     for (line, table, first) in [
-        ("a = 1", "", "toml"),
         ("a# = 1", "", "a0"),
         ("a# = 1", "[pair]\n", "pair.a0"),
         ("a# = 1", "[limits]\n", "limits.a0"),
         ("a# = 1", "[spread]\n", "spread.\"a0\""),
         ("[a#]", "", "a0"),
-        ("a#", "", "toml"),
     ] {
         let flood: Vec<_> =
             (0..50_000).map(|number| line.replace('#', &number.to_string())).collect();
         let found = faults(&format!("format = 1\n{table}{}\n", flood.join("\n")));
         assert_eq!(found.len(), 101, "{line}");
-        let is_first = |fault: &&Fault| first == "toml" || fault.field == first;
-        assert!(found.iter().any(|fault| is_first(&fault)), "{line}: {}", found[0]);
+        assert!(found.iter().any(|fault| fault.field == first), "{line}: {}", found[0]);
         let more = found[100].cause.split(' ').nth(1).and_then(|more| more.parse().ok());
         let more: usize = more.expect("a number");
-        assert!((49_899..=49_901).contains(&more), "{line}: {}", found[100]);
+        assert!((49_899..=49_908).contains(&more), "{line}: {}", found[100]);
     }
 }
 

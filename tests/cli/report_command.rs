@@ -191,7 +191,7 @@ fn several_cases_are_side_by_side_in_every_format() {
         markdown.contains("| impact force | F_S | 2191.0 | 3718.8 | N | Eq. 57 |"),
         "{markdown}"
     );
-    assert!(markdown.contains("|---|---|---:|---:|---|---|"));
+    assert!(markdown.contains("|---|---|--:|--:|---|---|"));
     let csv = report(&[TABLE_1, FZG], "csv");
     assert_eq!(csv.lines().count(), 3);
     let json = report(&[TABLE_1, FZG], "json");

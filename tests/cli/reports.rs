@@ -29,7 +29,7 @@ fn the_report_of_every_case_is_unchanged() {
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
         insta::assert_snapshot!(
             format!("report_{stem}"),
-            text::render(&report(&path, Selection::default()))
+            text::render(&report(&path, Selection::default()).with_others())
         );
     }
 }
@@ -37,8 +37,8 @@ fn the_report_of_every_case_is_unchanged() {
 #[test]
 fn no_line_is_wider_than_80_columns() {
     for path in toml_files("cases") {
-        let page =
-            text::render(&report(&path, Selection { stations: true, ..Selection::default() }));
+        let selection = Selection { stations: true, ..Selection::default() };
+        let page = text::render(&report(&path, selection).with_others());
         let wide = page.lines().find(|line| line.chars().count() > 80);
         assert_eq!(wide, None, "{}", path.display());
     }

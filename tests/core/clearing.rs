@@ -191,7 +191,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
                     parse(text, Dimension::Length, "")
                         .unwrap_or_else(|error| panic!("{words:?}: {error:?}"))
                 };
-                let (more, total) = figures(&words[0]);
+                let (more, total) = figures(&words);
                 let in_all = total.as_deref().map(read);
                 let sum = given + read(&more);
                 for relief in in_all.into_iter().chain([sum]) {

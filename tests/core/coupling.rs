@@ -60,7 +60,7 @@ impl Check {
         let shape = inputs.shape();
         let swapped = PairShape { driver: shape.driven, driven: shape.driver, ..shape };
         let load = (solution.mesh_force, solution.deviation.equivalent_error);
-        let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load.0, load.1, 3e-4);
+        let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load, 3e-4);
         let gear = |gear: &Gear, circles| {
             let outline = Outline::of(&inputs, gear, circles);
             WholeGear::new(outline, gear.teeth, gear.bore_radius, gear.poisson)

@@ -39,6 +39,7 @@ mod relevance;
 mod relief;
 mod rounded;
 mod scaling;
+mod second_motion;
 mod stiffness;
 mod studies;
 mod trade;

@@ -24,7 +24,8 @@ fn dynamic(inputs: &Inputs) -> (Solution, Dynamic) {
 
 fn mesh(inputs: &Inputs, solution: &Solution) -> Mesh {
     let error = solution.deviation.equivalent_error;
-    Mesh::new(&inputs.mesh(), &solution.geometry, solution.mesh_force, error, 2e-3).expect("a mesh")
+    Mesh::new(&inputs.mesh(), &solution.geometry, (solution.mesh_force, error), 2e-3)
+        .expect("a mesh")
 }
 
 /// At lower speed the force differs less from the shared load at rest at the same place.

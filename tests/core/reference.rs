@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use tipstrike::case::file::Document;
 use tipstrike::model::geometry::geometry;
-use tipstrike::model::impact::{FrictionInputs, friction};
+use tipstrike::model::impact::friction;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, solve};
 
@@ -290,7 +290,7 @@ fn table_1_friction_ratio_by_the_printed_end() {
     );
     let printed_end = Inputs { method: Method::Paper, ..inputs };
     let mixed = friction(
-        &FrictionInputs::of(&printed_end),
+        &printed_end,
         &solution.geometry,
         &position.contact,
         &velocity,

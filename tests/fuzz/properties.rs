@@ -178,8 +178,8 @@ fn assert_csv(report: &Report) {
 }
 
 fn assert_page(report: &Report) {
-    assert_safe(&report::text::render(report));
-    let mut unnamed = report.clone();
+    let mut unnamed = report.clone().with_others();
+    assert_safe(&report::text::render(&unnamed));
     ["title", "notes"]
         .iter()
         .filter_map(|key| index_of(key))

@@ -15,7 +15,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
-use tipstrike::study::trade::{Patience, Time};
+use tipstrike::study::trade::Time;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::actions::{self, Action};
 use tipstrike::tui::testing::app::App;
@@ -288,7 +288,7 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
 /// All messages of a benchmark, the last first; each setting runs once.
 fn measured(measuring: Measuring) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
-    let once = Measuring { patience: Patience::ONCE, ..measuring };
+    let once = Measuring { patience: std::time::Duration::ZERO, ..measuring };
     let running = Running { is_wanted: &|| true, send: &|action| sent.borrow_mut().push(action) };
     measure(&once, running);
     let mut sent = sent.into_inner();

@@ -48,8 +48,10 @@ fn the_first_frame_takes_at_most_two_and_a_half_times_that_of_vim() {
 #[test]
 fn a_headless_solve_is_soon_done() {
     const RUNS: usize = 200;
-    /// Multiple of the start time of an empty program; the promise is 10 ms.
-    const MOST: f64 = 10.0;
+    /// The promise, start-up included, in s.
+    const MOST: f64 = 10e-3;
+    /// On a slower machine: multiple of the start time of an empty program.
+    const MOST_STARTS: f64 = 10.0;
     let launch = Launch::on_table_1();
     let case = launch.case();
     let run = |program: &str, words: &[&str]| {
@@ -63,11 +65,15 @@ fn a_headless_solve_is_soon_done() {
     for _ in 0..RUNS {
         solve = solve.min(run(PROGRAM, &["solve"]));
         nothing = nothing.min(run("true", &[]));
-        if solve <= MOST * nothing {
+        if solve <= MOST.max(MOST_STARTS * nothing) {
             break;
         }
     }
     let ratio = solve / nothing;
     println!("solve: {:.1} ms, {ratio:.1} times `true`", solve * 1e3);
-    assert!(ratio <= MOST, "a solve takes {ratio:.1} times as long as an empty program");
+    assert!(
+        solve <= MOST || ratio <= MOST_STARTS,
+        "a solve takes {:.1} ms, {ratio:.1} times as long as an empty program",
+        solve * 1e3
+    );
 }

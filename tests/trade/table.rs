@@ -4,6 +4,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
+use std::time::Duration;
 
 use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
@@ -11,7 +12,7 @@ use tipstrike::model::impact::StiffnessModels;
 use tipstrike::model::inputs::Method;
 use tipstrike::report::trade::{duration, percent};
 use tipstrike::study::trade::{
-    Differences, METHODS, Patience, Setting, Subject, Trade, TradeParameters, greatest, trade,
+    Differences, METHODS, Setting, Subject, Trade, TradeParameters, greatest, trade,
 };
 
 /// Errors below this are rounding and may differ between machines.
@@ -70,8 +71,8 @@ fn path() -> PathBuf {
 }
 
 /// Every case and its trade study, in the order of `cases`.
-pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
-    let parameters = TradeParameters { within: 0.05, patience: *patience };
+pub(crate) fn trades(patience: Duration) -> Vec<(String, Trade)> {
+    let parameters = TradeParameters { within: 0.05, patience };
     let made = |path: PathBuf| {
         let found = trade(&inputs(&path), &parameters, &|| true, &mut |_| ());
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
@@ -83,7 +84,7 @@ pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
 /// The trade study of every case, computed once for all tests of a program; the times are those of
 /// a loaded machine.
 pub(crate) fn traded_once() -> &'static [(String, Trade)] {
-    static TRADES: LazyLock<Vec<(String, Trade)>> = LazyLock::new(|| trades(&Patience::ONCE));
+    static TRADES: LazyLock<Vec<(String, Trade)>> = LazyLock::new(|| trades(Duration::ZERO));
     &TRADES
 }
 

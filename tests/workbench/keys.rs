@@ -572,7 +572,7 @@ fn undo_reports_the_reverted_edit() {
 
 #[test]
 fn the_baseline_gets_the_name_of_its_saved_file() {
-    let mut desk = Desk::new(SMALL);
+    let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "Alt-B"]);
     assert!(desk.shows("for this session") && desk.shows("against built-in"), "{}", desk.screen());
     let path = desk.path("whine.toml");

@@ -79,7 +79,7 @@ fn a_small_screen_keeps_four_quantities_in_sight_and_counts_the_hidden_lines() {
         }
     }
     let mut desk = hydro(SMALL, "static");
-    assert!(desk.shows("more lines (Esc n)"), "{}", desk.screen());
+    assert!(desk.shows("more notes (Esc n)"), "{}", desk.screen());
     desk.keys(&["Esc", "n"]);
     assert!(desk.shows("Free impact with other stiffness models"));
 }
