@@ -79,7 +79,9 @@ struct Kept {
     masses: Masses,
     /// The unrounded deviation.
     deviation: Deviation<TwoFloat>,
-    setup: Arc<Setup>,
+    /// The values that the next solve shares; only where this solve and an earlier one share them,
+    /// so that a single solve allocates nothing.
+    setup: Option<Arc<Setup>>,
 }
 
 /// Whether the incoming tooth strikes.

@@ -45,20 +45,26 @@ pub(in crate::model) fn solve_by_method(
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
+    let earlier = earlier.filter(|earlier| earlier.solution.method == inputs.method);
+    let alike = earlier.filter(|earlier| differ_in_load_alone(earlier.inputs, inputs));
+    let kept = alike.map(|earlier| earlier.solution.kept.setup.clone().unwrap_or_default());
+    let own = Setup::default();
+    let setup = kept.as_deref().unwrap_or(&own);
     let mut run = Run {
         inputs,
         wanted: wanted.within(inputs.method.stages()),
-        earlier: earlier.filter(|earlier| earlier.solution.method == inputs.method),
+        earlier,
         go_on,
         changed: Stages::NONE,
         done: Stages::NONE,
         ran: Stages::NONE,
     };
-    let mut solution = run.begin()?;
-    run.locate(&mut solution)?;
+    let mut solution = run.begin(setup)?;
+    run.locate(setup, &mut solution)?;
     run.share(&mut solution)?;
     solution.clearing =
         run.stage(Stage::Clearing, |s| s.clearing, || clearing(inputs, &solution, go_on))?;
+    solution.kept.setup = kept;
     Ok(Solution { stages: run.done, ran: run.ran, ..solution })
 }
 
@@ -118,14 +124,8 @@ impl<'a> Run<'a> {
     }
 
     /// Geometry, load, masses and deviation.
-    fn begin(&mut self) -> Result<Solution, Refusal> {
+    fn begin(&mut self, setup: &Setup) -> Result<Solution, Refusal> {
         let inputs = self.inputs;
-        let setup = match self.earlier {
-            Some(earlier) if differ_in_load_alone(earlier.inputs, inputs) => {
-                Arc::clone(&earlier.solution.kept.setup)
-            }
-            _ => Arc::default(),
-        };
         let geometry =
             self.result(Stage::Geometry, |s| Some(s.geometry), || setup.geometry(inputs))?;
         if self.ran.has(Stage::Geometry) {
@@ -151,13 +151,18 @@ impl<'a> Run<'a> {
                 deviation(&given, || setup.deflected(inputs, &geometry, mesh_force))
             },
         )?;
-        Ok(Solution::new(inputs.method, geometry, mesh_force, Kept { masses, deviation, setup }))
+        Ok(Solution::new(
+            inputs.method,
+            geometry,
+            mesh_force,
+            Kept { masses, deviation, setup: None },
+        ))
     }
 
     /// D and all later stages of the impact.
-    fn locate(&mut self, solution: &mut Solution) -> Result<(), Refusal> {
+    fn locate(&mut self, setup: &Setup, solution: &mut Solution) -> Result<(), Refusal> {
         let (inputs, geometry) = (self.inputs, &solution.geometry);
-        let Kept { deviation, setup, .. } = &solution.kept;
+        let deviation = &solution.kept.deviation;
         let located = || {
             let precise = setup.precise(inputs, geometry)?;
             position(inputs, geometry, precise, setup.series(geometry), deviation)
@@ -166,7 +171,7 @@ impl<'a> Run<'a> {
             Ok(None) => {}
             Ok(Some(Some(position))) => {
                 solution.position = Some(position);
-                solution.withheld = self.strike(solution, &position).err();
+                solution.withheld = self.strike(setup, solution, &position).err();
             }
             Ok(Some(None)) => solution.outcome = Outcome::NoCornerContact,
             // Methods with load sharing do not need the position.
@@ -177,9 +182,14 @@ impl<'a> Run<'a> {
     }
 
     /// The wanted stages from the velocity on that can be computed.
-    fn strike(&mut self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
+    fn strike(
+        &mut self,
+        setup: &Setup,
+        solution: &mut Solution,
+        position: &Position,
+    ) -> Result<(), Refusal> {
         let (inputs, tip) = (self.inputs, &position.contact);
-        let Solution { geometry, kept: Kept { masses, setup, .. }, .. } = solution;
+        let Solution { geometry, kept: Kept { masses, .. }, .. } = solution;
         let new = || Ok(velocity(inputs.driven_speed(), tip));
         solution.velocity = self.stage(Stage::Velocity, |s| s.velocity, new)?;
         let teeth = || setup.teeth(inputs, geometry);
