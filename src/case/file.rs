@@ -49,7 +49,6 @@ pub struct Document {
     stamp: Stamp,
     /// The case of the text.
     loaded: Case,
-    layout: Layout,
     /// Whether the text has a newer format, which this version reads only in part.
     is_newer: bool,
     /// The path of the file after resolution of links.
@@ -112,7 +111,7 @@ impl Document {
         if !is_newer && !reading.is_draft() {
             return Err(Found::placed(name, unmarked, reading.faults, reading.more));
         }
-        let Reading { case, layout, .. } = reading;
+        let case = reading.case;
         Ok(Document {
             loaded: case.clone(),
             case,
@@ -120,7 +119,6 @@ impl Document {
             text: unmarked.to_owned(),
             marked: unmarked.len() < text.len(),
             stamp: Stamp::of(bytes),
-            layout,
             is_newer,
             origin: None,
             mode: None,
@@ -149,7 +147,6 @@ impl Document {
             case,
             name,
             stamp: Stamp::of(text.as_bytes()),
-            layout: Layout::of(&text),
             text,
             marked: false,
             is_newer: false,
@@ -263,7 +260,7 @@ impl Document {
     /// of its table or the end.
     #[must_use]
     pub fn place(&self, key: &str) -> (usize, usize) {
-        Lines::of(&self.text).place(self.layout.place(key))
+        Lines::of(&self.text).place(Layout::of(&self.text).place(key))
     }
 
     /// A later problem, such as a refusal of the model, at its place in the file.
@@ -322,7 +319,7 @@ impl Document {
         if reading.is_draft() {
             self.case = reading.case;
         }
-        (self.loaded, self.layout) = (self.case.clone(), reading.layout);
+        self.loaded = self.case.clone();
         (self.text, self.stamp) = (unmarked.to_owned(), Stamp::of(text.as_bytes()));
         (self.name, self.origin) = (name, Some(target.path));
         Ok(if is_recreated { Saved::Recreated } else { Saved::Written })

@@ -25,7 +25,6 @@ const OVERRIDE: &str = "\"driven.tip_relief\" = \"48 um\"";
 /// The case of a text and its faults.
 pub(super) struct Reading {
     pub(super) case: Case,
-    pub(super) layout: Layout,
     pub(super) faults: Vec<Found>,
     /// Number of further faults.
     pub(super) more: usize,
@@ -44,7 +43,7 @@ pub(super) fn read(text: &str, is_newer: bool) -> Reading {
     let mut case = Case::empty();
     if let Err(error) = toml_edit::Document::parse(text) {
         let faults = vec![syntax::fault(&error, text)];
-        return Reading { case, layout: Layout::default(), faults, more: 0 };
+        return Reading { case, faults, more: 0 };
     }
     let layout = Layout::of(text);
     let mut reader = Reader {
@@ -65,7 +64,7 @@ pub(super) fn read(text: &str, is_newer: bool) -> Reading {
         case = reader.case();
         (faults, more) = (reader.faults, reader.more);
     }
-    Reading { case, layout, faults, more }
+    Reading { case, faults, more }
 }
 
 /// The case itself or one of its variants while it is read.

@@ -321,13 +321,6 @@ pub(in crate::model) struct Setup {
     loaded: OnceLock<Result<LoadedPairs, Refusal>>,
 }
 
-/// Cached values do not affect the equality of solutions.
-impl PartialEq for Setup {
-    fn eq(&self, _: &Setup) -> bool {
-        true
-    }
-}
-
 impl Setup {
     fn geometry(&self, inputs: &Inputs) -> Result<Geometry, Refusal> {
         let plain = geometry::<f64>(&inputs.shape());
