@@ -20,7 +20,6 @@ use fault::Lines;
 pub use fault::{Fault, FaultKind, ReadError, SaveError};
 use fault::{Found, shown};
 use layout::Layout;
-use read::Reading;
 use save::target_of;
 pub use save::{Draft, followed, write};
 
