@@ -120,6 +120,7 @@ pub(super) fn loaded(
             effects
         }
         Err(faults) => {
+            app.message = None;
             let title = format!("{} cannot be opened", path.display());
             app.prompts.push(Prompt::Read(Page::new(title, faults)));
             Vec::new()
