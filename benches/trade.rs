@@ -13,7 +13,8 @@ mod table;
 
 use table::{Row, Table};
 use tipstrike::model::inputs::Method;
-use tipstrike::report::trade::plot::{Plot, Point, Series, svg};
+use tipstrike::report::svg::{Chart, Kind, Labelled, Scale, Series, chart};
+use tipstrike::report::trade::{plotted_error, power_of_time};
 use tipstrike::study::trade::{METHODS, STEADY, Setting, Subject};
 
 fn main() {
@@ -85,21 +86,28 @@ fn picture(table: &Table) -> String {
             settings.sort_by(|one, other| {
                 other.tolerance.unwrap_or(0.0).total_cmp(&one.tolerance.unwrap_or(0.0))
             });
-            let points = settings
-                .iter()
-                .filter_map(|setting| point(table, setting, *setting == usual, error));
-            Series { name, points: points.collect() }
+            let points = settings.iter().filter_map(|setting| {
+                let row: &Row = table.0.iter().find(|row| row.setting == setting.to_string())?;
+                let place = (row.seconds?, plotted_error(row.errors[error]?.0));
+                Some((place, *setting == usual))
+            });
+            let (points, are_usual): (Vec<_>, Vec<bool>) = points.unzip();
+            let usual = are_usual.iter().position(|is_usual| *is_usual);
+            Series { name, pieces: vec![points], kind: Kind::Marks(usual) }
         })
         .collect();
-    svg(&Plot {
-        title: "Numerical error against time: median over the cases of cases/",
-        across: "time of a whole solve",
-        up: "relative error of the curve (stations), the numbers (tolerance)",
-        series: &series,
+    let axis = |label: &str, tick: fn(f64) -> String| Labelled {
+        label: label.to_owned(),
+        scale: Scale::Logarithmic,
+        tick: Some(tick),
+    };
+    chart(&Chart {
+        title: "Numerical error against time: median over the cases of cases/".to_owned(),
+        across: axis("time of a whole solve", power_of_time),
+        up: axis("relative error of the curve (stations), the numbers (tolerance)", |error| {
+            format!("{error:.0e}")
+        }),
+        series,
+        marks: Vec::new(),
     })
-}
-
-fn point(table: &Table, setting: &Setting, is_usual: bool, error: usize) -> Option<Point> {
-    let row: &Row = table.0.iter().find(|row| row.setting == setting.to_string())?;
-    Some(Point { seconds: row.seconds?, error: row.errors[error]?.0, is_usual })
 }

@@ -515,6 +515,14 @@ mod tests {
     }
 
     #[test]
+    fn every_single_point_has_a_mark_and_the_chosen_one_has_a_ring() {
+        let text = drawn(vec![(1e-6, 1e-3), (2e-5, 1e-16)], Kind::Marks(Some(1)));
+        // The label of the upward axis, two marks and the legend.
+        assert_eq!(text.matches("translate(").count(), 1 + 2 + 1, "{text}");
+        assert_eq!(text.matches("<circle").count(), 1);
+    }
+
+    #[test]
     fn no_points_one_point_and_extreme_values_are_drawn_without_invalid_numbers() {
         for points in [
             vec![],

@@ -1,7 +1,5 @@
 //! A trade study of run time against accuracy as text, JSON and pictures.
 
-pub mod plot;
-
 use std::fmt;
 use std::io::{self, Write};
 
@@ -129,6 +127,25 @@ fn errors(trade: &Trade, measured: &MeasuredSetting) -> Option<[Option<f64>; 4]>
 #[must_use]
 pub fn percent(difference: f64) -> String {
     significant(100.0 * difference, if difference < 0.1 { 2 } else { 3 })
+}
+
+/// An error limited to the range of a logarithmic axis: smaller errors are rounding.
+#[must_use]
+pub fn plotted_error(error: f64) -> f64 {
+    error.clamp(1e-16, 1e4)
+}
+
+/// A power of ten in seconds, as the label of an axis.
+#[must_use]
+pub fn power_of_time(seconds: f64) -> String {
+    let decade = seconds.log10().round() as i32;
+    let (unit, zero) = match decade {
+        ..=-7 => ("ns", -9),
+        -6..=-4 => ("us", -6),
+        -3..=-1 => ("ms", -3),
+        0.. => ("s", 0),
+    };
+    format!("{} {unit}", 10f64.powi(decade - zero))
 }
 
 /// A time with its unit.

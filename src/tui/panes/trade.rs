@@ -9,9 +9,10 @@ use super::Title;
 use crate::model::Inputs;
 use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
-use crate::report::trade::plot::{Axis, shown, time};
+use crate::report::svg::{Axis, Scale};
 use crate::report::trade::{
-    Cell, NO_CONTACT, build, compliance_name, compliances, parts, percent, summary,
+    Cell, NO_CONTACT, build, compliance_name, compliances, parts, percent, plotted_error,
+    power_of_time, summary,
 };
 use crate::study::trade::{METHODS, MeasuredSetting, Setting, Trade};
 use crate::tui::jobs::{TradeView, Traded};
@@ -293,15 +294,15 @@ fn draw_plot(
         ..area
     };
     let mut found = ordered(trade);
-    let errors =
-        found.iter().filter_map(|measured| measured.total()).chain([trade.within]).map(shown);
-    let across = Axis::of(
-        found.iter().map(|measured| measured.seconds()),
-        f64::from(field.left()),
-        f64::from(field.right() - 1),
-    );
-    let up = Axis::of(errors, f64::from(field.bottom() - 1), f64::from(field.top()));
     let errors: Vec<f64> = found.iter().filter_map(|measured| measured.total()).collect();
+    let axis = |values: Vec<f64>, start: u16, end: u16| {
+        let (start, end) = (f64::from(start), f64::from(end));
+        Axis::of(Scale::Logarithmic, values.into_iter(), start, end, false)
+    };
+    let times = found.iter().map(|measured| measured.seconds()).collect();
+    let across = axis(times, field.left(), field.right() - 1);
+    let shown = errors.iter().chain([&trade.within]).map(|error| plotted_error(*error)).collect();
+    let up = axis(shown, field.bottom() - 1, field.top());
     let rows = Rows::of(up, trade.within, &errors, field);
     draw_axes(pane, &across, &rows, field, buffer);
     buffer.set_string(field.x, rows.level, LEVEL.repeat(field.width.into()), pane.look.theme.rule);
@@ -342,12 +343,12 @@ impl Rows {
         let above = u16::from(errors.iter().any(|error| *error > within));
         let below = u16::from(errors.iter().any(|error| *error <= within));
         let (first, last) = (field.top() + above, (field.bottom() - 1).saturating_sub(below));
-        let level = (up.at(shown(within)).round() as u16).max(first).min(last.max(first));
+        let level = (up.at(plotted_error(within)).round() as u16).max(first).min(last.max(first));
         Rows { up, within, level, field }
     }
 
     fn at(&self, error: f64) -> u16 {
-        let row = self.up.at(shown(error)).round() as u16;
+        let row = self.up.at(plotted_error(error)).round() as u16;
         let row = if error > self.within {
             row.min(self.level.saturating_sub(1))
         } else {
@@ -412,13 +413,13 @@ fn draw_axes(pane: &TradePane<'_>, across: &Axis, rows: &Rows, field: Rect, buff
             Style::new(),
         );
     };
-    for decade in rows.up.marks(usize::from(field.height / 2)) {
-        label(rows.at(10f64.powi(decade)), &in_percent(decade));
+    for error in rows.up.ticks(usize::from(field.height / 2)) {
+        label(rows.at(error), &in_percent(error));
     }
     label(rows.level, &percent(rows.within));
-    for decade in across.marks(usize::from(field.width / 9)) {
-        let x = across.at(10f64.powi(decade)).round() as u16;
-        let label = time(decade);
+    for seconds in across.ticks(usize::from(field.width / 9)) {
+        let x = across.at(seconds).round() as u16;
+        let label = power_of_time(seconds);
         let width = label.len() as u16;
         let start = x
             .saturating_sub(width / 2)
@@ -429,8 +430,8 @@ fn draw_axes(pane: &TradePane<'_>, across: &Axis, rows: &Rows, field: Rect, buff
 }
 
 /// A power of ten in percent, at most seven characters wide.
-fn in_percent(decade: i32) -> String {
-    match decade + 2 {
+fn in_percent(error: f64) -> String {
+    match error.log10().round() as i32 + 2 {
         exponent @ -3..=5 => format!("{}", 10f64.powi(exponent)),
         exponent => format!("1e{exponent}"),
     }
@@ -493,7 +494,7 @@ mod tests {
 
     #[test]
     fn powers_of_ten_in_percent_are_short() {
-        let phrases: Vec<String> = [-16, -5, -2, 0, 3].map(in_percent).to_vec();
+        let phrases = [1e-16, 1e-5, 1e-2, 1.0, 1e3].map(in_percent);
         assert_eq!(phrases, ["1e-14", "0.001", "1", "100", "100000"]);
     }
 }
