@@ -132,7 +132,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         | Action::Recents(_)
         | Action::Examples(_)
         | Action::Explained(_)
-        | Action::Relieved(_)) => dialogs::receive(app, result),
+        | Action::Relieved(_)) => return dialogs::receive(app, result),
     }
     Vec::new()
 }

@@ -21,6 +21,7 @@ use tipstrike::tui::testing::store::{case_search, folder};
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 use tipstrike::tui::testing::worker::Workers;
+use tipstrike::tui::testing::worker::jobs;
 
 /// Five cases and a folder; the second case is open.
 fn shelf(desk: &mut Desk) {
@@ -452,4 +453,22 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
     assert!(desk.shows("Searching below ..."), "{}", desk.screen());
     desk.act(Action::Found(Box::new(case_search::SearchResult { cases: Vec::new(), ..below })));
     assert!(desk.shows("No match here or below."), "{}", desk.screen());
+}
+
+#[test]
+fn enter_waits_for_the_listing_of_the_typed_folder() {
+    let mut desk = desk_before_a_shelf(SMALL);
+    desk.keys(&["Ctrl-O"]);
+    let mut asked = Vec::new();
+    for letter in "sub/deep".chars() {
+        asked.extend(update(&mut desk.app, Action::Insert(letter)));
+    }
+    desk.effects("Enter");
+    assert!(!desk.app.prompts.is_empty(), "it is not listed yet");
+    for effect in asked {
+        if let Effect::Job(job @ Job::Folder(..)) = effect {
+            desk.act(jobs::perform(job, &|_| true).expect("a listing"));
+        }
+    }
+    assert!(desk.app.prompts.is_empty() && desk.shows("sub/deep.toml"), "{}", desk.screen());
 }

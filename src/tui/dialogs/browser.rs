@@ -97,6 +97,11 @@ impl Browser {
         }
     }
 
+    /// Whether the listing has arrived for which Enter waits; once.
+    pub(crate) fn accepts_now(&mut self) -> bool {
+        self.listing.is_some() && std::mem::take(&mut self.is_accepting)
+    }
+
     /// The folder in which to search for cases below; at most one search for each folder.
     fn seek(&mut self) -> Option<(PathBuf, String)> {
         let is_sought = self.sought.as_ref() == Some(&self.asks());
@@ -224,7 +229,7 @@ impl Browser {
             .flatten();
         self.base = folder;
         (self.input, self.typed_folder, self.listing) = (Text::default(), String::new(), None);
-        self.prefers_recents = false;
+        (self.prefers_recents, self.is_accepting) = (false, false);
         self.refit();
     }
 
@@ -333,6 +338,7 @@ impl Dialog for Browser {
     }
 
     fn typed(&mut self) -> Vec<Effect> {
+        self.is_accepting = false;
         let list = self.follow().then(|| self.list());
         let below = self.seek();
         let below = below.map(|(base, typed)| Effect::Job(Job::Search(base, typed)));
@@ -353,6 +359,11 @@ impl Dialog for Browser {
 
     // Without a match, opens the typed path.
     fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+        let is_typed = !self.input.value().is_empty() && !self.prefers_recents;
+        if self.listing.is_none() && is_typed {
+            self.is_accepting = true;
+            return Outcome::none();
+        }
         match self.marked_sight() {
             Some(Viewport::Folder(_)) => Outcome::Effects(self.complete()),
             Some(Viewport::File(path)) => Outcome::Open(path),
@@ -417,6 +428,8 @@ pub struct Browser {
     came_from: Option<OsString>,
     /// The last requested preview.
     looked_at: Option<Viewport>,
+    /// Whether Enter waits for the listing of the typed folder.
+    is_accepting: bool,
 }
 
 /// A line that can be selected.

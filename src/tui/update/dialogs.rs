@@ -7,6 +7,7 @@ use crate::model::Quantity;
 use crate::report;
 use crate::tui::actions::{Action, Effect};
 use crate::tui::app::App;
+use crate::tui::dialogs::browser::Browser;
 use crate::tui::dialogs::page::{Explanation, Page};
 use crate::tui::dialogs::picker::Pick;
 use crate::tui::dialogs::{Dialog, Outcome, Prompt, Surroundings};
@@ -37,10 +38,13 @@ pub(super) fn letter(app: &mut App, letter: char) -> Option<Vec<Effect>> {
 }
 
 /// Passes on the result of a job.
-pub(super) fn receive(app: &mut App, result: Action) {
-    if let Some(prompt) = app.prompts.last_mut() {
-        prompt.dialog_mut().receive(result);
-    }
+pub(super) fn receive(app: &mut App, result: Action) -> Vec<Effect> {
+    let Some(prompt) = app.prompts.last_mut() else {
+        return Vec::new();
+    };
+    prompt.dialog_mut().receive(result);
+    let accepts = prompt.browser().is_some_and(Browser::accepts_now);
+    if accepts { accept(app) } else { Vec::new() }
 }
 
 /// The job that previews a new selection.
