@@ -277,12 +277,6 @@ impl Inputs {
 }
 
 impl MeshInputs {
-    /// Inputs of the mesh of a case at any speed.
-    #[must_use]
-    pub fn at_any_speed(inputs: &Inputs) -> MeshInputs {
-        inputs.mesh().at_speed(1.0)
-    }
-
     fn driven_speed(&self) -> f64 {
         self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
     }

@@ -146,18 +146,6 @@ impl PairSet {
     #[must_use]
     pub fn balance(&self, force: f64) -> Balance {
         let incoming = self.pairs.iter().position(|pair| pair.ahead == 0);
-        if self.couplings.is_empty() {
-            let displacement = self.of_springs(force);
-            let force = |pair: &Pair| pair.alone(displacement);
-            let lead = |incoming: usize| displacement - self.pairs[incoming].gap;
-            return Balance {
-                displacement,
-                force: incoming.map_or(0.0, |incoming| force(&self.pairs[incoming])),
-                total: self.pairs.iter().map(force).sum(),
-                lead: Some(incoming.map_or(f64::NEG_INFINITY, lead)).filter(|lead| *lead <= 0.0),
-                carrying: self.carrying(|index| displacement > self.pairs[index].gap),
-            };
-        }
         let (displacement, forces) = self.shared(force);
         let lead = |incoming: usize| {
             let gap = self.pairs[incoming].gap;
@@ -168,15 +156,12 @@ impl PairSet {
             force: incoming.map_or(0.0, |incoming| forces[incoming]),
             total: forces.iter().sum(),
             lead: incoming.map_or(Some(f64::NEG_INFINITY), lead),
-            carrying: self.carrying(|index| forces[index] > 0.0),
-        }
-    }
-
-    fn carrying(&self, carries: impl Fn(usize) -> bool) -> Carrying {
-        let pairs = (0..self.pairs.len()).filter(|&index| carries(index));
-        Carrying {
-            first: self.pairs.first().map_or(0, |pair| pair.ahead),
-            touching: pairs.fold(Touching::NONE, Touching::with),
+            carrying: Carrying {
+                first: self.pairs.first().map_or(0, |pair| pair.ahead),
+                touching: (0..forces.len())
+                    .filter(|&index| forces[index] > 0.0)
+                    .fold(Touching::NONE, Touching::with),
+            },
         }
     }
 
@@ -208,9 +193,6 @@ impl PairSet {
         };
         // An infinite gap removes the pair from the contact but keeps the pitches of the others.
         let gap = std::mem::replace(&mut self.pairs[index].gap, f64::INFINITY);
-        if self.couplings.is_empty() {
-            return self.of_springs(force) - gap;
-        }
         let (displacement, forces) = self.shared(force);
         displacement - gap - self.pushed(index, &forces)
     }

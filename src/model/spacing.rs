@@ -81,9 +81,10 @@ impl Spacing {
 }
 
 /// Whether the stations are as dense as the curve needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resolution {
     /// The stations are dense enough.
+    #[default]
     Full,
     /// The curve was computed in this many places, the limit of the [budget](super::budget), and
     /// needs more.

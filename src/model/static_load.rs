@@ -18,7 +18,7 @@ const SAMPLES: f64 = 16.0;
 const LEAST_SAMPLES: f64 = 2.0;
 
 /// Load of the incoming tooth from its first to its last contact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct StaticLoad {
     /// Driven gear's angle before E at the first contact, in rad. `None` without contact before E.
     pub first_contact_angle: Option<f64>,
@@ -116,7 +116,7 @@ fn load_within(
         return Err(Refusal::BeyondReach);
     }
     let Some(contact) = contact(mesh, &balances)? else {
-        return Ok(StaticLoad::none());
+        return Ok(StaticLoad::default());
     };
     let (first, last) = (contact.first.0, contact.last.0);
     balances.retain(|&((s, _), _)| s > first && s < last);
@@ -137,21 +137,6 @@ fn load_within(
         stations,
         resolution,
     })
-}
-
-impl StaticLoad {
-    fn none() -> StaticLoad {
-        StaticLoad {
-            first_contact_angle: None,
-            last_contact_angle: None,
-            force_at_start: 0.0,
-            peak_force: 0.0,
-            transmission_error: 0.0,
-            pitch_jump: None,
-            stations: Vec::new(),
-            resolution: Resolution::Full,
-        }
-    }
 }
 
 /// The balance with the incoming pair at `s`. On a border the sliding direction is that at

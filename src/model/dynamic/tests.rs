@@ -45,13 +45,13 @@ fn coupled(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
         let place = 40.0 * (rear[0] + 2.0 * front[1] - 0.2);
         share * scale * (1.0 + 0.4 * place.sin())
     });
-    let mesh = Mesh::with_neighbours(
+    let mesh = Mesh::of_parts(
         &inputs.mesh(),
         &solution.geometry,
-        &flanks.into(),
+        (&flanks.into(), &neighbours),
+        None,
         load,
         1e-3,
-        &neighbours,
     )
     .unwrap();
     (mesh, settings(&inputs, solution.reduced_mass))

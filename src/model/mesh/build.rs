@@ -11,38 +11,6 @@ use crate::model::compliance::flanks::Flanks;
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::geometry::{Geometry, PairShape};
 use crate::model::relief::Relief;
-use crate::numeric::chebyshev::TERMS;
-use crate::numeric::real::Lanes;
-
-/// The couplings from the range of the pairs, the compliance of one pair in m/N and the contact
-/// places.
-type NewCouplings<'a> =
-    dyn Fn(&Way, f64, &dyn Fn(f64) -> ContactPlace) -> Result<Option<Arc<Couplings>>, Refusal> + 'a;
-
-/// The teeth of a pair under the mesh force, in N.
-struct UnderLoad {
-    teeth: Teeth,
-    force: f64,
-}
-
-impl Neighbours for UnderLoad {
-    fn is_coupled(&self) -> bool {
-        self.teeth.is_coupled()
-    }
-
-    fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal> {
-        self.teeth.abscissas(&self.teeth.under(place, self.force))
-    }
-
-    fn displacements(
-        &self,
-        rear: [Lanes<TERMS>; 2],
-        front: [Lanes<TERMS>; 2],
-        pitches: i32,
-    ) -> Lanes<TERMS> {
-        self.teeth.couplings(rear, front, pitches)
-    }
-}
 
 impl Mesh {
     /// The mesh in the range where the gaps before E and after B are at most `reach`, in m.
@@ -71,7 +39,8 @@ impl Mesh {
         reach: f64,
     ) -> Result<Mesh, Refusal> {
         let flanks = Arc::new(Flanks::new(&inputs.elasticity, geometry)?);
-        Mesh::of_parts(inputs, geometry, &flanks, None, load, reach)
+        let teeth = Teeth::of(&inputs.elasticity, geometry)?;
+        Mesh::of_parts(inputs, geometry, (&flanks, &teeth), None, load, reach)
     }
 
     /// The same as [`Mesh::new`], with the parts of an earlier mesh of this geometry that do not
@@ -99,60 +68,21 @@ impl Mesh {
         let is_alike =
             has_same_load && last.shape == inputs.shape && last.tip_radii == inputs.tip_radii;
         let couplings = is_alike.then_some(&earlier.couplings);
-        Mesh::of_parts(inputs, geometry, &earlier.flanks, couplings, load, reach)
+        let teeth = Teeth::of(&inputs.elasticity, geometry)?;
+        Mesh::of_parts(inputs, geometry, (&earlier.flanks, &teeth), couplings, load, reach)
     }
 
-    /// Like [`Mesh::new`], with a known compliance of the teeth and perhaps known couplings.
+    /// Like [`Mesh::new`], with known teeth, their compliance and perhaps known couplings.
     ///
     /// # Errors
     /// Those of [`Mesh::new`].
-    fn of_parts(
+    pub(in crate::model) fn of_parts(
         inputs: &MeshInputs,
         geometry: &Geometry,
-        flanks: &Arc<Flanks>,
-        couplings: Option<&Option<Arc<Couplings>>>,
-        load: (f64, f64),
-        reach: f64,
-    ) -> Result<Mesh, Refusal> {
-        let new = |way: &Way, own: f64, place: &dyn Fn(f64) -> ContactPlace| {
-            if let Some(known) = couplings {
-                return Ok(known.clone());
-            }
-            let neighbours =
-                UnderLoad { teeth: Teeth::of(&inputs.elasticity, geometry)?, force: load.0 };
-            Couplings::of(way, (own, inputs.elasticity.width), &neighbours, place)
-        };
-        Mesh::with_couplings(inputs, geometry, flanks, load, reach, &new)
-    }
-
-    /// Like [`Mesh::new`], with the couplings from `neighbours`.
-    ///
-    /// # Errors
-    /// Those of [`Mesh::new`].
-    #[cfg(test)]
-    pub(in crate::model) fn with_neighbours(
-        inputs: &MeshInputs,
-        geometry: &Geometry,
-        flanks: &Arc<Flanks>,
-        load: (f64, f64),
-        reach: f64,
-        neighbours: &dyn Neighbours,
-    ) -> Result<Mesh, Refusal> {
-        let width = inputs.elasticity.width;
-        Mesh::with_couplings(inputs, geometry, flanks, load, reach, &|way, own, place| {
-            Couplings::of(way, (own, width), neighbours, place)
-        })
-    }
-
-    /// Like [`Mesh::new`], with the couplings as a function of the range of the pairs, the
-    /// compliance of one pair in m/N and the contact places.
-    fn with_couplings(
-        inputs: &MeshInputs,
-        geometry: &Geometry,
-        flanks: &Arc<Flanks>,
+        (flanks, neighbours): (&Arc<Flanks>, &dyn Neighbours),
+        known: Option<&Option<Arc<Couplings>>>,
         (force, error): (f64, f64),
         reach: f64,
-        couplings: &NewCouplings<'_>,
     ) -> Result<Mesh, Refusal> {
         let relief = Relief::of(&inputs.reliefs, geometry);
         let pace = inputs.speed;
@@ -195,7 +125,10 @@ impl Mesh {
         let at_start = (&place(0.0), ends);
         let own =
             flanks.pair_at_load(&inputs.elasticity, geometry, at_start.0, at_start.1, force)?;
-        let couplings = couplings(&way, own / width, &place)?;
+        let couplings = match known {
+            Some(known) => known.clone(),
+            None => Couplings::of(&way, (own / width, width), force, neighbours, &place)?,
+        };
         let coupling_work = couplings.as_deref().map_or(0, Couplings::evaluations) as u64;
         let mesh = Mesh {
             base_pitch: geometry.base_pitch,

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use crate::model::Refusal;
-use crate::model::compliance::ContactPlace;
+use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::pair_forces::PITCHES;
 use crate::numeric::chebyshev::{Places, Series, TERMS};
 use crate::numeric::real::Lanes;
 
 /// Displacement of a pair by a unit force on another, as a function of the place of the rear pair.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Couplings {
+pub(in crate::model) struct Couplings {
     /// One list for each number of pitches between the pairs, in order.
     stretches: [Vec<Stretch>; PITCHES],
 }
@@ -38,8 +38,9 @@ pub(in crate::model) trait Neighbours {
     /// Whether it does at all.
     fn is_coupled(&self) -> bool;
 
-    /// Where a pair touches the driver and the driven gear, in a measure of the model's own.
-    fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal>;
+    /// Where a pair touches the driver and the driven gear under a force in N, in a measure of the
+    /// model's own.
+    fn abscissas(&self, place: &ContactPlace, force: f64) -> Result<[f64; 2], Refusal>;
 
     /// Displacement of the rear pair by the force on the front one so many pitches ahead, or of
     /// that one by the force on this one, in m²/N, at several places of both.
@@ -49,6 +50,25 @@ pub(in crate::model) trait Neighbours {
         front: [Lanes<TERMS>; 2],
         pitches: i32,
     ) -> Lanes<TERMS>;
+}
+
+impl Neighbours for Teeth {
+    fn is_coupled(&self) -> bool {
+        Teeth::is_coupled(self)
+    }
+
+    fn abscissas(&self, place: &ContactPlace, force: f64) -> Result<[f64; 2], Refusal> {
+        Teeth::abscissas(self, &self.under(place, force))
+    }
+
+    fn displacements(
+        &self,
+        rear: [Lanes<TERMS>; 2],
+        front: [Lanes<TERMS>; 2],
+        pitches: i32,
+    ) -> Lanes<TERMS> {
+        self.couplings(rear, front, pitches)
+    }
 }
 
 /// Where a pair touches both gears, over its place.
@@ -88,6 +108,7 @@ impl Couplings {
     pub(super) fn of(
         way: &Way,
         (own, width): (f64, f64),
+        force: f64,
         neighbours: &dyn Neighbours,
         place: &dyn Fn(f64) -> ContactPlace,
     ) -> Result<Option<Arc<Couplings>>, Refusal> {
@@ -96,7 +117,7 @@ impl Couplings {
         if !neighbours.is_coupled() {
             return Ok(None);
         }
-        let abscissas = Abscissas::of(way, |s| neighbours.abscissas(&place(s)))?;
+        let abscissas = Abscissas::of(way, |s| neighbours.abscissas(&place(s), force))?;
         let mut stretches = [const { Vec::new() }; PITCHES];
         for (pitches, stretches) in (1..).zip(&mut stretches) {
             let apart = f64::from(pitches) * way.base_pitch;
@@ -191,7 +212,7 @@ impl<F: Fn([f64; 2], [f64; 2], i32) -> f64> Neighbours for ByRadii<F> {
         true
     }
 
-    fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal> {
+    fn abscissas(&self, place: &ContactPlace, _: f64) -> Result<[f64; 2], Refusal> {
         Ok([place.radius_driver, place.radius_driven])
     }
 

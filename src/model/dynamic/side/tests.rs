@@ -80,7 +80,7 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
         let load = (solution.mesh_force, error);
         let flanks = flanks.into();
         if couples {
-            Mesh::with_neighbours(inputs, geometry, &flanks, load, 1e-3, &neighbours).unwrap()
+            Mesh::of_parts(inputs, geometry, (&flanks, &neighbours), None, load, 1e-3).unwrap()
         } else {
             Mesh::new(inputs, geometry, load, 1e-3).unwrap()
         }
