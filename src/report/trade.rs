@@ -337,7 +337,13 @@ fn setting(trade: &Trade, measured: &MeasuredSetting) -> Json {
 
 #[cfg(test)]
 mod tests {
-    use super::{duration, percent};
+    use super::{duration, percent, plotted_error, power_of_time};
+
+    #[test]
+    fn the_axes_of_the_benchmark_have_powers_of_ten_with_their_units() {
+        assert_eq!([1e-6, 1e-4, 1e-2, 1.0].map(power_of_time), ["1 us", "100 us", "10 ms", "1 s"]);
+        assert_eq!([0.0, 1e-3, f64::INFINITY].map(plotted_error), [1e-16, 1e-3, 1e4]);
+    }
 
     #[test]
     fn times_and_errors_have_three_digits_at_most() {
