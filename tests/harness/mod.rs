@@ -27,7 +27,7 @@ use tipstrike::tui::testing::settings::Settings;
 use tipstrike::tui::testing::store::State;
 use tipstrike::tui::testing::store::recents;
 use tipstrike::tui::testing::study::StudyRequest;
-use tipstrike::tui::testing::theme::Look;
+use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 use tipstrike::tui::testing::worker::Running;
 use tipstrike::tui::testing::worker::draw_chart;
@@ -270,6 +270,14 @@ impl Desk {
         });
         frame.expect("a frame").buffer.clone()
     }
+}
+
+/// A terminal without Unicode sees only ASCII, in the same places.
+pub(crate) fn assert_ascii(desk: &mut Desk) {
+    let look = std::mem::replace(&mut desk.app.look, Look { theme: &MONO, ascii: true });
+    let screen = desk.screen();
+    assert!(screen.is_ascii(), "{screen}");
+    desk.app.look = look;
 }
 
 /// Sets the same times on every machine: each setting takes a tenth longer than the previous one.

@@ -18,7 +18,6 @@ use tipstrike::tui::testing::actions::{self, Action};
 use tipstrike::tui::testing::ascii::is_safe;
 use tipstrike::tui::testing::jobs::Job;
 use tipstrike::tui::testing::store::{case_search, folder};
-use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 use tipstrike::tui::testing::worker::Workers;
 use tipstrike::tui::testing::worker::jobs;
@@ -375,13 +374,8 @@ fn a_new_case_begins_with_an_example_and_has_no_file() {
 
 #[test]
 fn the_screens() {
-    for (size, look) in [
-        ("80x24", Look::FULL),
-        ("140x45", Look::FULL),
-        ("ascii", Look { theme: &MONO, ascii: true }),
-    ] {
-        let mut desk = desk_before_a_shelf(if size == "140x45" { LARGE } else { SMALL });
-        desk.app.look = look;
+    for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
+        let mut desk = desk_before_a_shelf(size);
         desk.recents = vec![desk.path("sub/deep.toml"), desk.path("sub/gone.toml")];
         for (screen, keys) in [
             ("browser", &["Ctrl-O", "b-exc"][..]),
@@ -390,7 +384,8 @@ fn the_screens() {
             ("examples", &["Esc", "Alt-N", "Down", "Down"]),
         ] {
             desk.keys(keys);
-            assert_snapshot!(format!("{screen}_{size}"), harness::without_folder(&desk));
+            assert_snapshot!(format!("{screen}_{name}"), harness::without_folder(&desk));
+            harness::assert_ascii(&mut desk);
         }
     }
 }

@@ -7,7 +7,6 @@ use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::results;
-use tipstrike::tui::testing::theme::{Look, MONO};
 
 const TINY: Size = Size { width: 60, height: 16 };
 
@@ -59,9 +58,7 @@ fn the_results_of_the_method_itself_come_first() {
     {
         assert_snapshot!(name, in_motion(size).screen());
     }
-    let mut desk = in_motion(SMALL);
-    desk.app.look = Look { theme: &MONO, ascii: true };
-    assert_snapshot!("in_motion_ascii", desk.screen());
+    harness::assert_ascii(&mut in_motion(SMALL));
 }
 
 #[test]
@@ -91,48 +88,19 @@ fn every_quantity_can_be_scrolled_into_view_and_the_title_shows_the_visible_rows
 }
 
 #[test]
-fn a_refusal_is_shown_above_the_last_valid_results() {
-    let mut desk = Desk::new(SMALL);
-    desk.fill("driven.addendum", "1.9");
-    assert_snapshot!("refused_80x24", desk.screen());
-}
-
-#[test]
-fn the_help() {
-    let mut desk = Desk::new(SMALL);
-    desk.keys(&["F1"]);
-    assert_snapshot!("help_80x24", desk.screen());
-    desk.act(Action::Resize(LARGE));
-    assert_snapshot!("help_140x45", desk.screen());
-}
-
-#[test]
-fn the_open_prompt_and_a_bad_file() {
+fn a_bad_file_is_not_opened() {
     let mut desk = Desk::on(SMALL, "table-1.toml", TABLE_1);
-    desk.write("another.toml", TABLE_1);
     desk.write("bad.toml", &TABLE_1.replace("5 mm", "5 kg").replace("teeth = 20\n", "teth = 20\n"));
-    desk.keys(&["Ctrl-O"]);
-    assert_snapshot!("open_80x24", without_folder(&desk));
-    desk.keys(&["bad", "Enter"]);
+    desk.keys(&["Ctrl-O", "bad", "Enter"]);
     assert_snapshot!("faults_80x24", without_folder(&desk));
 }
 
 #[test]
-fn the_questions() {
-    let mut desk = Desk::on(SMALL, "table-1.toml", TABLE_1);
-    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
-    assert_snapshot!("quit_80x24", without_folder(&desk));
-}
-
-#[test]
 fn plain_ascii_on_a_terminal_without_unicode() {
-    for (name, size) in [("ascii_80x24", SMALL), ("ascii_140x45", LARGE)] {
-        let mut desk = Desk::new(size);
-        desk.app.look = Look { theme: &MONO, ascii: true };
-        let screen = desk.screen();
-        assert!(screen.is_ascii());
-        assert_snapshot!(name, screen);
-    }
+    let mut desk = Desk::new(SMALL);
+    harness::assert_ascii(&mut desk);
+    desk.app.look.ascii = true;
+    assert_snapshot!("ascii_80x24", desk.screen());
 }
 
 #[test]
@@ -144,7 +112,10 @@ fn a_too_small_terminal_shows_a_message_and_keeps_the_state() {
     assert_snapshot!("too_small_40x10", desk.screen());
     for (width, height) in [(59, 16), (60, 15), (20, 5), (10, 3), (5, 1), (4, 4), (1, 1), (0, 0)] {
         desk.act(Action::Resize(Size::new(width, height)));
-        assert_snapshot!(format!("too_small_{width}x{height}"), desk.screen());
+        let screen = desk.screen().replace('\n', "");
+        let room = width >= 5 && height >= 1;
+        assert!(!room || screen.contains("60x16"), "{width}x{height}: {screen}");
+        assert_eq!(screen.contains(&format!("this is {width}x{height}")), width >= 20, "{screen}");
     }
     desk.act(Action::Resize(SMALL));
     assert_eq!(desk.screen(), before);

@@ -10,7 +10,6 @@ use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::actions::Progress;
 use tipstrike::tui::testing::benchmark::{BenchmarkProgress, End, Measuring};
-use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 
 fn measured(size: Size) -> Desk {
@@ -245,11 +244,8 @@ fn the_pane_as_it_looks() {
         assert_snapshot!(format!("alone_{name}"), desk.screen());
     }
     let mut desk = timed(SMALL);
-    desk.app.look = Look { theme: &MONO, ascii: true };
-    assert!(desk.screen().is_ascii());
-    assert_snapshot!("alone_ascii", desk.screen());
-    desk.keys(&["z"]);
-    assert_snapshot!("beside_the_others_ascii", desk.screen());
+    harness::assert_ascii(&mut desk);
+    harness::assert_ascii(desk.keys(&["z"]));
 }
 
 #[test]
