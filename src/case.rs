@@ -7,6 +7,7 @@ pub mod evaluate;
 pub mod examples;
 pub mod fields;
 pub mod file;
+mod problem;
 pub mod rexs;
 pub mod sanitize;
 pub mod spread;
@@ -21,14 +22,14 @@ use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
 pub use check::{
-    Problem, field_range, field_value, put as put_field, unknown_key, unknown_quantity,
-    violated_rule,
+    field_range, field_value, put as put_field, unknown_key, unknown_quantity, violated_rule,
 };
 pub use dependencies::{Acting, partial_relevance, relevance};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};
 pub use file::Document;
+pub use problem::{Fix, Problem};
 pub use spread::Spread;
 pub use variant::{Override, Variant};
 
@@ -70,9 +71,9 @@ impl Limit {
         let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
         let usual = if matches!(known.shown, "1" | "yes/no") { "" } else { known.shown };
         let value = units::parse(text, dimension, usual).map_err(|misread| {
-            let problem = Problem::of(&field, misread);
+            let problem = misread.at(&field);
             if known.is_flag() {
-                let fix = "write 0 to forbid it or 1 to permit it".to_owned();
+                let fix = "write 0 to forbid it or 1 to permit it".into();
                 return Problem { fix, ..problem };
             }
             problem

@@ -3,13 +3,13 @@
 use std::sync::LazyLock;
 
 use super::fields::{Absent, FIELDS, Field, index_of};
-use super::{Case, Limit};
+use super::{Case, Fix, Limit, Problem};
 use crate::case::fields::{AUTO, Kind, Range, Value};
-use crate::case::sanitize::{quoted, sanitize};
+use crate::case::sanitize::{cut, quoted};
 use crate::case::suggest;
-use crate::case::units::{self, Dimension, ParseError};
+use crate::case::units::{self, Dimension};
 use crate::model::inputs::{Gear, Method};
-use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
+use crate::model::{Inputs, QUANTITIES, Quantity};
 use crate::numeric::decimal::{shortest, significant};
 
 /// The inputs of the model, or all problems of the case.
@@ -65,28 +65,26 @@ pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem
     match (case.text(field), known.absent) {
         (None, _) if case.is_replaced(field) => Ok(()),
         (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),
-        (None, Absent::Refused) => Err(Problem::new(
-            known.key,
-            "a required value is missing",
-            format!("write {}", addition(known)),
-        )),
+        (None, Absent::Refused) => {
+            Err(Problem::new(known.key, "a required value is missing", addition(known)))
+        }
         (None, Absent::Without(_) | Absent::Either) => Ok(()),
     }
 }
 
-/// The field as a line of a file, with an example value.
-pub(super) fn assignment(field: &Field) -> String {
+/// An example of the field in TOML.
+pub(super) fn example(field: &Field) -> String {
     let example = field.example();
-    let value = if field.is_bare() { example.to_owned() } else { format!("\"{example}\"") };
-    format!("{} = {value}", field.name())
+    if field.is_bare() { example.to_owned() } else { format!("\"{example}\"") }
 }
 
-/// The assignment with its table.
-fn addition(field: &Field) -> String {
-    match field.table() {
-        "" => assignment(field),
-        table => format!("{} under [{table}]", assignment(field)),
-    }
+/// The field as a line of a file, with an example value.
+pub(super) fn assignment(field: &Field) -> String {
+    format!("{} = {}", field.name(), example(field))
+}
+
+fn addition(field: &Field) -> Fix {
+    Fix::Assign { key: field.key, example: example(field) }
 }
 
 /// The problem of a field and its alternative. It is reported at the first field if a required
@@ -97,7 +95,7 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
     match (case.text(field), case.text(other)) {
         (None, None) if field < other && known.absent == Absent::Either => {
             let cause = format!("neither {} nor {} is given", known.key, named.key);
-            Some(Problem::new(known.key, cause, format!("write {}", addition(known))))
+            Some(Problem::new(known.key, cause, addition(known)))
         }
         (Some(_), Some(_)) => given_twice(case, field),
         _ => None,
@@ -169,21 +167,16 @@ fn number(
 ) -> Result<f64, Problem> {
     let (from, to) = ENDS[field];
     let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| {
+        let problem = misread.at(known.key);
         let likely = likely_units(text, known, dimension, (from, to));
-        let of_unit = |unit: &str| units::parse(text, dimension, unit).err();
-        let [first, others @ ..] = &*likely else {
-            return Problem::of(known.key, misread);
-        };
-        let problem = Problem::of(known.key, of_unit(first).unwrap_or(misread));
-        // A bare number may mean several units.
-        let fixes = others.iter().filter_map(|unit| of_unit(unit));
-        let other = fixes.map(|other| other.fix).find(|fix| *fix != problem.fix);
-        let other = other.as_deref().and_then(|fix| fix.strip_prefix("write "));
-        let fix = match other {
-            Some(other) => format!("{} or {other}", problem.fix),
-            None => problem.fix,
-        };
-        Problem { fix, ..problem }
+        if likely.is_empty() || !matches!(units::split(text, ""), Ok((_, ""))) {
+            return problem;
+        }
+        let meant = likely.iter().map(|unit| format!("\"{} {unit}\"", cut(text.trim())));
+        Problem {
+            fix: format!("write {}", meant.collect::<Vec<_>>().join(" or ")).into(),
+            ..problem
+        }
     })?;
     // The same end in another unit can differ by rounding.
     let slack = 4.0 * f64::EPSILON;
@@ -255,7 +248,9 @@ fn not_whole(known: &Field, text: &str) -> Problem {
         Ok(_) => {
             Problem::new(known.key, format!("{} is not a whole number", quoted(text)), example)
         }
-        Err(misread) if misread.cause.starts_with("unit") => Problem::of(known.key, misread),
+        Err(misread) if matches!(units::split(text, ""), Ok((_, unit)) if !unit.is_empty()) => {
+            misread.at(known.key)
+        }
         Err(misread) => Problem::new(known.key, misread.cause, example),
     }
 }
@@ -360,7 +355,8 @@ impl Height {
         let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * self.sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
-        Some(Problem::new(FIELDS[self.diameter].key, cause, fix))
+        let code = "diameter-outside-range".into();
+        Some(Problem { code, ..Problem::new(FIELDS[self.diameter].key, cause, fix) })
     }
 }
 
@@ -408,11 +404,9 @@ fn bore_through_root(table: &str, gear: &Gear, module: f64) -> Option<Problem> {
         let cause = format!(
             "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
         );
-        Problem::new(
-            &format!("{table}.bore_radius"),
-            cause,
-            format!("write a radius (not a diameter) below {root} mm"),
-        )
+        let fix = format!("write a radius (not a diameter) below {root} mm");
+        let code = "bore-through-root".into();
+        Problem { code, ..Problem::new(&format!("{table}.bore_radius"), cause, fix) }
     })
 }
 
@@ -420,41 +414,6 @@ fn bore_through_root(table: &str, gear: &Gear, module: f64) -> Option<Problem> {
 fn in_mm(metres: f64) -> f64 {
     (metres * 1e7).round() / 1e4
 }
-
-/// A problem at one place: the cause and the fix.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Problem {
-    /// The field's key, or an unknown key as written.
-    pub field: String,
-    /// The cause.
-    pub cause: String,
-    /// How to fix it.
-    pub fix: String,
-}
-
-impl Problem {
-    pub(in crate::case) fn new(
-        field: &str,
-        cause: impl Into<String>,
-        fix: impl Into<String>,
-    ) -> Problem {
-        Problem { field: field.to_owned(), cause: cause.into(), fix: fix.into() }
-    }
-
-    /// An invalid value, as a problem of its field.
-    pub(in crate::case) fn of(field: &str, misread: ParseError) -> Problem {
-        Problem::new(field, misread.cause, misread.fix)
-    }
-}
-
-/// One line: `field: cause: fix`.
-impl std::fmt::Display for Problem {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: {}: {}", sanitize(&self.field), sanitize(&self.cause), sanitize(&self.fix))
-    }
-}
-
-impl std::error::Error for Problem {}
 
 impl Problem {
     /// The problem at the alternative of its field if the case gives the alternative.
@@ -466,12 +425,6 @@ impl Problem {
             FIELDS[given].key.clone_into(&mut self.field);
         }
         self
-    }
-}
-
-impl From<&Refusal> for Problem {
-    fn from(refusal: &Refusal) -> Problem {
-        Problem::new(refusal.field(), refusal.to_string(), refusal.fix())
     }
 }
 

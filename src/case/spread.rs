@@ -129,8 +129,8 @@ fn by_example(shape: Shape, field: &Field) -> String {
 }
 
 fn width(place: &str, dimension: Dimension, field: &Field, text: &str) -> Result<f64, Problem> {
-    let width = units::parse(text, dimension, field.usual_unit())
-        .map_err(|misread| Problem::of(place, misread))?;
+    let width =
+        units::parse(text, dimension, field.usual_unit()).map_err(|misread| misread.at(place))?;
     if width > 0.0 {
         return Ok(width);
     }

@@ -4,7 +4,7 @@ pub mod system;
 mod table;
 
 use super::sanitize::{cut, quoted};
-use super::suggest;
+use super::{Problem, suggest};
 pub use system::{System, converted};
 use table::{FAMILIES, Scale, Unit, name_of, units_of};
 
@@ -78,21 +78,6 @@ impl Dimension {
     }
 }
 
-/// The reason why a text is not a value of the wanted dimension: the cause and the fix.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ParseError {
-    /// The cause.
-    pub cause: String,
-    /// How to fix it.
-    pub fix: String,
-}
-
-impl ParseError {
-    pub(super) fn new(cause: impl Into<String>, fix: impl Into<String>) -> ParseError {
-        ParseError { cause: cause.into(), fix: fix.into() }
-    }
-}
-
 /// The SI value of one unit. `None` for an unknown unit. "1" and "" have the factor 1.
 #[must_use]
 pub fn factor(unit: &str) -> Option<f64> {
@@ -113,7 +98,7 @@ pub fn factor(unit: &str) -> Option<f64> {
 ///
 /// # Errors
 /// If the text is not one finite number with a unit of the dimension.
-pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, ParseError> {
+pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Problem> {
     let (number, unit) = split_number(text.trim(), usual)?;
     let scale = match (dimension, unit) {
         (Dimension::Number, "") => Scale::Ten(0),
@@ -133,7 +118,7 @@ pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Parse
 ///
 /// # Errors
 /// If the text is not one number with at most one unit.
-pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), ParseError> {
+pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Problem> {
     split_number(text.trim(), usual)
 }
 
@@ -203,32 +188,35 @@ fn plain_spelling(unit: &str) -> String {
     plain
 }
 
-fn unit_unwanted(number: &str, unit: &str) -> ParseError {
-    ParseError::new(
+fn unit_unwanted(number: &str, unit: &str) -> Problem {
+    Problem::new(
+        "",
         format!("unit {} is not allowed here", quoted(unit)),
         format!("write {}", cut(number)),
     )
 }
 
-fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> ParseError {
+fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> Problem {
     let number = cut(number);
-    ParseError::new(
+    Problem::new(
+        "",
         format!("{number} has no unit, and {} needs one", dimension.name()),
         format!("write \"{number} {usual}\""),
     )
 }
 
-fn unit_wrong(unit: &str, dimension: Dimension) -> ParseError {
+fn unit_wrong(unit: &str, dimension: Dimension) -> Problem {
     let fitting = dimension.symbols().collect::<Vec<_>>().join(", ");
     if let Some(other) = Dimension::of_unit(unit) {
         let cause =
             format!("{} is a unit of {}, not of {}", quoted(unit), bare(other), bare(dimension));
-        return ParseError::new(cause, format!("use one of {fitting}"));
+        return Problem::new("", cause, format!("use one of {fitting}"));
     }
     let (known, after) =
         unit.split_at(unit.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len());
     if !after.is_empty() && find(known.trim_end(), units_of(dimension)).is_some() {
-        return ParseError::new(
+        return Problem::new(
+            "",
             format!("{after} after the unit"),
             format!("write all digits before {}", known.trim_end()),
         );
@@ -243,7 +231,7 @@ fn unit_wrong(unit: &str, dimension: Dimension) -> ParseError {
         || format!("use one of {fitting}"),
         |near| format!("did you mean {near}? Units here: {fitting}"),
     );
-    ParseError::new(format!("unknown unit {}", quoted(unit)), fix)
+    Problem::new("", format!("unknown unit {}", quoted(unit)), fix)
 }
 
 fn bare(dimension: Dimension) -> &'static str {
@@ -252,7 +240,7 @@ fn bare(dimension: Dimension) -> &'static str {
 }
 
 /// The number and the unit after it.
-fn split_number<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), ParseError> {
+fn split_number<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Problem> {
     let length = number_length(text);
     let (number, rest) = text.split_at(length);
     if length == 0 {
@@ -265,7 +253,8 @@ fn split_number<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Pa
     let run_on = rest.starts_with(['.', '_', '\'']) || unit.starts_with(['+', '-']);
     let second_number = unit.starts_with(|c: char| c.is_ascii_digit()) && !is_reciprocal(unit);
     if run_on || second_number {
-        return Err(ParseError::new(
+        return Err(Problem::new(
+            "",
             format!("{} is not one number and its unit", quoted(text)),
             example(usual),
         ));
@@ -305,26 +294,26 @@ fn number_length(text: &str) -> usize {
 /// Quotes of a word processor.
 const CURLY: [char; 7] = ['“', '”', '„', '‘', '’', '«', '»'];
 
-fn no_number(text: &str, usual: &str) -> ParseError {
+fn no_number(text: &str, usual: &str) -> Problem {
     let signless = text.trim_start_matches(['+', '-']);
     let word = signless.get(..3).unwrap_or_default().to_ascii_lowercase();
     if text.is_empty() {
-        ParseError::new("the value is missing", example(usual))
+        Problem::new("", "the value is missing", example(usual))
     } else if text.starts_with(['−', '–', '—', '‐', '‑', '－']) {
         let rest: String = text.chars().skip(1).collect();
         let cause = format!("{} begins with a dash that is not the minus sign", quoted(text));
-        ParseError::new(cause, format!("write -{}", cut(&rest)))
+        Problem::new("", cause, format!("write -{}", cut(&rest)))
     } else if text.starts_with(CURLY) {
         let cause = format!("{} has curly quotes", quoted(text));
-        ParseError::new(cause, format!("write \"{}\"", cut(text.trim_matches(CURLY))))
+        Problem::new("", cause, format!("write \"{}\"", cut(text.trim_matches(CURLY))))
     } else if word == "nan" || word == "inf" {
-        ParseError::new(format!("{} is not a finite number", quoted(text)), example(usual))
+        Problem::new("", format!("{} is not a finite number", quoted(text)), example(usual))
     } else {
-        ParseError::new(format!("{} does not begin with a number", quoted(text)), example(usual))
+        Problem::new("", format!("{} does not begin with a number", quoted(text)), example(usual))
     }
 }
 
-fn comma(text: &str) -> ParseError {
+fn comma(text: &str) -> Problem {
     let length = text
         .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-')))
         .unwrap_or(text.len());
@@ -343,7 +332,7 @@ fn comma(text: &str) -> ParseError {
         cut(&with_point)
     };
     let fix = format!("write {meant}, not {}", cut(written));
-    ParseError::new("a comma inside a number", fix)
+    Problem::new("", "a comma inside a number", fix)
 }
 
 fn example(usual: &str) -> String {
@@ -371,16 +360,18 @@ fn shifted(number: &str, exponent: i32) -> f64 {
 }
 
 /// The value if an f64 can represent it with full precision.
-fn held(number: &str, value: f64) -> Result<f64, ParseError> {
+fn held(number: &str, value: f64) -> Result<f64, Problem> {
     let digits = number.split(['e', 'E']).next().unwrap_or_default();
     let nonzero = digits.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
     if !value.is_finite() {
-        Err(ParseError::new(
+        Err(Problem::new(
+            "",
             format!("{} is too large a number", quoted(number)),
             "write a smaller number",
         ))
     } else if nonzero && !value.is_normal() {
-        Err(ParseError::new(
+        Err(Problem::new(
+            "",
             format!("{} is too close to zero for a floating-point number", quoted(number)),
             "write 0 or a larger number",
         ))
@@ -491,7 +482,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn length(text: &str) -> Result<f64, ParseError> {
+    fn length(text: &str) -> Result<f64, Problem> {
         parse(text, Dimension::Length, "mm")
     }
 
@@ -501,7 +492,7 @@ mod tests {
             Ok(value) => panic!("{text} was read as {value}"),
             Err(misread) => {
                 assert!(misread.cause.contains(cause), "{text}: {}", misread.cause);
-                assert!(misread.fix.contains(fix), "{text}: {}", misread.fix);
+                assert!(misread.fix.to_string().contains(fix), "{text}: {}", misread.fix);
             }
         }
     }

@@ -138,7 +138,7 @@ pub fn measured(quantity: &Quantity, value: f64, of: Option<&'static str>) -> Js
 /// Why a case or a point has no result.
 #[must_use]
 pub fn reason(Problem { field, cause, fix, .. }: &Problem) -> Json {
-    object([("field", field.into()), ("cause", cause.into()), ("fix", fix.into())])
+    object([("field", field.into()), ("cause", cause.into()), ("fix", fix.to_string().into())])
 }
 
 /// Writes a value as one line of JSON that is safe to print on a terminal.

@@ -232,7 +232,7 @@ impl ToleranceReport<'_> {
                 ("of", design.count().into()),
                 ("field", field.into()),
                 ("cause", cause.into()),
-                ("fix", fix.into()),
+                ("fix", fix.to_string().into()),
             ])
         });
         let spread = self.case.spread.iter().zip(&design.distributions);

@@ -2,7 +2,7 @@
 
 use crate::case::fields::{AUTO, FIELDS, Field, Kind, Value, index_of};
 use crate::case::units::{self, Dimension};
-use crate::case::{Problem, field_value, unknown_key};
+use crate::case::{Fix, Problem, field_value, unknown_key};
 use crate::model::Inputs;
 use crate::numeric::decimal::shortest;
 
@@ -257,16 +257,15 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
-fn problem(field: &Field, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
-    Problem { field: field.key.to_owned(), cause: cause.into(), fix: fix.into() }
+fn problem(field: &Field, cause: impl Into<String>, fix: impl Into<Fix>) -> Problem {
+    Problem::new(field.key, cause, fix)
 }
 
 /// Splits `KEY=VALUES` into the index of the field and the values.
 fn assignment(text: &str) -> Result<(usize, &str), Problem> {
-    let unwritten = |cause: &str| Problem {
-        field: text.to_owned(),
-        cause: cause.to_owned(),
-        fix: "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'".to_owned(),
+    let unwritten = |cause: &str| {
+        let fix = "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'";
+        Problem::new(text, cause, fix)
     };
     let (key, values) = text.split_once('=').ok_or_else(|| unwritten("no values are given"))?;
     if key.trim().is_empty() {
@@ -322,11 +321,8 @@ fn unit_of<'t>(
         if field.takes_auto() && value.trim() == AUTO {
             continue;
         }
-        let (_, unit) = units::split(value, field.usual_unit()).map_err(|error| Problem {
-            field: field.key.to_owned(),
-            cause: error.cause,
-            fix: error.fix,
-        })?;
+        let (_, unit) =
+            units::split(value, field.usual_unit()).map_err(|error| error.at(field.key))?;
         if !unit.is_empty() {
             return Ok(unit.to_owned());
         }

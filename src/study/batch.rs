@@ -348,7 +348,7 @@ impl From<Refusal> for Unsolved {
     }
 }
 
-/// Refused points with the same field and the same fix, apart from the numbers in the fix.
+/// Refused points whose problems differ only in their numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused {
     /// Number of points.
@@ -378,10 +378,7 @@ impl Refusals {
     /// Counts the refused points of these rows.
     pub fn count(&mut self, rows: &Rows) {
         for (first, problem) in &rows.refusals {
-            let is_same = |other: &&mut Refused| {
-                let other = &other.problem;
-                other.field == problem.field && words(&other.fix).eq(words(&problem.fix))
-            };
+            let is_same = |other: &&mut Refused| other.problem.is_like(problem);
             match self.0.iter_mut().find(is_same) {
                 Some(same) => same.count += 1,
                 None => self.0.push(Refused { count: 1, first: *first, problem: problem.clone() }),
@@ -394,11 +391,6 @@ impl Refusals {
     pub fn total(&self) -> usize {
         self.0.iter().map(|refused| refused.count).sum()
     }
-}
-
-/// The characters of a text without its numbers.
-fn words(text: &str) -> impl Iterator<Item = char> {
-    text.chars().filter(|letter| !letter.is_ascii_digit() && !".+-".contains(*letter))
 }
 
 /// Greatest number of points of a chunk.

@@ -2,7 +2,7 @@
 
 use super::batch::{PointOutcome, Rows};
 use crate::case::sanitize::quoted;
-use crate::case::{Case, Limit, Problem, unknown_quantity};
+use crate::case::{Case, Fix, Limit, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity};
 
@@ -221,8 +221,8 @@ fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
     }
 }
 
-fn problem(field: &str, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
-    Problem { field: field.to_owned(), cause: cause.into(), fix: fix.into() }
+fn problem(field: &str, cause: impl Into<String>, fix: impl Into<Fix>) -> Problem {
+    Problem::new(field, cause, fix)
 }
 
 /// The limited quantities of a case, otherwise the impact force; each with its counterparts in the

@@ -131,11 +131,8 @@ impl Points for Design {
 
 fn outside(field: usize) -> Problem {
     let known = &FIELDS[field];
-    Problem {
-        field: known.key.to_owned(),
-        cause: format!("the sample is outside the range {}", known.range_text()),
-        fix: "use a narrower distribution".to_owned(),
-    }
+    let cause = format!("the sample is outside the range {}", known.range_text());
+    Problem::new(known.key, cause, "use a narrower distribution")
 }
 
 /// The values of a design: from a stream of the samples, and from a stream of the second samples,
@@ -235,10 +232,8 @@ impl Distribution {
     /// Returns an error if the field has no value, or if the distribution exceeds the range of the
     /// field.
     pub fn of(spread: &Spread, case: &Case, inputs: &Inputs) -> Result<Distribution, Problem> {
-        let refused = |cause: String, fix: String| Problem {
-            field: format!("spread.\"{}\"", spread.field),
-            cause,
-            fix,
+        let refused = |cause: String, fix: String| {
+            Problem::new(&format!("spread.\"{}\"", spread.field), cause, fix)
         };
         let found = index_of(spread.field)
             .and_then(|field| Some((field, case.value(field)?)))

@@ -119,10 +119,9 @@ impl Study {
     /// # Errors
     /// Returns an error if this version did not write the request.
     pub fn restore(request: &Request) -> Result<Study, Problem> {
-        let document = Document::parse(&request.name, &request.case).map_err(|faults| Problem {
-            field: "case".to_owned(),
-            cause: faults.first().map(ToString::to_string).unwrap_or_default(),
-            fix: "run the shard again".to_owned(),
+        let document = Document::parse(&request.name, &request.case).map_err(|faults| {
+            let cause = faults.first().map(ToString::to_string).unwrap_or_default();
+            Problem::new("case", cause, "run the shard again")
         })?;
         let case = document.case;
         let inputs = case.inputs().map_err(|mut problems| problems.swap_remove(0))?;
@@ -220,7 +219,7 @@ struct Footer {
 
 /// The reason of a refused row: field, cause and fix.
 #[derive(Serialize, Deserialize)]
-struct Reason(String, String, String);
+struct Reason(String, String, String, String);
 
 /// Writes a shard row by row.
 pub struct ShardWriter<'a> {
@@ -283,8 +282,8 @@ fn line(rows: &Rows, row: usize) -> io::Result<String> {
     let outcome = rows.outcomes[row];
     let code = PointOutcome::ALL.iter().position(|known| *known == outcome);
     let mut line = code.unwrap_or_default().to_string();
-    if let Some(Problem { field, cause, fix }) = rows.refusal(row) {
-        let reason = Reason(field.clone(), cause.clone(), fix.clone());
+    if let Some(Problem { field, code, cause, fix }) = rows.refusal(row) {
+        let reason = Reason(field.clone(), code.to_string(), cause.clone(), fix.to_string());
         line.push(' ');
         line.push_str(&serde_json::to_string(&reason)?);
     } else {
@@ -425,9 +424,10 @@ fn add(line: &str, width: usize, rows: &mut Rows) -> io::Result<()> {
     let code: usize = code.parse().map_err(|_| bad())?;
     let outcome = *PointOutcome::ALL.get(code).ok_or_else(bad)?;
     if rest.starts_with('[') {
-        let Reason(field, cause, fix) = serde_json::from_str(rest)?;
+        let Reason(field, code, cause, fix) = serde_json::from_str(rest)?;
         let index = rows.range().end;
-        rows.refusals.push((index, Problem { field, cause, fix }));
+        rows.refusals
+            .push((index, Problem { code: code.into(), ..Problem::new(&field, cause, fix) }));
         rows.push(outcome, std::iter::repeat_n(None, width));
         return Ok(());
     }

@@ -61,10 +61,10 @@ impl Grid {
             .axes
             .iter()
             .try_fold(1_usize, |product, axis| product.checked_mul(axis.points.len()));
-        product.filter(|&count| count <= MOST_SWEPT).ok_or_else(|| Problem {
-            field: self.axes.last().map_or("", Axis::key).to_owned(),
-            cause: format!("the grid has more than {MOST_SWEPT} points"),
-            fix: "write fewer --points".to_owned(),
+        product.filter(|&count| count <= MOST_SWEPT).ok_or_else(|| {
+            let cause = format!("the grid has more than {MOST_SWEPT} points");
+            let key = self.axes.last().map_or("", Axis::key);
+            Problem::new(key, cause, "write fewer --points")
         })
     }
 
@@ -124,13 +124,7 @@ impl Points for Grid {
 
 /// Checks that an axis varies another field than the previous axes.
 fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
-    let refused = |cause: String| {
-        Err(Problem {
-            field: axis.key().to_owned(),
-            cause,
-            fix: "leave one of them out".to_owned(),
-        })
-    };
+    let refused = |cause: String| Err(Problem::new(axis.key(), cause, "leave one of them out"));
     for other in others {
         if other.field == axis.field {
             return refused(format!("{} is varied twice", axis.key()));
@@ -143,9 +137,6 @@ fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
 }
 
 fn unlike_points(points: usize, ranges: usize) -> Problem {
-    Problem {
-        field: "--points".to_owned(),
-        cause: format!("--points is given {points} times for {ranges} ranges"),
-        fix: "give it once for all ranges, or once for each".to_owned(),
-    }
+    let cause = format!("--points is given {points} times for {ranges} ranges");
+    Problem::new("--points", cause, "give it once for all ranges, or once for each")
 }

@@ -56,13 +56,9 @@ impl Tolerance {
         size: Size,
     ) -> Result<Tolerance, Problem> {
         if case.spread.is_empty() {
-            return Err(Problem {
-                field: "spread".to_owned(),
-                cause: "the case has no distributions".to_owned(),
-                fix: "add a line [spread] and below it a line such as \"deviations.base_pitch\" = \
-                    { normal = \"4 um\" }"
-                    .to_owned(),
-            });
+            let fix = "add a line [spread] and below it a line such as \"deviations.base_pitch\" = \
+                { normal = \"4 um\" }";
+            return Err(Problem::new("spread", "the case has no distributions", fix));
         }
         let distributions = case
             .spread

@@ -43,7 +43,8 @@ pub struct Fault {
 
 impl Fault {
     pub(super) fn new(file: &str, (line, column): (usize, usize), problem: Problem) -> Fault {
-        let Problem { field, cause, fix } = problem;
+        let Problem { field, cause, fix, .. } = problem;
+        let fix = fix.to_string();
         Fault { file: file.to_owned(), line, column, field, cause, fix, kind: FaultKind::Bad }
     }
 }

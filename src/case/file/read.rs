@@ -8,7 +8,6 @@ use super::layout::{Entry, Layout, Value};
 use super::syntax;
 use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind, index_of};
 use crate::case::sanitize::quoted;
-use crate::case::units::ParseError;
 use crate::case::{
     Case, Limit, Override, Problem, Spread, Variant, check, spread, suggest, variant,
 };
@@ -248,7 +247,7 @@ impl Reader<'_> {
                 _ if scope > 0 => return self.take(scope, known.key, String::new()),
                 _ => "the value is missing",
             };
-            return self.wrong(scope, field, at, ParseError::new(cause, written(known)));
+            return self.wrong(scope, field, at, Problem::new("", cause, written(known)));
         }
         match text_of(known, value) {
             Ok(text) if scope > 0 => {
@@ -260,9 +259,9 @@ impl Reader<'_> {
         }
     }
 
-    fn wrong(&mut self, scope: usize, field: usize, at: usize, misread: ParseError) {
+    fn wrong(&mut self, scope: usize, field: usize, at: usize, misread: Problem) {
         self.scopes[scope].wrong.push(field);
-        self.fault(scope, at, Problem::of(FIELDS[field].key, misread));
+        self.fault(scope, at, misread.at(FIELDS[field].key));
     }
 
     fn limit(&mut self, scope: usize, key: &str, value: &Value, at: usize) {
@@ -272,7 +271,7 @@ impl Reader<'_> {
         }
         let example = format!("{} = {}", known.key, limit_by_example(known));
         let text = number_or_text(value, known.unit == "1", &example);
-        let text = text.map_err(|misread| Problem::of(key, misread));
+        let text = text.map_err(|misread| misread.at(key));
         match text.and_then(|text| Limit::new(known.key, &text)) {
             Ok(limit) if scope > 0 => self.take(scope, key, limit.text),
             Ok(limit) => self.scopes[scope].case.limits.push(limit),
@@ -410,10 +409,11 @@ fn target(path: &[String], is_variant: bool) -> (Target, usize) {
 }
 
 /// The text of a value for a field.
-fn text_of(field: &Field, value: &Value) -> Result<String, ParseError> {
+fn text_of(field: &Field, value: &Value) -> Result<String, Problem> {
     match (field.kind, value) {
         (Kind::Choice(..), Value::Flag(flag)) if field.is_flag() => Ok(flag.to_string()),
-        (Kind::Choice(..), _) if field.is_flag() => Err(ParseError::new(
+        (Kind::Choice(..), _) if field.is_flag() => Err(Problem::new(
+            "",
             format!("expected true or false, found {}", value.kind()),
             "write true or false without quotes",
         )),
@@ -429,24 +429,24 @@ fn text_of(field: &Field, value: &Value) -> Result<String, ParseError> {
 }
 
 /// The text of a value with its unit, or of a bare number. The unit parser reports a missing unit.
-fn number_or_text(value: &Value, is_bare: bool, example: &str) -> Result<String, ParseError> {
+fn number_or_text(value: &Value, is_bare: bool, example: &str) -> Result<String, Problem> {
     match value {
         Value::Number(text) => Ok(text.clone()),
         Value::String(text) if !is_bare => Ok(text.clone()),
         Value::String(text) => {
             let cause = format!("{} is in quotes, and a number is not", quoted(text));
             Err(match text.trim().parse::<f64>() {
-                Ok(_) => ParseError::new(cause, "write the number without quotes"),
-                Err(_) => ParseError::new(cause, format!("write {example}, without quotes")),
+                Ok(_) => Problem::new("", cause, "write the number without quotes"),
+                Err(_) => Problem::new("", cause, format!("write {example}, without quotes")),
             })
         }
         other => Err(misplaced("a value", other, example)),
     }
 }
 
-fn misplaced(due: &str, value: &Value, example: &str) -> ParseError {
+fn misplaced(due: &str, value: &Value, example: &str) -> Problem {
     let cause = format!("expected {due}, found {}", value.kind());
-    ParseError::new(cause, format!("write {example}"))
+    Problem::new("", cause, format!("write {example}"))
 }
 
 fn written(field: &Field) -> String {

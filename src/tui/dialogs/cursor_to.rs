@@ -268,7 +268,7 @@ fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
     let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed);
     angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
-        Err(misread) if typed.contains(',') => misread.fix,
+        Err(misread) if typed.contains(',') => misread.fix.to_string(),
         _ => format!("{} is not an angle, time or point", typed.trim()),
     })
 }

@@ -3,8 +3,8 @@
 
 use std::sync::LazyLock;
 
-use crate::case::Problem;
 use crate::case::fields::{FIELDS, Field, index_of};
+use crate::case::{Fix, Problem};
 use crate::model::QUANTITIES;
 
 /// Prefix of the key of a limit, such as `limits.impact_force`.
@@ -29,10 +29,15 @@ impl Problem {
     /// "5 mm"`, a label for a key. Files keep the original.
     #[must_use]
     pub(crate) fn for_form(&self) -> Problem {
+        let fix = match &self.fix {
+            Fix::Assign { example, .. } => {
+                format!("write {example}, for example").replace(MARKS, "")
+            }
+            Fix::Text(fix) => for_form(fix),
+        };
         Problem {
-            field: called(&self.field),
-            cause: for_form(&self.cause),
-            fix: for_form(&self.fix),
+            code: self.code.clone(),
+            ..Problem::new(&called(&self.field), for_form(&self.cause), fix)
         }
     }
 }
@@ -40,7 +45,6 @@ impl Problem {
 /// A sentence for a file or a command line, reworded for the form.
 #[must_use]
 fn for_form(sentence: &str) -> String {
-    let sentence = written(sentence).unwrap_or_else(|| sentence.to_owned());
     if !sentence.contains('.') {
         return sentence.replace(MARKS, "");
     }
@@ -80,13 +84,6 @@ fn with_labels(sentence: String) -> String {
     KEYS.iter().fold(sentence, |text, key| {
         if text.contains(key) { text.replace(key, &called(key)) } else { text }
     })
-}
-
-/// Turns the advice to write a line under a table of a file into the advice to write the value.
-fn written(sentence: &str) -> Option<String> {
-    let (_, assignment) = sentence.strip_prefix("write ")?.split_once(" = ")?;
-    let (value, _) = assignment.split_once(" under [")?;
-    Some(format!("write {value}, for example"))
 }
 
 #[cfg(test)]
@@ -194,7 +191,7 @@ mod tests {
         case.write(index_of("pair.module").unwrap(), "5");
         let problem = case.inputs().unwrap_err().remove(0);
         assert_eq!(
-            (problem.field.as_str(), problem.fix.as_str()),
+            (problem.field.as_str(), &*problem.fix.to_string()),
             ("pair.module", "write \"5 mm\"")
         );
     }
