@@ -16,9 +16,8 @@ use super::stamp::Stamp;
 use super::{Case, Problem};
 use crate::system::files;
 pub use comments::without_comments;
-use fault::Lines;
 pub use fault::{Fault, FaultKind, ReadError, SaveError};
-use fault::{Found, shown};
+use fault::{Found, place, shown};
 use layout::Layout;
 use save::target_of;
 pub use save::{Draft, followed, write};
@@ -102,13 +101,13 @@ impl Document {
             let at = error.valid_up_to();
             let byte = bytes.get(at).copied().unwrap_or_default();
             let cause = format!("byte 0x{byte:02x} is not UTF-8 text");
-            let place = Lines::of(&String::from_utf8_lossy(&bytes[..at])).place(at);
+            let place = place(&String::from_utf8_lossy(&bytes[..at]), at);
             vec![Fault::new(name, place, Problem::new("toml", cause, "save the file as UTF-8"))]
         })?;
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = read::read(unmarked, is_newer);
         if !is_newer && !reading.is_draft() {
-            return Err(Found::placed(name, unmarked, reading.faults, reading.more));
+            return Err(Found::placed(name, unmarked, reading.faults));
         }
         let case = reading.case;
         Ok(Document {
@@ -259,7 +258,7 @@ impl Document {
     /// of its table or the end.
     #[must_use]
     pub fn place(&self, key: &str) -> (usize, usize) {
-        Lines::of(&self.text).place(Layout::of(&self.text).place(key))
+        place(&self.text, Layout::of(&self.text).unwrap_or_default().place(key))
     }
 
     /// A later problem, such as a refusal of the model, at its place in the file.

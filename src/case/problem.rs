@@ -1,6 +1,5 @@
 //! A problem of a case: its place, its cause and its fix.
 
-use std::borrow::Cow;
 use std::fmt;
 
 use super::sanitize::sanitize;
@@ -12,7 +11,7 @@ pub struct Problem {
     /// The field's key, or an unknown key as written.
     pub field: String,
     /// The name of a kind of problem whose sentences differ only in their numbers, or empty.
-    pub code: Cow<'static, str>,
+    pub code: Box<str>,
     /// The cause.
     pub cause: String,
     /// How to fix it.
@@ -36,8 +35,7 @@ pub enum Fix {
 impl Problem {
     /// A problem of a field without a code.
     pub fn new(field: &str, cause: impl Into<String>, fix: impl Into<Fix>) -> Problem {
-        let (field, code) = (field.to_owned(), Cow::Borrowed(""));
-        Problem { field, code, cause: cause.into(), fix: fix.into() }
+        Problem { field: field.to_owned(), code: "".into(), cause: cause.into(), fix: fix.into() }
     }
 
     /// The same problem of another field.
@@ -56,7 +54,7 @@ impl Problem {
 
 impl From<&Refusal> for Problem {
     fn from(refusal: &Refusal) -> Problem {
-        let code = Cow::Borrowed(refusal.code());
+        let code = refusal.code().into();
         Problem { code, ..Problem::new(refusal.field(), refusal.to_string(), refusal.fix()) }
     }
 }

@@ -7,7 +7,7 @@ use crate::case::sanitize::sanitize;
 /// multi-line string.
 #[must_use]
 pub fn without_comments(text: &str) -> String {
-    let layout = Layout::of(text);
+    let layout = Layout::of(text).unwrap_or_default();
     let strings: Vec<_> = layout
         .values()
         .filter(|entry| matches!(entry.value, Value::String(_)))

@@ -10,7 +10,7 @@ use crate::case::Problem;
 use crate::case::sanitize::{cut, sanitize};
 
 /// Greatest number of faults shown for one file.
-const MOST: usize = 100;
+pub(super) const MOST: usize = 100;
 
 /// The reason why a file is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,60 +80,28 @@ impl Found {
         Found { at, problem, kind: FaultKind::Bad, is_missing: false }
     }
 
-    /// The first faults with line and column, in the order of their places, and the number of the
-    /// other faults. `more` of these are not in the list.
-    pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>, more: usize) -> Vec<Fault> {
+    /// The first faults with line and column, in the order of their places.
+    pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>) -> Vec<Fault> {
         found.sort_by_key(|found| found.at);
-        let more = more + found.len().saturating_sub(MOST);
+        let more = found.get(MOST).map(|_| found[MOST - 1].at);
         found.truncate(MOST);
-        let lines = Lines::of(text);
-        let mut faults: Vec<Fault> = found
-            .into_iter()
-            .map(|found| Fault {
-                kind: found.kind,
-                ..Fault::new(file, lines.place(found.at), found.problem)
-            })
-            .collect();
-        if let (Some(last), 1..) = (faults.last(), more) {
-            let problem =
-                Problem::new("toml", format!("and {more} more faults"), "fix those above first");
-            faults.push(Fault::new(file, (last.line, last.column), problem));
-        }
-        faults
+        let more = more.map(|at| {
+            Found::new(at, Problem::new("toml", "and more faults", "fix those above first"))
+        });
+        let fault = |found: Found| Fault {
+            kind: found.kind,
+            ..Fault::new(file, place(text, found.at), found.problem)
+        };
+        found.into_iter().chain(more).map(fault).collect()
     }
 }
 
-/// The starts of the lines of a text.
-pub(super) struct Lines<'t> {
-    text: &'t str,
-    starts: Vec<usize>,
-}
-
-impl<'t> Lines<'t> {
-    pub(super) fn of(text: &'t str) -> Lines<'t> {
-        let starts =
-            std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        Lines { text, starts }
-    }
-
-    /// Line and column of a byte, both from 1, the column in characters.
-    pub(super) fn place(&self, at: usize) -> (usize, usize) {
-        let line = self.starts.partition_point(|&start| start <= at).max(1);
-        let start = self.starts[line - 1];
-        let column = self.text[start..]
-            .char_indices()
-            .take_while(|&(offset, _)| start + offset < at)
-            .count();
-        (line, column + 1)
-    }
-
-    /// The bytes of the line with the byte `at`, without the line end.
-    pub(super) fn around(&self, at: usize) -> std::ops::Range<usize> {
-        let line = self.starts.partition_point(|&start| start <= at).max(1);
-        let end = self.starts.get(line).map_or(self.text.len(), |&next| next - 1);
-        let start = self.starts[line - 1];
-        start..start + self.text[start..end].trim_end_matches('\r').len()
-    }
+/// Line and column of a byte, both from 1, the column in characters.
+pub(super) fn place(text: &str, at: usize) -> (usize, usize) {
+    let above = &text.as_bytes()[..at];
+    let start = above.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+    let column = text[start..].char_indices().take_while(|&(offset, _)| start + offset < at);
+    (above.iter().filter(|&&byte| byte == b'\n').count() + 1, column.count() + 1)
 }
 
 /// The reason why a file cannot be opened as a case.
@@ -152,7 +120,7 @@ pub enum ReadError {
     #[error("{0}: cannot be read: {1}")]
     Unreadable(String, io::Error),
     /// The text is not a valid case.
-    #[error("{}", one_a_line(.0))]
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Bad(Vec<Fault>),
     /// A model of another program cannot be converted to a case.
     #[error("{0}")]
@@ -225,10 +193,6 @@ pub enum SaveError {
 /// A path as messages show it.
 pub(super) fn shown(path: &Path) -> String {
     sanitize(&path.display().to_string())
-}
-
-fn one_a_line(faults: &[Fault]) -> String {
-    faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// The fix for a file that the system refuses to write.

@@ -1,12 +1,9 @@
 //! Every header, key and value in the text of a case with its place, for reading and for edits that
 //! keep every other byte.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
-use toml_parser::Source;
-use toml_parser::decoder::{IntegerRadix, ScalarKind};
-use toml_parser::parser::{Event, EventKind, parse_document};
+use toml_edit::{Document, Item, Key, RawString, Table, TomlError};
 
 /// A value as a case reads it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,26 +31,35 @@ impl Value {
     }
 }
 
-/// A header such as `[variants.relieved]`, or a key with its value, on its own line or in an inline
-/// table.
+/// The place of a header or of a key with its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Header,
+    Line,
+    /// In an inline table, between these commas.
+    Inline {
+        before: Option<usize>,
+        after: Option<usize>,
+    },
+}
+
+/// A header such as `[variants.relieved]`, or a key with its value.
 #[derive(Debug, Clone)]
 pub(super) struct Entry {
     /// The keys from the top level.
     pub(super) path: Vec<String>,
+    /// The place where each key begins, of a shared key the first one.
+    keys: Vec<usize>,
     /// Number of keys that the header above or the inline table around gives.
     pub(super) given: usize,
-    /// The places of the other keys.
-    pub(super) keys: Vec<Range<usize>>,
+    /// The first byte of its keys, or of the header.
+    pub(super) start: usize,
+    /// The last key.
+    pub(super) name: Range<usize>,
     /// The value, or the header from bracket to bracket.
     pub(super) span: Range<usize>,
     pub(super) value: Value,
-    pub(super) is_header: bool,
-    /// Whether it is in an inline table.
-    pub(super) is_inline: bool,
-    /// The comma before the key in an inline table.
-    pub(super) comma_before: Option<usize>,
-    /// The comma after the value in an inline table.
-    pub(super) comma: Option<usize>,
+    pub(super) place: Place,
 }
 
 impl Entry {
@@ -64,23 +70,12 @@ impl Entry {
 
     /// The keys of its table.
     pub(super) fn table(&self) -> &[String] {
-        &self.path[..self.path.len().saturating_sub(1)]
+        &self.path[..self.path.len() - 1]
     }
 
-    /// The start of its first key.
-    pub(super) fn start(&self) -> usize {
-        self.keys.first().map_or(self.span.start, |key| key.start)
-    }
-
-    /// The place of its last key.
-    pub(super) fn last_key(&self) -> Range<usize> {
-        self.keys.last().cloned().unwrap_or(self.span.clone())
-    }
-
-    /// The place of the key at a depth from 1, or of the first key below it.
+    /// The place of the key at a depth from 1.
     pub(super) fn key_at(&self, depth: usize) -> usize {
-        let own = self.keys.get(depth.saturating_sub(self.given + 1));
-        own.map_or(self.span.start, |key| key.start)
+        self.keys[depth - 1]
     }
 }
 
@@ -92,15 +87,15 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The layout of a text without syntax errors.
-    pub(super) fn of(text: &str) -> Layout {
-        let source = Source::new(text);
-        let layout = Layout { entries: Vec::new(), end: text.len() };
-        let open = vec![Table::default()];
-        let mut reader = Reader { source, layout, keys: Vec::new(), open, start: 0, arrays: 0 };
-        let tokens = source.lex().into_vec();
-        parse_document(&tokens, &mut |event: Event| reader.read(&event), &mut ());
-        reader.layout
+    /// # Errors
+    /// The first syntax error.
+    pub(super) fn of(text: &str) -> Result<Layout, TomlError> {
+        let document = Document::parse(text)?;
+        let mut reader = Reader { text, entries: Vec::new() };
+        reader.table(document.as_table(), &[]);
+        let mut entries = reader.entries;
+        entries.sort_by_key(|entry| entry.start);
+        Ok(Layout { entries, end: text.len() })
     }
 
     /// The value of a key.
@@ -109,172 +104,118 @@ impl Layout {
     }
 
     pub(super) fn values(&self) -> impl Iterator<Item = &Entry> {
-        self.entries.iter().filter(|entry| !entry.is_header)
+        self.entries.iter().filter(|entry| entry.place != Place::Header)
     }
 
     pub(super) fn headers(&self) -> impl Iterator<Item = &Entry> {
-        self.entries.iter().filter(|entry| entry.is_header)
+        self.entries.iter().filter(|entry| entry.place == Place::Header)
     }
 
-    /// The place to report for a key: its value, the header of its table, or the end.
+    /// The place to report for a key: its value, its table, or the end.
     pub(super) fn place(&self, key: &str) -> usize {
         let key = key.replace('"', "");
         let table = key.split('.').next().unwrap_or_default();
-        let own = self.value(&key).map(|entry| entry.span.start);
-        own.or_else(|| {
-            let mut all = self.entries.iter();
-            let of_table = all.find(|entry| entry.path.first().is_some_and(|own| own == table))?;
-            let is_value = !of_table.is_header && of_table.path.len() == 1;
-            Some(if is_value || of_table.is_header {
-                of_table.span.start
-            } else {
-                of_table.start()
-            })
-        })
-        .unwrap_or(self.end)
+        let of_table = |entry: &&Entry| entry.path[0] == table;
+        match (self.value(&key), self.entries.iter().find(of_table)) {
+            (Some(own), _) => own.span.start,
+            (None, Some(own)) if own.path.len() == 1 => own.span.start,
+            (None, Some(own)) => own.start,
+            (None, None) => self.end,
+        }
     }
 }
 
-/// A header's table or an inline table while it is read.
-#[derive(Default)]
-struct Table {
-    path: Vec<String>,
-    /// The entry of an inline table.
-    entry: Option<usize>,
-    /// The last entry of the table.
-    last: Option<usize>,
-    comma: Option<usize>,
-}
+/// A key and the place where it begins.
+type Named = (String, usize);
 
 struct Reader<'t> {
-    source: Source<'t>,
-    layout: Layout,
-    /// The keys since the last value.
-    keys: Vec<(String, Range<usize>)>,
-    /// The present header, then the open inline tables.
-    open: Vec<Table>,
-    /// The start of the present header.
-    start: usize,
-    /// Number of open arrays, whose content no case reads.
-    arrays: usize,
+    text: &'t str,
+    entries: Vec<Entry>,
 }
 
 impl Reader<'_> {
-    fn read(&mut self, event: &Event) {
-        let span = event.span().start()..event.span().end();
-        match event.kind() {
-            EventKind::ArrayOpen => {
-                self.arrays += 1;
-                if self.arrays == 1 {
-                    self.value(span, Value::Array);
+    fn table(&mut self, table: &Table, above: &[Named]) {
+        for (keys, value) in table.get_values() {
+            self.value(&keys, value, above, false);
+        }
+        self.tables_in(table, above);
+    }
+
+    /// The tables with headers below a table.
+    fn tables_in(&mut self, table: &Table, above: &[Named]) {
+        for (name, item) in table {
+            let Some(key) = table.key(name) else { continue };
+            let path = [above, &[named(key)]].concat();
+            match item {
+                Item::Table(own) if own.is_dotted() => self.tables_in(own, &path),
+                Item::Table(own) => {
+                    if !own.is_implicit() {
+                        self.header(&path, own.span(), Value::Table);
+                    }
+                    self.table(own, &path);
                 }
-            }
-            EventKind::ArrayClose => {
-                self.arrays = self.arrays.saturating_sub(1);
-                if let (0, Some(own)) = (self.arrays, self.last()) {
-                    own.span.end = span.end;
+                // No case reads the content of an array.
+                Item::ArrayOfTables(all) => {
+                    for own in all {
+                        self.header(&path, own.span(), Value::Array);
+                    }
                 }
+                Item::Value(_) | Item::None => {}
             }
-            _ if self.arrays > 0 => {}
-            EventKind::SimpleKey => {
-                let mut name = Cow::Borrowed("");
-                if let Some(raw) = self.source.get(event) {
-                    raw.decode_key(&mut name, &mut ());
-                }
-                self.keys.push((name.into_owned(), span));
-            }
-            EventKind::StdTableOpen | EventKind::ArrayTableOpen => {
-                self.keys.clear();
-                self.open.clear();
-                self.start = span.start;
-            }
-            EventKind::StdTableClose | EventKind::ArrayTableClose => {
-                let is_array = event.kind() == EventKind::ArrayTableClose;
-                let value = if is_array { Value::Array } else { Value::Table };
-                self.open = vec![Table::default()];
-                self.entry(self.start..span.end, value, true);
-                let path = self.layout.entries.last().map(|own| own.path.clone());
-                self.open = vec![Table { path: path.unwrap_or_default(), ..Table::default() }];
-            }
-            EventKind::KeyValSep => self.entry(span.end..span.end, Value::Table, false),
-            EventKind::Scalar => {
-                let mut text = Cow::Borrowed("");
-                let raw = self.source.get(event);
-                let kind = raw.map(|raw| raw.decode_scalar(&mut text, &mut ()));
-                let text = text.into_owned();
-                let radix = |radix| {
-                    i128::from_str_radix(&text, radix).map_or(text.clone(), |n| n.to_string())
-                };
-                self.value(
-                    span,
-                    match kind {
-                        Some(ScalarKind::Boolean(flag)) => Value::Flag(flag),
-                        Some(ScalarKind::DateTime) => Value::Date,
-                        Some(ScalarKind::Integer(IntegerRadix::Hex)) => Value::Number(radix(16)),
-                        Some(ScalarKind::Integer(IntegerRadix::Oct)) => Value::Number(radix(8)),
-                        Some(ScalarKind::Integer(IntegerRadix::Bin)) => Value::Number(radix(2)),
-                        Some(ScalarKind::Integer(_) | ScalarKind::Float) => Value::Number(text),
-                        Some(ScalarKind::String) | None => Value::String(text),
-                    },
-                );
-            }
-            EventKind::InlineTableOpen => {
-                self.value(span, Value::Table);
-                let entry = self.open.last().and_then(|table| table.last);
-                let path = self.last().map_or_else(Vec::new, |own| own.path.clone());
-                self.open.push(Table { path, entry, ..Table::default() });
-            }
-            EventKind::InlineTableClose if self.open.len() > 1 => {
-                let entry = self.open.pop().and_then(|table| table.entry);
-                if let Some(own) = entry.and_then(|entry| self.layout.entries.get_mut(entry)) {
-                    own.span.end = span.end;
-                }
-            }
-            EventKind::ValueSep => {
-                if let Some(own) = self.last() {
-                    own.comma = Some(span.start);
-                }
-                if let Some(table) = self.open.last_mut() {
-                    table.comma = Some(span.start);
-                }
-            }
-            _ => {}
         }
     }
 
-    /// Adds an entry with the keys since the last value.
-    fn entry(&mut self, span: Range<usize>, value: Value, is_header: bool) {
-        let is_inline = self.open.len() > 1;
-        let Some(table) = self.open.last_mut() else { return };
-        let (names, keys): (Vec<String>, Vec<_>) = self.keys.drain(..).unzip();
-        let (path, given) = ([table.path.clone(), names].concat(), table.path.len());
-        if keys.is_empty() {
-            return;
-        }
-        table.last = Some(self.layout.entries.len());
-        let (comma_before, comma) = (table.comma, None);
-        self.layout.entries.push(Entry {
-            path,
-            given,
-            keys,
-            span,
-            value,
-            is_header,
-            is_inline,
-            comma_before,
-            comma,
-        });
+    fn header(&mut self, path: &[Named], span: Option<Range<usize>>, value: Value) {
+        let span = span.unwrap_or_default();
+        let (path, keys): (Vec<_>, Vec<_>) = path.iter().cloned().unzip();
+        let (given, start, name, place) = (0, span.start, span.clone(), Place::Header);
+        self.entries.push(Entry { path, keys, given, start, name, span, value, place });
     }
 
-    /// The last entry of the present table.
-    fn last(&mut self) -> Option<&mut Entry> {
-        let last = self.open.last().and_then(|table| table.last);
-        last.and_then(|last| self.layout.entries.get_mut(last))
-    }
-
-    fn value(&mut self, span: Range<usize>, value: Value) {
-        if let Some(own) = self.last() {
-            (own.span, own.value) = (span, value);
+    fn value(&mut self, keys: &[&Key], value: &toml_edit::Value, above: &[Named], is_inline: bool) {
+        let Some(last) = keys.last() else { return };
+        let (name, span) = (last.span().unwrap_or_default(), value.span().unwrap_or_default());
+        let own: Vec<Named> = keys.iter().map(|key| named(key)).collect();
+        let (path, keys): (Vec<_>, Vec<_>) = above.iter().chain(&own).cloned().unzip();
+        let line = self.text[..name.start].rfind('\n').map_or(0, |end| end + 1);
+        let gap = last.leaf_decor().prefix().and_then(RawString::span).unwrap_or(line..line);
+        let after = value.decor().suffix().and_then(RawString::span);
+        let is_comma = |at: &usize| self.text[*at..].starts_with(',');
+        let place = if is_inline {
+            let before = gap.start.checked_sub(1).filter(is_comma);
+            let after = Some(after.map_or(span.end, |gap| gap.end)).filter(is_comma);
+            Place::Inline { before, after }
+        } else {
+            Place::Line
+        };
+        let (given, start, read) = (above.len(), gap.end, self.read(value, &span));
+        self.entries.push(Entry { path, keys, given, start, name, span, value: read, place });
+        if let toml_edit::Value::InlineTable(table) = value {
+            let above = [above, &own].concat();
+            for (keys, value) in table.get_values() {
+                self.value(&keys, value, &above, true);
+            }
         }
     }
+
+    fn read(&self, value: &toml_edit::Value, span: &Range<usize>) -> Value {
+        match value {
+            toml_edit::Value::String(text) => Value::String(text.value().clone()),
+            toml_edit::Value::Boolean(flag) => Value::Flag(*flag.value()),
+            toml_edit::Value::Datetime(_) => Value::Date,
+            toml_edit::Value::Array(_) => Value::Array,
+            toml_edit::Value::InlineTable(_) => Value::Table,
+            // Hexadecimal, octal or binary.
+            toml_edit::Value::Integer(number) if self.text[span.clone()].starts_with('0') => {
+                Value::Number(number.value().to_string())
+            }
+            toml_edit::Value::Integer(_) | toml_edit::Value::Float(_) => {
+                Value::Number(self.text[span.clone()].replace('_', ""))
+            }
+        }
+    }
+}
+
+fn named(key: &Key) -> Named {
+    (key.get().to_owned(), key.span().unwrap_or_default().start)
 }

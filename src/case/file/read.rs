@@ -1,9 +1,9 @@
 //! Reads a case from TOML: finds every key in the table of fields and places every fault.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::FORMAT;
-use super::fault::{FaultKind, Found};
+use super::fault::{FaultKind, Found, MOST};
 use super::layout::{Entry, Layout, Value};
 use super::syntax;
 use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind, index_of};
@@ -12,9 +12,6 @@ use crate::case::{
     Case, Limit, Override, Problem, Spread, Variant, check, spread, suggest, variant,
 };
 use crate::model::Quantity;
-
-/// Number of faults after which further ones are only counted.
-const ENOUGH: usize = 200;
 
 /// Common names of the two gears.
 const GEARS: [&str; 8] = ["pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2"];
@@ -25,8 +22,6 @@ const OVERRIDE: &str = "\"driven.tip_relief\" = \"48 um\"";
 pub(super) struct Reading {
     pub(super) case: Case,
     pub(super) faults: Vec<Found>,
-    /// Number of further faults.
-    pub(super) more: usize,
 }
 
 impl Reading {
@@ -39,31 +34,33 @@ impl Reading {
 /// Reads a text. A syntax error and a newer format are reported alone. `is_newer` reads the known
 /// part of a text of a newer format.
 pub(super) fn read(text: &str, is_newer: bool) -> Reading {
-    let mut case = Case::empty();
-    if let Err(error) = toml_edit::Document::parse(text) {
-        let faults = vec![syntax::fault(&error, text)];
-        return Reading { case, faults, more: 0 };
-    }
-    let layout = Layout::of(text);
+    let refused = |fault| Reading { case: Case::empty(), faults: vec![fault] };
+    let layout = match Layout::of(text) {
+        Ok(layout) => layout,
+        Err(error) => return refused(syntax::fault(&error, text)),
+    };
     let mut reader = Reader {
         layout: &layout,
         scopes: vec![Scope::new("", 0)],
         variants: HashMap::new(),
         seen: HashSet::new(),
+        distributions: BTreeMap::new(),
         faults: Vec::new(),
-        more: 0,
     };
-    let newer = reader.format().filter(|_| !is_newer);
-    let (mut faults, mut more) = (Vec::from_iter(newer), 0);
-    if faults.is_empty() {
-        for at in 0..layout.entries.len() {
-            reader.entry(at);
-        }
-        reader.check();
-        case = reader.case();
-        (faults, more) = (reader.faults, reader.more);
+    if let Some(newer) = reader.format().filter(|_| !is_newer) {
+        return refused(newer);
     }
-    Reading { case, faults, more }
+    for entry in &layout.entries {
+        // Further faults are not shown.
+        if reader.faults.len() <= MOST {
+            reader.entry(entry);
+        }
+    }
+    reader.check();
+    let mut case = reader.scopes[0].case.clone();
+    let named = reader.scopes[1..].iter().filter(|own| Variant::check_name(&own.name).is_ok());
+    case.variants = named.map(|own| Variant::new(&own.name, own.values.clone())).collect();
+    Reading { case, faults: reader.faults }
 }
 
 /// The case itself or one of its variants while it is read.
@@ -73,8 +70,8 @@ struct Scope {
     /// The place of the name of a variant.
     at: usize,
     case: Case,
-    /// The values of a variant.
-    overrides: Vec<Override>,
+    /// Every value, as an override.
+    values: Vec<Override>,
     /// Fields with invalid values.
     wrong: Vec<usize>,
     has_faults: bool,
@@ -83,7 +80,7 @@ struct Scope {
 impl Scope {
     fn new(name: &str, at: usize) -> Scope {
         let (name, case) = (name.to_owned(), Case::empty());
-        Scope { name, at, case, overrides: Vec::new(), wrong: Vec::new(), has_faults: false }
+        Scope { name, at, case, values: Vec::new(), wrong: Vec::new(), has_faults: false }
     }
 
     /// A key of the scope as a key of the file.
@@ -93,6 +90,10 @@ impl Scope {
             name => format!("{}{name}.{key}", variant::PREFIX),
         }
     }
+
+    fn keep(&mut self, key: &str, text: String) {
+        self.values.push(Override { key: key.to_owned(), text });
+    }
 }
 
 /// The meaning of a key.
@@ -100,9 +101,9 @@ enum Target {
     Table,
     Format,
     Field(usize),
-    /// A quantity, which may be unknown.
-    Limit(String),
-    Distribution(&'static Field),
+    Limit(&'static Quantity),
+    /// The distribution of a field.
+    Spread(usize),
     Unknown,
 }
 
@@ -111,21 +112,15 @@ struct Reader<'l> {
     /// The case itself, then its variants.
     scopes: Vec<Scope>,
     /// The scopes of the variants by name.
-    variants: HashMap<String, usize>,
+    variants: HashMap<&'l str, usize>,
     /// Keys that have been read, and unknown keys that have been reported.
     seen: HashSet<String>,
+    /// The entries of the distribution of a field of a scope, and the number of keys above them.
+    distributions: BTreeMap<(usize, usize), (usize, Vec<&'l Entry>)>,
     faults: Vec<Found>,
-    more: usize,
 }
 
-impl Reader<'_> {
-    fn case(&self) -> Case {
-        let named =
-            self.scopes[1..].iter().filter(|scope| Variant::check_name(&scope.name).is_ok());
-        let variants = named.map(|own| Variant::new(&own.name, own.overrides.clone()));
-        Case { variants: variants.collect(), ..self.scopes[0].case.clone() }
-    }
-
+impl<'l> Reader<'l> {
     /// Checks the format. A newer format is the only reported fault.
     fn format(&mut self) -> Option<Found> {
         let Some(entry) = self.layout.value("format") else {
@@ -134,13 +129,13 @@ impl Reader<'_> {
             return None;
         };
         let written = match &entry.value {
-            Value::Number(number) => number.parse::<u64>().ok(),
+            Value::Number(number) => number.parse::<u32>().ok(),
             _ => None,
         };
         let at = entry.span.start;
         match written {
-            Some(number) if number == u64::from(FORMAT) => {}
-            Some(number) if number > u64::from(FORMAT) => {
+            Some(FORMAT) => {}
+            Some(number) if number > FORMAT => {
                 let cause = format!(
                     "format {number} is newer than this version, which reads format {FORMAT}"
                 );
@@ -155,198 +150,174 @@ impl Reader<'_> {
         None
     }
 
-    fn entry(&mut self, at: usize) {
-        let entry = &self.layout.entries[at];
-        let is_variant = entry.path.len() > 1 && entry.path[0] == "variants";
-        if !is_variant {
-            return self.read(0, at, 0);
+    fn entry(&mut self, entry: &'l Entry) {
+        let (scope, above) = match &*entry.path {
+            [table, name, ..] if table == "variants" => (self.scope(entry, name), 2),
+            _ => (0, 0),
+        };
+        let (path, start) = (&entry.path[above..], entry.span.start);
+        if path.is_empty() {
+            if entry.value != Value::Table {
+                let place = entry.key();
+                let cause = format!("expected a table of overrides, found {}", entry.value.kind());
+                let fix = format!("write [{place}] on a line of its own, and {OVERRIDE} below it");
+                self.scopes[scope].has_faults = true;
+                self.fault(0, start, Problem::new(&place, cause, fix));
+            }
+            return;
         }
-        let scope = self.scope(entry);
-        if entry.path.len() > 2 {
-            return self.read(scope, at, 2);
-        }
-        if entry.value != Value::Table {
-            let place = format!("{}{}", variant::PREFIX, entry.path[1]);
-            let cause = format!("expected a table of overrides, found {}", entry.value.kind());
-            let fix = format!("write [{place}] on a line of its own, and {OVERRIDE} below it");
-            self.scopes[scope].has_faults = true;
-            self.fault(0, entry.span.start, Problem::new(&place, cause, fix));
-        }
-    }
-
-    /// The scope of a variant.
-    fn scope(&mut self, entry: &Entry) -> usize {
-        let name = &entry.path[1];
-        if let Some(known) = self.variants.get(name) {
-            return *known;
-        }
-        self.variants.insert(name.clone(), self.scopes.len());
-        let at = entry.key_at(2);
-        let mut scope = Scope::new(name, at);
-        if let Err(problem) = Variant::check_name(name) {
-            scope.has_faults = true;
-            self.fault(0, at, problem);
-        }
-        self.scopes.push(scope);
-        self.scopes.len() - 1
-    }
-
-    /// Reads an entry whose path begins with `above` keys of the scope.
-    fn read(&mut self, scope: usize, at: usize, above: usize) {
-        let entry = &self.layout.entries[at];
-        let path = &entry.path[above..];
         let (target, depth) = target(path, scope > 0);
         let (key, is_own) = (path[..depth].join("."), depth == path.len());
         let value = if is_own { &entry.value } else { &Value::Table };
         match target {
-            Target::Unknown => self.unknown(scope, entry.key_at(above + depth), &key),
-            Target::Limit(quantity) if Quantity::find(&quantity).is_none() => {
-                self.unknown(scope, entry.key_at(above + depth), &key);
+            Target::Unknown => {
+                if self.seen.insert(self.scopes[scope].key(&key)) {
+                    self.fault(scope, entry.key_at(above + depth), unknown(&key));
+                }
             }
             Target::Table if is_own && *value != Value::Table => {
                 let cause = format!("expected the table [{key}], found {}", value.kind());
                 let fix = format!("write [{key}] on a line of its own, once");
-                self.fault(scope, entry.span.start, Problem::new(&key, cause, fix));
+                self.fault(scope, start, Problem::new(&key, cause, fix));
                 let belongs = |field: &usize| FIELDS[*field].table() == key;
                 self.scopes[scope].wrong.extend((0..FIELDS.len()).filter(belongs));
             }
             Target::Format | Target::Table => {}
-            Target::Distribution(field) => self.distribution(scope, at, field, &path[depth..]),
-            Target::Field(_) | Target::Limit(_) => {
-                if !self.seen.insert(self.scopes[scope].key(&key)) {
-                    if is_own {
-                        self.twice(scope, entry, &key);
-                    }
-                    return;
-                }
-                match target {
-                    Target::Field(field) => self.field(scope, field, value, entry.span.start),
-                    _ => self.limit(scope, &key, value, entry.span.start),
+            Target::Spread(field) => {
+                let own = self.distributions.entry((scope, field)).or_default();
+                own.0 = above + depth;
+                own.1.push(entry);
+            }
+            Target::Field(_) | Target::Limit(_)
+                if !self.seen.insert(self.scopes[scope].key(&key)) =>
+            {
+                if is_own {
+                    let cause = match scope {
+                        0 => format!("the key {} appears twice", quoted(&key)),
+                        _ => "the variant overrides this key twice".to_owned(),
+                    };
+                    self.fault(scope, start, Problem::new(&key, cause, "keep one of the two"));
                 }
             }
+            Target::Field(field) => self.field(scope, field, value, start),
+            Target::Limit(quantity) => self.limit(scope, quantity, value, start),
         }
     }
 
-    fn twice(&mut self, scope: usize, entry: &Entry, key: &str) {
-        let cause = if scope == 0 {
-            format!("the key {} appears twice", quoted(key))
-        } else {
-            "the variant overrides this key twice".to_owned()
-        };
-        self.fault(scope, entry.span.start, Problem::new(key, cause, "keep one of the two"));
+    /// The scope of a variant.
+    fn scope(&mut self, entry: &Entry, name: &'l str) -> usize {
+        let next = self.scopes.len();
+        let scope = *self.variants.entry(name).or_insert(next);
+        if scope == next {
+            let at = entry.key_at(2);
+            self.scopes.push(Scope::new(name, at));
+            if let Err(problem) = Variant::check_name(name) {
+                self.scopes[scope].has_faults = true;
+                self.fault(0, at, problem);
+            }
+        }
+        scope
     }
 
     fn field(&mut self, scope: usize, field: usize, value: &Value, at: usize) {
         let known = &FIELDS[field];
-        let is_text = matches!(known.kind, Kind::Text);
-        let is_empty = matches!(value, Value::String(text) if text.is_empty());
-        if is_empty && !is_text {
-            let cause = match known.absent {
-                Absent::Refused | Absent::Either if scope == 0 => return,
-                Absent::Refused => "the case needs this value",
-                _ if scope > 0 => return self.take(scope, known.key, String::new()),
-                _ => "the value is missing",
-            };
-            return self.wrong(scope, field, at, Problem::new("", cause, written(known)));
-        }
-        match text_of(known, value) {
-            Ok(text) if scope > 0 => {
+        let is_empty = *value == Value::String(String::new()) && !matches!(known.kind, Kind::Text);
+        let missing = |cause| Err(Problem::new("", cause, written(known)));
+        let text = match known.absent {
+            _ if !is_empty => text_of(known, value),
+            Absent::Refused | Absent::Either if scope == 0 => return,
+            Absent::Refused => missing("the case needs this value"),
+            _ if scope > 0 => Ok(String::new()),
+            _ => missing("the value is missing"),
+        };
+        match text {
+            Ok(text) => {
                 self.scopes[scope].case.write(field, &text);
-                self.take(scope, known.key, text);
+                self.scopes[scope].keep(known.key, text);
             }
-            Ok(text) => self.scopes[scope].case.write(field, &text),
-            Err(misread) => self.wrong(scope, field, at, misread),
+            Err(problem) => {
+                self.scopes[scope].wrong.push(field);
+                self.fault(scope, at, problem.at(known.key));
+            }
         }
     }
 
-    fn wrong(&mut self, scope: usize, field: usize, at: usize, misread: Problem) {
-        self.scopes[scope].wrong.push(field);
-        self.fault(scope, at, misread.at(FIELDS[field].key));
-    }
-
-    fn limit(&mut self, scope: usize, key: &str, value: &Value, at: usize) {
-        let Some(known) = key.strip_prefix("limits.").and_then(Quantity::find) else { return };
+    fn limit(&mut self, scope: usize, quantity: &Quantity, value: &Value, at: usize) {
+        let key = format!("limits.{}", quantity.key);
         if scope > 0 && *value == Value::String(String::new()) {
-            return self.take(scope, key, String::new());
+            return self.scopes[scope].keep(&key, String::new());
         }
-        let example = format!("{} = {}", known.key, limit_by_example(known));
-        let text = number_or_text(value, known.unit == "1", &example);
-        let text = text.map_err(|misread| misread.at(key));
-        match text.and_then(|text| Limit::new(known.key, &text)) {
-            Ok(limit) if scope > 0 => self.take(scope, key, limit.text),
-            Ok(limit) => self.scopes[scope].case.limits.push(limit),
+        let example = format!("{} = {}", quantity.key, limit_by_example(quantity));
+        let text = number_or_text(value, quantity.unit == "1", &example);
+        match text
+            .map_err(|problem| problem.at(&key))
+            .and_then(|text| Limit::new(quantity.key, &text))
+        {
+            Ok(limit) => {
+                self.scopes[scope].keep(&key, limit.text.clone());
+                self.scopes[scope].case.limits.push(limit);
+            }
             Err(problem) => self.fault(scope, at, problem),
         }
     }
 
-    /// A distribution; `rest` is the path below its field: nothing, or its shape.
-    fn distribution(&mut self, scope: usize, at: usize, field: &Field, rest: &[String]) {
-        let entry = &self.layout.entries[at];
-        let (key, own) = (spread::place(field.key), entry.path.len() - rest.len());
-        let (above, below) = (&self.layout.entries[..at], self.layout.entries.get(at + 1));
-        let of_it = |other: &&Entry| other.path.starts_with(&entry.path[..own]);
-        let has_members = below.as_ref().is_some_and(of_it);
-        let is_scalar = matches!(entry.value, Value::String(_) | Value::Number(_));
-        let is_known = is_scalar && !self.seen.insert(self.scopes[scope].key(&key));
-        let read = match (rest, &entry.value) {
-            ([], Value::Table) if has_members => return,
-            _ if is_known && scope > 0 => return self.twice(scope, entry, &key),
-            ([], Value::String(text)) if scope > 0 && text.is_empty() => {
-                return self.take(scope, &key, String::new());
-            }
-            ([shape], Value::String(width) | Value::Number(width)) if !is_known => {
-                Spread::new(field.key, shape, width)
-            }
-            ([shape], _) if !is_known => Err(Spread::malformed(field.key, Some(shape))),
-            _ => Err(Spread::malformed(field.key, None)),
-        };
-        match read {
-            Ok(spread) => {
-                if scope > 0 {
-                    self.take(scope, &key, spread.in_words());
+    /// Reads the distributions, each of one shape with a width.
+    fn spread(&mut self) {
+        let mut all: Vec<_> = std::mem::take(&mut self.distributions).into_iter().collect();
+        all.sort_by_key(|(_, (_, entries))| entries[0].start);
+        for ((scope, field), (depth, entries)) in all {
+            let (key, place) = (FIELDS[field].key, spread::place(FIELDS[field].key));
+            let is_part = |entry: &&&Entry| entry.path.len() > depth || entry.value != Value::Table;
+            let mut parts = entries.iter().filter(is_part);
+            let only = parts.next().filter(|_| parts.next().is_none());
+            let read = match only.map(|entry| (&entry.path[depth..], &entry.value)) {
+                Some(([], Value::String(text))) if scope > 0 && text.is_empty() => {
+                    self.scopes[scope].keep(&place, String::new());
+                    continue;
                 }
-                self.scopes[scope].case.spread.push(spread);
-            }
-            Err(_) if self.faults.len() >= ENOUGH => self.more += 1,
-            Err(problem) => {
-                let table = above.iter().rev().take_while(of_it).last().unwrap_or(entry);
-                self.fault(scope, table.span.start, problem);
+                Some(([shape], Value::String(width) | Value::Number(width))) => {
+                    Spread::new(key, shape, width)
+                }
+                Some(([shape], _)) => Err(Spread::malformed(key, Some(shape))),
+                _ => Err(Spread::malformed(key, None)),
+            };
+            match read {
+                Ok(spread) => {
+                    self.scopes[scope].keep(&place, spread.in_words());
+                    self.scopes[scope].case.spread.push(spread);
+                }
+                Err(problem) => self.fault(scope, entries[0].span.start, problem),
             }
         }
     }
 
-    fn take(&mut self, scope: usize, key: &str, text: String) {
-        self.scopes[scope].overrides.push(Override { key: key.to_owned(), text });
-    }
-
     /// Checks the values of each scope together.
     fn check(&mut self) {
+        self.spread();
         for scope in 0..self.scopes.len() {
             let own = &self.scopes[scope];
-            let mut problems = Vec::new();
-            if scope == 0 {
-                problems = check::read(&own.case, &own.wrong).1;
+            let is_given =
+                |&field: &usize| own.case.text(field).is_some() && !own.wrong.contains(&field);
+            let problems = if scope == 0 {
+                check::read(&own.case, &own.wrong).1
             } else {
-                for field in (0..FIELDS.len()).filter(|&field| own.case.text(field).is_some()) {
-                    if !own.wrong.contains(&field) {
-                        problems.extend(own.case.check_field(field).err());
-                        problems.extend(check::given_twice(&own.case, field));
-                    }
-                }
-            }
+                let given = (0..FIELDS.len()).filter(is_given);
+                let alone = |field| {
+                    [own.case.check_field(field).err(), check::given_twice(&own.case, field)]
+                };
+                given.flat_map(alone).flatten().collect()
+            };
             for problem in problems {
                 let own = &self.scopes[scope];
                 let field = index_of(&problem.field);
                 let is_missing = scope == 0 && field.is_some_and(|field| own.case.lacks(field));
-                let at = self.layout.place(&own.key(&problem.field));
-                let count = self.faults.len();
-                self.fault(scope, at, problem);
-                for found in &mut self.faults[count..] {
+                self.fault(scope, self.layout.place(&own.key(&problem.field)), problem);
+                if let Some(found) = self.faults.last_mut() {
                     found.is_missing = is_missing;
                 }
             }
             let own = &self.scopes[scope];
-            if scope > 0 && own.overrides.is_empty() && !own.has_faults {
+            if scope > 0 && own.values.is_empty() && !own.has_faults {
                 let place = format!("{}{}", variant::PREFIX, own.name);
                 let fix = format!("write an override, such as {OVERRIDE}, or remove the table");
                 self.fault(0, own.at, Problem::new(&place, "the variant changes nothing", fix));
@@ -354,44 +325,25 @@ impl Reader<'_> {
         }
     }
 
-    /// Reports an unknown key once.
-    fn unknown(&mut self, scope: usize, at: usize, key: &str) {
-        if !self.seen.insert(self.scopes[scope].key(key)) {
-            return;
-        }
-        if self.faults.len() >= ENOUGH {
-            self.more += 1;
-            return;
-        }
-        self.fault(scope, at, unknown(key));
-    }
-
     fn fault(&mut self, scope: usize, at: usize, problem: Problem) {
         let own = &mut self.scopes[scope];
         own.has_faults = true;
-        if self.faults.len() < ENOUGH {
-            let field = own.key(&problem.field);
-            self.faults.push(Found::new(at, Problem { field, ..problem }));
-        } else {
-            self.more += 1;
-        }
+        let field = own.key(&problem.field);
+        self.faults.push(Found::new(at, Problem { field, ..problem }));
     }
 }
 
 /// The meaning of a path, and the number of its keys that decide it.
 fn target(path: &[String], is_variant: bool) -> (Target, usize) {
-    let mut key = String::new();
-    for (depth, name) in path.iter().enumerate() {
-        if depth > 0 {
-            key.push('.');
-        }
-        key.push_str(name);
-        let below = key.split_once('.');
-        let target = match below {
+    for depth in 1..=path.len() {
+        let key = path[..depth].join(".");
+        let target = match key.split_once('.') {
             None if key == "format" && !is_variant => Target::Format,
-            Some(("limits", quantity)) => Target::Limit(quantity.to_owned()),
+            Some(("limits", quantity)) => {
+                Quantity::find(quantity).map_or(Target::Unknown, Target::Limit)
+            }
             Some(("spread", field)) => match index_of(field.trim_matches('"')) {
-                Some(field) => Target::Distribution(&FIELDS[field]),
+                Some(field) => Target::Spread(field),
                 None if is_group(field) => Target::Table,
                 None => Target::Unknown,
             },
@@ -402,7 +354,7 @@ fn target(path: &[String], is_variant: bool) -> (Target, usize) {
             },
         };
         if !matches!(target, Target::Table) {
-            return (target, depth + 1);
+            return (target, depth);
         }
     }
     (Target::Table, path.len())

@@ -1,10 +1,8 @@
 //! Describes a syntax error of TOML in terms of a case.
 
-use std::ops::Range;
-
 use toml_edit::TomlError;
 
-use super::fault::{Found, Lines};
+use super::fault::Found;
 use crate::case::fields::{AUTO, FIELDS, Field, index_of};
 use crate::case::sanitize::{cut, quoted};
 use crate::case::units::{self, Dimension};
@@ -15,36 +13,39 @@ use crate::case::{Problem, check};
 pub(super) fn fault(error: &TomlError, source: &str) -> Found {
     let span = error.span().unwrap_or(source.len()..source.len());
     let at = (0..=span.start).rev().find(|&at| source.is_char_boundary(at)).unwrap_or_default();
-    let line = Lines::of(source).around(at);
-    let text = &source[line.clone()];
+    let start = source[..at].rfind('\n').map_or(0, |end| end + 1);
+    let (above, text) = (&source[..start], source[start..].lines().next().unwrap_or_default());
     let named = key_and_value(text);
-    let field = named.and_then(|(key, _)| field_of(source, line.start, key));
+    let field = named.and_then(|(key, _)| field_of(above, key));
     let name = field.map_or("toml", |field| field.key);
     let is_control = |c: &char| c.is_control() && !matches!(c, '\t' | '\r');
     if let Some((offset, control)) = text.char_indices().find(|(_, c)| is_control(c)) {
         let cause = format!("control character {} in the text", quoted(&control.to_string()));
-        return Found::new(line.start + offset, Problem::new(name, cause, "remove it"));
+        return Found::new(start + offset, Problem::new(name, cause, "remove it"));
     }
-    if error.message() == "duplicate key" {
-        return Found::new(at, twice(source, span, line));
+    let message = error.message();
+    if message == "duplicate key" {
+        return Found::new(at, twice(above, text, source.get(span).unwrap_or_default()));
     }
     if let (Some(field), Some((_, value))) = (field, named)
         && let Some(problem) = mistaken(field, value)
     {
         let offset = value.as_ptr() as usize - text.as_ptr() as usize;
-        return Found::new(line.start + offset, problem);
+        return Found::new(start + offset, problem);
     }
     if let (None, Some((key, _))) = (field, text.split_once(':'))
-        && let Some(field) = field_of(source, line.start, key.trim())
+        && let Some(field) = field_of(above, key.trim())
     {
-        let fix = format!("write {}", check::assignment(field));
-        let problem = Problem::new(field.key, "`:` instead of `=`", fix);
-        return Found::new(line.start + key.len(), problem);
+        let problem = Problem::new(field.key, "`:` instead of `=`", written(field));
+        return Found::new(start + key.len(), problem);
     }
-    let message = error.message();
     let cause = message.split(", expected").next().unwrap_or(message);
     let known = FIXES.iter().find(|(part, _)| message.contains(part));
     Found::new(at, Problem::new(name, cause, known.map_or("write valid TOML", |(_, fix)| fix)))
+}
+
+fn written(field: &Field) -> String {
+    format!("write {}", check::assignment(field))
 }
 
 /// The key and the value of a line without its comment.
@@ -54,8 +55,9 @@ fn key_and_value(line: &str) -> Option<(&str, &str)> {
     Some((key.trim(), value[..comment].trim()))
 }
 
-fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
-    let header = source[..line].lines().rev().find_map(|line| line.trim().strip_prefix('['));
+/// The field of a key below these lines.
+fn field_of(above: &str, key: &str) -> Option<&'static Field> {
+    let header = above.lines().rev().find_map(|line| line.trim().strip_prefix('['));
     let table = header.map_or("", |rest| rest.split(']').next().unwrap_or_default().trim());
     let table = match table.strip_prefix("variants.") {
         Some(variant) => variant.split_once('.').map_or("", |(_, table)| table),
@@ -70,8 +72,7 @@ fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
 fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     let problem = |cause: String, fix: String| Some(Problem::new(field.key, cause, fix));
     if value.is_empty() {
-        let fix = format!("write {}", check::assignment(field));
-        return problem("no value after `=`".to_owned(), fix);
+        return problem("no value after `=`".to_owned(), written(field));
     }
     if value.contains(['"', '\'', '[', '{']) {
         return None;
@@ -117,13 +118,12 @@ const FIXES: [(&str, &str); 17] = [
 ];
 
 /// A key or table that occurs twice.
-fn twice(source: &str, span: Range<usize>, line: Range<usize>) -> Problem {
-    let name = source.get(span).unwrap_or_default();
-    if source[line.clone()].trim_start().starts_with('[') {
+fn twice(above: &str, line: &str, name: &str) -> Problem {
+    if line.trim_start().starts_with('[') {
         let cause = format!("the table {} appears twice", quoted(name));
         return Problem::new(name, cause, "put its keys under one header");
     }
-    let field = field_of(source, line.start, name).map_or(name, |field| field.key);
+    let field = field_of(above, name).map_or(name, |field| field.key);
     let cause = format!("the key {} appears twice", quoted(name));
     Problem::new(field, cause, "keep one of the two")
 }

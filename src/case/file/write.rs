@@ -6,7 +6,7 @@ use std::iter;
 use std::ops::Range;
 
 use super::FORMAT;
-use super::layout::{Entry, Layout, Value};
+use super::layout::{Entry, Layout, Place, Value};
 use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, index_of};
 use crate::case::sanitize::{is_hidden, sanitize};
 use crate::case::units::{self, Dimension};
@@ -205,17 +205,9 @@ fn number(text: &str) -> String {
 }
 
 fn is_toml_number(text: &str) -> bool {
-    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let (mantissa, exponent) =
-        unsigned.split_once(['e', 'E']).map_or((unsigned, None), |(a, b)| (a, Some(b)));
-    let (whole, fraction) =
-        mantissa.split_once('.').map_or((mantissa, None), |(a, b)| (a, Some(b)));
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    let exponent = exponent.map(|text| text.strip_prefix(['+', '-']).unwrap_or(text));
-    digits(whole)
-        && (whole == "0" || !whole.starts_with('0'))
-        && fraction.is_none_or(digits)
-        && exponent.is_none_or(digits)
+    let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
+    let value = text.parse::<toml_edit::Value>();
+    is_plain && value.is_ok_and(|value| value.is_integer() || value.is_float())
 }
 
 /// A TOML string on one line without hidden characters: a line end in a string would look like a
@@ -240,13 +232,13 @@ pub(super) fn render(text: &str, before: &Case, after: &Case) -> String {
     let mut text = text.to_owned();
     for variant in &before.variants {
         if after.variant(&variant.name).is_err() {
-            remove_variant(&mut text, &variant.name);
+            remove(&mut text, |entry| entry.path.iter().take(2).eq(["variants", &variant.name]));
         }
     }
     let (before, after) = (written(before), written(after));
     for old in &before {
         if !after.iter().any(|new| new.key() == old.key()) {
-            remove(&mut text, &old.key());
+            remove(&mut text, |entry| is_of(entry, &old.key()));
         }
     }
     for new in after.iter().filter(|new| !before.contains(new)) {
@@ -255,174 +247,145 @@ pub(super) fn render(text: &str, before: &Case, after: &Case) -> String {
     text
 }
 
+fn layout(text: &str) -> Layout {
+    Layout::of(text).unwrap_or_default()
+}
+
+/// Whether an entry is a key or a member of its distribution.
+fn is_of(entry: &Entry, key: &str) -> bool {
+    entry.key() == key || entry.table().join(".") == key
+}
+
 /// Replaces the value at its place, or inserts it.
 fn put(text: &mut String, new: &Written) {
-    let (layout, key) = (Layout::of(text), new.key());
+    let (layout, key) = (layout(text), new.key());
     let member = layout.values().find(|entry| entry.table().join(".") == key);
     let distribution = new.value.strip_prefix("{ ");
     let distribution = distribution.and_then(|inner| inner.strip_suffix(" }")?.split_once(" = "));
-    if let (Some(member), Some((shape, width))) = (member, distribution) {
-        text.replace_range(member.span.clone(), width);
-        if member.path.last().is_none_or(|name| name != shape) {
-            text.replace_range(member.last_key(), shape);
+    match (member, distribution, layout.value(&key)) {
+        (Some(member), Some((shape, width)), _) => {
+            text.replace_range(member.span.clone(), width);
+            if member.path.last().is_none_or(|name| name != shape) {
+                text.replace_range(member.name.clone(), shape);
+            }
         }
-        return;
-    }
-    if let Some(own) = layout.value(&key) {
-        return text.replace_range(own.span.clone(), &new.value);
-    }
-    if member.is_some() {
-        remove(text, &key);
-        return put(text, new);
-    }
-    insert(text, &layout, new);
-}
-
-/// Removes a value. A comment on another line stays.
-fn remove(text: &mut String, key: &str) {
-    let layout = Layout::of(text);
-    let is_it = |entry: &&Entry| entry.key() == key || entry.table().join(".") == key;
-    if let Some(entry) = layout.values().find(is_it) {
-        take_out(text, entry);
-    }
-    // The header of a distribution without its value is not a distribution.
-    if let Some(header) = layout.headers().find(|header| header.key() == key) {
-        let line = line(text, header.span.clone());
-        text.replace_range(line, "");
+        (_, _, Some(own)) => text.replace_range(own.span.clone(), &new.value),
+        (Some(_), None, None) => {
+            remove(text, |entry| is_of(entry, &key));
+            put(text, new);
+        }
+        (None, _, None) => insert(text, &layout, new),
     }
 }
 
-fn remove_variant(text: &mut String, name: &str) {
-    let of_it = |entry: &&Entry| entry.path.iter().take(2).eq(["variants", name]);
-    while let Some(entry) = Layout::of(text).values().find(of_it) {
-        take_out(text, entry);
-    }
-    while let Some(header) = Layout::of(text).headers().find(of_it) {
-        let mut line = line(text, header.span.clone());
-        let above = text[..line.start].trim_end_matches([' ', '\t', '\r', '\n']);
-        let blank = text[above.len()..line.start].match_indices('\n').nth(1);
-        line.start = blank.map_or(line.start, |_| line_start(text, line.start - 1));
-        text.replace_range(line, "");
+/// Removes entries, then their headers. A comment on another line stays.
+fn remove(text: &mut String, is_removed: impl Fn(&Entry) -> bool) {
+    let is_header = |entry: &Entry| entry.place == Place::Header;
+    let next = |text: &str| {
+        let own = layout(text).entries.into_iter().filter(|entry| is_removed(entry));
+        own.min_by_key(is_header)
+    };
+    while let Some(entry) = next(text) {
+        take_out(text, &entry);
     }
 }
 
-/// Removes an entry with the comment after its value.
+/// Removes an entry with the comment after it, and the blank line above a header.
 fn take_out(text: &mut String, entry: &Entry) {
-    let own = entry.start()..entry.span.end;
-    if !entry.is_inline {
-        let line = line(text, own);
-        return text.replace_range(line, "");
-    }
-    let is_blank = |range: &Range<usize>| text[range.clone()].bytes().all(|b| b" \t".contains(&b));
-    let to_comma = entry.comma.map(|comma| own.end..comma);
-    let with_comma =
-        own.start..to_comma.clone().filter(is_blank).map_or(own.end, |gap| gap.end + 1);
-    let lines = line(text, with_comma.clone());
-    if is_blank(&(lines.start..own.start)) && ends_line(&text[with_comma.end..lines.end]) {
-        let comma = entry.comma.filter(|comma| *comma >= lines.end);
-        if let Some(comma) = comma {
-            text.replace_range(comma..=comma, "");
+    let mut cut = entry.start..entry.span.end;
+    let Place::Inline { before, after } = entry.place else {
+        cut = line(text, cut);
+        if entry.place == Place::Header {
+            let above = text[..cut.start].trim_end_matches([' ', '\t', '\r', '\n']);
+            let blank = text[above.len()..cut.start].match_indices('\n').nth(1);
+            cut.start = blank.map_or(cut.start, |_| line_start(text, cut.start - 1));
         }
-        return text.replace_range(lines, "");
+        return text.replace_range(cut, "");
+    };
+    let is_blank = |range: Range<usize>| text[range].bytes().all(|byte| b" \t".contains(&byte));
+    let mut spaces = [' ', '\t'].as_slice();
+    match (after, before) {
+        (Some(comma), _) if is_blank(cut.end..comma) => cut.end = comma + 1,
+        (None, Some(comma)) if is_blank(comma + 1..cut.start) => {
+            cut.start = comma;
+            spaces = &[];
+        }
+        (Some(comma), _) => {
+            text.remove(comma);
+        }
+        (None, Some(comma)) => {
+            text.remove(comma);
+            cut = cut.start - 1..cut.end - 1;
+        }
+        (None, None) => {}
     }
-    let before = entry.comma_before.map(|comma| comma..own.start);
-    let before = before.filter(|gap| entry.comma.is_none() && is_blank(&(gap.start + 1..gap.end)));
-    match (entry.comma, before) {
-        (Some(comma), _) if comma >= with_comma.end => text.replace_range(comma..=comma, ""),
-        (None, Some(gap)) => return text.replace_range(gap.start..own.end, ""),
-        _ => {}
+    let lines = line(text, cut.clone());
+    let rest = &text[cut.end..];
+    if text[lines.start..cut.start].trim().is_empty() && ends_line(rest) {
+        cut = lines;
+    } else {
+        cut.end += rest.len() - rest.trim_start_matches(spaces).len();
     }
-    let rest = &text[with_comma.end..];
-    let spaces = rest.len() - rest.trim_start_matches([' ', '\t']).len();
-    text.replace_range(with_comma.start..with_comma.end + spaces, "");
-}
-
-/// The place for a new entry.
-enum Place<'l> {
-    After(&'l Entry),
-    /// An inline table without entries.
-    Inside(&'l Entry),
-    /// Below a header without entries.
-    Below(usize),
+    text.replace_range(cut, "");
 }
 
 /// Inserts an entry after the last entry of its table. A new table is at the end of the text.
 fn insert(text: &mut String, layout: &Layout, new: &Written) {
     let table = new.table.as_slice();
     let shared = |path: &[String]| path.iter().zip(table).take_while(|(a, b)| a == b).count();
-    let mut best: Option<((usize, bool, bool), Place<'_>)> = None;
-    let mut offer = |rank, place| {
-        if best.as_ref().is_none_or(|(known, _)| rank >= *known) {
-            best = Some((rank, place));
-        }
+    // The number of shared keys, and whether the place is after an entry, not in an empty table. At
+    // the top level, other entries can be of other tables.
+    let places = layout.entries.iter().flat_map(|entry| {
+        let (known, is_header) = (shared(entry.table()), entry.place == Place::Header);
+        let is_after = !is_header && known >= entry.given;
+        let is_neighbour = known > 0 || entry.table().is_empty();
+        let is_in = (is_header || entry.value == Value::Table) && table.starts_with(&entry.path);
+        let inside = is_in.then(|| ((entry.path.len(), false, false), entry));
+        inside.into_iter().chain(is_after.then(|| ((known, true, is_neighbour), entry)))
+    });
+    let best = places.max_by_key(|(rank, _)| *rank);
+    let Some(((known, is_after, _), entry)) = best else { return append(text, layout, new) };
+    let above = if is_after && entry.table() == table {
+        text[entry.start..entry.name.start].to_owned()
+    } else {
+        let given = if is_after { entry.given } else { known };
+        table[given..].iter().map(|name| key_of(name) + ".").collect()
     };
-    for header in layout.headers() {
-        if table.starts_with(&header.path) {
-            offer((header.path.len(), false, false), Place::Below(header.span.end));
-        }
-    }
-    for entry in layout.values() {
-        let known = shared(entry.table());
-        if known >= entry.given {
-            // At the top level, other entries can be of other tables.
-            let is_neighbour = known > 0 || entry.table().is_empty();
-            offer((known, true, is_neighbour), Place::After(entry));
-        }
-        if entry.value == Value::Table && table.starts_with(&entry.path) {
-            offer((entry.path.len(), false, false), Place::Inside(entry));
-        }
-    }
-    let assignment = |given: usize, neighbour: Option<&Entry>| {
-        let written = neighbour.filter(|entry| entry.table() == table);
-        let above = written.map_or_else(
-            || table[given..].iter().map(|name| key_of(name) + ".").collect(),
-            |entry| text[entry.start()..entry.last_key().start].to_owned(),
-        );
-        format!("{above}{} = {}", new.name, new.value)
-    };
-    match best {
-        Some((_, Place::After(entry))) if entry.is_inline => {
-            let added = assignment(entry.given, Some(entry));
-            let start = line_start(text, entry.start());
-            let indent = text[start..entry.start()].to_owned();
-            let comma = entry.comma.filter(|_| indent.trim().is_empty());
+    let added = format!("{above}{} = {}", new.name, new.value);
+    let start = line_start(text, entry.start);
+    let indent = text[start..entry.start].to_owned();
+    match entry.place {
+        Place::Inline { after, .. } if is_after => {
+            let comma = after.filter(|_| indent.trim().is_empty());
             match comma.filter(|comma| ends_line(&text[comma + 1..])) {
                 Some(comma) => insert_line(text, comma, &format!("{indent}{added},")),
                 None => text.insert_str(entry.span.end, &format!(", {added}")),
             }
         }
-        Some((_, Place::Inside(entry))) => {
+        Place::Line | Place::Inline { .. } if !is_after => {
             let at = entry.span.start + 1;
             let gap = if text[at..].starts_with('}') { " " } else { "" };
-            let added = format!(" {}{gap}", assignment(entry.path.len(), None));
-            text.insert_str(at, &added);
+            text.insert_str(at, &format!(" {added}{gap}"));
         }
-        Some(((known, ..), Place::After(entry))) if known == table.len() => {
-            let start = line_start(text, entry.start());
-            let indent = &text[start..entry.start()];
-            let added = format!("{indent}{}", assignment(entry.given, Some(entry)));
-            insert_line(text, entry.span.end, &added);
+        Place::Line if known == table.len() => {
+            insert_line(text, entry.span.end, &format!("{indent}{added}"));
         }
-        Some(((known, ..), Place::Below(end))) if known == table.len() => {
-            let added = assignment(known, None);
-            insert_line(text, end, &added);
-        }
-        _ => {
-            let end = line_end(text);
-            let names: Vec<String> = table.iter().map(|name| key_of(name)).collect();
-            let assignment = assignment(table.len(), None);
-            let added = format!("[{}]{end}{assignment}{end}", names.join("."));
-            let mut headers = layout.headers().filter(|_| table.len() > 1);
-            match headers.find(|header| header.path.starts_with(table)) {
-                // Above the other tables of a variant, so that the variants keep their order.
-                Some(inner) => {
-                    let at = line_start(text, inner.span.start);
-                    text.insert_str(at, &format!("{added}{end}"));
-                }
-                None if text.ends_with('\n') => text.extend([end, &*added]),
-                None => text.extend([end, end, &*added]),
-            }
-        }
+        Place::Header if known == table.len() => insert_line(text, entry.span.end, &added),
+        _ => append(text, layout, new),
+    }
+}
+
+/// Appends a table with an entry.
+fn append(text: &mut String, layout: &Layout, new: &Written) {
+    let (table, end) = (&new.table, line_end(text));
+    let names: Vec<String> = table.iter().map(|name| key_of(name)).collect();
+    let added = format!("[{}]{end}{}{end}", names.join("."), new.line());
+    let inner = layout.headers().find(|header| header.path.starts_with(table));
+    match inner.filter(|_| table.len() > 1) {
+        // Above the other tables of a variant, so that the variants keep their order.
+        Some(inner) => text.insert_str(line_start(text, inner.start), &format!("{added}{end}")),
+        None if text.ends_with('\n') => text.extend([end, &*added]),
+        None => text.extend([end, end, &*added]),
     }
 }
 
