@@ -123,7 +123,8 @@ impl Variant {
     }
 }
 
-fn texts(case: &Case) -> Vec<(String, String)> {
+/// Every text of a case by its key: fields, limits, distributions and overrides.
+pub(super) fn texts(case: &Case) -> Vec<(String, String)> {
     let fields = FIELDS
         .iter()
         .enumerate()

@@ -26,20 +26,21 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
         problems.extend(put(case, field, &mut inputs).err());
         let partner = FIELDS[field].partner();
         if partner.is_some_and(|other| !wrong.contains(&other)) {
-            problems.extend(misfit(case, field));
+            problems.extend(neither_given(case, field).or_else(|| given_twice(case, field)));
         }
     }
-    let sound = |keys: &[&str]| {
-        let named = |key: &&str| {
-            wrong.iter().any(|&field| FIELDS[field].key == *key)
-                || problems.iter().any(|p| p.field == *key)
-        };
-        !keys.iter().any(named)
+    let is_wrong = |key: &str| {
+        wrong.iter().any(|&field| FIELDS[field].key == key)
+            || problems.iter().any(|problem| problem.field == key)
     };
-    let together = together(&inputs, sound);
-    problems.extend(together);
+    let rules = rules(&inputs).filter(|(keys, _)| !keys.iter().any(|key| is_wrong(key)));
+    let rules: Vec<Problem> = rules.map(|(_, problem)| problem).collect();
+    problems.extend(rules);
     problems.sort_by_key(|problem| index_of(&problem.field));
-    problems.extend(limits(case));
+    // Valid limits are not read again.
+    let unread = case.limits.iter().filter(|limit| limit.value.is_infinite());
+    let unread = unread.filter(|limit| !limit.text.is_empty());
+    problems.extend(unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err()));
     // Other methods do not use the needs: a limit does not change their results.
     if inputs.method == Method::Auto {
         let limited = case.limits.iter();
@@ -47,13 +48,6 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
         inputs = inputs.needing(limited.map(|quantity| quantity.stage));
     }
     (inputs, problems)
-}
-
-/// Problems of the limits with a text. Valid limits are not read again.
-fn limits(case: &Case) -> impl Iterator<Item = Problem> {
-    let unread =
-        case.limits.iter().filter(|limit| !limit.text.is_empty() && limit.value.is_infinite());
-    unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err())
 }
 
 /// Reads one field, or its default, into the inputs.
@@ -64,7 +58,10 @@ pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem
     let known = &FIELDS[field];
     match (case.text(field), known.absent) {
         (None, _) if case.is_replaced(field) => Ok(()),
-        (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),
+        (Some(text), _) | (None, Absent::Default(text)) => {
+            known.put(field_value(field, text)?, inputs);
+            Ok(())
+        }
         (None, Absent::Refused) => {
             Err(Problem::new(known.key, "a required value is missing", addition(known)))
         }
@@ -87,19 +84,17 @@ fn addition(field: &Field) -> Fix {
     Fix::Assign { key: field.key, example: example(field) }
 }
 
-/// The problem of a field and its alternative. It is reported at the first field if a required
-/// value is missing, and at the second field if both are given.
-fn misfit(case: &Case, field: usize) -> Option<Problem> {
-    let other = FIELDS[field].partner()?;
+/// Neither of two fields is given of which one is required. Reported at the first field.
+fn neither_given(case: &Case, field: usize) -> Option<Problem> {
+    let other = FIELDS[field].partner().filter(|&other| field < other)?;
     let (known, named) = (&FIELDS[field], &FIELDS[other]);
-    match (case.text(field), case.text(other)) {
-        (None, None) if field < other && known.absent == Absent::Either => {
-            let cause = format!("neither {} nor {} is given", known.key, named.key);
-            Some(Problem::new(known.key, cause, addition(known)))
-        }
-        (Some(_), Some(_)) => given_twice(case, field),
-        _ => None,
-    }
+    let is_missing = known.absent == Absent::Either
+        && case.text(field).is_none()
+        && case.text(other).is_none();
+    is_missing.then(|| {
+        let cause = format!("neither {} nor {} is given", known.key, named.key);
+        Problem::new(known.key, cause, addition(known))
+    })
 }
 
 /// Two fields that exclude each other are both given. Reported at the second field.
@@ -112,20 +107,12 @@ pub(super) fn given_twice(case: &Case, field: usize) -> Option<Problem> {
     })
 }
 
-fn put_text(known: &Field, field: usize, text: &str, inputs: &mut Inputs) -> Result<(), Problem> {
-    known.put(field_value(field, text)?, inputs);
-    Ok(())
-}
-
 /// The value of a field from its text, checked against the range of the field.
 ///
 /// # Errors
 /// If the text is not a value of the field, or the value is outside the range.
 pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
-    read_value(&FIELDS[field], field, text)
-}
-
-fn read_value(known: &Field, field: usize, text: &str) -> Result<Value, Problem> {
+    let known = &FIELDS[field];
     match known.kind {
         Kind::Text => Ok(Value::Text),
         Kind::Number(dimension, range, _) => {
@@ -271,74 +258,89 @@ const MOST_RATIO: f64 = 50.0;
 /// The first rule between fields that these inputs violate.
 #[must_use]
 pub fn violated_rule(inputs: &Inputs) -> Option<Problem> {
-    together(inputs, |_| true).into_iter().next()
+    rules(inputs).next().map(|(_, problem)| problem)
 }
 
-/// Checks the rules between fields. Skips a rule if one of its fields is invalid.
-fn together(inputs: &Inputs, sound: impl Fn(&[&str]) -> bool) -> Vec<Problem> {
-    let mut found = circles(inputs, &sound);
-    if sound(&["driver.teeth", "driven.teeth"]) {
-        found.extend(ratio_beyond(inputs));
-    }
-    found
+/// The violated rules between fields, each with the fields that it reads.
+fn rules(inputs: &Inputs) -> impl Iterator<Item = (Vec<&'static str>, Problem)> {
+    let heights = Height::all(inputs).filter_map(move |height| {
+        let key = |field: usize| FIELDS[field].key;
+        let [teeth, shift, bore] = height.fields.map(key);
+        let (problem, others) = match height.outside_range(inputs.module) {
+            Some(problem) => (problem, vec![]),
+            None => {
+                let problem = height.bore_through_root(inputs.module, bore)?;
+                (problem, vec![key(height.coefficient), bore])
+            }
+        };
+        let size = ["pair.module", "pair.diametral_pitch", teeth, shift, key(height.diameter)];
+        Some(([size.to_vec(), others].concat(), problem))
+    });
+    let ratio = ratio_beyond(inputs).map(|problem| (vec!["driver.teeth", "driven.teeth"], problem));
+    heights.chain(ratio)
 }
 
 fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
     let ratio = inputs.ratio();
-    let inside = (1.0 / MOST_RATIO..=MOST_RATIO).contains(&ratio);
-    (!inside).then(|| {
-        let cause = format!(
-            "the ratio of tooth numbers {}/{} is {ratio:.4}",
-            inputs.driven.teeth, inputs.driver.teeth
-        );
-        Problem::new(
-            "driven.teeth",
-            cause,
-            format!("keep it within 1/{MOST_RATIO} to {MOST_RATIO}"),
-        )
-    })
+    if (1.0 / MOST_RATIO..=MOST_RATIO).contains(&ratio) {
+        return None;
+    }
+    let (driver, driven) = (inputs.driver.teeth, inputs.driven.teeth);
+    let cause = format!("the ratio of tooth numbers {driven}/{driver} is {ratio:.4}");
+    let fix = format!("keep it within 1/{MOST_RATIO} to {MOST_RATIO}");
+    Some(Problem::new("driven.teeth", cause, fix))
 }
 
-/// A diameter that can replace a coefficient of the rack.
-struct Height {
-    /// The index of the field of the coefficient.
+/// The tip or the root of a gear, by a coefficient of the rack or by a diameter.
+struct Height<'i> {
+    gear: &'i Gear,
+    is_tip: bool,
     coefficient: usize,
-    /// The index of the field of the diameter.
     diameter: usize,
-    given: Option<f64>,
-    /// The coefficient that the diameter gives, for a module in m.
-    value: fn(&Gear, f64) -> f64,
-    /// 1 if the diameter grows with the coefficient, otherwise -1.
-    sign: f64,
+    /// The fields of teeth, profile shift and bore.
+    fields: [usize; 3],
 }
 
-/// The fields of the coefficients and the diameters that replace them.
-static HEIGHTS: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
-    let keys = ["driver.addendum", "driver.dedendum", "driven.addendum", "driven.dedendum"];
-    let fields = keys.into_iter().filter_map(index_of);
-    fields.filter_map(|field| Some((field, FIELDS[field].partner()?))).collect()
+/// Coefficient, diameter, teeth, profile shift and bore of the heights: tip before root.
+static HEIGHTS: LazyLock<Vec<[usize; 5]>> = LazyLock::new(|| {
+    let tables = ["driver", "driven"].into_iter();
+    let heights = tables.flat_map(|table| {
+        ["addendum", "dedendum"].map(|height| {
+            let field = |name| index_of(&format!("{table}.{name}")).unwrap_or_default();
+            let [own, teeth, shift, bore] =
+                [height, "teeth", "profile_shift", "bore_radius"].map(field);
+            [own, FIELDS[own].partner().unwrap_or_default(), teeth, shift, bore]
+        })
+    });
+    heights.collect()
 });
 
-impl Height {
-    /// The heights of both gears, tip before root.
-    fn all(inputs: &Inputs) -> impl Iterator<Item = (&Gear, Height)> {
-        let heights = [&inputs.driver, &inputs.driven].into_iter().flat_map(|gear| {
-            let tip = (gear.tip_diameter, Gear::addendum_coefficient as fn(&_, _) -> _, 1.0);
-            let root = (gear.root_diameter, Gear::dedendum_coefficient as _, -1.0);
-            [(gear, tip), (gear, root)]
-        });
-        HEIGHTS.iter().zip(heights).map(|(&(coefficient, diameter), (gear, height))| {
-            let (given, value, sign) = height;
-            (gear, Height { coefficient, diameter, given, value, sign })
+impl Height<'_> {
+    /// The heights of both gears.
+    fn all(inputs: &Inputs) -> impl Iterator<Item = Height<'_>> {
+        let gears = [&inputs.driver, &inputs.driven].into_iter();
+        let heights = gears.flat_map(|gear| [(gear, true), (gear, false)]);
+        heights.zip(HEIGHTS.iter()).map(|((gear, is_tip), &fields)| {
+            let [coefficient, diameter, fields @ ..] = fields;
+            Height { gear, is_tip, coefficient, diameter, fields }
         })
     }
 
+    fn given_diameter(&self) -> Option<f64> {
+        if self.is_tip { self.gear.tip_diameter } else { self.gear.root_diameter }
+    }
+
     /// A diameter whose coefficient is outside the range of the field that it replaces.
-    fn outside_range(&self, gear: &Gear, module: f64) -> Option<Problem> {
+    fn outside_range(&self, module: f64) -> Option<Problem> {
         /// A diameter at an end of the range has the end as its coefficient except for rounding.
         const SLACK: f64 = 1e-9;
         const DIGITS: usize = 4;
-        let value = (self.value)(gear, module);
+        let (gear, given) = (self.gear, self.given_diameter()?);
+        let (value, sign) = if self.is_tip {
+            (gear.addendum_coefficient(module), 1.0)
+        } else {
+            (gear.dedendum_coefficient(module), -1.0)
+        };
         let (from, to) = field_range(self.coefficient);
         let (side, limit) = match value {
             _ if value < from - SLACK => ("below", from),
@@ -347,85 +349,62 @@ impl Height {
         };
         let cause = format!(
             "{} mm gives the {} coefficient {}, {side} the limit of {limit}",
-            in_mm(self.given?),
+            in_mm(given),
             FIELDS[self.coefficient].label,
             significant(value, DIGITS),
         );
         let shifted = f64::from(gear.teeth) + 2.0 * gear.profile_shift;
-        let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * self.sign * coefficient));
+        let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
         let code = "diameter-outside-range".into();
         Some(Problem { code, ..Problem::new(FIELDS[self.diameter].key, cause, fix) })
+    }
+
+    fn bore_through_root(&self, module: f64, key: &str) -> Option<Problem> {
+        let gear = self.gear;
+        let dedendum = gear.dedendum_coefficient(module);
+        let root = module * (f64::from(gear.teeth) / 2.0 - dedendum + gear.profile_shift);
+        (!self.is_tip && gear.bore_radius >= root).then(|| {
+            let (bore, root) = (in_mm(gear.bore_radius), in_mm(root));
+            let cause = format!(
+                "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* \
+                    + x)"
+            );
+            let fix = format!("write a radius (not a diameter) below {root} mm");
+            Problem { code: "bore-through-root".into(), ..Problem::new(key, cause, fix) }
+        })
     }
 }
 
 impl Problem {
     /// The problem at the diameter if the inputs give the diameter instead of the coefficient.
     #[must_use]
-    pub fn at_given_diameter(mut self, inputs: &Inputs) -> Problem {
+    pub fn at_given_diameter(self, inputs: &Inputs) -> Problem {
         let is_it = |height: &Height| {
-            FIELDS[height.coefficient].key == self.field && height.given.is_some()
+            FIELDS[height.coefficient].key == self.field && height.given_diameter().is_some()
         };
-        if let Some((_, height)) = Height::all(inputs).find(|(_, height)| is_it(height)) {
-            FIELDS[height.diameter].key.clone_into(&mut self.field);
+        match Height::all(inputs).find(is_it) {
+            Some(height) => self.at(FIELDS[height.diameter].key),
+            None => self,
         }
-        self
     }
-}
 
-/// The problems of the circles of both gears. Skips rules with invalid fields.
-fn circles(inputs: &Inputs, sound: &impl Fn(&[&str]) -> bool) -> Vec<Problem> {
-    let mut found: Vec<Problem> = Vec::new();
-    for (gear, height) in Height::all(inputs) {
-        let (diameter, coefficient) = (&FIELDS[height.diameter], &FIELDS[height.coefficient]);
-        let of_gear = |name: &str| format!("{}.{name}", diameter.table());
-        let is_sound = |other: &str| {
-            let size = ["pair.module", "pair.diametral_pitch", diameter.key, other];
-            sound(&size) && sound(&[&of_gear("teeth"), &of_gear("profile_shift")])
-        };
-        let outside = height.outside_range(gear, inputs.module);
-        let outside = outside.filter(|_| is_sound(diameter.key));
-        if outside.is_none() && height.sign < 0.0 {
-            let bore = bore_through_root(diameter.table(), gear, inputs.module);
-            let is_sound = |bore: &Problem| is_sound(&bore.field) && sound(&[coefficient.key]);
-            found.extend(bore.filter(is_sound));
+    /// The problem at the alternative of its field if the case gives the alternative.
+    #[must_use]
+    pub fn at_given(self, case: &Case) -> Problem {
+        let field = index_of(&self.field).filter(|&field| case.is_replaced(field));
+        let given = field.and_then(|field| FIELDS[field].partner());
+        match given.filter(|&given| case.text(given).is_some()) {
+            Some(given) => self.at(FIELDS[given].key),
+            None => self,
         }
-        found.extend(outside);
     }
-    found
-}
-
-fn bore_through_root(table: &str, gear: &Gear, module: f64) -> Option<Problem> {
-    let dedendum = gear.dedendum_coefficient(module);
-    let root = module * (f64::from(gear.teeth) / 2.0 - dedendum + gear.profile_shift);
-    (gear.bore_radius >= root).then(|| {
-        let (bore, root) = (in_mm(gear.bore_radius), in_mm(root));
-        let cause = format!(
-            "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
-        );
-        let fix = format!("write a radius (not a diameter) below {root} mm");
-        let code = "bore-through-root".into();
-        Problem { code, ..Problem::new(&format!("{table}.bore_radius"), cause, fix) }
-    })
 }
 
 /// A length in mm for a message.
 fn in_mm(metres: f64) -> f64 {
     (metres * 1e7).round() / 1e4
-}
-
-impl Problem {
-    /// The problem at the alternative of its field if the case gives the alternative.
-    #[must_use]
-    pub fn at_given(mut self, case: &Case) -> Problem {
-        let field = index_of(&self.field).filter(|&field| case.is_replaced(field));
-        let given = field.and_then(|field| FIELDS[field].partner());
-        if let Some(given) = given.filter(|&given| case.text(given).is_some()) {
-            FIELDS[given].key.clone_into(&mut self.field);
-        }
-        self
-    }
 }
 
 /// The refusal of an unknown key.
@@ -446,34 +425,25 @@ pub fn unknown_key(key: &str) -> Problem {
 /// The refusal of a limit on a quantity that does not exist.
 #[must_use]
 pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
-    let is_symbol = |known: &&Quantity| {
-        !known.symbol.is_empty() && known.symbol.eq_ignore_ascii_case(quantity.trim())
-    };
-    if let Some(known) = QUANTITIES.iter().find(is_symbol) {
-        if known.symbol == quantity.trim() {
+    let name = quantity.trim();
+    let unknown = |fix: String| Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix);
+    let is_symbol = |known: &&Quantity| !name.is_empty() && known.symbol.eq_ignore_ascii_case(name);
+    match QUANTITIES.iter().find(is_symbol) {
+        Some(known) if known.symbol == name => {
             let cause = format!("{} is the symbol of {}", quoted(quantity), known.key);
-            return Problem::new(field, cause, format!("write {}", known.key));
+            Problem::new(field, cause, format!("write {}", known.key))
         }
-        let cause = format!("unknown quantity {}", quoted(quantity));
-        let fix = format!("did you mean {}, {}?", known.symbol, known.key);
-        return Problem::new(field, cause, fix);
-    }
-    if quantity.trim().is_empty() {
-        return Problem::new(
+        Some(known) => unknown(format!("did you mean {}, {}?", known.symbol, known.key)),
+        None if name.is_empty() => Problem::new(
             field,
             "no quantity is named",
             "write names with commas between them, such as impact_force,contact_ratio",
-        );
+        ),
+        None if name.contains(' ') => unknown("put commas between names".to_owned()),
+        None => unknown(suggest::fix(quantity, QUANTITIES.iter().map(|known| known.key), || {
+            "`tipstrike fields --results` lists every quantity".to_owned()
+        })),
     }
-    if quantity.trim().contains(' ') {
-        let cause = format!("unknown quantity {}", quoted(quantity));
-        return Problem::new(field, cause, "put commas between names");
-    }
-    let known = QUANTITIES.iter().map(|quantity| quantity.key);
-    let fix = suggest::fix(quantity, known, || {
-        "`tipstrike fields --results` lists every quantity".to_owned()
-    });
-    Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix)
 }
 
 #[cfg(test)]

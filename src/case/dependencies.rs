@@ -1,14 +1,12 @@
 //! The stages that read a field, and the fields that a quantity depends on, found by changes of the
 //! fields.
 
-use std::borrow::Cow;
-
 use super::fields::{Kind, Range, Reason};
 use super::units::{self, Dimension};
 use super::{Case, FIELDS, Problem, check};
 use crate::model::compliance::{model_of, without_field};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Quantity, Stage, Stages};
+use crate::model::{self, Inputs, Quantity, Refusal, Stage, Stages};
 
 /// A field that a quantity depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,23 +39,27 @@ pub fn fields_of(
     let behind = Stages::of(quantity.stage);
     let is_behind = |&field: &usize| stages_of(field, inputs).within(behind) != Stages::NONE;
     let quick = quickest_of(quantity, inputs, own);
+    // A given centre distance fits only the present gears.
+    let is_free = quick.centre_distance.is_none() || quantity.key == "centre_distance";
+    let free = (!is_free).then(|| Inputs { centre_distance: None, ..quick.clone() });
     let dependence = |field| {
         let small = small_step(field, case, &quick);
-        let after = small.as_ref().map(|(_, inputs)| Outcome::of(quantity, inputs));
+        let after = small.as_ref().map(|(_, inputs)| solved(quantity, inputs));
         let moves = own.is_none()
             || quantity.is_flag()
-            || after.is_some_and(|after| after.differs(own) == Some(true))
+            || after.is_some_and(|after| differ(after, own) == Some(true))
             || is_moved(quantity, own, field, case, &quick)
-                .or_else(|| is_moved_freely(quantity, field, case, &quick))
+                .or_else(|| {
+                    let free = free.as_ref()?;
+                    is_moved(quantity, value_of(quantity, free), field, case, free)
+                })
                 .unwrap_or_default();
-        let step = small.zip(after).map(|((text, _), after)| Step { text, value: after.value() });
+        let step = small.zip(after);
+        let step = step.map(|((text, _), after)| Step { text, value: after.ok().flatten() });
         moves.then_some(Dependence { field, step })
     };
-    (0..FIELDS.len())
-        .filter(|&field| !case.is_replaced(field))
-        .filter(is_behind)
-        .filter_map(dependence)
-        .collect()
+    let fields = (0..FIELDS.len()).filter(|&field| !case.is_replaced(field));
+    fields.filter(is_behind).filter_map(dependence).collect()
 }
 
 /// The inputs with a quick tooth compliance if the quantity does not depend on the tooth
@@ -69,47 +71,45 @@ fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs
     let quick = without_field(inputs)
         .filter(|_| is_telling)
         .map(|tooth| Inputs { tooth_compliance: Some(tooth), ..inputs.clone() });
-    let is_same = |quick: &Inputs| Outcome::of(quantity, quick).differs(own) == Some(false);
+    let is_same = |quick: &Inputs| differ(solved(quantity, quick), own) == Some(false);
     quick.filter(is_same).unwrap_or_else(|| inputs.clone())
 }
 
 /// The value of a quantity with these inputs, in SI.
 #[must_use]
 pub fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
-    Outcome::of(quantity, inputs).value()
+    solved(quantity, inputs).ok().flatten()
 }
 
-/// The result for a quantity with changed inputs.
-#[derive(Clone, Copy)]
-enum Outcome {
-    /// The pair cannot be solved.
-    Refused,
-    /// The value, if the quantity has one.
-    Solved(Option<f64>),
+/// The value of a quantity, if it has one.
+fn solved(quantity: &Quantity, inputs: &Inputs) -> Result<Option<f64>, Refusal> {
+    let solution = model::solve(inputs, Stages::of(quantity.stage))?;
+    Ok((quantity.value)(&solution).filter(|value| value.is_finite()))
 }
 
-impl Outcome {
-    fn of(quantity: &Quantity, inputs: &Inputs) -> Outcome {
-        let solution = model::solve(inputs, Stages::of(quantity.stage));
-        solution.map_or(Outcome::Refused, |solution| {
-            Outcome::Solved((quantity.value)(&solution).filter(|value| value.is_finite()))
-        })
-    }
+/// Whether the value differs in any bit, ignoring the sign of zero. `None` if the pair cannot be
+/// solved.
+fn differ(solved: Result<Option<f64>, Refusal>, own: Option<f64>) -> Option<bool> {
+    let bits = |value: Option<f64>| value.map(|value| (value + 0.0).to_bits());
+    solved.ok().map(|value| bits(value) != bits(own))
+}
 
-    fn value(self) -> Option<f64> {
-        match self {
-            Outcome::Refused => None,
-            Outcome::Solved(value) => value,
+/// The inputs with each of these values in a field; with every choice in a choice.
+fn with_values(field: usize, values: &[f64], inputs: &Inputs) -> Vec<Inputs> {
+    let with = |put: &dyn Fn(&mut Inputs)| {
+        let mut other = inputs.clone();
+        put(&mut other);
+        other
+    };
+    let values = values.iter();
+    match FIELDS[field].kind {
+        Kind::Text => Vec::new(),
+        Kind::Number(_, _, put) => values.map(|&value| with(&|other| put(other, value))).collect(),
+        Kind::Count(_, _, put) => {
+            values.map(|&value| with(&|other| put(other, value as u32))).collect()
         }
-    }
-
-    /// Whether the value differs in any bit, ignoring the sign of zero. `None` if the pair cannot
-    /// be solved.
-    fn differs(self, own: Option<f64>) -> Option<bool> {
-        let bits = |value: Option<f64>| value.map(|value| (value + 0.0).to_bits());
-        match self {
-            Outcome::Refused => None,
-            Outcome::Solved(value) => Some(bits(value) != bits(own)),
+        Kind::Choice(names, put) => {
+            (0..names.len()).map(|at| with(&|other| put(other, at))).collect()
         }
     }
 }
@@ -117,25 +117,15 @@ impl Outcome {
 /// A step that is small for the field, and the inputs after it.
 fn small_step(field: usize, case: &Case, inputs: &Inputs) -> Option<(&'static str, Inputs)> {
     let now = case.value(field)?;
-    let mut inputs = inputs.clone();
-    let text = match FIELDS[field].kind {
-        Kind::Count(_, _, put) => {
-            put(&mut inputs, now as u32 + 1);
-            "+1"
-        }
-        Kind::Number(dimension, range, put) => {
-            let (text, to) = match (dimension, range.unit) {
-                (_, "um") => ("+1 um", now + 1e-6),
-                (Dimension::Number, _) => ("+0.01", now + 0.01),
-                (Dimension::Length, _) if now == 0.0 => ("+0.1 mm", 0.1e-3),
-                _ => ("+1 %", 1.01 * now),
-            };
-            put(&mut inputs, to);
-            text
-        }
+    let (text, to) = match FIELDS[field].kind {
         Kind::Text | Kind::Choice(..) => return None,
+        Kind::Count(..) => ("+1", now + 1.0),
+        Kind::Number(_, Range { unit: "um", .. }, _) => ("+1 um", now + 1e-6),
+        Kind::Number(Dimension::Number, ..) => ("+0.01", now + 0.01),
+        Kind::Number(Dimension::Length, ..) if now == 0.0 => ("+0.1 mm", 0.1e-3),
+        Kind::Number(..) => ("+1 %", 1.01 * now),
     };
-    Some((text, inputs))
+    Some((text, with_values(field, &[to], inputs).pop()?))
 }
 
 /// Whether a larger change of a field alters a quantity. `None` if no changed pair can be solved.
@@ -146,76 +136,42 @@ fn is_moved(
     case: &Case,
     inputs: &Inputs,
 ) -> Option<bool> {
-    let moved = |put: &dyn Fn(&mut Inputs)| {
-        let mut other = inputs.clone();
-        put(&mut other);
-        Outcome::of(quantity, &other).differs(own)
-    };
-    match FIELDS[field].kind {
-        Kind::Text => Some(false),
-        Kind::Choice(names, put) => any((0..names.len()).map(|at| moved(&|other| put(other, at)))),
-        Kind::Count(from, _, put) => {
-            let now = case.value(field).unwrap_or_default() as u32;
-            let counts = [from, now + 1, now + now / 2, 2 * now].into_iter();
-            any(counts.map(|count| moved(&|other| put(other, count))))
-        }
-        Kind::Number(dimension, range, put) => {
-            let numbers = other_numbers(field, (dimension, range), case, inputs).into_iter();
-            any(numbers.map(|number| moved(&|other| put(other, number))))
-        }
-    }
-}
-
-/// Whether any answer is true. `None` without answers.
-fn any(answers: impl Iterator<Item = Option<bool>>) -> Option<bool> {
-    let mut known = None;
-    for answer in answers.flatten() {
-        known = Some(answer);
-        if answer {
+    let mut known = matches!(FIELDS[field].kind, Kind::Text).then_some(false);
+    for other in with_values(field, &other_values(field, case, inputs), inputs) {
+        known = differ(solved(quantity, &other), own).or(known);
+        if known == Some(true) {
             break;
         }
     }
     known
 }
 
-/// [`is_moved`] without the given centre distance, which fits only the present gears.
-fn is_moved_freely(
-    quantity: &Quantity,
-    field: usize,
-    case: &Case,
-    inputs: &Inputs,
-) -> Option<bool> {
-    let free = Inputs { centre_distance: None, ..inputs.clone() };
-    inputs.centre_distance.filter(|_| quantity.key != "centre_distance")?;
-    is_moved(quantity, value_of(quantity, &free), field, case, &free)
-}
-
-/// Numbers, in SI, to try in a field: near its value, otherwise near the quantity of the same name,
+/// Values, in SI, to try in a field: near its value, otherwise near the quantity of the same name,
 /// and an example.
-fn other_numbers(
-    field: usize,
-    (dimension, range): (Dimension, Range),
-    case: &Case,
-    inputs: &Inputs,
-) -> Vec<f64> {
+fn other_values(field: usize, case: &Case, inputs: &Inputs) -> Vec<f64> {
     /// Factors for a centre distance and for other numbers that usually leave a valid pair.
     const FACTORS: [f64; 4] = [1.0002, 1.02, 0.8, 1.25];
     const EXAMPLES: [f64; 4] = [1.0, 0.2, 1.5, 30.0];
     /// Part of the range for a field with the value 0.
     const SHARE: f64 = 1e-3;
     let known = &FIELDS[field];
-    let now = case.value(field).or_else(|| {
-        let quantity = Quantity::find(known.name())?;
-        value_of(quantity, inputs)
-    });
-    let Some(now) = now else {
-        let example = units::parse(known.example(), dimension, range.unit);
-        let times = |example| EXAMPLES.map(|times| times * example);
-        return example.map_or_else(|_| Vec::new(), |example| times(example).into());
-    };
-    let mut numbers: Vec<f64> = FACTORS.map(|times| times * now).into();
-    numbers.push(within(range, SHARE));
-    numbers
+    let now = case.value(field);
+    match known.kind {
+        Kind::Text | Kind::Choice(..) => Vec::new(),
+        Kind::Count(from, ..) => {
+            let now = now.unwrap_or_default();
+            vec![f64::from(from), now + 1.0, now + (now / 2.0).floor(), 2.0 * now]
+        }
+        Kind::Number(dimension, range, _) => {
+            let alike = || value_of(Quantity::find(known.name())?, inputs);
+            if let Some(now) = now.or_else(alike) {
+                FACTORS.map(|times| times * now).into_iter().chain([within(range, SHARE)]).collect()
+            } else {
+                let example = units::parse(known.example(), dimension, range.unit);
+                example.iter().flat_map(|example| EXAMPLES.map(|times| times * example)).collect()
+            }
+        }
+    }
 }
 
 /// The number, in SI, at a part of a range.
@@ -251,23 +207,12 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     const SHARES: [f64; 3] = [0.0, 0.381_966, 0.618_034];
     // Every stage that reads the tooth model also reads the fields that decide its range.
     let held = Inputs { tooth_compliance: Some(model_of(inputs)), ..inputs.clone() };
-    let with = move |put: &dyn Fn(&mut Inputs)| {
-        let mut other = held.clone();
-        put(&mut other);
-        other
+    let values = match FIELDS[field].kind {
+        Kind::Number(_, range, _) => SHARES.map(|share| within(range, share)).to_vec(),
+        Kind::Count(from, to, _) => vec![f64::from(from), f64::from(to)],
+        Kind::Text | Kind::Choice(..) => Vec::new(),
     };
-    match FIELDS[field].kind {
-        Kind::Text => Vec::new(),
-        Kind::Number(_, range, put) => {
-            SHARES.map(|share| with(&|other| put(other, within(range, share)))).into()
-        }
-        Kind::Count(from, to, put) => {
-            [from, to].map(|count| with(&|other| put(other, count))).into()
-        }
-        Kind::Choice(names, put) => {
-            (0..names.len()).map(|at| with(&|other| put(other, at))).collect()
-        }
-    }
+    with_values(field, &values, &held)
 }
 
 /// Whether a field has an effect on the results.
@@ -304,8 +249,7 @@ pub fn relevance(field: usize, inputs: &Inputs) -> Acting {
         Reason::Idle(when, why) if when(inputs) => Some(Acting::No(why)),
         _ => None,
     };
-    let mut reasons = FIELDS[field].reasons.iter();
-    reasons.find_map(reason).unwrap_or(Acting::No(NO_REASON))
+    FIELDS[field].reasons.iter().find_map(reason).unwrap_or(Acting::No(NO_REASON))
 }
 
 /// The reason why results depend less on a field than expected, in a case with these inputs.
@@ -319,29 +263,19 @@ pub fn partial_relevance(field: usize, inputs: &Inputs) -> Option<&'static str> 
     acts(field, inputs).then_some(why)
 }
 
-/// The inputs with a speed. Without a speed every power gives the same infinite torque.
-fn with_speed(inputs: &Inputs) -> Cow<'_, Inputs> {
-    if inputs.speed > 0.0 {
-        return Cow::Borrowed(inputs);
-    }
-    Cow::Owned(Inputs { speed: 1.0, ..inputs.clone() })
-}
-
 /// Whether any stage reads the field. For the method `auto`, any stage of the methods to choose
 /// from.
 fn acts(field: usize, inputs: &Inputs) -> bool {
-    let inputs = &*with_speed(inputs);
-    let by = |method| {
-        let inputs = Inputs { method, ..inputs.clone() };
-        is_read(field, &inputs)
+    let methods = match inputs.method {
+        Method::Auto => &[Method::Exact, Method::Static, Method::Dynamic][..],
+        _ => &[inputs.method],
     };
-    let by_stages = || match inputs.method {
-        Method::Auto => [Method::Exact, Method::Static, Method::Dynamic].into_iter().any(by),
-        _ => is_read(field, inputs),
-    };
+    // Without a speed every power gives the same infinite torque.
+    let speed = if inputs.speed > 0.0 { inputs.speed } else { 1.0 };
+    let by = |&method: &Method| is_read(field, &Inputs { method, speed, ..inputs.clone() });
     match FIELDS[field].read_when {
         Some(when) => when(inputs),
-        None => by_stages(),
+        None => methods.iter().any(by),
     }
 }
 

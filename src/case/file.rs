@@ -109,18 +109,23 @@ impl Document {
         if !is_newer && !reading.is_draft() {
             return Err(Found::placed(name, unmarked, reading.faults));
         }
-        let case = reading.case;
-        Ok(Document {
+        Ok(Document { is_newer, ..Document::with(name.to_owned(), reading.case, text) })
+    }
+
+    /// A document of a case and its text, without a file.
+    fn with(name: String, case: Case, text: &str) -> Document {
+        let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+        Document {
             loaded: case.clone(),
             case,
-            name: name.to_owned(),
+            name,
             text: unmarked.to_owned(),
             marked: unmarked.len() < text.len(),
-            stamp: Stamp::of(bytes),
-            is_newer,
+            stamp: Stamp::of(text.as_bytes()),
+            is_newer: false,
             origin: None,
             mode: None,
-        })
+        }
     }
 
     fn complete(self) -> Result<Document, Vec<Fault>> {
@@ -140,17 +145,7 @@ impl Document {
     #[must_use]
     pub fn commented(name: String, case: Case, comments: &[(&str, String)]) -> Document {
         let text = write::template(&case, comments);
-        Document {
-            loaded: case.clone(),
-            case,
-            name,
-            stamp: Stamp::of(text.as_bytes()),
-            text,
-            marked: false,
-            is_newer: false,
-            origin: None,
-            mode: None,
-        }
+        Document::with(name, case, &text)
     }
 
     /// Table 1 of the paper, from its file in `cases/`.
@@ -243,15 +238,12 @@ impl Document {
     /// The text to save: the original text with only the changed values replaced.
     #[must_use]
     pub fn render(&self) -> String {
+        let mark = if self.marked { "\u{feff}" } else { "" };
         if self.is_changed() {
-            self.with_mark(&write::render(&self.text, &self.loaded, &self.case))
+            format!("{mark}{}", write::render(&self.text, &self.loaded, &self.case))
         } else {
-            self.with_mark(&self.text)
+            format!("{mark}{}", self.text)
         }
-    }
-
-    fn with_mark(&self, text: &str) -> String {
-        if self.marked { format!("{BYTE_ORDER_MARK}{text}") } else { text.to_owned() }
     }
 
     /// Line and column, from 1, of a field's value. If the text does not have the field, the place
@@ -329,7 +321,7 @@ impl Document {
             return Err(SaveError::AlreadyThere(name.to_owned()));
         }
         match open(target, name).and_then(|file| limited(file, name, MOST_BYTES)) {
-            Ok(bytes) if bytes == self.with_mark(&self.text).as_bytes() => Ok(()),
+            Ok(bytes) if Stamp::of(&bytes) == self.stamp => Ok(()),
             Err(ReadError::Unreadable(name, error)) => Err(SaveError::Unreadable(name, error)),
             _ => Err(SaveError::ChangedOnDisk(name.to_owned())),
         }

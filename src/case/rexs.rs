@@ -52,44 +52,24 @@ impl Stage {
     }
 }
 
-/// The reason why a model of another program cannot become a case: place, cause and fix.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Refusal {
-    file: String,
-    /// Line and column, from 1, for an error in the text.
-    place: Option<(usize, usize)>,
-    cause: String,
-    fix: String,
+/// Why a model of another program cannot become a case: place, cause and fix.
+pub type Refusal = String;
+
+fn refusal(cause: impl std::fmt::Display, fix: impl std::fmt::Display) -> Refusal {
+    format!("{cause}: {fix}")
 }
 
-impl Refusal {
-    fn new(cause: impl Into<String>, fix: impl Into<String>) -> Refusal {
-        Refusal { file: String::new(), place: None, cause: cause.into(), fix: fix.into() }
-    }
-
-    fn at(self, line: usize, column: usize) -> Refusal {
-        Refusal { place: Some((line, column)), ..self }
-    }
+/// A refusal at a place of the text.
+fn at(line: usize, column: usize, refusal: &str) -> Refusal {
+    format!("{line}:{column}: {refusal}")
 }
-
-impl std::fmt::Display for Refusal {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: ", sanitize(&self.file))?;
-        if let Some((line, column)) = self.place {
-            write!(f, "{line}:{column}: ")?;
-        }
-        write!(f, "{}: {}", sanitize(&self.cause), sanitize(&self.fix))
-    }
-}
-
-impl std::error::Error for Refusal {}
 
 /// Refuses more than `most` of the named parts.
 fn within(count: usize, most: usize, parts: &str) -> Result<(), Refusal> {
     if count <= most {
         return Ok(());
     }
-    Err(Refusal::new(
+    Err(refusal(
         format!("the model has more than {most} {parts}"),
         "export the gear pair alone and without results",
     ))
@@ -119,9 +99,7 @@ pub fn case_path(path: &Path) -> PathBuf {
 /// If the file cannot be read, or no stage can become a case.
 pub fn read_document(path: &Path) -> Result<Document, ReadError> {
     let bytes = read_bytes(path, MOST_MODEL_BYTES)?;
-    import(path, &bytes, None)
-        .map(|imported| imported.document)
-        .map_err(|refusal| ReadError::Model(refusal.to_string()))
+    import(path, &bytes, None).map(|imported| imported.document).map_err(ReadError::Model)
 }
 
 /// Reads a stage of a REXS model as a case. Without an id, the only spur stage.
@@ -129,8 +107,8 @@ pub fn read_document(path: &Path) -> Result<Document, ReadError> {
 /// # Errors
 /// If the bytes are not a REXS model, or the stage is not a spur gear pair.
 pub fn import(path: &Path, bytes: &[u8], stage: Option<&str>) -> Result<Imported, Refusal> {
-    let file = path.display().to_string();
-    read(path, bytes, stage).map_err(|refusal| Refusal { file, ..refusal })
+    let file = path.display();
+    read(path, bytes, stage).map_err(|refusal| sanitize(&format!("{file}: {refusal}")))
 }
 
 fn read(path: &Path, bytes: &[u8], wanted: Option<&str>) -> Result<Imported, Refusal> {
@@ -146,7 +124,7 @@ fn read(path: &Path, bytes: &[u8], wanted: Option<&str>) -> Result<Imported, Ref
         values.read(pair);
     }
     if let Some(reason) = values.refusals.first() {
-        return Err(Refusal::new(
+        return Err(refusal(
             format!("stage {} has unequal teeth: {reason}", chosen.label()),
             "a case has one module, one pressure angle and symmetric teeth; correct the model",
         ));
@@ -164,7 +142,7 @@ fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Refusal> {
         std::str::from_utf8(bytes).ok().map(Cow::Borrowed)
     };
     text.ok_or_else(|| {
-        Refusal::new("the text of the model is not UTF-8", "export the model as UTF-8")
+        refusal("the text of the model is not UTF-8", "export the model as UTF-8")
     })
 }
 
@@ -172,7 +150,7 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
     const DIRECTORY_ENTRY: &[u8] = b"PK\x01\x02";
     const MOST_FILES: usize = 1000;
     let damaged = |error: ZipError| {
-        Refusal::new(
+        refusal(
             format!("the archive cannot be unpacked: {error}"),
             "pack it again as a plain zip file, deflated and without password",
         )
@@ -180,7 +158,7 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
     // Each entry of the directory takes memory, so the entries are counted before it is read.
     let entries = bytes.windows(DIRECTORY_ENTRY.len()).filter(|four| *four == DIRECTORY_ENTRY);
     if entries.count() > MOST_FILES {
-        return Err(Refusal::new(
+        return Err(refusal(
             format!("the archive has more than {MOST_FILES} files"),
             "pack the model alone",
         ));
@@ -190,7 +168,7 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
     let models: Vec<String> =
         names.filter(|name| ends_with_any(name, &[".rexs", ".rexsj", ".xml", ".json"])).collect();
     let [model] = models.as_slice() else {
-        return Err(Refusal::new(
+        return Err(refusal(
             format!("the archive has {} models", models.len()),
             "pack exactly one .rexs or .rexsj file",
         ));
@@ -201,7 +179,7 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
     let read = file.take(MOST_MODEL_BYTES as u64 + 1).read_to_end(&mut text);
     read.map_err(|error| damaged(ZipError::Io(error)))?;
     if text.len() > MOST_MODEL_BYTES {
-        return Err(Refusal::new(
+        return Err(refusal(
             format!("the model is longer than {} MiB unpacked", MOST_MODEL_BYTES >> 20),
             "export the model without results",
         ));
@@ -214,7 +192,7 @@ fn parse(text: &str) -> Result<Model, Refusal> {
         Some('<') => xml::parse(text)?,
         Some('{') => model::parse_json(text)?,
         _ => {
-            return Err(Refusal::new(
+            return Err(refusal(
                 "the file is neither XML nor JSON",
                 "export the model as REXS (.rexs, .rexsj or .rexsz)",
             ));
@@ -223,7 +201,7 @@ fn parse(text: &str) -> Result<Model, Refusal> {
     if matches!(model.version.split('.').next(), Some("1" | "2")) {
         return Ok(model);
     }
-    Err(Refusal::new(
+    Err(refusal(
         format!("the model is of REXS version {:?}", model.version),
         "export it as REXS 1.0 to 2.0",
     ))
@@ -243,32 +221,28 @@ fn stage<'m>(index: &'m Index<'m>, stage: &'m Node) -> (Stage, Option<Pair<'m>>)
 fn choose<'a>(stages: &'a [Stage], wanted: Option<&str>) -> Result<&'a Stage, Refusal> {
     let line = |stage: &Stage| format!("stage {} is {}", stage.label(), stage.kind);
     let listed = || stages.iter().map(line).collect::<Vec<_>>().join("; ");
-    if let Some(id) = wanted {
-        return match stages.iter().find(|stage| stage.id == id) {
-            Some(stage) if stage.is_spur => Ok(stage),
-            Some(other) => Err(Refusal::new(
-                line(other),
-                "choose a spur stage; other stages cannot become a case",
-            )),
-            None => Err(Refusal::new(
-                format!("the model has no stage {id:?}"),
-                format!("choose one of its stages: {}", listed()),
-            )),
-        };
-    }
-    let mut spur = stages.iter().filter(|stage| stage.is_spur);
-    match (spur.next(), spur.next()) {
-        (Some(only), None) => Ok(only),
-        (Some(_), Some(_)) => Err(Refusal::new(
-            "the model has several spur stages",
-            format!("choose one with `tipstrike import --stage ID`: {}", listed()),
-        )),
-        _ if stages.is_empty() => {
-            Err(Refusal::new("the model has no gear stage", "choose a model with a spur stage"))
+    let spur: Vec<&Stage> = stages.iter().filter(|stage| stage.is_spur).collect();
+    let named = wanted.map(|id| stages.iter().find(|stage| stage.id == id).ok_or(id));
+    match (named, &*spur) {
+        (Some(Ok(stage)), _) if stage.is_spur => Ok(stage),
+        (Some(Ok(other)), _) => {
+            Err(refusal(line(other), "choose a spur stage; other stages cannot become a case"))
         }
-        _ => Err(Refusal::new(
+        (Some(Err(id)), _) => Err(refusal(
+            format!("the model has no stage {id:?}"),
+            format!("choose one of its stages: {}", listed()),
+        )),
+        (None, [only]) => Ok(only),
+        (None, []) if stages.is_empty() => {
+            Err(refusal("the model has no gear stage", "choose a model with a spur stage"))
+        }
+        (None, []) => Err(refusal(
             "the model has no spur stage",
             format!("choose a model with one; here {}", listed()),
+        )),
+        (None, _) => Err(refusal(
+            "the model has several spur stages",
+            format!("choose one with `tipstrike import --stage ID`: {}", listed()),
         )),
     }
 }

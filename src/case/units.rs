@@ -6,7 +6,7 @@ mod table;
 use super::sanitize::{cut, quoted};
 use super::{Problem, suggest};
 pub use system::{System, converted};
-use table::{FAMILIES, Scale, Unit, name_of, units_of};
+use table::{FAMILIES, Scale, Unit, family_of, units_of};
 
 /// The physical dimension of a field or a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,7 +62,7 @@ impl Dimension {
     /// The name of a value with its article, such as "a length".
     #[must_use]
     pub fn name(self) -> &'static str {
-        name_of(self)
+        family_of(self).name
     }
 
     /// The SI unit; empty for the bare number.
@@ -76,6 +76,12 @@ impl Dimension {
     pub fn symbols(self) -> impl Iterator<Item = &'static str> {
         units_of(self).iter().map(|unit| unit.symbol)
     }
+}
+
+/// The usual spelling of a unit. `None` for an unknown unit.
+#[must_use]
+pub fn symbol(unit: &str) -> Option<&'static str> {
+    known(unit).map(|(_, unit)| unit.symbol)
 }
 
 /// The SI value of one unit. `None` for an unknown unit. "1" and "" have the factor 1.
@@ -318,18 +324,17 @@ fn comma(text: &str) -> Problem {
         .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-')))
         .unwrap_or(text.len());
     let written = &text[..length];
-    let (without, with_point) = (written.replace(',', ""), written.replace(',', "."));
-    let has_groups = written.contains('.') || written.matches(',').count() > 1;
-    let meant = if written.rfind('.') > written.rfind(',') {
-        cut(&without)
-    } else if written.contains('.') {
-        cut(&written.replace('.', "").replace(',', "."))
-    } else if has_groups {
-        cut(&without)
-    } else if written.split(',').nth(1).is_some_and(|rest| rest.len() == 3) {
-        format!("{} or {}", cut(&without), cut(&with_point))
-    } else {
-        cut(&with_point)
+    let with = |decimal: Option<char>| {
+        let is_group = |c: char| ",.".contains(c) && Some(c) != decimal;
+        cut(&written.replace(is_group, "").replace(',', "."))
+    };
+    let is_short = written.split(',').nth(1).is_some_and(|rest| rest.len() == 3);
+    let meant = match (written.rfind('.'), written.matches(',').count()) {
+        (Some(point), _) if Some(point) > written.rfind(',') => with(Some('.')),
+        (Some(_), _) => with(Some(',')),
+        (None, 2..) => with(None),
+        (None, _) if is_short => format!("{} or {}", with(None), with(Some(','))),
+        (None, _) => with(Some(',')),
     };
     let fix = format!("write {meant}, not {}", cut(written));
     Problem::new("", "a comma inside a number", fix)
@@ -590,6 +595,13 @@ mod tests {
         assert_eq!(text(209.43951023931956, "rpm"), "2000 rpm");
         assert_eq!(text(-0.25, "1"), "-0.25");
         assert_eq!(text(0.0, "mm"), "0 mm");
+    }
+
+    #[test]
+    fn every_dimension_finds_its_units() {
+        for family in &FAMILIES {
+            assert_eq!(family_of(family.dimension).name, family.name);
+        }
     }
 
     #[test]

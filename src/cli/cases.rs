@@ -125,7 +125,7 @@ pub(super) fn read_model(
 ) -> Result<Imported, Exit> {
     let bytes = read_bytes(path, MOST_MODEL_BYTES).map_err(|error| unread(&error, streams))?;
     let imported = rexs::import(path, &bytes, stage).map_err(|refusal| {
-        streams.say(&refusal.to_string());
+        streams.say(&refusal);
         Exit::BadCase
     })?;
     let name = path.display();

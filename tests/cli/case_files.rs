@@ -580,38 +580,8 @@ fn any_case() -> impl Strategy<Value = Case> {
     })
 }
 
-/// TOML with typing errors: lines of the valid case, reordered, cut and broken.
-fn nearly_toml() -> impl Strategy<Value = String> {
-    let line = prop::sample::select(TABLE_1.lines().collect::<Vec<_>>()).prop_map(str::to_owned);
-    let broken =
-        (line.clone(), any::<prop::sample::Index>(), "[\\[\\]{}=\"'.,#\\\\a-c0-9 \\n\\r]{0,4}")
-            .prop_map(|(line, at, noise)| {
-                let at = line
-                    .char_indices()
-                    .map(|(at, _)| at)
-                    .nth(at.index(line.chars().count().max(1)))
-                    .unwrap_or(0);
-                format!("{}{noise}{}", &line[..at], &line[at..])
-            });
-    prop::collection::vec(prop_oneof![line, broken], 0..40).prop_map(|lines| lines.join("\n"))
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-        let _ = Document::parse_bytes("any", &bytes);
-    }
-
-    #[test]
-    fn no_text_makes_the_reader_panic_and_every_fault_is_one_safe_line(text in nearly_toml()) {
-        for fault in Document::parse("any", &text).err().unwrap_or_default() {
-            let shown = fault.to_string();
-            prop_assert!(!shown.contains(char::is_control), "{:?}", shown);
-            prop_assert!(fault.line <= text.lines().count() + 1, "{}", shown);
-        }
-    }
 
     #[test]
     fn a_case_written_and_read_again_is_the_same(case in any_case()) {
@@ -621,16 +591,6 @@ proptest! {
             let mut document = parsed(&text);
             document.case = case.clone();
             prop_assert_eq!(&parsed(&document.render()).case, &case);
-        }
-    }
-
-    #[test]
-    fn the_comments_of_a_file_outlive_any_change_of_values(case in any_case()) {
-        let mut document = parsed(TABLE_1);
-        document.case = case;
-        let text = document.render();
-        for comment in TABLE_1.lines().filter(|line| line.starts_with('#')) {
-            prop_assert!(text.contains(comment), "{}", comment);
         }
     }
 }

@@ -98,10 +98,10 @@ impl Found {
 
 /// Line and column of a byte, both from 1, the column in characters.
 pub(super) fn place(text: &str, at: usize) -> (usize, usize) {
-    let above = &text.as_bytes()[..at];
-    let start = above.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+    let ends = || text.match_indices('\n').map(|(end, _)| end).take_while(|&end| end < at);
+    let start = ends().last().map_or(0, |end| end + 1);
     let column = text[start..].char_indices().take_while(|&(offset, _)| start + offset < at);
-    (above.iter().filter(|&&byte| byte == b'\n').count() + 1, column.count() + 1)
+    (ends().count() + 1, column.count() + 1)
 }
 
 /// The reason why a file cannot be opened as a case.

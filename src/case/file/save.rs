@@ -3,6 +3,7 @@
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use tempfile::{Builder, NamedTempFile, PersistError};
 
@@ -208,39 +209,22 @@ impl Target {
 
 /// Creates a temporary file beside a file. The umask limits the mode of a file that is not private.
 fn begin(beside: &Path, is_private: bool) -> io::Result<NamedTempFile> {
-    let create = |prefix: &str| {
-        let mode = if is_private { 0o600 } else { 0o666 };
-        files::with_mode(Builder::new().prefix(prefix), mode).tempfile_in(folder_of(beside))
-    };
-    if let Some(prefix) = prefix_here() {
-        let file = create(&prefix)?;
-        // Before the lock, another save can remove the file.
-        if file.as_file().try_lock().is_ok() && file.path().exists() {
-            return Ok(file);
-        }
-    }
-    create(TEMPORARY)
+    let mode = if is_private { 0o600 } else { 0o666 };
+    files::with_mode(Builder::new().prefix(TEMPORARY), mode).tempfile_in(folder_of(beside))
 }
 
-/// The prefix of locked temporary files of this boot of this machine: one kernel has all their locks,
-/// in any container and on any file system. `None` if the system does not name its boot.
-fn prefix_here() -> Option<String> {
-    let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").ok()?;
-    Some(format!("{TEMPORARY}{}-", boot.trim()))
-}
-
-/// Removes temporary files of killed saves in a folder: those that a process of this machine locked
-/// and that are no longer locked. Ignores files that cannot be removed.
+/// Removes temporary files of killed saves in a folder: those that nobody wrote to for a day.
+/// Ignores files that cannot be removed.
 fn clear(folder: &Path) {
-    let Some(prefix) = prefix_here() else { return };
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in entries {
-        let is_ours = entry.file_name().to_string_lossy().starts_with(&prefix);
-        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
-            let file = OpenOptions::new().write(true).open(entry.path());
-            if file.as_ref().is_ok_and(|file| file.try_lock().is_ok()) {
-                drop(fs::remove_file(entry.path()));
-            }
+    const LEFT: Duration = Duration::from_secs(86_400);
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let is_left = |about: fs::Metadata| {
+            let age = about.modified().ok().and_then(|time| time.elapsed().ok());
+            about.is_file() && age.is_some_and(|age| age > LEFT)
+        };
+        let is_ours = entry.file_name().to_string_lossy().starts_with(TEMPORARY);
+        if is_ours && entry.metadata().is_ok_and(is_left) {
+            drop(fs::remove_file(entry.path()));
         }
     }
 }

@@ -10,7 +10,8 @@ use super::layout::{Entry, Layout, Place, Value};
 use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, index_of};
 use crate::case::sanitize::{is_hidden, sanitize};
 use crate::case::units::{self, Dimension};
-use crate::case::{Case, check, spread};
+use crate::case::changes::texts;
+use crate::case::{Case, check, spread, variant};
 
 /// A value of a case as written in a file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,6 +25,29 @@ struct Written {
 }
 
 impl Written {
+    fn of(key: &str, text: &str) -> Written {
+        let variant = key.strip_prefix(variant::PREFIX).and_then(|path| path.split_once('.'));
+        let own = variant.map_or(key, |(_, own)| own);
+        let field = index_of(own).map(|field| &FIELDS[field]);
+        let (table, name) = match (variant, own.split_once('.')) {
+            (None, Some((table, name))) => (vec![table], name.to_owned()),
+            (None, None) => (Vec::new(), own.to_owned()),
+            (Some((variant, _)), None) => (vec!["variants", variant], own.to_owned()),
+            (Some((variant, _)), Some(_)) => {
+                (vec!["variants", variant], format!("\"{}\"", own.replace('"', "")))
+            }
+        };
+        let value = match (field, text.split_once(' ')) {
+            _ if text.is_empty() => string(""),
+            (Some(field), _) => value(field, text),
+            (None, Some((shape, width))) if own.starts_with(spread::PREFIX) => {
+                distribution(shape, width)
+            }
+            _ => limit_value(text),
+        };
+        Written { table: table.into_iter().map(str::to_owned).collect(), name, value }
+    }
+
     /// The key with its table, as [`Entry::key`].
     fn key(&self) -> String {
         let names = self.table.iter().map(String::as_str);
@@ -38,42 +62,10 @@ impl Written {
 
 /// All values of a case, in the order of a new file.
 fn written(case: &Case) -> Vec<Written> {
-    let top = |table: &str| Vec::from_iter((!table.is_empty()).then(|| table.to_owned()));
-    let fields = FIELDS.iter().enumerate().filter_map(|(index, field)| {
-        let value = value(field, case.text(index)?);
-        Some(Written { table: top(field.table()), name: field.name().to_owned(), value })
-    });
-    let limits = case.limits.iter().filter(|limit| !limit.text.is_empty()).map(|limit| Written {
-        table: top("limits"),
-        name: limit.quantity.to_owned(),
-        value: limit_value(&limit.text),
-    });
-    let spreads = case.spread.iter().map(|spread| Written {
-        table: top("spread"),
-        name: format!("\"{}\"", spread.field),
-        value: distribution(spread.shape.name(), &spread.text),
-    });
-    let overrides = case.variants.iter().flat_map(|variant| {
-        variant.overrides.iter().map(|change| {
-            let (key, text) = (&change.key, &change.text);
-            let field = index_of(key).map(|field| &FIELDS[field]);
-            let is_top = field.is_some_and(|field| field.table().is_empty());
-            let name = key.replace('"', "");
-            Written {
-                table: vec!["variants".to_owned(), variant.name.clone()],
-                name: if is_top { name } else { format!("\"{name}\"") },
-                value: match (field, text.split_once(' ')) {
-                    _ if text.is_empty() => string(""),
-                    (Some(field), _) => value(field, text),
-                    (None, Some((shape, width))) if key.starts_with(spread::PREFIX) => {
-                        distribution(shape, width)
-                    }
-                    _ => limit_value(text),
-                },
-            }
-        })
-    });
-    fields.chain(limits).chain(spreads).chain(overrides).collect()
+    // A form can hold an empty limit.
+    let texts = texts(case).into_iter();
+    let given = texts.filter(|(key, text)| !text.is_empty() || key.starts_with(variant::PREFIX));
+    given.map(|(key, text)| Written::of(&key, &text)).collect()
 }
 
 fn limit_value(text: &str) -> String {
@@ -340,8 +332,8 @@ fn insert(text: &mut String, layout: &Layout, new: &Written) {
         let is_after = !is_header && known >= entry.given;
         let is_neighbour = known > 0 || entry.table().is_empty();
         let is_in = (is_header || entry.value == Value::Table) && table.starts_with(&entry.path);
-        let inside = is_in.then(|| ((entry.path.len(), false, false), entry));
-        inside.into_iter().chain(is_after.then(|| ((known, true, is_neighbour), entry)))
+        let inside = is_in.then_some(((entry.path.len(), false, false), entry));
+        inside.into_iter().chain(is_after.then_some(((known, true, is_neighbour), entry)))
     });
     let best = places.max_by_key(|(rank, _)| *rank);
     let Some(((known, is_after, _), entry)) = best else { return append(text, layout, new) };

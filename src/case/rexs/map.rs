@@ -1,9 +1,10 @@
 //! The table of attributes that give the fields of a case, and the driver with its speed and load.
 
 use super::model::{Index, Node};
-use crate::case::fields::{self, FIELDS};
+use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::{cut, quoted};
 use crate::case::units::{self, Dimension};
+use Place::{EitherGear, Flanks, Gear, Linked, Relief, Stage};
 
 /// A value for a field, as written in the case file.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,22 +21,22 @@ pub(super) struct Reading {
 pub(super) type Found = (&'static str, Result<Reading, String>);
 
 /// The reason why the model gives no value.
-struct Problem {
+struct Unread {
     words: String,
     /// Two readings of the same value differ.
     is_unequal: bool,
 }
 
-impl From<String> for Problem {
-    fn from(words: String) -> Problem {
-        Problem { words, is_unequal: false }
+impl From<String> for Unread {
+    fn from(words: String) -> Unread {
+        Unread { words, is_unequal: false }
     }
 }
 
-type Read = Result<Option<Reading>, Problem>;
+type Read<T = Reading> = Result<Option<T>, Unread>;
 
 /// Where an attribute is.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Place {
     Stage,
     Gear,
@@ -49,11 +50,9 @@ enum Place {
     Relief(&'static str),
 }
 
-/// One attribute that gives a field.
+/// An attribute that gives a value.
 #[derive(Clone, Copy)]
 struct Source {
-    /// The key of the field; within its table if both gears have the field.
-    field: &'static str,
     place: Place,
     attribute: &'static str,
     /// The unit in a case, and that of an attribute without a unit.
@@ -62,27 +61,10 @@ struct Source {
     convert: Option<Convert>,
 }
 
-/// Converts a reading for gear 0 or 1 of a pair.
 type Convert = fn(&Pair, usize, &Reading) -> Option<Reading>;
 
-/// A field and its sources. The first source that gives a value is used.
-struct Row {
-    sources: &'static [Source],
-    /// The reason if no source gives a value, unless its attribute says enough.
-    missing: &'static str,
-    /// A stage with unequal values is refused.
-    is_strict: bool,
-    /// A row of the length of a relief is used only if the gear has the relief.
-    only_with: Option<Place>,
-}
-
-const fn from(
-    field: &'static str,
-    place: Place,
-    attribute: &'static str,
-    unit: &'static str,
-) -> Source {
-    Source { field, place, attribute, unit, convert: None }
+const fn from(place: Place, attribute: &'static str, unit: &'static str) -> Source {
+    Source { place, attribute, unit, convert: None }
 }
 
 impl Source {
@@ -91,127 +73,91 @@ impl Source {
     }
 }
 
-const fn row(sources: &'static [Source], missing: &'static str) -> Row {
-    Row { sources, missing, is_strict: false, only_with: None }
+/// A field and its sources, of which the first one with a value is used.
+struct Row {
+    /// The key; within its table for a field of each gear. Both gears must agree on other fields.
+    field: &'static str,
+    sources: &'static [Source],
+    need: Need,
 }
 
-const fn strict(sources: &'static [Source]) -> Row {
-    Row { is_strict: true, ..row(sources, "") }
+#[derive(Clone, Copy, PartialEq)]
+enum Need {
+    Usual,
+    /// A stage with unequal values is refused.
+    Equal,
+    /// Only a relief has the value.
+    Relief,
+}
+use Need::{Equal, Usual};
+
+const fn row(field: &'static str, need: Need, sources: &'static [Source]) -> Row {
+    Row { field, sources, need }
 }
 
-const TEETH: Source = from("teeth", Place::Gear, "number_of_teeth", "");
-const MODULE: Source = from("pair.module", Place::Gear, "normal_module", "mm");
-const ANGLE: Source = from("pair.pressure_angle", Place::Flanks, "normal_pressure_angle", "deg");
-const TIP: Source = from("tip_diameter", Place::Gear, "tip_diameter", "mm");
+const TEETH: Source = from(Gear, "number_of_teeth", "");
+const MODULE: Source = from(Gear, "normal_module", "mm");
+const ANGLE: Source = from(Flanks, "normal_pressure_angle", "deg");
+const TIP: Source = from(Gear, "tip_diameter", "mm");
+const MATERIAL: Place = Linked("material");
+const RACK: Place = Linked("rack_shaped_tool");
+const TIP_RELIEF: Place = Relief("tip_relief");
+const ROOT_RELIEF: Place = Relief("root_relief");
+/// The unit of a text.
+const TEXT: &str = "text";
 
-const PAIR: &[Row] = &[
-    strict(&[MODULE]),
-    strict(&[ANGLE]),
-    row(&[from("pair.centre_distance", Place::Stage, "center_distance", "mm")], ""),
-];
-
-const GEAR: &[Row] = &[
-    row(&[TEETH], ""),
-    strict(&[
-        from("profile_shift", Place::Flanks, "addendum_modification_coefficient", ""),
-        from("profile_shift", Place::Flanks, "addendum_modification", "mm").by(|pair, _, shift| {
-            let module = pair.shared(MODULE).ok()??;
-            Some(shift.derived(1.0 / module.value, "", "the module and ", ""))
-        }),
-        from(
-            "profile_shift",
-            Place::Flanks,
-            "addendum_modification_coefficient_after_finishing",
-            "",
-        ),
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    row("pair.module", Equal, &[MODULE]),
+    row("pair.pressure_angle", Equal, &[ANGLE]),
+    row("pair.centre_distance", Usual, &[from(Stage, "center_distance", "mm")]),
+    row("teeth", Usual, &[TEETH]),
+    row("profile_shift", Equal, &[
+        from(Flanks, "addendum_modification_coefficient", ""),
+        from(Flanks, "addendum_modification", "mm").by(coefficient),
+        from(Flanks, "addendum_modification_coefficient_after_finishing", ""),
     ]),
-    row(&[from("face_width", Place::Gear, "face_width", "mm")], ""),
-    row(
-        &[from("bore_radius", Place::Gear, "inner_diameter", "mm")
-            .by(|_, _, bore| Some(bore.derived(0.5, "mm", "half of ", "")))],
-        "",
-    ),
-    row(
-        &[from("young", Place::Linked("material"), "elastic_modulus", "MPa")],
-        "no material of the gear has elastic_modulus",
-    ),
-    row(
-        &[from("poisson", Place::Linked("material"), "poisson_ratio", "")],
-        "no material of the gear has poisson_ratio",
-    ),
-    row(
-        &[from("density", Place::Linked("material"), "density", "kg/dm3")],
-        "no material of the gear has density",
-    ),
-    row(&[from("tip_chamfer", Place::Flanks, "tooth_tip_chamfer", "mm")], ""),
-    row(
-        &[TIP, from("addendum", Place::Flanks, "addendum_coefficient_basic_profile", "")],
-        "the model gives neither tip_diameter nor the basic profile",
-    ),
+    row("face_width", Usual, &[from(Gear, "face_width", "mm")]),
+    row("bore_radius", Usual, &[from(Gear, "inner_diameter", "mm").by(half)]),
+    row("young", Usual, &[from(MATERIAL, "elastic_modulus", "MPa")]),
+    row("poisson", Usual, &[from(MATERIAL, "poisson_ratio", "")]),
+    row("density", Usual, &[from(MATERIAL, "density", "kg/dm3")]),
+    row("tip_chamfer", Usual, &[from(Flanks, "tooth_tip_chamfer", "mm")]),
+    row("tip_diameter", Usual, &[TIP]),
+    row("addendum", Usual, &[from(Flanks, "addendum_coefficient_basic_profile", "")]),
+    row("root_diameter", Usual, &[from(Gear, "root_diameter", "mm")]),
     // The addendum of the rack cuts the dedendum of the gear.
-    row(
-        &[
-            from("root_diameter", Place::Gear, "root_diameter", "mm"),
-            from(
-                "dedendum",
-                Place::Linked("rack_shaped_tool"),
-                "addendum_coefficient_reference_profile",
-                "",
-            ),
-        ],
-        "the model gives neither root_diameter nor the rack",
-    ),
-    row(
-        &[from("tip_relief", TIP_RELIEF, "tip_relief_depth", "mm")],
-        "the model gives no tip relief",
-    ),
-    Row {
-        only_with: Some(TIP_RELIEF),
-        ..row(
-            &[
-                from("tip_relief_length", TIP_RELIEF, "tip_relief_datum_length", "mm"),
-                from("tip_relief_length", TIP_RELIEF, "tip_relief_datum_diameter", "mm")
-                    .by(length_from_diameter),
-            ],
-            "the model gives neither its length nor its start diameter",
-        )
-    },
-    row(
-        &[from("root_relief", ROOT_RELIEF, "root_relief_depth", "mm")],
-        "the model gives no root relief",
-    ),
-    Row {
-        only_with: Some(ROOT_RELIEF),
-        ..row(
-            &[from("root_relief_length", ROOT_RELIEF, "root_relief_datum_length", "mm")],
-            "the model gives no length",
-        )
-    },
+    row("dedendum", Usual, &[from(RACK, "addendum_coefficient_reference_profile", "")]),
+    row("tip_relief", Usual, &[from(TIP_RELIEF, "tip_relief_depth", "mm")]),
+    row("tip_relief_length", Need::Relief, &[
+        from(TIP_RELIEF, "tip_relief_datum_length", "mm"),
+        from(TIP_RELIEF, "tip_relief_datum_diameter", "mm").by(length_from_diameter),
+    ]),
+    row("root_relief", Usual, &[from(ROOT_RELIEF, "root_relief_depth", "mm")]),
+    row("root_relief_length", Need::Relief, &[
+        from(ROOT_RELIEF, "root_relief_datum_length", "mm"),
+    ]),
+    row("model.relief_shape", Need::Relief, &[
+        from(TIP_RELIEF, "shape_of_relief", TEXT),
+        from(ROOT_RELIEF, "shape_of_relief", TEXT),
+    ]),
+    row("deviations.base_pitch", Usual, &[
+        from(Stage, "transverse_base_pitch_deviation_iso_6336_2019", "um"),
+        from(Stage, "transverse_base_pitch_deviation_iso_6336_2006", "um"),
+        from(EitherGear, "base_pitch_deviation_din_3962_1978", "um"),
+    ]),
 ];
 
-const TIP_RELIEF: Place = Place::Relief("tip_relief");
-const ROOT_RELIEF: Place = Place::Relief("root_relief");
-
-const BASE_PITCH: &str = "deviations.base_pitch";
-const BASE_PITCHES: Row = row(
-    &[
-        from(BASE_PITCH, Place::Stage, "transverse_base_pitch_deviation_iso_6336_2019", "um"),
-        from(BASE_PITCH, Place::Stage, "transverse_base_pitch_deviation_iso_6336_2006", "um"),
-        from(BASE_PITCH, Place::EitherGear, "base_pitch_deviation_din_3962_1978", "um"),
-    ],
-    "the model gives no base pitch deviation",
-);
-
-const BACKLASH_KEY: &str = "deviations.backlash";
 const BACKLASHES: [Source; 2] = [
-    from(BACKLASH_KEY, Place::Stage, "minimum_normal_backlash", "mm"),
-    from(BACKLASH_KEY, Place::Stage, "maximum_normal_backlash", "mm"),
+    from(Stage, "minimum_normal_backlash", "mm"),
+    from(Stage, "maximum_normal_backlash", "mm"),
 ];
-
-const SPEED: Source = from("operation.speed", Place::Gear, "rotational_speed", "rpm");
-const TORQUE_OF_GEAR: Source = from("operation.torque", Place::Gear, "torque", "N m");
-const TORQUE: Source = from("operation.torque", Place::Gear, "torque_around_u_axis", "N m");
-const POWER: Source = from("operation.power", Place::Gear, "power", "kW");
+const SPEED: Source = from(Gear, "rotational_speed", "rpm");
+const TORQUE_OF_GEAR: Source = from(Gear, "torque", "N m");
+const TORQUE_OF_LOAD: Source = from(Gear, "torque_around_u_axis", "N m");
+const POWER_OF_LOAD: Source = from(Gear, "power", "kW");
+const TORQUE: &str = "operation.torque";
+const POWER: &str = "operation.power";
 
 /// The values of a pair, field by field.
 #[derive(Debug, Default)]
@@ -226,81 +172,59 @@ pub(super) struct Values {
 impl Values {
     pub(super) fn read(&mut self, pair: &Pair) {
         let pair = &pair.ordered(&mut self.remarks);
-        for row in PAIR {
-            self.row(row, |source| (source.field, pair.shared(source)));
-        }
-        for (gear, table) in ["driver", "driven"].into_iter().enumerate() {
-            for row in GEAR {
-                if row.only_with.is_none_or(|place| !pair.parts(gear, place).concat().is_empty()) {
-                    self.row(row, |source| {
-                        let field = fields::index_of(&format!("{table}.{}", source.field));
-                        let key = field.map_or(source.field, |field| FIELDS[field].key);
-                        (key, pair.read(gear, source))
-                    });
-                }
+        for row in ROWS {
+            if row.field.contains('.') {
+                self.row(row, row.field, &[0, 1], pair);
+            } else {
+                self.row(row, &format!("driver.{}", row.field), &[0], pair);
+                self.row(row, &format!("driven.{}", row.field), &[1], pair);
             }
-            self.relief_shape(pair, gear);
         }
-        self.row(&BASE_PITCHES, |source| (source.field, pair.read(0, source)));
         let [least, greatest] = BACKLASHES.map(|source| pair.read(0, source));
         let backlash = least.and_then(|least| agreed(least, greatest?));
-        self.put(BACKLASH_KEY, backlash, "the model gives no normal backlash");
+        self.put("deviations.backlash", backlash, "the model gives no normal backlash");
         let missing = "neither gear nor its shaft has a rotational_speed";
-        self.put(SPEED.field, pair.speed(), missing);
-        let load = pair.load();
-        let key = load.as_ref().ok().and_then(Option::as_ref).map_or(TORQUE.field, |(key, _)| key);
-        let load = load.map(|load| load.map(|(_, reading)| reading));
+        self.put("operation.speed", pair.speed(), missing);
+        let (key, load) = match pair.load() {
+            Ok(Some((key, load))) => (key, Ok(Some(load))),
+            Ok(None) => (TORQUE, Ok(None)),
+            Err(unread) => (TORQUE, Err(unread)),
+        };
         self.put(key, load, "no load is given on a shaft that carries this gear alone");
+        self.fields.sort_by_key(|(key, _)| index_of(key));
     }
 
-    /// Writes the field of a row from the first source that gives a value or a problem.
-    fn row(&mut self, row: &Row, read: impl Fn(Source) -> (&'static str, Read)) {
-        let mut found = row.sources.iter().map(|source| read(*source));
-        let mut last = None;
-        while !matches!(last, Some((_, Ok(Some(_)) | Err(_)))) {
-            match found.next() {
-                None => break,
-                next => last = next,
-            }
+    /// Writes the field of a row of these gears, unless its alternative has a value.
+    fn row(&mut self, row: &Row, key: &str, gears: &[usize], pair: &Pair) {
+        let Some(field) = index_of(key).map(|field| &FIELDS[field]) else { return };
+        let is_other = |(key, read): &Found| field.alternative == Some(*key) && read.is_ok();
+        let has_part = |source: &Source| {
+            gears.iter().any(|&gear| !pair.parts(gear, source.place).concat().is_empty())
+        };
+        let is_needed = row.need != Need::Relief || row.sources.iter().any(has_part);
+        if !is_needed || self.fields.iter().any(is_other) {
+            return;
         }
-        match (last, row.sources) {
-            (Some((_, Err(problem))), _) if row.is_strict && problem.is_unequal => {
-                self.refusals.push(problem.words);
+        let read = |source: &Source| match gears {
+            [gear] => pair.read(*gear, *source),
+            _ => pair.shared(*source),
+        };
+        let mut found = row.sources.iter().map(read);
+        match found.find(|read| !matches!(read, Ok(None))).unwrap_or(Ok(None)) {
+            Err(unread) if row.need == Equal && unread.is_unequal => {
+                self.refusals.push(unread.words);
             }
-            (Some((key, read)), [first, ..]) if row.missing.is_empty() => {
-                self.put(key, read, &format!("the model gives no {}", first.attribute));
+            found => {
+                let names: Vec<_> = row.sources.iter().map(|source| source.attribute).collect();
+                self.put(field.key, found, &format!("the model gives no {}", names.join(" or ")));
             }
-            (Some((key, read)), _) => self.put(key, read, row.missing),
-            (None, _) => {}
         }
     }
 
     fn put(&mut self, key: &'static str, read: Read, missing: &str) {
-        let found = read.map_err(|problem| problem.words);
+        let found = read.map_err(|unread| unread.words);
         let found = found.and_then(|reading| reading.ok_or_else(|| missing.to_owned()));
         self.fields.push((key, found));
-    }
-
-    /// The shape of the first relief that gives it.
-    fn relief_shape(&mut self, pair: &Pair, gear: usize) {
-        const KEY: &str = "model.relief_shape";
-        for relief in
-            [TIP_RELIEF, ROOT_RELIEF].map(|place| pair.parts(gear, place).concat()).concat()
-        {
-            let is_read = self.fields.iter().any(|(known, _)| *known == KEY);
-            if let Some(shape) = relief.given("shape_of_relief").next().filter(|_| !is_read) {
-                let source = format!("shape_of_relief of {}", relief.label());
-                let text = shape.value.to_string();
-                let found = match &*text {
-                    "linear" | "parabolic" => Ok(Reading { text, value: f64::NAN, source }),
-                    other => Err(format!(
-                        "{source} is {}; a case has linear or parabolic",
-                        quoted(other)
-                    )),
-                };
-                self.fields.push((KEY, found));
-            }
-        }
     }
 }
 
@@ -338,9 +262,6 @@ impl<'m> Pair<'m> {
             return Err("a stage without two gears".to_owned());
         };
         let pair = Pair { index, stage, gears: [first, second] };
-        if pair.gears.iter().any(|gear| &*gear.kind == "ring_gear") {
-            return Err("a stage with a ring gear".to_owned());
-        }
         if let Some(gear) = pair.gears.iter().find(|gear| &*gear.kind != "cylindrical_gear") {
             return Err(format!("a stage with a {}", gear.kind.replace('_', " ")));
         }
@@ -353,7 +274,7 @@ impl<'m> Pair<'m> {
     /// The helix angle if it is not zero or cannot be read. A model can have a rounded zero.
     fn helix(&self, gear: &Node) -> Option<String> {
         const NONE: f64 = 1e-8;
-        HELIX.iter().find_map(|id| match self.value(gear, from("", Place::Gear, id, "deg")) {
+        HELIX.iter().find_map(|id| match self.value(gear, from(Gear, id, "deg")) {
             Ok(Some(angle)) if angle.value.abs() > NONE => Some(angle.text),
             Ok(_) => None,
             Err(_) => gear.given(id).next().map(|angle| cut(&angle.value)),
@@ -362,24 +283,21 @@ impl<'m> Pair<'m> {
 
     /// The numbers of teeth as text, such as `20/40`.
     pub(super) fn teeth(&self) -> String {
-        [0, 1]
-            .map(|gear| match self.read(gear, TEETH) {
-                Ok(Some(teeth)) => teeth.text,
-                _ => "unknown".to_owned(),
-            })
-            .join("/")
+        let teeth = [0, 1].map(|gear| match self.read(gear, TEETH) {
+            Ok(Some(teeth)) => teeth.text,
+            _ => "unknown".to_owned(),
+        });
+        teeth.join("/")
     }
 
     /// The driver and the driven gear. A model may not name the driving gear.
     fn ordered(&self, remarks: &mut Vec<String>) -> Pair<'m> {
-        let drives = self.gears.map(|gear| {
-            self.gear_data(gear).any(|data| {
-                let driving = data.given("is_driving_gear").next();
-                driving.is_some_and(|flag| matches!(&*flag.value, "true" | "1"))
-            })
-        });
+        let is_driving = |data: &Node| {
+            let driving = data.given("is_driving_gear").next();
+            driving.is_some_and(|flag| matches!(&*flag.value, "true" | "1"))
+        };
         let [first, second] = self.gears;
-        match drives {
+        match self.gears.map(|gear| self.gear_data(gear).any(is_driving)) {
             [true, false] => {}
             [false, true] => return Pair { gears: [second, first], ..*self },
             _ => remarks.push(format!(
@@ -399,12 +317,12 @@ impl<'m> Pair<'m> {
             })
         };
         match place {
-            Place::Stage => [vec![self.stage], Vec::new()],
-            Place::Gear => [vec![gear], Vec::new()],
-            Place::EitherGear => self.gears.map(|gear| vec![gear]),
-            Place::Flanks => flanks(),
-            Place::Linked(kind) => [index.linked(&gear.id, kind).collect(), Vec::new()],
-            Place::Relief(kind) => flanks().map(|flank| {
+            Stage => [vec![self.stage], Vec::new()],
+            Gear => [vec![gear], Vec::new()],
+            EitherGear => self.gears.map(|gear| vec![gear]),
+            Flanks => flanks(),
+            Linked(kind) => [index.linked(&gear.id, kind).collect(), Vec::new()],
+            Relief(kind) => flanks().map(|flank| {
                 let own: Vec<&Node> =
                     flank.iter().flat_map(|part| index.linked(&part.id, kind)).collect();
                 if own.is_empty() { index.linked(&gear.id, kind).collect() } else { own }
@@ -415,7 +333,7 @@ impl<'m> Pair<'m> {
     /// The value of a source for a gear. Both flanks must agree.
     fn read(&self, gear: usize, source: Source) -> Read {
         let sides = self.parts(gear, source.place);
-        if let (Place::Relief(_), [left, right]) = (source.place, &sides) {
+        if let (Relief(_), [left, right]) = (source.place, &sides) {
             if left.is_empty() != right.is_empty() {
                 return Err("only one flank has the relief".to_owned().into());
             }
@@ -429,12 +347,12 @@ impl<'m> Pair<'m> {
             found.find(|read| !matches!(read, Ok(None))).unwrap_or(Ok(None))
         });
         let mut reading = match (left?, right?) {
-            (Some(left), Some(right)) if matches!(source.place, Place::EitherGear) => {
+            (Some(left), Some(right)) if source.place == EitherGear => {
                 Some(if right.value > left.value { right } else { left })
             }
             (left, right) => agreed(left, right)?,
         };
-        if reading.is_none() && matches!(source.place, Place::Flanks) {
+        if reading.is_none() && source.place == Flanks {
             reading = self.value(self.gears[gear], source)?;
         }
         Ok(match source.convert {
@@ -448,36 +366,28 @@ impl<'m> Pair<'m> {
         agreed(self.read(0, source)?, self.read(1, source)?)
     }
 
-    /// A value of a component or of its load cases, which must agree.
+    /// A value of a component in its load cases, or in general. All must agree.
     fn value(&self, part: &Node, source: Source) -> Read {
-        let (label, id) = (part.label(), source.attribute);
-        let mut cases: Vec<(&str, Reading)> = Vec::new();
-        for (case, loaded) in self.index.loads_of(&part.id) {
-            if let Some(attribute) = loaded.given(id).next() {
-                let place = format!("{id} of {label} in load case {}", case.id);
-                cases.push((&case.id, reading(attribute, source.unit, place)?));
-            }
+        let place = format!("{} of {}", source.attribute, part.label());
+        let loads = self.index.loads_of(&part.id).iter().filter_map(|(case, loaded)| {
+            let attribute = loaded.given(source.attribute).next()?;
+            Some((attribute, format!(" in load case {}", case.id)))
+        });
+        let mut given: Vec<(&Node, String)> = loads.collect();
+        if given.is_empty() {
+            given = part.given(source.attribute).map(|own| (own, String::new())).collect();
         }
-        if let Some((_, first)) = cases.first() {
-            if cases.iter().all(|(_, other)| other.text == first.text) {
-                return Ok(Some(first.clone()));
-            }
-            let texts =
-                cases.iter().map(|(case, reading)| format!("{} in load case {case}", reading.text));
-            let texts: Vec<String> = texts.collect();
-            return Err(format!("{id} of {label} is {}", texts.join(", ")).into());
+        let read = |(own, case): &(&Node, String)| {
+            reading(own, source.unit, format!("{place}{case}"))
+        };
+        let read = given.iter().map(read).collect::<Result<Vec<Reading>, String>>()?;
+        if read.iter().any(|other| other.text != read[0].text) {
+            let texts = read.iter().zip(&given);
+            let texts: Vec<String> =
+                texts.map(|(own, (_, case))| format!("{}{case}", own.text)).collect();
+            return Err(format!("{place} is {}", texts.join(", ")).into());
         }
-        let mut given = part.given(id);
-        let Some(first) = given.next() else { return Ok(None) };
-        if let Some(other) = given.find(|other| *other != first) {
-            return Err(format!(
-                "{label} has two values of {id}, {} and {}",
-                quoted(&first.value),
-                quoted(&other.value),
-            )
-            .into());
-        }
-        reading(first, source.unit, format!("{id} of {label}")).map(Some).map_err(Problem::from)
+        Ok(read.into_iter().next())
     }
 
     /// The speed ratio, the teeth of the driven gear over the teeth of the driver.
@@ -491,7 +401,7 @@ impl<'m> Pair<'m> {
     /// The speed of the driver or of its shaft, or the speed of the driven gear times the ratio.
     fn speed(&self) -> Read {
         for (gear, factor) in self.gears.into_iter().zip([1.0, self.ratio()]) {
-            for part in std::iter::once(gear).chain(self.shafts(gear)?) {
+            for part in std::iter::once(gear).chain(self.shafts(gear)) {
                 if let Some(reading) = self.value(part, SPEED)? {
                     return Ok(Some(reading.transferred(factor, SPEED.unit)));
                 }
@@ -501,17 +411,17 @@ impl<'m> Pair<'m> {
     }
 
     /// The torque or power of the driver, and its field.
-    fn load(&self) -> Result<Option<(&'static str, Reading)>, Problem> {
-        let factors = [1.0, 1.0 / self.ratio()];
-        for (gear, factor) in self.gears.into_iter().zip(factors) {
+    fn load(&self) -> Read<(&'static str, Reading)> {
+        let gears = || self.gears.into_iter().zip([1.0, 1.0 / self.ratio()]);
+        for (gear, factor) in gears() {
             for data in self.gear_data(gear) {
                 if let Some(torque) = self.acting(data, TORQUE_OF_GEAR, factor)? {
-                    return Ok(Some(torque));
+                    return Ok(Some((TORQUE, torque)));
                 }
             }
         }
-        for (gear, factor) in self.gears.into_iter().zip(factors) {
-            for shaft in self.shafts(gear)? {
+        for (gear, factor) in gears() {
+            for shaft in self.shafts(gear) {
                 if let Some(found) = self.load_on(shaft, factor)? {
                     return Ok(Some(found));
                 }
@@ -521,20 +431,17 @@ impl<'m> Pair<'m> {
     }
 
     /// The load on a shaft if the shaft has exactly one gear and one load.
-    fn load_on(
-        &self,
-        shaft: &Node,
-        factor: f64,
-    ) -> Result<Option<(&'static str, Reading)>, Problem> {
+    fn load_on(&self, shaft: &Node, factor: f64) -> Read<(&'static str, Reading)> {
         let parts = || self.index.related("assembly", ("assembly", &shaft.id), "part");
         if parts().filter(|part| part.kind.ends_with("gear")).count() != 1 {
             return Ok(None);
         }
         let mut loads = Vec::new();
         for part in parts().filter(|part| &*part.kind == "external_load") {
-            match self.acting(part, TORQUE, factor)? {
-                None => loads.extend(self.acting(part, POWER, 1.0)?),
-                torque => loads.extend(torque),
+            if let Some(torque) = self.acting(part, TORQUE_OF_LOAD, factor)? {
+                loads.push((TORQUE, torque));
+            } else if let Some(power) = self.acting(part, POWER_OF_LOAD, 1.0)? {
+                loads.push((POWER, power));
             }
         }
         if loads.len() > 1 {
@@ -544,14 +451,9 @@ impl<'m> Pair<'m> {
     }
 
     /// A load that is not zero, at the driver.
-    fn acting(
-        &self,
-        part: &Node,
-        source: Source,
-        factor: f64,
-    ) -> Result<Option<(&'static str, Reading)>, Problem> {
+    fn acting(&self, part: &Node, source: Source, factor: f64) -> Read {
         let load = self.value(part, source)?.filter(|load| load.value != 0.0);
-        Ok(load.map(|load| (source.field, load.transferred(factor, source.unit))))
+        Ok(load.map(|load| load.transferred(factor, source.unit)))
     }
 
     /// The data of a gear for this stage only.
@@ -565,16 +467,21 @@ impl<'m> Pair<'m> {
     }
 
     /// The shafts of a gear: one in a usual model.
-    fn shafts(&self, gear: &Node) -> Result<Vec<&'m Node>, Problem> {
-        const MOST: usize = 10;
+    fn shafts(&self, gear: &Node) -> Vec<&'m Node> {
         let assemblies = self.index.related("assembly", ("part", &gear.id), "assembly");
-        let shafts = assemblies.filter(|assembly| &*assembly.kind == "shaft");
-        let shafts: Vec<&Node> = shafts.take(MOST + 1).collect();
-        if shafts.len() > MOST {
-            return Err(format!("{} is on more than {MOST} shafts", gear.label()).into());
-        }
-        Ok(shafts)
+        assemblies.filter(|assembly| &*assembly.kind == "shaft").collect()
     }
+}
+
+/// The profile shift coefficient from the shift.
+fn coefficient(pair: &Pair, _: usize, shift: &Reading) -> Option<Reading> {
+    let module = pair.shared(MODULE).ok()??;
+    Some(shift.derived(1.0 / module.value, "", "the module and ", ""))
+}
+
+/// The radius from the diameter.
+fn half(_: &Pair, _: usize, diameter: &Reading) -> Option<Reading> {
+    Some(diameter.derived(0.5, "mm", "half of ", ""))
 }
 
 /// The length of a tip relief along the path of contact from its start diameter.
@@ -618,9 +525,12 @@ impl Reading {
 /// The first of two readings that must agree within the rounding of a printed value. One of them
 /// can be missing.
 fn agreed(first: Option<Reading>, second: Option<Reading>) -> Read {
-    let are_equal = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+    let are_equal = |first: &Reading, second: &Reading| {
+        let (a, b) = (first.value, second.value);
+        first.text == second.text || (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
+    };
     match (first, second) {
-        (Some(first), Some(second)) if !are_equal(first.value, second.value) => Err(Problem {
+        (Some(first), Some(second)) if !are_equal(&first, &second) => Err(Unread {
             words: format!(
                 "{} is {}, {} is {}",
                 first.source, first.text, second.source, second.text
@@ -633,23 +543,21 @@ fn agreed(first: Option<Reading>, second: Option<Reading>) -> Read {
 
 /// The value of an attribute in the unit of a case file.
 fn reading(attribute: &Node, usual: &str, source: String) -> Result<Reading, String> {
-    /// Greatest length of a number, in bytes.
-    const MOST_DIGITS: usize = 100;
+    /// Greatest length of a value, in bytes.
+    const LONGEST: usize = 100;
+    if attribute.value.len() > LONGEST {
+        return Err(format!("{source}: {} is too long", quoted(&attribute.value)));
+    }
+    if usual == TEXT {
+        return Ok(Reading { text: attribute.value.to_string(), value: f64::NAN, source });
+    }
     let unit = match &*attribute.unit {
         "none" | "" => usual,
-        "mum" | "µm" | "μm" => "um",
-        "°" => "deg",
-        "N / mm^2" => "MPa",
-        "kg / dm^3" => "kg/dm3",
-        "1 / min" => "rpm",
-        "rad / s" => "rad/s",
-        known if units::factor(known).is_some() => known,
-        unknown => return Err(format!("{source}: the unit {unknown:?} is unknown here")),
+        "mum" => "um",
+        other => units::symbol(other)
+            .ok_or_else(|| format!("{source}: the unit {other:?} is unknown here"))?,
     };
     let number = attribute.value.strip_suffix(".0").unwrap_or(&attribute.value);
-    if number.len() > MOST_DIGITS {
-        return Err(format!("{source}: {} is too long for a number", quoted(number)));
-    }
     let text = format!("{number} {unit}").trim_end().to_owned();
     let dimension = Dimension::of_unit(usual).unwrap_or(Dimension::Number);
     match units::parse(&text, dimension, usual) {

@@ -1,20 +1,17 @@
 //! A REXS model as a small tree, independent of its file format, and its index.
 
 use std::collections::HashMap;
-use std::fmt;
 
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer};
+use serde_json::value::RawValue;
 
-use super::{Refusal, within};
+use super::{Refusal, at, refusal, within};
 
-/// Greatest number of nodes with their values. It limits the memory of a model. A usual model has
+/// Greatest number of nodes. It limits the memory of a model. A usual model has
 /// 225,000 in 16 MiB.
 pub(super) const MOST_ENTRIES: usize = 250_000;
-const MOST_COMPONENTS: usize = 50_000;
 const MOST_STAGES: usize = 200;
-const MOST_REFS: usize = 100_000;
 const MOST_REFS_OF_RELATION: usize = 50;
 /// Greatest number of attributes, relations and load cases of one component.
 const MOST_OF_COMPONENT: usize = 1000;
@@ -102,7 +99,7 @@ impl Node {
 }
 
 /// The components of a model, their relations and their load cases by id.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Index<'m> {
     components: HashMap<&'m str, &'m Node>,
     relations: HashMap<&'m str, Vec<&'m Node>>,
@@ -113,13 +110,11 @@ pub(super) struct Index<'m> {
 impl<'m> Index<'m> {
     /// Refuses a model beyond the limits, and an id of two components.
     pub(super) fn of(model: &'m Model) -> Result<Index<'m>, Refusal> {
-        let mut components = HashMap::new();
-        let mut relations = HashMap::<_, Vec<&'m Node>>::new();
-        let mut loads = HashMap::<_, Vec<_>>::new();
+        let mut index = Index::default();
         check_limits(model)?;
         for component in &model.components {
-            if components.insert(&*component.id, component).is_some() {
-                return Err(Refusal::new(
+            if index.components.insert(&*component.id, component).is_some() {
+                return Err(refusal(
                     format!("two components have the id {:?}", component.id),
                     "correct the model, in which each component has its own id",
                 ));
@@ -127,7 +122,7 @@ impl<'m> Index<'m> {
         }
         for relation in &model.relations {
             for reference in &relation.nodes {
-                let known = relations.entry(&*reference.id).or_default();
+                let known = index.relations.entry(&*reference.id).or_default();
                 if known.last().is_none_or(|last| !std::ptr::eq(*last, relation)) {
                     known.push(relation);
                 }
@@ -136,12 +131,12 @@ impl<'m> Index<'m> {
         }
         for case in &model.load_cases {
             for component in &case.nodes {
-                let known = loads.entry(&*component.id).or_default();
+                let known = index.loads.entry(&*component.id).or_default();
                 known.push((case, component));
                 within(known.len(), MOST_OF_COMPONENT, "load cases of one component")?;
             }
         }
-        Ok(Index { components, relations, loads })
+        Ok(index)
     }
 
     pub(super) fn component(&self, id: &str) -> Option<&'m Node> {
@@ -187,30 +182,18 @@ pub(super) fn stages(model: &Model) -> impl Iterator<Item = &Node> {
 }
 
 fn check_limits(model: &Model) -> Result<(), Refusal> {
-    let most = |nodes: &mut dyn Iterator<Item = &Node>| {
-        nodes.map(|node| node.nodes.len()).max().unwrap_or_default()
-    };
-    let refs = model.relations.iter().map(|relation| relation.nodes.len());
-    let loaded = || model.load_cases.iter().flat_map(|case| &case.nodes);
+    let loaded = model.load_cases.iter().flat_map(|case| &case.nodes);
+    for component in model.components.iter().chain(loaded) {
+        within(component.nodes.len(), MOST_OF_COMPONENT, "attributes of one component")?;
+    }
+    for relation in &model.relations {
+        within(relation.nodes.len(), MOST_REFS_OF_RELATION, "references of one relation")?;
+    }
+    within(stages(model).count(), MOST_STAGES, "stages")?;
     let all = [&model.components, &model.relations, &model.load_cases].into_iter().flatten();
     let texts = [&model.version, &model.application, &model.application_version];
     let names = all.map(Node::longest_name).chain(texts.map(|text| text.len()));
-    for (count, limit, parts) in [
-        (model.components.len(), MOST_COMPONENTS, "components"),
-        (stages(model).count(), MOST_STAGES, "stages"),
-        (refs.sum(), MOST_REFS, "references of relations"),
-        (most(&mut model.relations.iter()), MOST_REFS_OF_RELATION, "references of one relation"),
-        (loaded().count(), MOST_COMPONENTS, "loaded components"),
-        (
-            most(&mut model.components.iter().chain(loaded())),
-            MOST_OF_COMPONENT,
-            "attributes of one component",
-        ),
-        (names.max().unwrap_or_default(), MOST_NAME, "bytes in a name"),
-    ] {
-        within(count, limit, parts)?;
-    }
-    Ok(())
+    within(names.max().unwrap_or_default(), MOST_NAME, "bytes in a name")
 }
 
 /// Reads a model from JSON.
@@ -223,8 +206,8 @@ pub(super) fn parse_json(text: &str) -> Result<Model, Refusal> {
     let file: File = serde_json::from_str(text).map_err(|error| {
         let words = error.to_string();
         let cause = words.split(" at line ").next().unwrap_or(&words);
-        Refusal::new(format!("this is not a REXS model in JSON: {cause}"), "export the model again")
-            .at(error.line(), error.column())
+        let cause = format!("this is not a REXS model in JSON: {cause}");
+        at(error.line(), error.column(), &refusal(cause, "export the model again"))
     })?;
     Ok(file.model)
 }
@@ -246,84 +229,30 @@ fn objects_and_lists(text: &str) -> usize {
 
 /// The text of a scalar. Empty for null, a list or an object, which take no memory.
 fn scalar<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Box<str>, D::Error> {
-    deserializer.deserialize_any(Scalar)
-}
-
-struct Scalar;
-
-impl<'de> Visitor<'de> for Scalar {
-    type Value = Box<str>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a value")
-    }
-
-    fn visit_str<E>(self, text: &str) -> Result<Box<str>, E> {
-        Ok(text.trim().into())
-    }
-
-    fn visit_bool<E>(self, value: bool) -> Result<Box<str>, E> {
-        Ok(value.to_string().into())
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Box<str>, E> {
-        Ok(value.to_string().into())
-    }
-
-    fn visit_u64<E>(self, value: u64) -> Result<Box<str>, E> {
-        Ok(value.to_string().into())
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Box<str>, E> {
-        Ok(serde_json::Value::from(value).to_string().into())
-    }
-
-    fn visit_unit<E>(self) -> Result<Box<str>, E> {
-        Ok("".into())
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Box<str>, A::Error> {
-        IgnoredAny.visit_seq(list).map(|_| "".into())
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Box<str>, A::Error> {
-        IgnoredAny.visit_map(object).map(|_| "".into())
+    let text = <&RawValue>::deserialize(deserializer)?.get();
+    match text.as_bytes().first() {
+        Some(b'"') => {
+            let text: String = serde_json::from_str(text).map_err(D::Error::custom)?;
+            Ok(text.trim().into())
+        }
+        Some(b'[' | b'{' | b'n') => Ok("".into()),
+        _ => Ok(text.into()),
     }
 }
 
 /// The load cases of one load spectrum or of a list of load spectra.
 fn load_cases<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Node>, D::Error> {
-    deserializer.deserialize_any(LoadCases)
-}
-
-#[derive(Deserialize)]
-struct Spectrum {
+    #[derive(Default, Deserialize)]
     #[serde(default)]
-    load_cases: Vec<Node>,
-}
-
-struct LoadCases;
-
-impl<'de> Visitor<'de> for LoadCases {
-    type Value = Vec<Node>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("an object or a list of objects")
+    struct Spectrum {
+        load_cases: Vec<Node>,
     }
-
-    fn visit_unit<E>(self) -> Result<Vec<Node>, E> {
-        Ok(Vec::new())
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<Node>, A::Error> {
-        let mut cases = Vec::new();
-        while let Some(spectrum) = list.next_element::<Spectrum>()? {
-            cases.extend(spectrum.load_cases);
-        }
-        Ok(cases)
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Vec<Node>, A::Error> {
-        Spectrum::deserialize(MapAccessDeserializer::new(object)).map(|only| only.load_cases)
-    }
+    let text = <&RawValue>::deserialize(deserializer)?.get();
+    let spectra: Result<Option<Vec<Spectrum>>, _> = if text.starts_with('{') {
+        serde_json::from_str(text).map(|only| Some(vec![only]))
+    } else {
+        serde_json::from_str(text)
+    };
+    let spectra = spectra.map_err(D::Error::custom)?.unwrap_or_default();
+    Ok(spectra.into_iter().flat_map(|spectrum| spectrum.load_cases).collect())
 }

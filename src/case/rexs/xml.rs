@@ -6,7 +6,7 @@ use quick_xml::events::{BytesRef, BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
 use super::model::{MOST_ENTRIES, Model, Node};
-use super::{Refusal, within};
+use super::{Refusal, at, refusal, within};
 
 /// Greatest number of elements and references, which need time but no memory.
 const MOST_ELEMENTS: usize = 2_000_000;
@@ -42,23 +42,24 @@ pub(super) fn parse(text: &str) -> Result<Model, Refusal> {
                 let before = usize::try_from(start).ok().and_then(|at| text.get(..at));
                 let before = before.unwrap_or(text);
                 let line = before.rsplit('\n').next().unwrap_or_default();
-                return Err(refusal.at(before.matches('\n').count() + 1, line.chars().count() + 1));
+                let place = (before.matches('\n').count() + 1, line.chars().count() + 1);
+                return Err(at(place.0, place.1, &refusal));
             }
         }
     }
 }
 
 fn malformed(cause: &dyn std::fmt::Display) -> Refusal {
-    Refusal::new(format!("this is not XML: {cause}"), "export the model again")
+    refusal(format!("this is not XML: {cause}"), "export the model again")
 }
 
 /// The model up to the current event.
 #[derive(Default)]
 struct State {
     model: Model,
-    /// The open elements by name, empty for unknown elements. An attribute has a node while it can
-    /// be scalar.
-    open: Vec<(&'static str, Option<Node>)>,
+    /// The open elements by name, empty for unknown elements and for attributes that are not
+    /// scalar.
+    open: Vec<&'static str>,
     /// The text of the open attribute.
     text: String,
     entries: usize,
@@ -77,14 +78,14 @@ impl State {
             Event::Start(element) => self.open(element)?,
             Event::Empty(element) => {
                 self.open(element)?;
-                self.close()?;
+                self.close();
             }
-            Event::End(_) => self.close()?,
+            Event::End(_) => self.close(),
             Event::Text(text) => self.add(text)?,
             Event::CData(text) => self.add(text)?,
             Event::GeneralRef(reference) => self.add(&referenced(reference)?)?,
             Event::DocType(_) => {
-                return Err(Refusal::new(
+                return Err(refusal(
                     "the file declares a document type, which may hide entities",
                     "remove the <!DOCTYPE ...> part",
                 ));
@@ -97,7 +98,7 @@ impl State {
     }
 
     fn open(&mut self, element: &BytesStart) -> Result<(), Refusal> {
-        let parent = self.open.last().map_or(ROOT, |(parent, _)| parent);
+        let parent = self.open.last().copied().unwrap_or(ROOT);
         let own = element.local_name();
         let known = ELEMENTS.iter().find(|(above, name)| *above == parent && *name == own.as_ref());
         let name = known.map_or("", |(_, name)| name);
@@ -106,73 +107,83 @@ impl State {
                 return Err(malformed(&"it has two root elements"));
             }
             if name.is_empty() {
-                return Err(Refusal::new(
+                return Err(refusal(
                     format!("the root element is {:?}", own.as_ref()),
                     "choose a REXS model, whose root element is \"model\"",
                 ));
             }
             self.has_root = true;
         }
-        if let Some((_, node)) = self.open.last_mut().filter(|(parent, _)| *parent == "attribute") {
-            *node = None;
+        if let Some(above) = self.open.last_mut().filter(|above| **above == "attribute") {
+            *above = "";
+            self.entries -= 1;
+            if let Some(nodes) = self.nodes("attribute") {
+                nodes.pop();
+            }
         }
         within(self.open.len() + 1, MOST_DEPTH, "nested elements")?;
-        let mut count = 0;
-        for attribute in element.attributes().with_checks(false) {
-            attribute.map_err(|error| malformed(&error))?;
-            count += 1;
-            within(count, MOST_XML_ATTRIBUTES, "attributes in one element")?;
-        }
+        self.open.push(name);
         self.text.clear();
-        let text = |name| attribute(element, name);
-        let node = match name {
-            "model" => {
-                self.model.version = text("version")?;
-                self.model.application = text("applicationId")?;
-                self.model.application_version = text("applicationVersion")?;
-                None
-            }
-            "" | "components" | "relations" | "load_spectrum" => None,
-            _ => Some(Node {
-                id: text("id")?,
-                kind: text("type")?,
-                name: text("name")?,
-                role: text("role")?,
-                unit: text("unit")?,
-                ..Node::default()
-            }),
-        };
-        self.open.push((name, node));
+        let mut node = Node::default();
+        for (count, attribute) in element.attributes().with_checks(false).enumerate() {
+            within(count + 1, MOST_XML_ATTRIBUTES, "attributes in one element")?;
+            let attribute = attribute.map_err(|error| malformed(&error))?;
+            let member = match attribute.key.as_ref() {
+                _ if name.is_empty() => continue,
+                "id" => &mut node.id,
+                "type" => &mut node.kind,
+                "name" => &mut node.name,
+                "role" => &mut node.role,
+                "unit" => &mut node.unit,
+                _ if name != "model" => continue,
+                "version" => &mut self.model.version,
+                "applicationId" => &mut self.model.application,
+                "applicationVersion" => &mut self.model.application_version,
+                _ => continue,
+            };
+            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
+            *member = value.map_err(|error| malformed(&error))?.trim().into();
+        }
+        if let Some(nodes) = self.nodes(name) {
+            nodes.push(node);
+            self.entries += 1;
+            within(self.entries, MOST_ENTRIES, "entries")?;
+        }
         Ok(())
     }
 
-    fn close(&mut self) -> Result<(), Refusal> {
-        let Some((name, Some(mut node))) = self.open.pop() else {
-            return Ok(());
-        };
-        if name == "attribute" {
-            node.value = self.text.trim().into();
-            if node.value.is_empty() {
-                return Ok(());
+    /// The list of the open element of this name.
+    fn nodes(&mut self, name: &str) -> Option<&mut Vec<Node>> {
+        let Model { components, relations, load_cases, .. } = &mut self.model;
+        let is_loaded = self.open.contains(&"load_case");
+        match name {
+            "load_case" => Some(load_cases),
+            "relation" => Some(relations),
+            "ref" => Some(&mut relations.last_mut()?.nodes),
+            "component" | "attribute" => {
+                let parts = if is_loaded { &mut load_cases.last_mut()?.nodes } else { components };
+                if name == "component" { Some(parts) } else { Some(&mut parts.last_mut()?.nodes) }
+            }
+            _ => None,
+        }
+    }
+
+    fn close(&mut self) {
+        if self.open.last() == Some(&"attribute") {
+            let value = self.text.trim().into();
+            if let Some(own) = self.nodes("attribute").and_then(|nodes| nodes.last_mut()) {
+                own.value = value;
             }
         }
-        let nodes = match self.open.last_mut() {
-            Some((_, Some(parent))) => &mut parent.nodes,
-            Some(("components", _)) => &mut self.model.components,
-            Some(("relations", _)) => &mut self.model.relations,
-            _ => &mut self.model.load_cases,
-        };
-        nodes.push(node);
-        self.entries += 1;
-        within(self.entries, MOST_ENTRIES, "entries")
+        self.open.pop();
     }
 
     fn add(&mut self, text: &str) -> Result<(), Refusal> {
-        match self.open.last_mut() {
+        match self.open.last() {
             None if !text.trim().is_empty() => {
                 return Err(malformed(&"it has text outside its root element"));
             }
-            Some(("attribute", Some(_))) => self.text.push_str(text),
+            Some(&"attribute") => self.text.push_str(text),
             _ => {}
         }
         Ok(())
@@ -188,13 +199,3 @@ fn referenced(reference: &BytesRef) -> Result<String, Refusal> {
     text.ok_or_else(|| malformed(&"it has an unknown entity"))
 }
 
-/// An attribute of an element, empty if it is not given.
-fn attribute(element: &BytesStart, name: &str) -> Result<Box<str>, Refusal> {
-    let mut given = element.attributes();
-    let mut given = given.with_checks(false).filter_map(Result::ok);
-    let Some(found) = given.find(|given| given.key.as_ref() == name) else {
-        return Ok("".into());
-    };
-    let value = found.normalized_value(XmlVersion::Implicit1_0);
-    Ok(value.map_err(|error| malformed(&error))?.trim().into())
-}

@@ -1,6 +1,6 @@
 //! Metric or inch units of shown results and hints. Files keep their units.
 
-use super::{Dimension, factor, find, parse, split_number, text, units_of};
+use super::{Dimension, factor, find, parse, split_number, units_of};
 use crate::numeric::decimal::significant;
 
 /// The units of shown values.
@@ -66,15 +66,9 @@ impl System {
         }
     }
 
-    /// The unit of this system that corresponds to a metric unit.
-    #[must_use]
-    pub fn unit(self, metric: &'static str) -> &'static str {
-        self.unit_of(metric)
-    }
-
     /// The unit of this system that corresponds to a written unit. Other units stay unchanged.
     #[must_use]
-    pub fn unit_of(self, written: &str) -> &str {
+    pub fn unit(self, written: &str) -> &str {
         let inch = PAIRS.iter().find(|(from, _)| *from == written);
         match inch {
             Some((_, inch)) if self == System::Inch => inch,
@@ -207,9 +201,7 @@ fn typed_digits(number: &str) -> usize {
 
 /// A value in SI converted to a unit, rounded, without trailing zeros.
 fn rounded(value: f64, unit: &str, digits: usize) -> String {
-    let exact = text(value, unit);
-    let number = exact.split(' ').next().unwrap_or_default();
-    let short = significant(number.parse().unwrap_or(f64::NAN), digits);
+    let short = significant(value / factor(unit).unwrap_or(1.0), digits);
     let (mantissa, exponent) =
         short.find('e').map_or((short.as_str(), ""), |at| short.split_at(at));
     let plain = if mantissa.contains('.') {

@@ -47,25 +47,23 @@ const fn family(dimension: Dimension, name: &'static str, units: &'static [Unit]
     Family { dimension, name, units }
 }
 
-/// The units of a dimension. Empty for a bare number.
-pub(super) fn units_of(dimension: Dimension) -> &'static [Unit] {
-    FAMILIES.iter().find(|family| family.dimension == dimension).map_or(&[], |family| family.units)
+/// The units and the name of a dimension.
+pub(super) fn family_of(dimension: Dimension) -> &'static Family {
+    &FAMILIES[dimension as usize]
 }
 
-/// The name of a value of the dimension with its article.
-pub(super) fn name_of(dimension: Dimension) -> &'static str {
-    FAMILIES
-        .iter()
-        .find(|family| family.dimension == dimension)
-        .map_or("a number", |family| family.name)
+/// The units of a dimension. Empty for a bare number.
+pub(super) fn units_of(dimension: Dimension) -> &'static [Unit] {
+    family_of(dimension).units
 }
 
 // Exact by definition: in = 25.4 mm, lb = 0.45359237 kg, standard gravity 9.80665 m/s2, hp = 550 ft
 // lbf/s, PS = 75 kgf m/s. Both parts of each factor come from rational arithmetic, with pi to 80
 // digits.
-/// Every dimension except the bare number.
+/// Every dimension, in the order of [`Dimension`].
 #[rustfmt::skip]
-pub(super) static FAMILIES: [Family; 17] = [
+pub(super) static FAMILIES: [Family; 18] = [
+    family(Dimension::Number, "a number", &[]),
     family(Dimension::Length, "a length", &[
         ten("mm", &[], -3),
         ten("um", &["micron", "microns"], -6),

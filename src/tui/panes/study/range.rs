@@ -110,7 +110,7 @@ impl RangeOf<'_> {
             _ => "",
         };
         let written = rows::written_unit(self.case, field);
-        match written.as_deref().map(|unit| self.units.unit_of(unit)) {
+        match written.as_deref().map(|unit| self.units.unit(unit)) {
             Some(unit) => unit.to_owned(),
             None => self.units.unit(usual).to_owned(),
         }
