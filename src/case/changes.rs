@@ -25,17 +25,13 @@ pub fn between(from: &Case, to: &Case) -> Vec<Change> {
     let find = |texts: &[(String, String)], key: &str| {
         texts.iter().find(|(own, _)| own == key).map(|(_, text)| text.clone())
     };
-    let mut keys: Vec<&String> = FIELDS
-        .iter()
-        .filter_map(|field| {
-            old.iter().chain(&new).map(|(key, _)| key).find(|key| *key == field.key)
-        })
-        .collect();
+    let mut keys: Vec<&String> = Vec::new();
     for (key, _) in old.iter().chain(&new) {
         if !keys.contains(&key) {
             keys.push(key);
         }
     }
+    keys.sort_by_key(|key| fields::index_of(key).unwrap_or(FIELDS.len()));
     let change =
         |key: &String| Change { key: key.clone(), from: find(&old, key), to: find(&new, key) };
     keys.into_iter().map(change).filter(|change| change.from != change.to).collect()

@@ -88,9 +88,8 @@ fn addition(field: &Field) -> Fix {
 fn neither_given(case: &Case, field: usize) -> Option<Problem> {
     let other = FIELDS[field].partner().filter(|&other| field < other)?;
     let (known, named) = (&FIELDS[field], &FIELDS[other]);
-    let is_missing = known.absent == Absent::Either
-        && case.text(field).is_none()
-        && case.text(other).is_none();
+    let is_missing =
+        known.absent == Absent::Either && case.text(field).is_none() && case.text(other).is_none();
     is_missing.then(|| {
         let cause = format!("neither {} nor {} is given", known.key, named.key);
         Problem::new(known.key, cause, addition(known))
@@ -215,30 +214,25 @@ fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> 
         return Ok(0);
     }
     let digits = text.strip_prefix('+').unwrap_or(text);
-    match digits.parse::<u32>() {
-        Ok(value) if value < from => Err(outside(known, text, "below", from, "")),
-        Ok(value) if value <= to => Ok(value),
-        _ if !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) => {
+    let is_whole = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let refused = |cause: String| {
+        let (range, example) = (known.range_text(), known.example());
+        let fix = format!("write a whole number from {range}, such as {example}");
+        Err(Problem::new(known.key, cause, fix))
+    };
+    match units::parse(text, Dimension::Number, "") {
+        Ok(value) if value < f64::from(from) && (is_whole || value < 0.0) => {
+            Err(outside(known, text, "below", from, ""))
+        }
+        Ok(value) if value > f64::from(to) && is_whole => {
             Err(outside(known, text, "above", to, ""))
         }
-        _ => Err(not_whole(known, text)),
-    }
-}
-
-fn not_whole(known: &Field, text: &str) -> Problem {
-    let example =
-        format!("write a whole number from {}, such as {}", known.range_text(), known.example());
-    match units::parse(text, Dimension::Number, "") {
-        Ok(value) if value < 0.0 => {
-            outside(known, text, "below", known.range_text().split(' ').next().unwrap_or("0"), "")
-        }
-        Ok(_) => {
-            Problem::new(known.key, format!("{} is not a whole number", quoted(text)), example)
-        }
+        Ok(value) if is_whole => Ok(value as u32),
+        Ok(_) => refused(format!("{} is not a whole number", quoted(text))),
         Err(misread) if matches!(units::split(text, ""), Ok((_, unit)) if !unit.is_empty()) => {
-            misread.at(known.key)
+            Err(misread.at(known.key))
         }
-        Err(misread) => Problem::new(known.key, misread.cause, example),
+        Err(misread) => refused(misread.cause),
     }
 }
 
@@ -426,7 +420,8 @@ pub fn unknown_key(key: &str) -> Problem {
 #[must_use]
 pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
     let name = quantity.trim();
-    let unknown = |fix: String| Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix);
+    let unknown =
+        |fix: String| Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix);
     let is_symbol = |known: &&Quantity| !name.is_empty() && known.symbol.eq_ignore_ascii_case(name);
     match QUANTITIES.iter().find(is_symbol) {
         Some(known) if known.symbol == name => {

@@ -141,9 +141,7 @@ fn text(bytes: &[u8]) -> Result<Cow<'_, str>, Refusal> {
     } else {
         std::str::from_utf8(bytes).ok().map(Cow::Borrowed)
     };
-    text.ok_or_else(|| {
-        refusal("the text of the model is not UTF-8", "export the model as UTF-8")
-    })
+    text.ok_or_else(|| refusal("the text of the model is not UTF-8", "export the model as UTF-8"))
 }
 
 fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {

@@ -7,10 +7,10 @@ use std::ops::Range;
 
 use super::FORMAT;
 use super::layout::{Entry, Layout, Place, Value};
+use crate::case::changes::texts;
 use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, index_of};
 use crate::case::sanitize::{is_hidden, sanitize};
 use crate::case::units::{self, Dimension};
-use crate::case::changes::texts;
 use crate::case::{Case, check, spread, variant};
 
 /// A value of a case as written in a file.

@@ -148,10 +148,8 @@ const ROWS: &[Row] = &[
     ]),
 ];
 
-const BACKLASHES: [Source; 2] = [
-    from(Stage, "minimum_normal_backlash", "mm"),
-    from(Stage, "maximum_normal_backlash", "mm"),
-];
+const BACKLASHES: [Source; 2] =
+    [from(Stage, "minimum_normal_backlash", "mm"), from(Stage, "maximum_normal_backlash", "mm")];
 const SPEED: Source = from(Gear, "rotational_speed", "rpm");
 const TORQUE_OF_GEAR: Source = from(Gear, "torque", "N m");
 const TORQUE_OF_LOAD: Source = from(Gear, "torque_around_u_axis", "N m");
@@ -377,9 +375,8 @@ impl<'m> Pair<'m> {
         if given.is_empty() {
             given = part.given(source.attribute).map(|own| (own, String::new())).collect();
         }
-        let read = |(own, case): &(&Node, String)| {
-            reading(own, source.unit, format!("{place}{case}"))
-        };
+        let read =
+            |(own, case): &(&Node, String)| reading(own, source.unit, format!("{place}{case}"));
         let read = given.iter().map(read).collect::<Result<Vec<Reading>, String>>()?;
         if read.iter().any(|other| other.text != read[0].text) {
             let texts = read.iter().zip(&given);
@@ -402,8 +399,8 @@ impl<'m> Pair<'m> {
     fn speed(&self) -> Read {
         for (gear, factor) in self.gears.into_iter().zip([1.0, self.ratio()]) {
             for part in std::iter::once(gear).chain(self.shafts(gear)) {
-                if let Some(reading) = self.value(part, SPEED)? {
-                    return Ok(Some(reading.transferred(factor, SPEED.unit)));
+                if let Some(speed) = self.acting(part, SPEED, factor)? {
+                    return Ok(Some(speed));
                 }
             }
         }
@@ -450,10 +447,10 @@ impl<'m> Pair<'m> {
         Ok(loads.pop())
     }
 
-    /// A load that is not zero, at the driver.
+    /// A speed or load that is not zero, at the driver.
     fn acting(&self, part: &Node, source: Source, factor: f64) -> Read {
-        let load = self.value(part, source)?.filter(|load| load.value != 0.0);
-        Ok(load.map(|load| load.transferred(factor, source.unit)))
+        let acting = self.value(part, source)?.filter(|reading| reading.value != 0.0);
+        Ok(acting.map(|reading| reading.transferred(factor, source.unit)))
     }
 
     /// The data of a gear for this stage only.
