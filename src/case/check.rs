@@ -260,12 +260,11 @@ fn rules(inputs: &Inputs) -> impl Iterator<Item = (Vec<&'static str>, Problem)> 
     let heights = Height::all(inputs).filter_map(move |height| {
         let key = |field: usize| FIELDS[field].key;
         let [teeth, shift, bore] = height.fields.map(key);
-        let (problem, others) = match height.outside_range(inputs.module) {
-            Some(problem) => (problem, vec![]),
-            None => {
-                let problem = height.bore_through_root(inputs.module, bore)?;
-                (problem, vec![key(height.coefficient), bore])
-            }
+        let (problem, others) = if let Some(problem) = height.outside_range(inputs.module) {
+            (problem, vec![])
+        } else {
+            let problem = height.bore_through_root(inputs.module, bore)?;
+            (problem, vec![key(height.coefficient), bore])
         };
         let size = ["pair.module", "pair.diametral_pitch", teeth, shift, key(height.diameter)];
         Some(([size.to_vec(), others].concat(), problem))

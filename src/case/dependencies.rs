@@ -272,7 +272,7 @@ fn acts(field: usize, inputs: &Inputs) -> bool {
     };
     // Without a speed every power gives the same infinite torque.
     let speed = if inputs.speed > 0.0 { inputs.speed } else { 1.0 };
-    let by = |&method: &Method| is_read(field, &Inputs { method, speed, ..inputs.clone() });
+    let by = |&method: &Method| is_read(field, &Inputs { speed, method, ..inputs.clone() });
     match FIELDS[field].read_when {
         Some(when) => when(inputs),
         None => methods.iter().any(by),

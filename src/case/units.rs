@@ -331,10 +331,9 @@ fn comma(text: &str) -> Problem {
     let is_short = written.split(',').nth(1).is_some_and(|rest| rest.len() == 3);
     let meant = match (written.rfind('.'), written.matches(',').count()) {
         (Some(point), _) if Some(point) > written.rfind(',') => with(Some('.')),
-        (Some(_), _) => with(Some(',')),
         (None, 2..) => with(None),
         (None, _) if is_short => format!("{} or {}", with(None), with(Some(','))),
-        (None, _) => with(Some(',')),
+        _ => with(Some(',')),
     };
     let fix = format!("write {meant}, not {}", cut(written));
     Problem::new("", "a comma inside a number", fix)

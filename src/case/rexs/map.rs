@@ -103,6 +103,7 @@ const MATERIAL: Place = Linked("material");
 const RACK: Place = Linked("rack_shaped_tool");
 const TIP_RELIEF: Place = Relief("tip_relief");
 const ROOT_RELIEF: Place = Relief("root_relief");
+const HALF: Convert = |_, _, diameter| Some(diameter.derived(0.5, "mm", "half of ", ""));
 /// The unit of a text.
 const TEXT: &str = "text";
 
@@ -118,7 +119,7 @@ const ROWS: &[Row] = &[
         from(Flanks, "addendum_modification_coefficient_after_finishing", ""),
     ]),
     row("face_width", Usual, &[from(Gear, "face_width", "mm")]),
-    row("bore_radius", Usual, &[from(Gear, "inner_diameter", "mm").by(half)]),
+    row("bore_radius", Usual, &[from(Gear, "inner_diameter", "mm").by(HALF)]),
     row("young", Usual, &[from(MATERIAL, "elastic_modulus", "MPa")]),
     row("poisson", Usual, &[from(MATERIAL, "poisson_ratio", "")]),
     row("density", Usual, &[from(MATERIAL, "density", "kg/dm3")]),
@@ -474,11 +475,6 @@ impl<'m> Pair<'m> {
 fn coefficient(pair: &Pair, _: usize, shift: &Reading) -> Option<Reading> {
     let module = pair.shared(MODULE).ok()??;
     Some(shift.derived(1.0 / module.value, "", "the module and ", ""))
-}
-
-/// The radius from the diameter.
-fn half(_: &Pair, _: usize, diameter: &Reading) -> Option<Reading> {
-    Some(diameter.derived(0.5, "mm", "half of ", ""))
 }
 
 /// The length of a tip relief along the path of contact from its start diameter.
