@@ -13,7 +13,8 @@ mod table;
 
 use table::{Row, Table};
 use tipstrike::model::inputs::Method;
-use tipstrike::report::svg::{Chart, Kind, Labelled, Scale, Series, chart};
+use tipstrike::report::chart::{Axis, Chart, Kind, Point, Series};
+use tipstrike::report::svg;
 use tipstrike::report::trade::{plotted_error, power_of_time};
 use tipstrike::study::trade::{METHODS, STEADY, Setting, Subject};
 
@@ -88,25 +89,23 @@ fn picture(table: &Table) -> String {
             });
             let points = settings.iter().filter_map(|setting| {
                 let row: &Row = table.0.iter().find(|row| row.setting == setting.to_string())?;
-                let place = (row.seconds?, plotted_error(row.errors[error]?.0));
-                Some((place, *setting == usual))
+                let error = plotted_error(row.errors[error]?.0);
+                Some(((row.seconds?.log10(), error.log10()), *setting == usual))
             });
             let (points, are_usual): (Vec<_>, Vec<bool>) = points.unzip();
             let usual = are_usual.iter().position(|is_usual| *is_usual);
             Series { name, pieces: vec![points], kind: Kind::Marks(usual) }
         })
         .collect();
-    let axis = |label: &str, tick: fn(f64) -> String| Labelled {
-        label: label.to_owned(),
-        scale: Scale::Logarithmic,
-        tick: Some(tick),
+    let axis = |name: &str, of: fn(&Point) -> f64, label: fn(f64) -> String| {
+        let points = series.iter().flat_map(|series| series.pieces.iter().flatten());
+        Axis::logarithmic(name, points.map(of), label)
     };
-    chart(&Chart {
+    let up = "relative error of the curve (stations), the numbers (tolerance)";
+    svg::draw(&Chart {
         title: "Numerical error against time: median over the cases of cases/".to_owned(),
-        across: axis("time of a whole solve", power_of_time),
-        up: axis("relative error of the curve (stations), the numbers (tolerance)", |error| {
-            format!("{error:.0e}")
-        }),
+        across: axis("time of a whole solve", |point| point.0, power_of_time),
+        up: axis(up, |point| point.1, |error| format!("{error:.0e}")),
         series,
         marks: Vec::new(),
     })

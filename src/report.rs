@@ -1,6 +1,7 @@
 //! Reports: the results of a solve as text, tables, data and pictures.
 
 pub mod absence;
+pub mod chart;
 pub mod charts;
 pub mod compare;
 pub mod data;

@@ -1,13 +1,13 @@
-//! The charts of solved cases as pictures.
+//! The charts of solved cases.
 
 use std::f64::consts::PI;
 
 use super::Report;
+use super::chart::{Axis, Chart, Kind, Point, Series};
 use super::digest::rounded;
 use super::graphs::Graph;
 use super::stations::{Column, Row, rows};
 use super::stiffness::no_field;
-use super::svg::{Chart, Kind, Labelled, Series, chart};
 use crate::case::units;
 use crate::model::compliance::model_of;
 use crate::model::dynamic::speeds::{AtSpeed, SpeedCurve};
@@ -16,161 +16,168 @@ use crate::model::spacing::Spacing;
 use crate::model::static_spectrum::Spectrum;
 use crate::model::{Inputs, Outcome, Refusal, Solution, contact_state};
 use crate::numeric::decimal::significant;
-use crate::study::stiffness::{
-    FIELD, FLANK_POINTS, Flanks, GearComparison, PATH_POINTS, Point as FlankPoint, compare_flanks,
-    compare_path,
-};
+use crate::study::stiffness::{FIELD, Flanks, GearComparison, PathComparison, Point as FlankPoint};
 
 /// A longer interval between stations, in requested intervals, is a gap in the curve.
 const LEFT_OUT: f64 = 1.5;
 
-/// A solved case, by a name in the legend.
-#[derive(Debug, Clone, Copy)]
-pub struct SolvedCase<'a> {
-    /// The name of the case; empty for a single case.
-    pub name: &'a str,
+/// The results of a case that charts show.
+#[derive(Debug, Default)]
+pub struct Solved {
     /// The solve by the method of the case and, for charts that this method lacks, a solve by
     /// another method.
-    pub reports: &'a [Report],
+    pub reports: Vec<Report>,
+    /// Why the other method refuses the case.
+    pub refusal: Option<Refusal>,
+    /// The mesh stiffness by every compliance model, if computed.
+    pub path: Option<Result<PathComparison, Refusal>>,
+    /// The tooth compliances, if computed.
+    pub flanks: Option<Result<Flanks, Refusal>>,
     /// The dynamic factor over speed, if computed.
-    pub speeds: Option<&'a SpeedCurve>,
+    pub speeds: Option<SpeedCurve>,
 }
 
-/// A point of a curve: the driver's roll angle after E in deg, and the value.
-pub type Point = (f64, f64);
+/// A case by its name in the legend; the name is empty for a single case.
+pub type NamedCase<'a> = (&'a str, &'a Solved);
 
-/// Draws the chart; `None` if no case has a curve.
-#[must_use]
-pub fn picture(graph: &Graph, cases: &[SolvedCase]) -> Option<String> {
-    if let Some(column) = graph.by_model {
-        return stiffness(graph, column, cases);
+impl Solved {
+    /// Adds a solve by another method for the charts that the method of the case lacks: `static`
+    /// after a closed form, `exact` after a method that shares the load.
+    #[must_use]
+    pub fn with_other_method(report: Report) -> Solved {
+        let inputs = Inputs { method: other_method(&report), ..report.inputs.clone() };
+        let other = Report::solve(
+            report.name.clone(),
+            report.case.clone(),
+            inputs,
+            report.selection.clone(),
+        );
+        let (other, refusal) = match other {
+            Ok(other) => (Some(other), None),
+            Err(refusal) => (None, Some(refusal)),
+        };
+        let reports = std::iter::once(report).chain(other).collect();
+        Solved { reports, refusal, ..Solved::default() }
     }
-    let found: Vec<_> = cases
-        .iter()
-        .filter_map(|case| {
-            let mut reports = case.reports.iter();
-            reports.find_map(|report| Some((label(case, report), report, curve(graph, report)?)))
-        })
-        .collect();
-    let (_, first, _) = found.first()?;
-    let column = graph.column(first.solution.method)?;
-    let unit = shown_unit(column.shown);
-    let marks = marks(&first.solution);
-    let bound = if found.len() == 1 { bound(graph, first) } else { None };
-    let series =
-        found.into_iter().map(|(name, _, pieces)| Series { name, pieces, kind: Kind::Curve });
-    Some(chart(&Chart {
-        title: graph.label.to_owned(),
-        across: Labelled::linear("driver roll angle after E, deg"),
-        up: Labelled::linear(if unit.is_empty() {
-            format!("{} {}", graph.label, column.symbol)
-        } else {
-            format!("{} {}, {unit}", graph.label, column.symbol)
-        }),
-        series: series.chain(bound).collect(),
-        marks,
-    }))
-}
 
-/// Why a chart has no curve for a case.
-pub(super) fn absence(graph: &Graph, reports: &[Report]) -> String {
-    let has = |method: Method| graph.column(method).is_some();
-    match reports.first().filter(|_| graph.by_model.is_some()) {
-        Some(own) => match compare_path(&own.inputs, PATH_POINTS) {
-            Err(refusal) => refusal.to_string(),
-            Ok(_) => "no compliance model covers the pair".to_owned(),
-        },
-        None => absent_of_methods(has, reports),
+    /// The solve by the method of the case.
+    #[must_use]
+    pub fn own(&self) -> Option<&Report> {
+        self.reports.first()
     }
-}
 
-/// Why a case lacks values that only some methods compute.
-pub(super) fn absent_of_methods(has: impl Fn(Method) -> bool, reports: &[Report]) -> String {
-    let Some(own) = reports.first() else {
-        return "no case is solved".to_owned();
-    };
-    let solved = reports.iter().find(|report| has(report.solution.method));
-    match solved {
-        Some(report) if report.solution.outcome == Outcome::NoCornerContact => {
-            "no corner contact is found".to_owned()
+    /// Why the case lacks values that only some methods compute.
+    fn absence(&self, has: impl Fn(Method) -> bool) -> String {
+        let solved = self.reports.iter().find(|report| has(report.solution.method));
+        match (solved, self.own(), &self.refusal) {
+            (Some(report), ..) if report.solution.outcome == Outcome::NoCornerContact => {
+                "no corner contact is found".to_owned()
+            }
+            (Some(report), ..) => {
+                format!("method {} finds no values", report.solution.method.name())
+            }
+            (None, Some(own), Some(refusal)) => {
+                format!("method {} refuses the case: {refusal}", other_method(own).name())
+            }
+            (None, Some(own), None) => {
+                format!("method {} has no such values", own.solution.method.name())
+            }
+            (None, None, _) => "no case is solved".to_owned(),
         }
-        Some(report) => format!("method {} finds no values", report.solution.method.name()),
-        None => match solve_by_other_method(own) {
-            Err(refusal) => format!("method {} refuses the case: {refusal}", other(own).name()),
-            Ok(_) => format!("method {} has no such values", own.solution.method.name()),
-        },
     }
+}
+
+fn other_method(report: &Report) -> Method {
+    if report.solution.method.shares_load() { Method::Exact } else { Method::Static }
+}
+
+/// The chart of a value over the roll angle.
+///
+/// # Errors
+/// The reason why the first case has no curve, if no case has one.
+pub fn graph_chart(graph: &Graph, cases: &[NamedCase]) -> Result<Chart, String> {
+    let mut chart = match graph.by_model {
+        Some(column) => Chart {
+            up: axis_of(graph, column),
+            series: stiffness(column, cases)?,
+            marks: vec![(0.0, "E")],
+            ..Chart::default()
+        },
+        None => stations_chart(graph, cases)?,
+    };
+    graph.label.clone_into(&mut chart.title);
+    chart.across = Axis::new("driver roll angle after E", "deg");
+    Ok(chart)
+}
+
+/// The chart of a column of the stations.
+fn stations_chart<'a>(graph: &Graph, cases: &[NamedCase<'a>]) -> Result<Chart, String> {
+    let curve = |report: &Report| {
+        let column = graph.column(report.solution.method)?;
+        lines(report, column.shown, |row| column.of(row))
+    };
+    let of_case = |&(name, case): &NamedCase<'a>| {
+        let (report, pieces) =
+            case.reports.iter().find_map(|report| Some((report, curve(report)?)))?;
+        let method = format!("method {}", report.solution.method.name());
+        Some((report, Series { name: of(name, &method), pieces, kind: Kind::Curve }))
+    };
+    let (reports, mut series): (Vec<_>, Vec<_>) = cases.iter().filter_map(of_case).unzip();
+    let first =
+        reports.first().and_then(|first| Some((first, graph.column(first.solution.method)?)));
+    let Some((first, column)) = first else {
+        let absence = |(_, case): &NamedCase| case.absence(|method| graph.column(method).is_some());
+        return Err(cases.first().map(absence).unwrap_or_default());
+    };
+    if series.len() == 1 {
+        series.extend(bound(graph, column, first));
+    }
+    let up = axis_of(graph, column);
+    Ok(Chart { up, series, marks: marks(&first.solution), ..Chart::default() })
+}
+
+fn axis_of(graph: &Graph, column: &Column) -> Axis {
+    Axis::new(format!("{} {}", graph.label, column.symbol), column.shown)
+}
+
+/// A name, after the name of its case if there are several.
+fn of(case: &str, name: &str) -> String {
+    if case.is_empty() { name.to_owned() } else { format!("{case}, {name}") }
 }
 
 /// The mesh stiffness: by every compliance model for one case, by the model of each case for
 /// several.
-fn stiffness(graph: &Graph, column: &Column, cases: &[SolvedCase]) -> Option<String> {
+fn stiffness(column: &Column, cases: &[NamedCase]) -> Result<Vec<Series>, String> {
     let factor = units::factor(column.shown).unwrap_or(1.0);
-    let mut series = Vec::new();
-    for case in cases {
-        let Some(report) = case.reports.first() else {
-            continue;
-        };
-        let Ok(found) = compare_path(&report.inputs, PATH_POINTS) else {
-            continue;
-        };
-        let own = model_of(&report.inputs);
-        for (at, model) in found.models.iter().enumerate() {
-            let points: Vec<_> = found.mesh_curve(at).collect();
-            if points.len() < 2 || (cases.len() > 1 && *model != own) {
+    let (mut series, mut absence) = (Vec::new(), None);
+    for (case, solved) in cases {
+        let (report, found) = match (solved.own(), &solved.path) {
+            (Some(report), Some(Ok(found))) => (report, found),
+            (_, Some(Err(refusal))) => {
+                absence = absence.or(Some(refusal.to_string()));
                 continue;
             }
-            let name = stiffness_name(*model, own);
-            series.push(Series {
-                name: if case.name.is_empty() {
-                    name
-                } else {
-                    format!("{}, {}", case.name, model.name())
-                },
-                pieces: vec![
-                    points
-                        .into_iter()
-                        .map(|(angle, value)| (angle.to_degrees(), value / factor))
-                        .collect(),
-                ],
-                kind: Kind::Curve,
-            });
+            _ => continue,
+        };
+        let own = model_of(&report.inputs);
+        for (at, &model) in found.models.iter().enumerate() {
+            let points = found.mesh_curve(at);
+            let points = points.map(|(angle, value)| (angle.to_degrees(), value / factor));
+            let points: Vec<Point> = points.collect();
+            if points.len() < 2 || (cases.len() > 1 && model != own) {
+                continue;
+            }
+            let field = if model.model().has_coupling { ", elastic field" } else { "" };
+            let is_own = if model == own { " (case)" } else { "" };
+            let name = match *case {
+                "" => format!("{}{field}{is_own}", model.name()),
+                case => of(case, model.name()),
+            };
+            series.push(Series { name, pieces: vec![points], kind: Kind::Curve });
         }
     }
-    let unit = shown_unit(column.shown);
-    (!series.is_empty()).then(|| {
-        chart(&Chart {
-            title: graph.label.to_owned(),
-            across: Labelled::linear("driver roll angle after E, deg"),
-            up: Labelled::linear(format!("{} {}, {unit}", graph.label, column.symbol)),
-            series,
-            marks: vec![(0.0, "E")],
-        })
-    })
-}
-
-/// The name of the curve of a model; it marks the elastic field and the model of the case.
-#[must_use]
-pub fn stiffness_name(model: ToothCompliance, own: ToothCompliance) -> String {
-    let field = if model.model().has_coupling { ", elastic field" } else { "" };
-    let case = if model == own { " (case)" } else { "" };
-    format!("{}{field}{case}", model.name())
-}
-
-fn label(case: &SolvedCase, report: &Report) -> String {
-    let method = report.solution.method.name();
-    if case.name.is_empty() {
-        format!("method {method}")
-    } else {
-        format!("{}, method {method}", case.name)
-    }
-}
-
-fn shown_unit(unit: &'static str) -> String {
-    match unit {
-        "1" => String::new(),
-        other => other.replace("um", "µm"),
-    }
+    let none = || absence.unwrap_or_else(|| "no compliance model covers the pair".to_owned());
+    if series.is_empty() { Err(none()) } else { Ok(series) }
 }
 
 /// Marks at E and at the first contact D.
@@ -181,24 +188,14 @@ fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
     contact.into_iter().chain([(0.0, "E")]).collect()
 }
 
-fn curve(graph: &Graph, report: &Report) -> Option<Vec<Vec<Point>>> {
-    let column = graph.column(report.solution.method)?;
-    lines(report, column.shown, |row| column.of(row))
-}
-
-fn bound(graph: &Graph, report: &Report) -> Option<Series> {
-    let bound = graph.bound?;
-    let solution = &report.solution;
-    let column = graph.column(solution.method)?;
+fn bound(graph: &Graph, column: &Column, report: &Report) -> Option<Series> {
+    let (bound, solution) = (graph.bound?, &report.solution);
     let pieces = lines(report, column.shown, |row| (bound.value)(solution, row))?;
-    Some(Series {
-        name: bound.symbols[usize::from(solution.method.shares_load())].to_owned(),
-        pieces,
-        kind: Kind::Bound,
-    })
+    let name = bound.symbols[usize::from(solution.method.shares_load())].to_owned();
+    Some(Series { name, pieces, kind: Kind::Bound })
 }
 
-/// A curve as line series; empty without a curve.
+/// A curve as line series; `None` without a line.
 fn lines(
     report: &Report,
     unit: &'static str,
@@ -256,64 +253,44 @@ fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     }
 }
 
-/// The solve of a case, with a solve by another method for the charts that the method of the case
-/// lacks: `static` after a closed form, `exact` after a method that shares the load.
-#[must_use]
-pub fn with_other_method(report: Report) -> Vec<Report> {
-    let beside = solve_by_other_method(&report);
-    std::iter::once(report).chain(beside.ok()).collect()
-}
-
-fn other(report: &Report) -> Method {
-    if report.solution.method.shares_load() { Method::Exact } else { Method::Static }
-}
-
-fn solve_by_other_method(report: &Report) -> Result<Report, Refusal> {
-    let inputs = Inputs { method: other(report), ..report.inputs.clone() };
-    Report::solve(report.name.clone(), report.case.clone(), inputs, report.selection.clone())
-}
-
 /// The key of the chart of harmonics.
 pub const SPECTRUM: &str = "spectrum";
 /// The key of the chart over speed.
 pub const SPEED: &str = "speed";
 
-/// A curve over speed with the name of its case; the name is empty for a single case.
-pub type NamedCurve<'a> = (&'a str, &'a SpeedCurve);
-
 /// Spectra by their names in the legend.
 pub type NamedSpectra = Vec<(String, Spectrum)>;
 
-/// Draws the harmonics of the transmission error at rest and in steady motion; `None` if no case
-/// has them.
-#[must_use]
-pub fn spectrum(cases: &[SolvedCase]) -> Option<String> {
+/// The chart of the harmonics of the transmission error at rest and in steady motion.
+///
+/// # Errors
+/// The reason why the first case has no spectrum, if no case has one.
+pub fn spectrum_chart(cases: &[NamedCase]) -> Result<Chart, String> {
+    let has_mesh = |report: &&Report| matches!(report.solution.static_spectrum, Some(Ok(_)));
+    let of_case = |(name, case): &NamedCase| {
+        let report = case.reports.iter().find(has_mesh);
+        report.map_or_else(Vec::new, |report| spectra(name, &report.solution))
+    };
     let all: NamedSpectra = cases.iter().flat_map(of_case).collect();
-    spectrum_chart(all).map(|drawn| chart(&drawn))
+    let absence = || cases.first().map(|(_, case)| case.absence(Method::shares_load));
+    if all.is_empty() { Err(absence().unwrap_or_default()) } else { Ok(chart_of_spectra(all)) }
 }
 
-/// The chart of harmonics; `None` without a spectrum.
+/// The chart of harmonics.
 #[must_use]
-pub fn spectrum_chart(all: NamedSpectra) -> Option<Chart> {
-    let slots = all.len();
-    let bars = all.into_iter().enumerate().map(|(slot, (name, spectrum))| {
+pub fn chart_of_spectra(all: NamedSpectra) -> Chart {
+    let bars = all.into_iter().map(|(name, spectrum)| {
         let amplitudes = (1..).zip(spectrum.amplitudes);
         let points = amplitudes.map(|(order, amplitude)| (f64::from(order), amplitude * 1e6));
-        Series { name, pieces: vec![points.collect()], kind: Kind::Bars(slot, slots) }
+        Series { name, pieces: vec![points.collect()], kind: Kind::Bars }
     });
-    (slots > 0).then(|| Chart {
+    Chart {
         title: "Harmonics of the transmission error".to_owned(),
-        across: Labelled::linear("harmonic of the mesh frequency"),
-        up: Labelled::linear("amplitude, µm"),
+        across: Axis::new("harmonic of the mesh frequency", ""),
+        up: Axis::new("Transmission error, amplitude", "um"),
         series: bars.collect(),
         marks: Vec::new(),
-    })
-}
-
-fn of_case(case: &SolvedCase) -> NamedSpectra {
-    let has_mesh = |report: &&Report| matches!(report.solution.static_spectrum, Some(Ok(_)));
-    let report = case.reports.iter().find(has_mesh);
-    report.map_or_else(Vec::new, |report| spectra(case.name, &report.solution))
+    }
 }
 
 /// The spectra of a case: at rest and, if the motion is steady, in motion. A named case has only
@@ -335,22 +312,19 @@ fn in_motion(solution: &Solution) -> Option<Spectrum> {
     Some(solution.steady.as_ref()?.as_ref().ok()?.spectrum)
 }
 
-/// Draws the dynamic factor of a tooth over speed; `None` without a curve.
-#[must_use]
-pub fn speed(curves: &[NamedCurve]) -> Option<String> {
-    speed_chart(curves).map(|drawn| chart(&drawn))
-}
-
-/// The chart over speed, with the speed and the resonances of a single case; `None` without a
-/// curve.
-#[must_use]
-pub fn speed_chart(curves: &[NamedCurve]) -> Option<Chart> {
+/// The chart of the dynamic factor over speed, with the speed and the resonances of a single case.
+///
+/// # Errors
+/// The reason if no case has a curve.
+pub fn speed_chart(curves: &[(&str, &SpeedCurve)]) -> Result<Chart, String> {
     let series: Vec<Series> = curves.iter().flat_map(|curve| runs(*curve)).collect();
-    let has_points = series.iter().any(|series| !series.pieces.is_empty());
-    has_points.then(|| Chart {
+    if series.is_empty() {
+        return Err("the motion does not become steady: give a greater model.damping_ratio".into());
+    }
+    Ok(Chart {
         title: "Dynamic factor of a tooth over speed, torque of the case".to_owned(),
-        across: Labelled::linear("speed of the driver, rpm; N = mesh/natural frequency"),
-        up: Labelled::linear("largest tooth force / that at rest"),
+        across: Axis::new("speed of the driver", "rpm; N = mesh/natural frequency"),
+        up: Axis::new("Dynamic factor: force / that at rest", ""),
         series,
         // Each of several cases has its own resonance and speed.
         marks: match curves {
@@ -374,42 +348,41 @@ fn rpm(speed: f64) -> f64 {
 }
 
 /// The run-up, the run-down if its motion differs, and the points with loss of contact.
-fn runs((name, curve): NamedCurve) -> Vec<Series> {
+fn runs((name, curve): (&str, &SpeedCurve)) -> Vec<Series> {
     let called = |run: &str, peak: Option<&AtSpeed>| {
-        let case = if name.is_empty() { String::new() } else { format!("{name}, ") };
         let peak = peak.map(|peak| {
             let factor = significant(peak.tooth_factor, 3);
             format!(": peak {factor} at {} rpm", rounded(rpm(peak.speed)))
         });
-        format!("{case}{run}{}", peak.unwrap_or_default())
+        of(name, &(run.to_owned() + &peak.unwrap_or_default()))
     };
     let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
     let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
     let way = if jumps.is_empty() { "speed rising or falling" } else { "speed rising" };
-    let up = called(way, curve.peak_rising());
-    let up = Series {
-        name: up,
-        pieces: unbroken(curve.up.iter().map(Option::as_ref)),
-        kind: Kind::Curve,
-    };
     let down = curve.down.iter().map(|point| point.as_ref().filter(|point| is_jump(point)));
-    let down = Series {
-        name: called("speed falling", curve.peak_falling()),
-        pieces: unbroken(down),
-        kind: Kind::Curve,
-    };
-    let lost = Series {
-        name: "contact lost".to_owned(),
-        pieces: lost(curve, &jumps),
-        kind: Kind::Marks(None),
-    };
-    let all = [up, down, lost];
+    let all = [
+        Series {
+            name: called(way, curve.peak_rising()),
+            pieces: unbroken(curve.up.iter().map(Option::as_ref)),
+            kind: Kind::Curve,
+        },
+        Series {
+            name: called("speed falling", curve.peak_falling()),
+            pieces: unbroken(down),
+            kind: Kind::Curve,
+        },
+        Series {
+            name: "contact lost".to_owned(),
+            pieces: lost(curve, &jumps),
+            kind: Kind::Marks(None),
+        },
+    ];
     all.into_iter().filter(|series| !series.pieces.is_empty()).collect()
 }
 
 /// The points with loss of contact: of neighbouring points the first and every fifth, so that the
 /// curve between them is visible.
-fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<(f64, f64)>> {
+fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<Point>> {
     const STRIDE: usize = 5;
     let of_run = |run: &[Option<AtSpeed>], counts: &dyn Fn(&AtSpeed) -> bool| {
         let is_lost = |point: &&AtSpeed| point.contact_lost && counts(point);
@@ -422,21 +395,12 @@ fn lost(curve: &SpeedCurve, jumps: &[AtSpeed]) -> Vec<Vec<(f64, f64)>> {
     found
 }
 
-fn place(point: &AtSpeed) -> (f64, f64) {
-    (rpm(point.speed), point.tooth_factor)
-}
-
 /// Groups of neighbouring points.
-fn unbroken<'a>(points: impl Iterator<Item = Option<&'a AtSpeed>>) -> Vec<Vec<(f64, f64)>> {
-    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
-    for point in points {
-        match (point, pieces.last_mut()) {
-            (Some(point), Some(piece)) => piece.push(place(point)),
-            _ => pieces.push(Vec::new()),
-        }
-    }
-    pieces.retain(|piece| !piece.is_empty());
-    pieces
+fn unbroken<'a>(points: impl Iterator<Item = Option<&'a AtSpeed>>) -> Vec<Vec<Point>> {
+    let place = |point: Option<&AtSpeed>| {
+        point.map_or((0.0, None), |point| (rpm(point.speed), Some(point.tooth_factor)))
+    };
+    pieces(points.map(place), f64::INFINITY)
 }
 
 /// The keys of the charts of the driver and of the driven gear.
@@ -446,62 +410,43 @@ const MILLIMETRE: f64 = 1e-3;
 /// The factor from um mm/N to m²/N.
 const MICRON_MILLIMETRE: f64 = 1e-9;
 
-/// Draws a gear of a pair, the driver if `gear` is 0.
+/// The chart of the tooth compliance of a gear, the driver if `gear` is 0: first the finite
+/// elements, which the models are compared with. A model without values has an empty curve.
 ///
 /// # Errors
-/// The reason why the gear has no chart.
-pub fn tooth_picture(gear: usize, inputs: &Inputs) -> Result<String, String> {
-    let found = compare_flanks(inputs, FLANK_POINTS);
-    let flanks = found.map_err(|refusal| refusal.to_string())?;
-    let drawn = tooth_chart(gear, &flanks, model_of(inputs));
-    drawn.map_or_else(|| Err(tooth_absence(gear, &flanks)), |drawn| Ok(chart(&drawn)))
-}
-
-/// Why a gear has no chart.
-#[must_use]
-pub fn tooth_absence(gear: usize, flanks: &Flanks) -> String {
-    match flanks.gears.get(gear) {
-        Some(found) if found.points.is_empty() => {
-            format!("the {} has no involute between form circle and tip", gear_name(gear))
-        }
-        _ => format!("no compliance model covers the {}", gear_name(gear)),
-    }
-}
-
-/// The chart of a gear of a pair: first the finite elements, which the models are compared with. A
-/// model without values has an empty curve. `None` if no model has a value.
-#[must_use]
-pub fn tooth_chart(gear: usize, flanks: &Flanks, own: ToothCompliance) -> Option<Chart> {
-    let found = flanks.gears.get(gear)?;
+/// The reason if no model has a value.
+pub fn tooth_chart(gear: usize, flanks: &Flanks, own: ToothCompliance) -> Result<Chart, String> {
+    let (found, name) = (&flanks.gears[gear.min(1)], ["driver", "driven gear"][gear.min(1)]);
     let half_width = significant(flanks.contact_half_width / MILLIMETRE, 3);
-    let depth = |point: &FlankPoint| point.field.map(|field| field.depth);
-    let surface = |point: &FlankPoint| point.field.map(|field| field.surface);
     let remark = no_field(found).unwrap_or_else(|| "without contact".to_owned());
     let field = named(FIELD, own.name() == FIELD, Some(remark));
     let contact = format!("surface, {FIELD} with contact of half-width {half_width} mm");
-    let field = [series(found, field, depth), series(found, contact, surface)];
-    let models = flanks.models.iter().enumerate().map(|(at, &model)| {
+    let mut all = vec![
+        series(found, field, |point| point.field.map(|field| field.depth)),
+        series(found, contact, |point| point.field.map(|field| field.surface)),
+    ];
+    for (at, &model) in flanks.models.iter().enumerate() {
         let gap = found.gaps.iter().find(|gap| gap.model == model);
         let is_empty = found.points.iter().all(|point| point.models[at].is_none());
         let missing = if is_empty { "no value" } else { "gaps" };
         let remark = gap.map(|gap| format!("{missing}: {}", gap.reason));
-        let name = named(model.name(), model == own, remark);
-        series(found, name, move |point| point.models[at])
-    });
-    let series: Vec<Series> = field.into_iter().chain(models).collect();
-    let has_points = series.iter().any(|series| !series.pieces.is_empty());
-    has_points.then(|| Chart {
-        title: format!("Tooth compliance of the {}", gear_name(gear)),
-        across: Labelled::linear("radius, mm"),
-        up: Labelled::linear("tooth compliance q, µm mm/N"),
-        series,
+        all.push(series(found, named(model.name(), model == own, remark), |point| {
+            point.models[at]
+        }));
+    }
+    if found.points.is_empty() {
+        return Err(format!("the {name} has no involute between form circle and tip"));
+    }
+    if all.iter().all(|series| series.pieces.is_empty()) {
+        return Err(format!("no compliance model covers the {name}"));
+    }
+    Ok(Chart {
+        title: format!("Tooth compliance of the {name}"),
+        across: Axis::new("radius", "mm"),
+        up: Axis::new(format!("Tooth compliance q of the {name}"), "um mm/N"),
+        series: all,
         marks: vec![(found.pitch_radius / MILLIMETRE, "C")],
     })
-}
-
-/// The name of a gear in a sentence.
-fn gear_name(gear: usize) -> &'static str {
-    ["driver", "driven gear"][gear.min(1)]
 }
 
 /// The name of a curve: the model, whether the case uses it, and a remark.

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use super::charts::with_other_method;
+use super::charts::Solved;
 use super::page::{Page, Studies, Subject};
 use super::pictures::Unsolved;
 use super::{Report, data};
@@ -62,7 +62,7 @@ impl ReportFormat {
     /// # Errors
     /// Errors of a template or a value that cannot be written.
     pub fn render(self, subjects: &[Subject]) -> io::Result<String> {
-        let reports = || subjects.iter().filter_map(|subject| subject.reports.first());
+        let reports = || subjects.iter().filter_map(|subject| subject.solved.own());
         let mut bytes = Vec::new();
         match self {
             ReportFormat::Html => return Page::of(subjects).html().map_err(io::Error::other),
@@ -95,20 +95,22 @@ pub fn subject(
     go_on: &dyn Fn(usize, usize) -> bool,
 ) -> Result<Subject, Refusal> {
     if !format.is_page() {
-        return Ok(Subject {
-            reports: vec![report],
-            speeds: None,
-            studies: Studies::default(),
-            file,
-        });
+        let solved = Solved { reports: vec![report], ..Solved::default() };
+        return Ok(Subject { solved, studies: Studies::default(), file });
     }
+    let report = report.with_others();
     let source = Unsolved { name: &report.name, case: &report.case, inputs: &report.inputs };
     let studies = Studies::of(source.case, source.inputs, go_on).map_err(|_| Refusal::Stopped)?;
-    let speeds = (format == ReportFormat::Html).then(|| source.speeds(go_on));
-    // A pair without steady motion has no such chart.
-    let speeds = match speeds {
-        Some(Err(Refusal::Stopped)) => return Err(Refusal::Stopped),
-        found => found.and_then(Result::ok),
+    if format == ReportFormat::Markdown {
+        let solved = Solved { reports: vec![report], ..Solved::default() };
+        return Ok(Subject { solved, studies, file });
+    }
+    // A pair without steady motion has no chart over speed.
+    let speeds = match source.speeds(go_on) {
+        Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+        found => found.ok(),
     };
-    Ok(Subject { reports: with_other_method(report.with_others()), speeds, studies, file })
+    let path = Some(source.path());
+    let solved = Solved { speeds, path, ..Solved::with_other_method(report) };
+    Ok(Subject { solved, studies, file })
 }

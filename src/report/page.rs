@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::charts::SolvedCase;
+use super::charts::{NamedCase, Solved};
 use super::compare::{ComparedCase, Comparison, Refused, Row};
 use super::layout::plain_markdown as plain;
 use super::pictures::{Picture, pictures};
@@ -16,7 +16,6 @@ use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
-use crate::model::dynamic::speeds::SpeedCurve;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 use crate::study::batch::{Control, Stopped};
@@ -28,10 +27,8 @@ use askama::Template;
 /// A solved case with the text of its file.
 #[derive(Debug)]
 pub struct Subject {
-    /// The solve by the method of the case, then a solve for the charts that this method lacks.
-    pub reports: Vec<Report>,
-    /// The dynamic factor over speed, if computed.
-    pub speeds: Option<SpeedCurve>,
+    /// The results.
+    pub solved: Solved,
     /// The studies of the case.
     pub studies: Studies,
     /// The text of the case file.
@@ -81,7 +78,7 @@ impl<'a> Page<'a> {
     #[must_use]
     pub fn of(subjects: &'a [Subject]) -> Page<'a> {
         let reports: Vec<&Report> =
-            subjects.iter().filter_map(|subject| subject.reports.first()).collect();
+            subjects.iter().filter_map(|subject| subject.solved.own()).collect();
         let cases: Vec<PageCase> = subjects.iter().filter_map(PageCase::of).collect();
         let title = match cases.as_slice() {
             [] => String::new(),
@@ -100,14 +97,12 @@ impl<'a> Page<'a> {
         let on_page = pictures().filter(|picture| picture.is_on_page());
         let (of_one, of_all): (Vec<Picture>, Vec<Picture>) =
             on_page.partition(|picture| picture.is_of_one_case());
-        let cases = self.subjects.iter().zip(&self.cases).map(|(subject, case)| SolvedCase {
-            name: if self.is_single() { "" } else { &case.title },
-            reports: &subject.reports,
-            speeds: subject.speeds.as_ref(),
+        let cases = self.subjects.iter().zip(&self.cases).map(|(subject, case)| {
+            (if self.is_single() { "" } else { case.title.as_str() }, &subject.solved)
         });
-        let cases: Vec<SolvedCase> = cases.collect();
-        let drawn = |pictures: &[Picture], cases: &[SolvedCase]| {
-            pictures.iter().filter_map(|picture| picture.draw(cases)).collect::<Vec<String>>()
+        let cases: Vec<NamedCase> = cases.collect();
+        let drawn = |pictures: &[Picture], cases: &[NamedCase]| {
+            pictures.iter().filter_map(|picture| picture.draw(cases).ok()).collect::<Vec<String>>()
         };
         let own = cases.iter().map(|&case| drawn(&of_one, &[case]).concat()).collect();
         Html { page: self, charts: drawn(&of_all, &cases), own }.render()
@@ -191,7 +186,7 @@ impl<'a> Page<'a> {
 
 impl PageCase {
     fn of(subject: &Subject) -> Option<PageCase> {
-        let report = subject.reports.first()?;
+        let report = subject.solved.own()?;
         let limits = verdicts(&report.case, &report.solution);
         let limits = limits.iter().map(|verdict| {
             (verdict.standing.holds(), verdict.standing.word(), verdict.to_string())

@@ -1,22 +1,27 @@
-//! The table of pictures: every chart and the teeth, each with its key, its drawing and its reason
-//! of absence.
+//! The table of pictures: every chart and the teeth, each with its key, its results and its drawing.
 
 use std::fmt;
 
-use super::charts::{self, SPECTRUM, SPEED, SolvedCase, spectrum, speed, with_other_method};
+use super::charts::{
+    NamedCase, SPECTRUM, SPEED, Solved, TOOTH_KEYS, graph_chart, spectrum_chart, speed_chart,
+    tooth_chart,
+};
 use super::graphs::{GRAPHS, Graph, Place};
-use super::svg::teeth::teeth;
+use super::svg;
 use super::{Report, Selection};
 use crate::case::Case;
+use crate::model::compliance::model_of;
 use crate::model::dynamic::speeds::{SPEEDS, SpeedCurve};
-use crate::model::inputs::Method;
 use crate::model::solve::speeds;
 use crate::model::{Inputs, Refusal};
+use crate::study::stiffness::{
+    FLANK_POINTS, PATH_POINTS, PathComparison, compare_flanks, compare_path,
+};
 
 /// The pictures that are not charts of [`GRAPHS`]; they follow those charts.
 const OTHERS: [Picture; 5] = [
-    Picture { key: charts::TOOTH_KEYS[0], drawing: Drawing::ToothCompliance(0) },
-    Picture { key: charts::TOOTH_KEYS[1], drawing: Drawing::ToothCompliance(1) },
+    Picture { key: TOOTH_KEYS[0], drawing: Drawing::ToothCompliance(0) },
+    Picture { key: TOOTH_KEYS[1], drawing: Drawing::ToothCompliance(1) },
     Picture { key: SPECTRUM, drawing: Drawing::Spectrum },
     Picture { key: SPEED, drawing: Drawing::Speed },
     Picture { key: "teeth", drawing: Drawing::Teeth },
@@ -95,27 +100,37 @@ impl Picture {
         matches!(self.drawing, Drawing::Teeth | Drawing::ToothCompliance(_))
     }
 
-    /// Draws solved cases; a picture of one case draws the first. `None` if no case has values for
-    /// the picture.
-    #[must_use]
-    pub fn draw(self, cases: &[SolvedCase]) -> Option<String> {
-        match self.drawing {
-            Drawing::Graph(graph) => charts::picture(graph, cases),
+    /// Draws solved cases; a picture of one case draws the first.
+    ///
+    /// # Errors
+    /// The reason if no case has values for the picture.
+    pub fn draw(self, cases: &[NamedCase]) -> Result<String, String> {
+        let first = || {
+            let case = cases.first().map(|(_, case)| *case);
+            case.and_then(|case| Some((case, case.own()?))).ok_or("no case is solved")
+        };
+        let chart = match self.drawing {
+            Drawing::Graph(graph) => graph_chart(graph, cases),
             Drawing::ToothCompliance(gear) => {
-                let report = cases.first()?.reports.first()?;
-                charts::tooth_picture(gear, &report.inputs).ok()
+                let (case, report) = first()?;
+                match &case.flanks {
+                    Some(Ok(flanks)) => tooth_chart(gear, flanks, model_of(&report.inputs)),
+                    Some(Err(refusal)) => Err(refusal.to_string()),
+                    None => Err("it is not computed".to_owned()),
+                }
             }
-            Drawing::Spectrum => spectrum(cases),
+            Drawing::Spectrum => spectrum_chart(cases),
             Drawing::Speed => {
-                let named = cases.iter().filter_map(|case| Some((case.name, case.speeds?)));
-                let curves: Vec<_> = named.collect();
-                speed(&curves)
+                let named =
+                    cases.iter().filter_map(|(name, case)| Some((*name, case.speeds.as_ref()?)));
+                speed_chart(&named.collect::<Vec<_>>())
             }
             Drawing::Teeth => {
-                let report = cases.first()?.reports.first()?;
-                Some(teeth(&report.inputs, &report.solution))
+                let (_, report) = first()?;
+                return Ok(svg::teeth::teeth(&report.inputs, &report.solution));
             }
-        }
+        };
+        chart.map(|chart| svg::draw(&chart))
     }
 
     /// Solves a case and draws it. `go_on` receives the number of computed parts and their total,
@@ -128,37 +143,21 @@ impl Picture {
         source: Unsolved<'_>,
         go_on: &dyn Fn(usize, usize) -> bool,
     ) -> Result<String, NoPicture> {
-        let (reports, speeds) = if self.needs_speeds() {
-            (Vec::new(), Some(source.speeds(go_on)?))
+        let mut case = if self.needs_speeds() {
+            Solved { speeds: Some(source.speeds(go_on)?), ..Solved::default() }
         } else {
-            (with_other_method(source.solve(true)?), None)
+            Solved::with_other_method(source.solve(true)?)
         };
-        let case = SolvedCase { name: "", reports: &reports, speeds: speeds.as_ref() };
-        let drawn = self.draw(&[case]);
-        drawn.ok_or_else(|| NoPicture::Absent(self.absence(&reports)))
-    }
-
-    /// Why a case has no values for the picture, with a fix.
-    fn absence(self, reports: &[Report]) -> String {
-        let key = self.key;
-        let reason = match self.drawing {
-            Drawing::Graph(graph) => charts::absence(graph, reports),
-            Drawing::ToothCompliance(gear) => match reports.first() {
-                Some(report) => {
-                    charts::tooth_picture(gear, &report.inputs).err().unwrap_or_default()
-                }
-                None => "no case is solved".to_owned(),
-            },
-            Drawing::Spectrum => charts::absent_of_methods(Method::shares_load, reports),
-            Drawing::Speed => {
-                return format!(
-                    "the chart {key} has no curve: the motion does not become steady: give a greater \
-                     model.damping_ratio"
-                );
+        match self.drawing {
+            Drawing::Graph(Graph { by_model: Some(_), .. }) => case.path = Some(source.path()),
+            Drawing::ToothCompliance(_) => {
+                case.flanks = Some(compare_flanks(source.inputs, FLANK_POINTS));
             }
-            Drawing::Teeth => "no case is solved".to_owned(),
-        };
-        format!("{self} has no curve: {reason}: choose another chart")
+            _ => {}
+        }
+        let fix = if self.needs_speeds() { "" } else { ": choose another chart" };
+        self.draw(&[("", &case)])
+            .map_err(|reason| NoPicture::Absent(format!("{self} has no curve: {reason}{fix}")))
     }
 }
 
@@ -189,6 +188,14 @@ impl Unsolved<'_> {
         let selection = Selection { only: Vec::new(), stations };
         let (name, case) = (self.name.to_owned(), self.case.clone());
         Report::solve(name, case, self.inputs.clone(), selection)
+    }
+
+    /// The mesh stiffness by every compliance model.
+    ///
+    /// # Errors
+    /// The refusal of the model.
+    pub fn path(&self) -> Result<PathComparison, Refusal> {
+        compare_path(self.inputs, PATH_POINTS)
     }
 
     /// The dynamic factor over speed. `go_on` receives the number of computed speeds and their

@@ -7,16 +7,13 @@ use super::solver::VariantsRequest;
 use super::store::folder::Viewport;
 use crate::case::units::System;
 use crate::case::{Case, Document};
-use crate::model::dynamic::speeds::SpeedCurve;
-use crate::model::inputs::ToothCompliance;
 use crate::model::{Inputs, Quantity};
 use crate::report::Report;
-use crate::report::charts::{self, NamedSpectra, tooth_chart};
+use crate::report::chart::Chart;
+use crate::report::charts;
 use crate::report::explain::Page;
 use crate::report::pictures::Picture;
-use crate::report::svg::Chart;
 use crate::study::relief::{Demand, Specification};
-use crate::study::stiffness::Flanks;
 use crate::study::trade::{Setting, Trade};
 
 /// A job of the worker. Its result is an action.
@@ -289,25 +286,6 @@ impl WorkerChart {
         }
     }
 
-    /// Titles with their units for axes without labels, the longest first.
-    #[must_use]
-    pub fn short_titles(self) -> &'static [&'static str] {
-        match self {
-            WorkerChart::ToothCompliance(0) => &[
-                "Driver tooth compliance in um mm/N over radius in mm",
-                "Driver q in um mm/N over r in mm",
-                "Driver q in um mm/N",
-            ],
-            WorkerChart::ToothCompliance(_) => &[
-                "Driven tooth compliance in um mm/N over radius in mm",
-                "Driven q in um mm/N over r in mm",
-                "Driven q in um mm/N",
-            ],
-            WorkerChart::Spectrum => &["Transmission error harmonics in um", "TE harmonics in um"],
-            WorkerChart::Speed => &["Dynamic factor over speed in rpm", "Dynamic factor over rpm"],
-        }
-    }
-
     /// The description in the status line.
     #[must_use]
     pub fn hint(self) -> &'static str {
@@ -349,18 +327,8 @@ pub struct ChartRequest {
     pub inputs: Inputs,
 }
 
-/// The values of a chart.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ChartValues {
-    /// The tooth compliances of both gears, and the model of the case.
-    Flanks(Box<Flanks>, ToothCompliance),
-    /// The spectra, by name.
-    Spectra(NamedSpectra),
-    /// The computed part of the curve over speed.
-    Speeds(Box<SpeedCurve>),
-    /// The reason why there is no chart.
-    Refused(String),
-}
+/// The chart, or the reason why there is none.
+pub type ChartValues = Result<Chart, String>;
 
 /// A part of the result of a request.
 #[derive(Debug, Clone, PartialEq)]
@@ -399,26 +367,22 @@ impl ChartWork {
 
     /// The computed part of the chart.
     #[must_use]
-    pub fn drawn(&self, chart: WorkerChart) -> Option<Chart> {
-        let (_, found) = self.found.as_ref().filter(|(own, _)| *own == chart)?;
-        match (found, chart) {
-            (ChartValues::Flanks(flanks, own), WorkerChart::ToothCompliance(gear)) => {
-                tooth_chart(gear, flanks, *own)
-            }
-            (ChartValues::Spectra(spectra), _) => charts::spectrum_chart(spectra.clone()),
-            (ChartValues::Speeds(curve), _) => charts::speed_chart(&[("", curve)]),
-            (ChartValues::Flanks(..) | ChartValues::Refused(_), _) => None,
-        }
+    pub fn drawn(&self, chart: WorkerChart) -> Option<&Chart> {
+        self.values(chart)?.as_ref().ok()
     }
 
     /// The reason why there is no chart.
     #[must_use]
     pub fn missing(&self, chart: WorkerChart) -> String {
-        match &self.found {
-            Some((own, ChartValues::Refused(reason))) if *own == chart => reason.clone(),
-            _ if self.is_running => "computing".to_owned(),
-            Some(_) => "The motion does not become steady: increase the damping ratio.".to_owned(),
-            None => "The form is not valid: no chart.".to_owned(),
+        match self.values(chart) {
+            Some(Err(reason)) => format!("No chart: {reason}."),
+            _ if self.is_running => "Computing.".to_owned(),
+            _ => "The form is not valid: no chart.".to_owned(),
         }
+    }
+
+    fn values(&self, chart: WorkerChart) -> Option<&ChartValues> {
+        let (_, found) = self.found.as_ref().filter(|(own, _)| *own == chart)?;
+        Some(found)
     }
 }

@@ -41,12 +41,6 @@ pub(crate) struct Title {
 }
 
 impl Title {
-    /// The width for the text of the title in a pane with a width.
-    #[must_use]
-    pub(crate) fn room(&self, width: u16) -> usize {
-        room_beside(&self.names(width), width).saturating_sub(4 + self.key().len())
-    }
-
     /// Draws the line and returns the area below it.
     pub(crate) fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
         let names = self.names(area.width);

@@ -177,6 +177,16 @@ pub struct StudyResults {
     pub end: Option<End>,
 }
 
+impl LayerSource {
+    /// The name in the legend.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            LayerSource::Active(method) | LayerSource::Other(method) => method.name(),
+            LayerSource::Baseline => "baseline",
+        }
+    }
+}
+
 impl Layer {
     /// The quantity.
     #[must_use]

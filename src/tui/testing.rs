@@ -54,10 +54,6 @@ pub mod chart {
     pub mod curves {
         pub use crate::tui::panes::chart::curves::{CurveSource, apart, curves, is_field};
     }
-
-    pub mod raster {
-        pub use crate::tui::panes::chart::curves::draw_curve as draw;
-    }
 }
 
 pub mod results {
@@ -135,7 +131,7 @@ pub mod view {
 }
 
 pub mod worker_chart {
-    pub use crate::tui::jobs::{ChartPart, ChartRequest, ChartValues};
+    pub use crate::tui::jobs::{ChartPart, ChartRequest};
 }
 
 pub mod worker {

@@ -14,7 +14,7 @@ use super::commands::{BINDINGS, Binding};
 use super::form_aids::materials;
 use super::keys::Chord;
 use super::layout::{self, Pane, SMALLEST};
-use super::panes::chart::{self, Charts, panels};
+use super::panes::chart::{self, Charts};
 use super::panes::form::{self, Form};
 use super::panes::results::{self, Results};
 use super::panes::study::{self, StudyPane};
@@ -193,9 +193,7 @@ fn draw_pane(app: &App, pane: Pane, area: Rect, buffer: &mut Buffer) {
 fn draw_charts(app: &App, area: Rect, buffer: &mut Buffer) {
     let (title, charts) = (app.title(Pane::Chart), app.charts());
     let charts = Charts { area, ..charts };
-    let words = panels::first_title(&charts, title.room(area.width));
-    title.draw(&words, area, buffer);
-    panels::draw(&charts, buffer);
+    chart::draw(&charts, &title, buffer);
 }
 
 fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {

@@ -112,7 +112,7 @@ fn the_tooth_compliance_of_a_gear_has_a_curve_for_every_model_that_covers_it() {
     let driver = chart("driver", &[]);
     for text in [
         "Tooth compliance of the driver",
-        "tooth compliance q, µm mm/N",
+        "Tooth compliance q of the driver, µm mm/N",
         "radius, mm",
         ">finite-element, without contact<",
         ">surface, finite-element with contact of half-width 0.136 mm<",

@@ -33,10 +33,8 @@ fn written(desk: &Desk, key: &str) -> String {
 fn the_focused_field_over_its_range() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
-        desk.go_to("operation.speed").keys(&["Esc", "6"]);
+        desk.go_to("operation.speed").keys(&["Esc", "6", "Right", "Right"]);
         assert_snapshot!(format!("speed_{name}"), desk.screen());
-        desk.keys(&["z", "Right", "Right"]);
-        assert_snapshot!(format!("speed_alone_{name}"), desk.screen());
     }
 }
 
@@ -48,7 +46,6 @@ fn a_gap_shows_where_no_tooth_strikes() {
     let found = &shown.layers[0];
     assert!(found.values[0].is_some() && found.values[100].is_none());
     assert_eq!((found.values.len(), &shown.end), (101, &Some(End::Whole)));
-    assert_snapshot!("tip_relief_80x24", desk.screen());
 }
 
 #[test]
@@ -92,12 +89,14 @@ fn enter_uses_the_value_at_the_cursor_and_undo_reverts_it() {
 
 #[test]
 fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
-    for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
+    for size in [SMALL, LARGE] {
         let mut desk = study(size, "driven.tip_relief");
         desk.keys(&["s", "operation.speed", "Enter"]);
         assert!(desk.shows("+ limit 2500") && desk.shows("o edge of contact"), "{}", desk.screen());
         desk.keys(&["l", "k"]);
-        assert_snapshot!(format!("map_{name}"), desk.screen());
+        if size == SMALL {
+            assert_snapshot!("map_80x24", desk.screen());
+        }
         let cursor = desk.app.tab.study.cursor.expect("a cursor");
         desk.keys(&["Enter"]);
         assert_ne!(written(&desk, "operation.speed"), "2000 rpm");

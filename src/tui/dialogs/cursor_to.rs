@@ -12,9 +12,8 @@ use crate::numeric::decimal::{shortest, significant};
 use crate::report::graphs::GRAPHS;
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
-use crate::tui::panes::chart::axes::Ruler;
 use crate::tui::panes::chart::curves::{CurveSource, curves};
-use crate::tui::panes::chart::{Charts, first_contact, last_contact, panels};
+use crate::tui::panes::chart::{Charts, columns, first_contact, last_contact};
 use crate::tui::text;
 
 /// The width at which the instruction has two lines.
@@ -153,10 +152,10 @@ impl Reach {
 /// The completion of a typed angle or time.
 #[must_use]
 pub(in crate::tui) fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
-    let ruler = ruler(scope);
     let dimensions = [Dimension::Angle, Dimension::Time];
     if units::parse(typed, Dimension::Number, "").is_ok() {
-        return units::ending(typed, Dimension::of_unit(ruler.unit)?, ruler.unit);
+        let unit = scope.charts.ruler().1.unit;
+        return units::ending(typed, Dimension::of_unit(&unit)?, &unit);
     }
     let mut endings =
         dimensions.into_iter().filter_map(|dimension| units::ending(typed, dimension, ""));
@@ -176,7 +175,7 @@ pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     let axis = scope.charts.scale.across;
     let before =
         if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
-    let columns = f64::from(panels::columns(&scope.charts).max(2) - 1);
+    let columns = f64::from(columns(&scope.charts).max(2) - 1);
     if scope.is_in_teeth {
         let (most, least) = (before.max(2.0 * start), end.min(-pitch));
         return Some(Reach {
@@ -271,11 +270,6 @@ fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
         Err(misread) if typed.contains(',') => misread.fix.to_string(),
         _ => format!("{} is not an angle, time or point", typed.trim()),
     })
-}
-
-fn ruler(scope: &CursorScope<'_>) -> Ruler {
-    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
-    Ruler::of(scope.charts.pane.by_time, speed, scope.charts.window())
 }
 
 #[cfg(test)]

@@ -1,34 +1,45 @@
 //! The chart pane: the selected chart of the station values, and further charts below it if there
 //! is room.
 
-pub(crate) mod axes;
 pub(crate) mod curves;
-pub(crate) mod panels;
 pub(crate) mod range;
-mod worker_chart;
 
 use std::sync::Arc;
 
-use ratatui::layout::Rect;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
-use super::plot::Span;
+use super::Title;
+use super::plot::{LABEL_COLUMNS, Look as SeriesLook, Plot, TerminalChart, label_margin};
 use crate::case::units::System;
-use crate::model::Solution;
 pub use crate::model::contact_state::first_contact_of_driver as first_contact;
-use crate::report::graphs::GRAPHS;
+use crate::model::inputs::Method;
+use crate::model::{Outcome, Solution};
+use crate::report::absence::without_contact;
+use crate::report::chart::{Axis, Chart, Kind, Span};
+use crate::report::graphs::{GRAPHS, Graph};
+use crate::tui::ascii::symbol;
 use crate::tui::jobs::{ChartWork, WorkerChart};
 use crate::tui::solver::Answer;
+use crate::tui::text;
 use crate::tui::theme::Look;
 
-use curves::curves;
 pub use curves::readout;
+use curves::{Curve, CurveSource, curves};
 pub(crate) use range::last_contact;
 use range::{ChartView, Frame, Occasion, Refit, Scale, angle_range_of, path, way};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
 const MOST: u16 = 3;
+/// Least width of the labels beside the plots.
+const MARGIN: u16 = 8;
+/// Columns of the plot on a terminal of 80 columns.
+const USUAL_COLUMNS: u16 = 71;
+/// Longest time in us; longer times are in ms.
+const MOST_MICROS: f64 = 5000.0;
 /// The part of the approach that the strike shows after E.
 const AFTER_E: f64 = 0.5;
 
@@ -284,4 +295,239 @@ impl Charts<'_> {
     fn count(&self) -> usize {
         if self.area.is_empty() { 0 } else { usize::from((self.area.height / ROWS).clamp(1, MOST)) }
     }
+
+    /// The factor from deg after E to the x axis, and its quantity: the driver's angle before E, or
+    /// the time after E.
+    pub(crate) fn ruler(&self) -> (f64, Axis) {
+        let window = self.window();
+        let speed = self.answer.map_or(0.0, |answer| answer.inputs.speed);
+        let micros = 1f64.to_radians() / speed * 1e6;
+        let longest = micros * window.from.abs().max(window.to.abs());
+        match self.pane.by_time {
+            false => (-1.0, Axis::new("driver roll angle before E", "deg")),
+            true if longest < MOST_MICROS => (micros, Axis::new("time after E", "us")),
+            true => (1e-3 * micros, Axis::new("time after E", "ms")),
+        }
+    }
+
+    /// The visible charts from top to bottom, each with its plot below its title.
+    fn plots(&self) -> Vec<(usize, Rect, Plot)> {
+        let (shown, area) = (self.shown(), self.area);
+        let height = area.height / u16::try_from(shown.len().max(1)).unwrap_or(1);
+        let up = |graph: usize| self.scale.upright[graph];
+        let margins = shown
+            .iter()
+            .map(|&graph| label_margin(&Axis::default(), up(graph), height.saturating_sub(1)));
+        let margin = margins.max().unwrap_or(0).max(MARGIN);
+        let below = |at: usize| {
+            let y = area.y + height * at as u16;
+            let height = if at + 1 == shown.len() { area.bottom() - y } else { height };
+            Rect { y: y + 1, height: height.saturating_sub(1), ..area }
+        };
+        let plot = |(at, &graph): (usize, &usize)| {
+            (graph, below(at), Plot::new(below(at), margin, (self.window(), up(graph))))
+        };
+        shown.iter().enumerate().map(plot).collect()
+    }
+
+    /// The chart of the curves, with their looks.
+    fn chart(&self, graph: &Graph, curves: &[Curve], width: u16) -> (Chart, Vec<SeriesLook>) {
+        let own = self.answer.and_then(|answer| graph.column(answer.active));
+        let is_free = own.is_none()
+            && !curves.is_empty()
+            && self.answer.is_some_and(|answer| answer.active.shares_load());
+        let label = if is_free {
+            format!("Free impact: {}", graph.label.to_lowercase())
+        } else {
+            graph.label.to_owned()
+        };
+        let column = own.or_else(|| graph.all_columns().next());
+        let up = column.map(|column| {
+            let symbol = symbol(column.symbol, self.look.ascii);
+            Axis::new(format!("{label} {symbol}"), self.units.unit(column.shown))
+        });
+        let (factor, across) = self.ruler();
+        let window = self.window();
+        let ends = Span::NONE.with(factor * window.from).with(factor * window.to);
+        let labels = ends.ticks(width / LABEL_COLUMNS).into_iter();
+        let labels = labels.map(|(value, label)| (value / factor, label)).collect();
+        let series = curves.iter().rev().map(|curve| curve.series(self));
+        let looks = curves.iter().rev().map(|curve| curves::look(self, curve.source));
+        let chart = Chart {
+            across: Axis { labels, ..across },
+            up: up.unwrap_or_default(),
+            series: series.collect(),
+            ..Chart::default()
+        };
+        (chart, looks.collect())
+    }
+
+    // The reason why the active method has no curve.
+    fn missing(&self, graph: &Graph, curves: &[Curve]) -> Option<String> {
+        let Some(answer) = self.answer else {
+            return Some("No results yet.".to_owned());
+        };
+        let is_main = |curve: &Curve| {
+            matches!(curve.source, CurveSource::Active(_) | CurveSource::Model { .. })
+        };
+        if curves.iter().any(is_main) {
+            return None;
+        }
+        if self.is_stale {
+            return Some("The charts are not redrawn while a field is invalid.".to_owned());
+        }
+        let (label, active) = (graph.label.to_lowercase(), answer.active);
+        if graph.by_model.is_some() {
+            return Some(match &answer.stiffness {
+                Some(Err(refusal)) => format!("No {label}: {refusal}."),
+                Some(Ok(_)) => format!("No {label}: no model covers the pair."),
+                None => format!("Computing the {label}."),
+            });
+        }
+        if graph.column(active).is_none() {
+            let methods: Vec<_> = graph.methods().map(Method::name).collect();
+            let (name, methods) = (active.name(), methods.join(" and "));
+            return Some(format!("Method {name} does not compute the {label}; {methods} do."));
+        }
+        Some(match answer.of(active) {
+            None => "This method has no valid results.".to_owned(),
+            Some(solution) if solution.outcome == Outcome::NoCornerContact => {
+                format!("No corner contact: {}; no impact.", without_contact(solution))
+            }
+            Some(_) => {
+                format!("No {label} between D and E; {} shows the reason.", (self.notes_key)())
+            }
+        })
+    }
+}
+
+/// Draws the title of the pane and the charts.
+pub(crate) fn draw(charts: &Charts, title: &Title, buffer: &mut Buffer) {
+    let stale = if charts.is_stale { "LAST VALID, " } else { "" };
+    if let Some(chart) = charts.pane.worker_chart {
+        let running = if charts.work.is_running { "computing: " } else { "" };
+        let drawn = charts.work.drawn(chart);
+        let words = drawn.map_or_else(|| chart.label().to_owned(), Chart::quantities);
+        let state = if stale.is_empty() { running } else { stale };
+        let inner = title.draw(&format!("{state}{words}"), charts.area, buffer);
+        match drawn {
+            Some(drawn) => draw_worker_chart(charts, chart, drawn, inner, buffer),
+            None => text::draw_words(&charts.work.missing(chart), inner, buffer),
+        }
+        return;
+    }
+    if charts.answer.is_none() {
+        title.draw("Chart", charts.area, buffer);
+    }
+    for (at, (graph, area, plot)) in charts.plots().into_iter().enumerate() {
+        let graph = &GRAPHS[graph];
+        let curves = curves::apart(curves(charts, graph));
+        let (chart, looks) = charts.chart(graph, &curves, plot.cells.width);
+        if at == 0 && charts.answer.is_some() {
+            title.draw(&format!("{stale}{}", chart.quantities()), charts.area, buffer);
+        } else if at > 0 {
+            let above = Rect { y: area.y - 1, height: 1, ..area };
+            text::titled(&chart.quantities(), above, charts.look.theme, buffer);
+        }
+        draw_panel(charts, (graph, &curves), (&chart, looks), (area, plot), buffer);
+    }
+}
+
+/// The width of the visible chart in columns, or of a default chart if none is visible.
+#[must_use]
+pub(crate) fn columns(charts: &Charts) -> u16 {
+    let columns = charts.plots().first().map_or(0, |(_, _, plot)| plot.cells.width);
+    if columns > 1 { columns } else { USUAL_COLUMNS }
+}
+
+/// The driver's roll angle before E at a cell of a plot, in rad.
+pub(crate) fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
+    let plots = charts.plots();
+    let (.., plot) = plots.iter().find(|(.., plot)| plot.cells.contains(at))?;
+    let angle = 0.0 - plot.value(at.x).to_radians();
+    (charts.pane.worker_chart.is_none() && angle.is_finite()).then_some(angle)
+}
+
+fn draw_panel(
+    charts: &Charts,
+    (graph, curves): (&Graph, &[Curve]),
+    (chart, looks): (&Chart, Vec<SeriesLook>),
+    (area, plot): (Rect, Plot),
+    buffer: &mut Buffer,
+) {
+    let theme = charts.look.theme;
+    let missing = charts.missing(graph, curves);
+    if let Some(words) = &missing {
+        text::draw_words(words, area, buffer);
+    }
+    if plot.cells.is_empty() || curves.is_empty() || charts.window().is_empty() {
+        if missing.is_none() {
+            text::draw_words("The pane is too small for a chart.", area, buffer);
+        }
+        return;
+    }
+    let words = missing.map_or(0, |words| text::wrap(&words, usize::from(area.width) - 2).len());
+    let rows = (words as u16).min(area.height.saturating_sub(4));
+    let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
+    let is_compared = graph.by_model.is_some();
+    let words = vec![("time ->".to_owned(), Style::new())];
+    let drawn = TerminalChart { chart, looks, words, is_compared, theme };
+    let margin = plot.cells.x - area.x;
+    let plot = drawn.draw(area, (plot.across, plot.up), margin, buffer);
+    if plot.cells.is_empty() {
+        return;
+    }
+    for (x, name, style) in marks(charts) {
+        plot.draw_mark(x, name, style, buffer);
+    }
+    if let Some(cursor) = charts.cursor {
+        plot.draw_cursor(0.0 - cursor.to_degrees(), theme, buffer);
+    }
+}
+
+/// The marks of the contact: E; D; the last contact L; B, the end of the path of contact; D of the
+/// other methods.
+fn marks(charts: &Charts) -> Vec<(f64, &'static str, Style)> {
+    let (Some(answer), theme) = (charts.answer, charts.look.theme) else {
+        return Vec::new();
+    };
+    let own = answer.of(answer.active).map(|solution| {
+        let geometry = &solution.geometry;
+        let end = (geometry.start - geometry.end) / geometry.driver.base;
+        [
+            (Some(0.0), "E", theme.active),
+            (first_contact(solution), "D", theme.active),
+            (last_contact(solution), "L", theme.active),
+            (Some(end), "B", theme.active),
+        ]
+    });
+    let others = answer.methods.iter().filter(|(method, _)| *method != answer.active);
+    let others = others.filter_map(|(_, found)| found.as_ref().ok());
+    let others = others.map(|solution| (first_contact(solution), "d", theme.other));
+    let all = own.into_iter().flatten().chain(others);
+    all.filter_map(|(angle, name, style)| Some((0.0 - angle?.to_degrees(), name, style))).collect()
+}
+
+fn draw_worker_chart(
+    charts: &Charts,
+    of: WorkerChart,
+    chart: &Chart,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    const SIGNS: [char; 4] = ['*', '+', '×', '∘'];
+    let theme = charts.look.theme;
+    let look = |(at, kind): (usize, Kind)| {
+        let style = if at == 0 { theme.active } else { theme.other };
+        match kind {
+            Kind::Marks(_) => (Marker::Custom('×'), theme.note),
+            Kind::Bars => (Marker::Custom(if at == 0 { '█' } else { '▒' }), style),
+            Kind::Curve | Kind::Bound if at == 0 => (charts.marker, style),
+            Kind::Curve | Kind::Bound => (Marker::Custom(SIGNS[at % SIGNS.len()]), style),
+        }
+    };
+    let looks = chart.series.iter().map(|series| series.kind).enumerate().map(look).collect();
+    let is_compared = matches!(of, WorkerChart::ToothCompliance(_));
+    let drawn = TerminalChart { chart, looks, words: Vec::new(), is_compared, theme };
+    drawn.draw(area, chart.spans(), 0, buffer);
 }

@@ -16,14 +16,13 @@ use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::Outcome;
 use crate::model::inputs::Method;
+use crate::report::chart::Axis;
 use crate::report::{common_unit, shown_in};
-use crate::study::axis::Axis;
+use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::PointOutcome;
 use crate::study::batch::Refused;
 use crate::tui::ascii::symbol;
-use crate::tui::study::{
-    End, Layer, LayerFound, LayerSource, SAMPLES, Study, StudyParameters, StudyResults,
-};
+use crate::tui::study::{End, Layer, LayerFound, SAMPLES, Study, StudyParameters, StudyResults};
 use crate::tui::text;
 use crate::tui::theme::Look;
 
@@ -33,8 +32,7 @@ pub(crate) const CURVE_POINTS: usize = 101;
 const MOST_CELLS: (u16, u16) = (60, 30);
 /// Columns and rows of a map outside its cells.
 const MAP_MARGIN: (u16, u16) = (12, 6);
-/// Least heights of a pane with a row for the legend, and with two rows for the texts.
-const LEGEND_FROM: u16 = 6;
+/// Least height of a pane with two rows for the texts.
 const TALL: u16 = 8;
 /// The texts below a plot get at most this fraction of the rows.
 const WORDS: u16 = 4;
@@ -109,9 +107,7 @@ pub(crate) fn map_points(area: Rect) -> (usize, usize) {
 
 /// Draws the pane.
 pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
-    let room = pane.title.room(pane.area.width);
-    let title = title(pane, room);
-    let inner = pane.title.draw(&title, pane.area, buffer);
+    let inner = pane.title.draw(&title(pane), pane.area, buffer);
     if inner.is_empty() {
         return;
     }
@@ -125,14 +121,14 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
         return draw_page(pane, shown, inner, buffer);
     };
     let lines = below(pane, shown, text_room(inner.width));
-    let rooms = rooms(inner, lines.len());
+    let (plot, words) = split(inner, lines.len());
     match grid.axes.as_slice() {
-        [across] => curve::draw(pane, shown, across, &rooms, buffer),
-        [up, across] => map::draw(pane, shown, (across, up), &rooms, buffer),
+        [across] => curve::draw(pane, shown, across, plot, buffer),
+        [up, across] => map::draw(pane, shown, (across, up), plot, buffer),
         _ => {}
     }
-    for (line, y) in lines.iter().zip(rooms.words.top()..rooms.words.bottom()) {
-        buffer.set_stringn(inner.x + 1, y, line, usize::from(inner.width) - 1, Style::new());
+    for (line, row) in lines.iter().zip(words.rows()) {
+        buffer.set_stringn(row.x + 1, row.y, line, usize::from(row.width) - 1, Style::new());
     }
 }
 
@@ -168,7 +164,7 @@ pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
     };
     let (across, up) = axes(shown);
     let (x, y) = cursor(pane, shown);
-    let text = |axis: &Axis, at: usize| (axis.field, axis.with_unit(at));
+    let text = |axis: &StudyAxis, at: usize| (axis.field, axis.with_unit(at));
     let first = across.map(|axis| text(axis, x));
     let second = up.map(|axis| text(axis, y));
     first.into_iter().chain(second).collect()
@@ -178,7 +174,8 @@ pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
 #[must_use]
 pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = pane.study.shown.as_ref()?;
-    let last = |axis: Option<&Axis>| axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
+    let last =
+        |axis: Option<&StudyAxis>| axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
     let (x_axis, y_axis) = axes(shown);
     let (x, y) = cursor(pane, shown);
     Some((
@@ -204,15 +201,8 @@ pub(crate) fn paged(pane: &StudyPane<'_>, by: isize) -> usize {
     scrolled(pane, by * isize::try_from(page).unwrap_or(1))
 }
 
-/// The areas of legend, plot and texts.
-struct Rooms {
-    legend: Rect,
-    plot: Rect,
-    words: Rect,
-}
-
 /// The first and the second axis.
-fn axes(shown: &StudyResults) -> (Option<&Axis>, Option<&Axis>) {
+fn axes(shown: &StudyResults) -> (Option<&StudyAxis>, Option<&StudyAxis>) {
     match &shown.request.parameters {
         StudyParameters::Grid(grid) => {
             let second = grid.axes.first().filter(|_| grid.axes.len() == 2);
@@ -225,7 +215,7 @@ fn axes(shown: &StudyResults) -> (Option<&Axis>, Option<&Axis>) {
 /// The point of the cursor; without a cursor, the point of the present case.
 fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
     let (across, up) = axes(shown);
-    let at = |axis: Option<&Axis>, chosen: Option<usize>| {
+    let at = |axis: Option<&StudyAxis>, chosen: Option<usize>| {
         let own = || axis.and_then(|axis| range::nearest(axis, pane.case));
         let last = axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
         chosen.or_else(own).unwrap_or(0).min(last)
@@ -234,19 +224,14 @@ fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
     (at(across, chosen.map(|chosen| chosen.0)), at(up, chosen.map(|chosen| chosen.1)))
 }
 
-/// The areas for `lines` lines of text below the plot, if the plot keeps most of the pane.
-fn rooms(inner: Rect, lines: usize) -> Rooms {
-    let legend = u16::from(inner.height >= LEGEND_FROM);
+/// The area of the plot and the area below it for `lines` lines of text, if the plot keeps most of
+/// the pane.
+fn split(inner: Rect, lines: usize) -> (Rect, Rect) {
     let least = inner.height.min(if inner.height >= TALL { 2 } else { 1 });
     let most = least.max(inner.height / WORDS);
     let words = u16::try_from(lines).unwrap_or(most).clamp(least, most);
-    let plot =
-        Rect { y: inner.y + legend, height: inner.height.saturating_sub(legend + words), ..inner };
-    Rooms {
-        legend: Rect { height: legend, ..inner },
-        plot,
-        words: Rect { y: plot.bottom(), height: words, ..inner },
-    }
+    let plot = Rect { height: inner.height - words, ..inner };
+    (plot, Rect { y: plot.bottom(), height: words, ..inner })
 }
 
 /// Draws the page of a tolerance study from its first visible line on.
@@ -280,44 +265,29 @@ fn top(pane: &StudyPane<'_>, shown: &StudyResults) -> usize {
     pane.state.top.min(last)
 }
 
-/// The longest title that fits a width.
-fn title(pane: &StudyPane<'_>, room: usize) -> String {
-    let Some(shown) = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none()) else {
+fn title(pane: &StudyPane<'_>) -> String {
+    let shown = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none());
+    let Some((shown, known)) = shown.and_then(|shown| Some((shown, shown.quantity()?))) else {
         return "Study".to_owned();
     };
     let state = progress(shown);
     let words = match &shown.request.parameters {
-        StudyParameters::Tolerance(_) => vec![format!("Tolerance{}", position(pane, shown))],
+        StudyParameters::Tolerance(_) => format!("Tolerance{}{state}", position(pane, shown)),
         StudyParameters::Grid(grid) => {
-            let fields = |label: fn(&Axis) -> String| -> Vec<String> {
-                grid.axes.iter().rev().map(label).collect()
-            };
-            let Some(known) = shown.quantity() else {
-                return "Study".to_owned();
-            };
-            let layer = grid.layers.first();
-            let method = layer.map_or(Method::Exact, |layer| layer.inputs.method);
-            let (name, label) = (known.symbol_in(method), known.label_in(method).trim_start());
+            let method = grid.layers.first().map_or(Method::Exact, |layer| layer.inputs.method);
             let values = shown.layers.iter().flat_map(|found| &found.values);
-            let unit = match common_unit(known, values.flatten().copied(), pane.units) {
-                "" | "1" => String::new(),
-                unit => format!(" in {unit}"),
+            let up = Axis::new(
+                known.symbol_in(method),
+                common_unit(known, values.flatten().copied(), pane.units),
+            );
+            let field = |axis: &StudyAxis| {
+                Axis::new(FIELDS[axis.field].full_label(), axis.unit.clone()).in_unit()
             };
-            let long =
-                fields(|axis| format!("{}{}", FIELDS[axis.field].full_label(), in_unit(axis)));
-            let short = fields(|axis| format!("{}{}", FIELDS[axis.field].symbol, in_unit(axis)));
-            vec![
-                format!("Study: {name} {label}{unit} over {}", long.join(" and ")),
-                format!("Study: {name}{unit} over {}", long.join(" and ")),
-                format!("Study: {name}{unit} over {}", short.join(" and ")),
-                format!("{name}{unit} over {}", short.join(" and ")),
-            ]
+            let fields: Vec<String> = grid.axes.iter().rev().map(field).collect();
+            format!("Study{state}: {} over {}", up.in_unit(), fields.join(" and "))
         }
     };
-    let all = words.iter().map(|words| format!("{words}{state}"));
-    let all: Vec<String> = all.map(|words| symbol(&words, pane.look.ascii).into_owned()).collect();
-    let fits = all.iter().find(|words| words.width() <= room);
-    fits.cloned().unwrap_or_else(|| text::cut(all.last().map_or("Study", String::as_str), room))
+    symbol(&words, pane.look.ascii).into_owned()
 }
 
 /// The visible lines of a tolerance, if some do not fit.
@@ -328,10 +298,6 @@ fn position(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     }
     let top = top(pane, shown);
     format!(" {} to {} of {lines}", top + 1, (top + height).min(lines))
-}
-
-fn in_unit(axis: &Axis) -> String {
-    if axis.unit.is_empty() { String::new() } else { format!(" in {}", axis.unit) }
 }
 
 /// The progress of an unfinished study.
@@ -370,7 +336,7 @@ fn values_at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     let (across, up) = axes(shown);
     let (x, y) = cursor(pane, shown);
     let width = across.map_or(0, |axis| axis.points.len());
-    let setting = |axis: &Axis, at: usize| {
+    let setting = |axis: &StudyAxis, at: usize| {
         let known = &FIELDS[axis.field];
         let name = if known.symbol.is_empty() { known.label } else { known.symbol };
         format!("{name} = {}", axis.with_unit(at))
@@ -387,11 +353,7 @@ fn values_at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
 }
 
 fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> Option<String> {
-    let name = match layer.source {
-        LayerSource::Active(method) | LayerSource::Other(method) => method.name(),
-        LayerSource::Baseline => "baseline",
-    };
-    let known = layer.quantity()?;
+    let (name, known) = (layer.source.name(), layer.quantity()?);
     let words = match (found.outcomes.get(at)?, found.values.get(at)?) {
         (_, Some(value)) => format!(
             "{} {}",

@@ -10,7 +10,7 @@ use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::commands::Command;
 use crate::tui::layout::Pane;
-use crate::tui::panes::chart::{ChartCommand, panels};
+use crate::tui::panes::chart::{ChartCommand, angle_at};
 use crate::tui::panes::study::{self as study_pane, StudyCommand};
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::panes::{form, results};
@@ -209,7 +209,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
         }
         Pane::Chart => {
             panes::show(app, pane);
-            if let Some(angle) = panels::angle_at(&app.charts(), at) {
+            if let Some(angle) = angle_at(&app.charts(), at) {
                 app.cursor = Some(angle);
                 return panes::stop_playing(app);
             }

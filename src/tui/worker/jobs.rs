@@ -8,6 +8,7 @@ use crate::case::file::{self, SaveError};
 use crate::case::units::System;
 use crate::case::{Case, EXAMPLES, Evaluator};
 use crate::model::{self, Inputs, Refusal, Stages};
+use crate::report::charts::Solved;
 use crate::report::digest::Digest;
 use crate::report::explain;
 use crate::report::export::{self, ReportFormat};
@@ -78,8 +79,7 @@ fn failed(job: &Job) -> Action {
 
 fn markdown(reporting: Reporting) -> String {
     let subject = Subject {
-        reports: vec![reporting.report.with_others()],
-        speeds: None,
+        solved: Solved { reports: vec![reporting.report.with_others()], ..Solved::default() },
         studies: Studies::default(),
         file: reporting.file,
     };

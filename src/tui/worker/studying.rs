@@ -11,7 +11,7 @@ use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::solve::speeds;
 use crate::model::{Inputs, Quantity, Refusal, Stage, Stages, solve_while};
-use crate::report::charts::{spectra, tooth_absence, tooth_chart};
+use crate::report::charts::{chart_of_spectra, spectra, speed_chart, tooth_chart};
 use crate::report::tolerance::ToleranceReport;
 use crate::study::batch::{self, Batch, Control, Points, Refusals, Rows, Stopped, solve_all};
 use crate::study::sample::Design;
@@ -70,8 +70,8 @@ pub fn study(request: &StudyRequest, running: Running<'_>) {
 /// Returns an error if the system cannot start a thread.
 pub(crate) fn start_charts(send: Send) -> io::Result<Worker<ChartRequest>> {
     Worker::start("charts", send, draw_chart, |request| {
-        let reason = "internal error: the chart failed".to_owned();
-        chart_action(request, Some(ChartValues::Refused(reason)), true)
+        let reason = "internal error".to_owned();
+        chart_action(request, Some(Err(reason)), true)
     })
 }
 
@@ -85,7 +85,7 @@ pub fn draw_chart(request: &ChartRequest, running: Running<'_>) {
     let found = match found {
         Ok(found) => Some(found),
         Err(Refusal::Stopped) => None,
-        Err(refusal) => Some(ChartValues::Refused(format!("{refusal}: {}", refusal.fix()))),
+        Err(refusal) => Some(Err(format!("{refusal}: {}", refusal.fix()))),
     };
     (running.send)(chart_action(request, found, true));
 }
@@ -254,12 +254,7 @@ fn chart_action(request: &ChartRequest, found: Option<ChartValues>, is_over: boo
 }
 
 fn tooth_compliance(gear: usize, inputs: &Inputs) -> Result<ChartValues, Refusal> {
-    let flanks = compare_flanks(inputs, FLANK_POINTS)?;
-    let own = model_of(inputs);
-    Ok(match tooth_chart(gear, &flanks, own) {
-        Some(_) => ChartValues::Flanks(Box::new(flanks), own),
-        None => ChartValues::Refused(format!("No chart: {}.", tooth_absence(gear, &flanks))),
-    })
+    Ok(tooth_chart(gear, &compare_flanks(inputs, FLANK_POINTS)?, model_of(inputs)))
 }
 
 /// The spectra at rest and, for method `dynamic`, in steady motion. A closed form has no mesh;
@@ -272,7 +267,7 @@ fn spectrum(inputs: &Inputs, running: Running<'_>) -> Result<ChartValues, Refusa
     let inputs = Inputs { method, ..inputs.clone() };
     let late = Stages::of(Stage::StaticSpectrum).and(Stages::of(Stage::SteadyMotion));
     let solution = solve_while(&inputs, late, &|_| (running.is_wanted)())?;
-    Ok(ChartValues::Spectra(spectra("", &solution)))
+    Ok(Ok(chart_of_spectra(spectra("", &solution))))
 }
 
 fn over_speed(request: &ChartRequest, running: Running<'_>) -> Result<ChartValues, Refusal> {
@@ -280,12 +275,12 @@ fn over_speed(request: &ChartRequest, running: Running<'_>) -> Result<ChartValue
     let curve = speeds(&request.inputs, &mut |curve| {
         if sent.elapsed() >= CHART_STEP {
             sent = Instant::now();
-            let so_far = ChartValues::Speeds(Box::new(curve.clone()));
-            (running.send)(chart_action(request, Some(so_far), false));
+            let so_far = speed_chart(&[("", curve)]).ok().map(Ok);
+            (running.send)(chart_action(request, so_far, false));
         }
         (running.is_wanted)()
     })?;
-    Ok(ChartValues::Speeds(Box::new(curve)))
+    Ok(speed_chart(&[("", &curve)]))
 }
 
 fn benchmark_action(

@@ -1,9 +1,6 @@
-//! The curves of a chart: every method, the baseline, and the comparison value; their drawing in
-//! cells, which keeps every peak that is narrower than a column, and their values at the cursor.
+//! The curves of a chart: every method, the baseline, and the comparison value; and their values at
+//! the cursor.
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::Style;
 use ratatui::symbols::Marker;
 
 use super::Charts;
@@ -13,18 +10,16 @@ use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::model::{Inputs, Interpolated, Solution};
 use crate::numeric::decimal::significant;
-use crate::report::charts::{Point, curve_of, pieces};
+use crate::report::chart::{Kind, Point, Series, Span};
+use crate::report::charts::{curve_of, pieces};
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::{Column, Row};
 use crate::tui::ascii::symbol;
-use crate::tui::panes::plot::{PlotArea, Span};
+use crate::tui::panes::plot::Look;
 use crate::tui::solver::Answer;
 
 /// Curves coincide if they differ by at most this fraction of the values.
 const ALIKE: f64 = 2e-3;
-
-/// If a column has more points than this, only the first, last, least and greatest are drawn.
-const MANY: usize = 8;
 
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;
@@ -54,7 +49,7 @@ pub enum CurveSource {
 
 /// A curve in pieces, with gaps between them.
 #[derive(Debug, Clone)]
-pub struct Curve {
+pub struct Curve<'a> {
     /// The source.
     pub source: CurveSource,
     /// The column of the stations.
@@ -63,12 +58,41 @@ pub struct Curve {
     pub(crate) unit: &'static str,
     /// The points from D onwards.
     pub pieces: Vec<Vec<Point>>,
+    /// The solve with the stations; `None` for a compliance model.
+    solved: Option<(&'a Inputs, &'a Solution)>,
 }
 
-impl Curve {
+impl<'a> Curve<'a> {
+    /// The curve with its name in the legend.
+    pub(crate) fn series(&self, charts: &Charts) -> Series {
+        let name = match self.source {
+            CurveSource::Active(method) => method.name().to_owned(),
+            CurveSource::Model { model, is_own: true } => format!("{} (case)", model.name()),
+            _ => self.name(charts),
+        };
+        Series { name, pieces: self.pieces.clone(), kind: Kind::Curve }
+    }
+
+    /// The name of the value: the symbol for the active method.
+    fn name(&self, charts: &Charts) -> String {
+        let name = |text: &'static str| symbol(text, charts.look.ascii).into_owned();
+        match self.source {
+            CurveSource::Active(_) => name(self.column.symbol),
+            CurveSource::Other(method) => method.name().to_owned(),
+            CurveSource::Pinned(method)
+                if charts.answer.is_some_and(|answer| answer.active != method) =>
+            {
+                format!("baseline ({})", method.name())
+            }
+            CurveSource::Pinned(_) => "baseline".to_owned(),
+            CurveSource::Bound(bound) => name(bound),
+            CurveSource::Model { model, .. } => model.name().to_owned(),
+        }
+    }
+
     // Keeps the points that are not hidden and their neighbours, so that the line meets the active
     // curve.
-    fn without(self, is_hidden: impl Fn(Point) -> bool) -> Curve {
+    fn without(self, is_hidden: impl Fn(Point) -> bool) -> Curve<'a> {
         let pieces = self.pieces.iter().flat_map(|piece| {
             let hidden: Vec<bool> = piece.iter().map(|point| is_hidden(*point)).collect();
             let around = |at: usize| at.saturating_sub(1)..=(at + 1).min(piece.len() - 1);
@@ -118,22 +142,64 @@ impl Curve {
 
 /// Every curve of a chart in drawing order.
 #[must_use]
-pub fn curves(charts: &Charts, graph: &Graph) -> Vec<Curve> {
+pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
     let Some(answer) = charts.answer else {
         return Vec::new();
     };
-    let drawn = Drawn { graph, system: charts.units };
+    let system = charts.units;
     if let Some(column) = graph.by_model {
-        return drawn.models(answer, column);
+        return models(answer, column, system);
     }
-    let pinned = charts.baseline.and_then(|baseline| drawn.pinned(baseline, answer.active));
-    let others = answer.methods.iter().filter(|(method, _)| *method != answer.active).filter_map(
-        |(method, found)| {
-            drawn.curve(&answer.inputs, found.as_ref().ok()?, CurveSource::Other(*method))
-        },
-    );
-    let own = drawn.active(answer, CurveSource::Active(answer.active));
-    pinned.into_iter().chain(others).chain(drawn.bound(answer)).chain(own).collect()
+    let of = |answer: &'a Answer, method: Method, source: CurveSource| {
+        let (inputs, solution) = (&answer.inputs, answer.of(method)?);
+        let column = graph.column(method)?;
+        let unit = system.unit(column.shown);
+        let pieces = match (source, graph.bound) {
+            (CurveSource::Bound(_), Some(bound)) => {
+                curve_of(inputs, solution, unit, |row| (bound.value)(solution, row))
+            }
+            _ => curve_of(inputs, solution, unit, |row| column.of(row)),
+        };
+        let solved = Some((inputs, solution));
+        (!pieces.is_empty()).then_some(Curve { source, column, unit, pieces, solved })
+    };
+    let active = answer.active;
+    let pinned = charts.baseline.and_then(|baseline| {
+        let method = baseline.beside(active);
+        of(baseline, method, CurveSource::Pinned(method))
+    });
+    let others = answer.methods.iter().map(|(method, _)| *method);
+    let others = others.filter(|method| *method != active);
+    let others = others.filter_map(|method| of(answer, method, CurveSource::Other(method)));
+    let bound = graph.bound.and_then(|bound| {
+        let symbol = bound.symbols[usize::from(active.shares_load())];
+        of(answer, active, CurveSource::Bound(symbol))
+    });
+    let own = of(answer, active, CurveSource::Active(active));
+    pinned.into_iter().chain(others).chain(bound).chain(own).collect()
+}
+
+/// The mesh stiffness by every compliance model: that of the case is last, on top of the others, and
+/// the elastic field is below it.
+fn models<'a>(answer: &Answer, column: &'static Column, system: System) -> Vec<Curve<'a>> {
+    let Some(Ok(found)) = &answer.stiffness else {
+        return Vec::new();
+    };
+    let unit = system.unit(column.shown);
+    let factor = units::factor(unit).unwrap_or(1.0);
+    let own = model_of(&answer.inputs);
+    let curve = |(at, &model): (usize, &ToothCompliance)| {
+        let points = found.mesh_curve(at);
+        let points = points.map(|(angle, value)| (angle.to_degrees(), Some(value / factor)));
+        let pieces = pieces(points, f64::INFINITY);
+        let source = CurveSource::Model { model, is_own: model == own };
+        Curve { source, column, unit, pieces, solved: None }
+    };
+    let mut curves: Vec<Curve> = found.models.iter().enumerate().map(curve).collect();
+    curves.retain(|curve| !curve.pieces.is_empty());
+    let is_own = |source| matches!(source, CurveSource::Model { is_own: true, .. });
+    curves.sort_by_key(|curve| (is_own(curve.source), is_field(curve.source)));
+    curves
 }
 
 /// Whether it is the curve of the elastic field, which couples neighbouring teeth: the other models
@@ -145,7 +211,7 @@ pub fn is_field(source: CurveSource) -> bool {
 
 /// The curves without the parts that coincide with the active curve.
 #[must_use]
-pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
+pub fn apart(curves: Vec<Curve<'_>>) -> Vec<Curve<'_>> {
     let Some(own) =
         curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_))).cloned()
     else {
@@ -163,304 +229,110 @@ pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
         .collect()
 }
 
-/// The marker of a curve.
+/// The marker and the style of a curve.
 #[must_use]
-pub(crate) fn marker(charts: &Charts, source: CurveSource) -> Marker {
-    let plain = charts.look.ascii;
-    match source {
-        source if is_main(source) && plain => Marker::Custom('*'),
-        source if is_main(source) => charts.marker,
-        CurveSource::Model { model, .. } if Some(&model) == ToothCompliance::ALL.first() => {
-            Marker::Custom(if plain { 'x' } else { '×' })
-        }
-        CurveSource::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
-        CurveSource::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
-        CurveSource::Model { .. } | CurveSource::Other(_) | CurveSource::Active(_) => {
-            Marker::Custom(if plain { 'o' } else { '∘' })
-        }
-        CurveSource::Pinned(_) => Marker::Custom('+'),
-        CurveSource::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
-    }
-}
-
-/// The style of a curve.
-#[must_use]
-pub(crate) fn style(charts: &Charts, source: CurveSource) -> Style {
+pub(crate) fn look(charts: &Charts, source: CurveSource) -> Look {
     let theme = charts.look.theme;
-    let style = match source {
-        source if is_main(source) => theme.active,
-        CurveSource::Active(_) | CurveSource::Other(_) | CurveSource::Model { .. } => theme.other,
-        CurveSource::Pinned(_) => theme.baseline,
-        CurveSource::Bound(_) => theme.rule,
+    let (marker, style) = match source {
+        CurveSource::Active(_) => (charts.marker, theme.active),
+        source if is_field(source) => (charts.marker, theme.active),
+        CurveSource::Other(method) => (sign_of(method), theme.other),
+        CurveSource::Model { model, .. } => {
+            let is_first = Some(&model) == ToothCompliance::ALL.first();
+            (Marker::Custom(if is_first { '×' } else { '∘' }), theme.other)
+        }
+        CurveSource::Pinned(_) => (Marker::Custom('+'), theme.baseline),
+        CurveSource::Bound(_) => (Marker::Custom('╌'), theme.rule),
     };
-    if charts.is_stale { style.patch(theme.faint) } else { style }
+    (marker, if charts.is_stale { style.patch(theme.faint) } else { style })
 }
 
-/// Draws the visible parts of the curves, the last on top; the curves of the compliance models share
-/// the cells that several of them cross.
-pub fn draw_curve(
-    charts: &Charts,
-    curves: &[Curve],
-    (across, upright): (Span, Span),
-    plot: Rect,
-    buffer: &mut Buffer,
-) {
-    let area = PlotArea { cells: plot, across, upright };
-    let shown = curves.iter().map(|curve| {
-        let pieces = curve.pieces.iter();
-        let pieces: Vec<_> = pieces.map(|piece| visible(piece, across, plot.width)).collect();
-        let look = (marker(charts, curve.source), style(charts, curve.source));
-        (pieces, look)
-    });
-    let is_model = |curve: &Curve| matches!(curve.source, CurveSource::Model { .. });
-    if curves.iter().all(is_model) {
-        area.draw_compared(&shown.collect::<Vec<_>>(), buffer);
-    } else {
-        shown.for_each(|(pieces, look)| area.draw_pieces(&pieces, look, buffer));
-    }
+/// The sign of a method beside the active one.
+pub(crate) fn sign_of(method: Method) -> Marker {
+    Marker::Custom(match method {
+        Method::Paper => '·',
+        Method::Static => '×',
+        Method::Dynamic => '◦',
+        Method::Exact | Method::Auto => '∘',
+    })
 }
 
 /// The angle, the visible curves at it, and every other value of the active method.
 #[must_use]
 pub fn readout(charts: &Charts, cursor: f64) -> String {
-    let mut parts = vec![place_of_cursor(charts, cursor)];
     let graphs = charts.shown();
     let chosen = if graphs.is_empty() { vec![charts.pane.graph] } else { graphs };
-    let seen: Vec<String> =
-        chosen.iter().filter_map(|&graph| all_values(charts, &GRAPHS[graph], cursor)).collect();
+    let values = |graph: usize, is_seen: bool| {
+        let (graph, all) = (&GRAPHS[graph], curves(charts, &GRAPHS[graph]));
+        let all = all.iter().rev();
+        let all = all.filter(|curve| is_seen || matches!(curve.source, CurveSource::Active(_)));
+        let readings = all.filter_map(|curve| Some((curve, reading(graph, curve, cursor)?)));
+        in_words(charts, &readings.collect::<Vec<_>>())
+    };
+    let mut parts: Vec<String> = chosen.iter().filter_map(|&graph| values(graph, true)).collect();
     let rest = (0..GRAPHS.len()).filter(|graph| !chosen.contains(graph));
-    let rest: Vec<String> =
-        rest.filter_map(|graph| own_value(charts, &GRAPHS[graph], cursor)).collect();
-    parts.extend(seen);
+    let rest: Vec<String> = rest.filter_map(|graph| values(graph, false)).collect();
     parts.extend((!rest.is_empty()).then(|| rest.join(", ")));
-    let (angle, values) = parts.split_at(1);
-    if values.is_empty() {
-        format!("{}.", angle[0])
-    } else {
-        format!("{}: {}.", angle[0], values.join("; "))
-    }
-}
-
-/// The name of the curve of the baseline, with its method if it differs from the active method.
-pub(crate) fn base_name(charts: &Charts, method: Method) -> String {
-    let is_other = charts.answer.is_some_and(|answer| answer.active != method);
-    if is_other { format!("baseline ({})", method.name()) } else { "baseline".to_owned() }
-}
-
-#[derive(Clone, Copy)]
-struct Drawn<'a> {
-    graph: &'a Graph,
-    system: System,
-}
-
-impl Drawn<'_> {
-    fn active(self, answer: &Answer, source: CurveSource) -> Option<Curve> {
-        self.curve(&answer.inputs, answer.of(answer.active)?, source)
-    }
-
-    // The model of the case is last, on top of the others, and the elastic field is below it.
-    fn models(self, answer: &Answer, column: &'static Column) -> Vec<Curve> {
-        let Some(Ok(found)) = &answer.stiffness else {
-            return Vec::new();
-        };
-        let unit = self.system.unit(column.shown);
-        let factor = units::factor(unit).unwrap_or(1.0);
-        let own = model_of(&answer.inputs);
-        let curve = |(at, &model): (usize, &ToothCompliance)| {
-            let points = found.mesh_curve(at);
-            let points = points.map(|(angle, value)| (angle.to_degrees(), Some(value / factor)));
-            Curve {
-                source: CurveSource::Model { model, is_own: model == own },
-                column,
-                unit,
-                pieces: pieces(points, f64::INFINITY),
-            }
-        };
-        let mut curves: Vec<Curve> = found.models.iter().enumerate().map(curve).collect();
-        curves.retain(|curve| !curve.pieces.is_empty());
-        curves.sort_by_key(|curve| (is_own(curve.source), is_field(curve.source)));
-        curves
-    }
-
-    fn pinned(self, base: &Answer, active: Method) -> Option<Curve> {
-        let method = base.beside(active);
-        self.curve(&base.inputs, base.of(method)?, CurveSource::Pinned(method))
-    }
-
-    fn bound(self, answer: &Answer) -> Option<Curve> {
-        let (solution, bound) = (answer.of(answer.active)?, self.graph.bound?);
-        let symbol = bound.symbols[usize::from(solution.method.shares_load())];
-        self.with(&answer.inputs, solution, CurveSource::Bound(symbol), |row| {
-            (bound.value)(solution, row)
-        })
-    }
-
-    // `None` if the method has no such column or no station.
-    fn curve(self, inputs: &Inputs, solution: &Solution, source: CurveSource) -> Option<Curve> {
-        let column = self.graph.column(solution.method)?;
-        self.with(inputs, solution, source, |row| column.of(row))
-    }
-
-    fn with(
-        self,
-        inputs: &Inputs,
-        solution: &Solution,
-        source: CurveSource,
-        value: impl Fn(Row) -> Option<f64>,
-    ) -> Option<Curve> {
-        let column = self.graph.column(solution.method)?;
-        let unit = self.system.unit(column.shown);
-        let pieces = curve_of(inputs, solution, unit, value);
-        (!pieces.is_empty()).then_some(Curve { source, column, unit, pieces })
-    }
-}
-
-fn is_own(source: CurveSource) -> bool {
-    matches!(source, CurveSource::Model { is_own: true, .. })
-}
-
-/// Whether the others are compared with this curve.
-fn is_main(source: CurveSource) -> bool {
-    matches!(source, CurveSource::Active(_)) || is_field(source)
-}
-
-// The visible points and their neighbours, reduced if a column has many.
-fn visible(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
-    let from = piece.partition_point(|point| point.0 < across.from).saturating_sub(1);
-    let to = (piece.partition_point(|point| point.0 <= across.to) + 1).min(piece.len());
-    let piece = &piece[from.min(to)..to];
-    if piece.len() <= MANY * usize::from(columns) {
-        return piece.to_vec();
-    }
-    let column = |point: &Point| (across.part(point.0) * f64::from(columns)).floor();
-    piece
-        .chunk_by(|one, other| column(one).total_cmp(&column(other)).is_eq())
-        .flat_map(outline)
-        .collect()
-}
-
-// The first, the least, the greatest and the last point, in order.
-fn outline(points: &[Point]) -> Vec<Point> {
-    let by_height = |one: &usize, other: &usize| points[*one].1.total_cmp(&points[*other].1);
-    let extremes = [(0..points.len()).min_by(by_height), (0..points.len()).max_by(by_height)];
-    let mut kept: Vec<usize> =
-        extremes.into_iter().flatten().chain([0, points.len() - 1]).collect();
-    kept.sort_unstable();
-    kept.dedup();
-    kept.into_iter().map(|index| points[index]).collect()
+    let place = place_of_cursor(charts, cursor);
+    if parts.is_empty() { format!("{place}.") } else { format!("{place}: {}.", parts.join("; ")) }
 }
 
 fn place_of_cursor(charts: &Charts, cursor: f64) -> String {
     let (side, degrees) =
         (if cursor < 0.0 { "after" } else { "before" }, cursor.abs().to_degrees());
-    if degrees > 0.0 {
-        format!("{degrees:.4} deg of the driver {side} E{}", time_of_cursor(charts, cursor))
-    } else {
-        "At E".to_owned()
+    if degrees == 0.0 {
+        return "At E".to_owned();
     }
-}
-
-fn time_of_cursor(charts: &Charts, cursor: f64) -> String {
     let speed = charts.answer.map_or(0.0, |answer| answer.inputs.speed);
     let micros = 1e6 * cursor.abs() / speed;
-    if charts.pane.by_time && micros.is_finite() {
+    let time = if charts.pane.by_time && micros.is_finite() {
         format!(", {} us", significant(micros, TIME_DIGITS))
     } else {
         String::new()
-    }
+    };
+    format!("{degrees:.4} deg of the driver {side} E{time}")
 }
 
-// The values of every curve of a chart, the active method first, in the unit of the greatest value.
-fn all_values(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
-    let curves = curves(charts, graph);
-    let readings: Vec<Reading> =
-        curves.iter().rev().filter_map(|curve| Reading::of(charts, graph, curve, cursor)).collect();
-    in_words(charts, &readings)
-}
-
-// The value of the active method only.
-fn own_value(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
-    let curves = curves(charts, graph);
-    let own = curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_)))?;
-    in_words(charts, &[Reading::of(charts, graph, own, cursor)?])
-}
-
-// The value of a curve in SI, with its number of significant digits.
-struct Reading {
-    name: String,
-    column: &'static Column,
-    value: f64,
-    digits: usize,
-}
-
-fn in_words(charts: &Charts, readings: &[Reading]) -> Option<String> {
-    let units = readings.iter().map(|reading| {
-        let shown = reading.column.shown;
-        units::system::unit_for(reading.value.abs(), shown, reading.digits, charts.units)
+/// Values in SI with their numbers of significant digits, in the unit of the greatest value.
+fn in_words(charts: &Charts, readings: &[(&Curve, (f64, usize))]) -> Option<String> {
+    let units = readings.iter().map(|(curve, (value, digits))| {
+        units::system::unit_for(value.abs(), curve.column.shown, *digits, charts.units)
     });
     let factor = |unit: &&str| units::factor(unit).unwrap_or(1.0);
     let unit = units.max_by(|one, other| factor(one).total_cmp(&factor(other)))?;
-    let words = readings.iter().map(|reading| {
-        let number = units::system::counted(reading.value, unit, reading.digits);
+    let words = readings.iter().map(|(curve, (value, digits))| {
+        let number = units::system::counted(*value, unit, *digits);
         let value = format!("{number} {}", units::system::named(unit));
-        format!("{} {}", reading.name, value.trim_end())
+        format!("{} {}", curve.name(charts), value.trim_end())
     });
     Some(words.collect::<Vec<_>>().join(", "))
 }
 
-// The value from the same evaluation as in the teeth pane, not from the drawn line, with its number
-// of significant digits.
-fn value_at(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
-    if let CurveSource::Model { .. } = curve.source {
-        let factor = units::factor(curve.unit).unwrap_or(1.0);
-        let value = curve.at(0.0 - cursor.to_degrees())?;
-        return Some((value * factor, curve.column.digits));
-    }
-    let is_pinned = matches!(curve.source, CurveSource::Pinned(_));
-    let answer = if is_pinned { charts.baseline? } else { charts.answer? };
-    let method = if let CurveSource::Other(method) | CurveSource::Pinned(method) = curve.source {
-        method
-    } else {
-        answer.active
+/// The value in SI from the same evaluation as in the teeth pane, not from the drawn line, with its
+/// number of significant digits.
+fn reading(graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
+    let (column, factor) = (curve.column, units::factor(curve.unit).unwrap_or(1.0));
+    let (value, digits) = match curve.solved {
+        None => (curve.at(0.0 - cursor.to_degrees())? * factor, column.digits),
+        Some((inputs, solution)) => {
+            let interpolated = Interpolated::at(inputs, solution, cursor)?;
+            let row = Row::from(&interpolated);
+            let is_between = matches!(interpolated, Interpolated::Between(_));
+            match curve.source {
+                CurveSource::Bound(_) => {
+                    let digits = if is_between { DIGITS_BETWEEN } else { column.digits };
+                    ((graph.bound?.value)(solution, row)?, digits)
+                }
+                _ => {
+                    let value = column.resolved(column.of(row)?, inputs, solution);
+                    (value, column.digits_of(&interpolated))
+                }
+            }
+        }
     };
-    let solution = answer.of(method)?;
-    let interpolated = Interpolated::at(&answer.inputs, solution, cursor)?;
-    if let CurveSource::Bound(_) = curve.source {
-        let digits = if matches!(interpolated, Interpolated::Between(_)) {
-            DIGITS_BETWEEN
-        } else {
-            curve.column.digits
-        };
-        Some(((graph.bound?.value)(solution, Row::from(&interpolated))?, digits))
-    } else {
-        let value = curve.column.of(Row::from(&interpolated))?;
-        Some((
-            curve.column.resolved(value, &answer.inputs, solution),
-            curve.column.digits_of(&interpolated),
-        ))
-    }
-}
-
-impl Reading {
-    fn of(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<Reading> {
-        let name = |text: &'static str| symbol(text, charts.look.ascii).into_owned();
-        let (value, digits) = value_at(charts, graph, curve, cursor)?;
-        let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
-        let most = curve.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
-        let is_zero = in_unit.abs() < ROUNDING * most;
-        Some(Reading {
-            name: match curve.source {
-                CurveSource::Active(_) => name(curve.column.symbol),
-                CurveSource::Other(method) => method.name().to_owned(),
-                CurveSource::Pinned(method) => base_name(charts, method),
-                CurveSource::Bound(bound) => name(bound),
-                CurveSource::Model { model, .. } => model.name().to_owned(),
-            },
-            column: curve.column,
-            value: if is_zero { 0.0 } else { value },
-            digits,
-        })
-    }
+    let most = curve.points().map(|(_, y)| y.abs()).fold(0.0, f64::max);
+    let is_zero = (value / factor).abs() < ROUNDING * most;
+    Some((if is_zero { 0.0 } else { value }, digits))
 }
 
 #[cfg(test)]
@@ -472,7 +344,7 @@ mod tests {
         let column = &crate::report::stations::COLUMNS[6];
         let curve = |source, points: &[f64]| {
             let points = points.iter().enumerate().map(|(at, y)| (at as f64, *y)).collect();
-            Curve { source, column, unit: column.shown, pieces: vec![points] }
+            Curve { source, column, unit: column.shown, pieces: vec![points], solved: None }
         };
         let own = curve(CurveSource::Active(Method::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
         let same = curve(CurveSource::Other(Method::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
@@ -496,6 +368,7 @@ mod tests {
             column,
             unit: column.shown,
             pieces,
+            solved: None,
         };
         for (x, y) in [
             (-1.0, Some(4.0)),
@@ -508,24 +381,5 @@ mod tests {
             assert_eq!(curve.at(x), y, "{x}");
         }
         assert_eq!(curve.upright(), Span::new(0.0, 8.0));
-    }
-
-    #[test]
-    fn a_peak_narrower_than_a_column_is_kept() {
-        let points: Vec<Point> =
-            (0..10_000).map(|at| (f64::from(at), if at == 4321 { 7.0 } else { 1.0 })).collect();
-        let kept = visible(&points, Span::new(0.0, 9999.0), 50);
-        assert!(kept.len() <= 4 * 51 && kept.contains(&(4321.0, 7.0)), "{}", kept.len());
-        assert!(kept.is_sorted_by(|one, other| one.0 < other.0));
-        assert_eq!((kept.first(), kept.last()), (points.first(), points.last()));
-    }
-
-    #[test]
-    fn hidden_points_are_omitted_except_the_neighbours() {
-        let points: Vec<Point> = (0..100).map(|at| (f64::from(at), 0.0)).collect();
-        let kept = visible(&points, Span::new(10.5, 20.5), 50);
-        assert_eq!((kept.first(), kept.last()), (Some(&(10.0, 0.0)), Some(&(21.0, 0.0))));
-        assert_eq!(visible(&points[..5], Span::new(10.5, 20.5), 50), [points[4]]);
-        assert_eq!(visible(&[], Span::new(0.0, 1.0), 50), []);
     }
 }

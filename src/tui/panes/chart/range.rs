@@ -3,9 +3,9 @@
 use crate::case::units::System;
 use crate::model::Solution;
 use crate::model::inputs::Method;
+use crate::report::chart::Span;
 use crate::report::graphs::GRAPHS;
 use crate::report::stations::{Row, rows};
-use crate::tui::panes::plot::Span;
 use crate::tui::solver::Answer;
 
 /// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.

@@ -3,14 +3,14 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
-use unicode_width::UnicodeWidthStr;
 
-use super::{NO_CONTACT, REFUSED, Rooms, StudyPane, cursor, range};
+use super::{NO_CONTACT, REFUSED, StudyPane, cursor, range};
 use crate::model::{Outcome, Quantity};
+use crate::report::chart::{Axis, Span};
 use crate::report::{common_unit, shown_with};
-use crate::study::axis::Axis;
+use crate::study::axis::Axis as StudyAxis;
 use crate::study::batch::PointOutcome;
-use crate::tui::panes::plot::{Span, draw_axes};
+use crate::tui::panes::plot::{Plot, Words, draw_legend, label_margin};
 use crate::tui::study::{LayerFound, StudyResults};
 
 /// Shades from the least to the greatest value.
@@ -23,8 +23,8 @@ const EDGE: &str = "o";
 struct Map<'a> {
     pane: &'a StudyPane<'a>,
     found: &'a LayerFound,
-    across: &'a Axis,
-    up: &'a Axis,
+    across: &'a StudyAxis,
+    up: &'a StudyAxis,
     cells: Rect,
     values: Span,
     limit: Option<f64>,
@@ -33,48 +33,57 @@ struct Map<'a> {
 pub(super) fn draw(
     pane: &StudyPane<'_>,
     shown: &StudyResults,
-    (across, up): (&Axis, &Axis),
-    rooms: &Rooms,
+    (across, up): (&StudyAxis, &StudyAxis),
+    area: Rect,
     buffer: &mut Buffer,
 ) {
     let (Some(found), Some(known)) = (shown.layers.first(), shown.quantity()) else {
         return;
     };
-    let height = rooms.plot.height.saturating_sub(2);
-    let labels = labelled(up, height).map(|at| up.points[at].text.width());
-    let margin = labels.max().unwrap_or(0).max(5) as u16 + 2;
-    let width = rooms.plot.width.saturating_sub(margin + 1);
-    let cells = Rect { x: rooms.plot.x + margin, y: rooms.plot.y, width, height };
-    if cells.width < 2 || cells.height < 2 {
-        return;
-    }
-    let all = found.values.iter().flatten().copied();
+    let all = || found.values.iter().flatten().copied();
     let limit = pane.case.limits.iter().find(|limit| limit.quantity == known.key);
-    let map = Map {
+    let mut map = Map {
         pane,
         found,
         across,
         up,
-        cells,
-        values: all.clone().fold(Span::NONE, Span::with),
+        cells: Rect::ZERO,
+        values: Span::of(all()),
         limit: limit.map(|limit| limit.value).filter(|value| value.is_finite()),
     };
-    map.frame(buffer);
-    for (column, row) in positions(cells) {
+    let words = map.legend(known, common_unit(known, all(), pane.units));
+    let legend = Rect { height: area.height.saturating_sub(4), ..area };
+    let rows = draw_legend(&words, legend, buffer);
+    let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
+    let spans = (span(across), span(up));
+    let up_axis = labelled(up, area.height.saturating_sub(2));
+    let margin = label_margin(&up_axis, spans.1, area.height).max(7);
+    let plot = Plot::new(area, margin, spans);
+    if plot.cells.is_empty() {
+        return;
+    }
+    map.cells = plot.cells;
+    let across_axis = labelled(across, plot.cells.width);
+    plot.draw_axes(&across_axis, &up_axis, pane.look.theme, buffer);
+    for (column, row) in positions(plot.cells) {
         let (symbol, style) = map.cell(column, row);
-        buffer.set_string(cells.x + column, cells.y + row, symbol, style);
+        buffer.set_string(plot.cells.x + column, plot.cells.y + row, symbol, style);
     }
     map.marks(shown, buffer);
-    let unit = common_unit(known, all, pane.units);
-    map.legend((known, unit), rooms.legend, buffer);
 }
 
-/// The points with a label along an axis with this many cells: both ends and, if there is room, the
-/// middle.
-fn labelled(axis: &Axis, cells: u16) -> impl Iterator<Item = usize> + use<> {
+fn span(axis: &StudyAxis) -> Span {
+    Span::new(0.0, axis.points.len().saturating_sub(1) as f64)
+}
+
+/// The indices of the points of an axis with this many cells: labels at both ends and, if there is
+/// room, in the middle.
+fn labelled(axis: &StudyAxis, cells: u16) -> Axis {
     let last = axis.points.len().saturating_sub(1);
     let middle = Some(last / 2).filter(|&middle| cells >= 5 && middle > 0 && middle < last);
-    [Some(0), middle, Some(last)].into_iter().flatten()
+    let points = [Some(0), middle, Some(last)].into_iter().flatten();
+    let labels = points.map(|at| (at as f64, axis.points[at].text.clone())).collect();
+    Axis { labels, ..Axis::new("", axis.unit.clone()) }
 }
 
 fn positions(cells: Rect) -> impl Iterator<Item = (u16, u16)> {
@@ -164,30 +173,6 @@ impl Map<'_> {
         })
     }
 
-    fn frame(&self, buffer: &mut Buffer) {
-        let (cells, rule) = (self.cells, self.pane.look.theme.rule);
-        let (left, bottom) = draw_axes(cells, rule, buffer);
-        for at in labelled(self.up, cells.height) {
-            let label = &self.up.points[at].text;
-            let y = bottom - 1 - Map::of(at, cells.height, self.up.points.len());
-            let start = left.saturating_sub(label.width() as u16);
-            buffer.set_string(start, y, label, Style::new());
-            buffer.set_string(left, y, "┤", rule);
-        }
-        let mut free = 0;
-        for at in labelled(self.across, cells.width) {
-            let label = &self.across.points[at].text;
-            let x = cells.x + Map::of(at, cells.width, self.across.points.len());
-            let width = label.width() as u16;
-            let start = x.saturating_sub(width / 2).min((cells.right() + 1).saturating_sub(width));
-            if start >= free {
-                buffer.set_string(x, bottom, "┴", rule);
-                buffer.set_string(start, bottom + 1, label, Style::new());
-                free = start + width + 1;
-            }
-        }
-    }
-
     /// Draws the present values on the axes, and the cursor.
     fn marks(&self, shown: &StudyResults, buffer: &mut Buffer) {
         let (cells, theme) = (self.cells, self.pane.look.theme);
@@ -206,34 +191,27 @@ impl Map<'_> {
         buffer.set_string(cells.x - 1, row(y), "▸", theme.focus);
     }
 
-    fn legend(&self, (known, unit): (&Quantity, &'static str), area: Rect, buffer: &mut Buffer) {
-        let mut x = area.x + 1;
-        let mut put = |words: &str, style: Style| {
-            let width = words.width() as u16;
-            if !area.is_empty() && x + width < area.right() {
-                buffer.set_string(x, area.y, words, style);
-                x += width + 2;
-            }
-        };
+    fn legend(&self, known: &Quantity, unit: &'static str) -> Vec<Words> {
         let theme = self.pane.look.theme;
+        let worded = |value| shown_with(known, value, unit).to_string();
+        let has = |sought| self.found.outcomes.contains(&sought);
+        let mut words = Vec::new();
         if self.values.from <= self.values.to {
-            let worded = |value| shown_with(known, value, unit).to_string();
-            let (least, most) = (self.shade(self.values.from), self.shade(self.values.to));
-            put(&format!("{least} {}", worded(self.values.from)), theme.active);
-            put(&format!("{most} {}", worded(self.values.to)), theme.active);
+            for value in [self.values.from, self.values.to] {
+                words.push((format!("{} {}", self.shade(value), worded(value)), theme.active));
+            }
         }
         if let Some(limit) = self.limit {
-            let limit = shown_with(known, limit, unit);
-            put(&format!("{LIMIT} limit {limit}"), theme.problem);
+            words.push((format!("{LIMIT} limit {}", worded(limit)), theme.problem));
         }
-        let has = |sought| self.found.outcomes.contains(&sought);
         if has(PointOutcome::Solved(Outcome::NoCornerContact)) {
-            put(&format!("{EDGE} edge of contact"), theme.note);
-            put(&format!("{NO_CONTACT} no contact"), theme.note);
+            words.push((format!("{EDGE} edge of contact"), theme.note));
+            words.push((format!("{NO_CONTACT} no contact"), theme.note));
         }
         if has(PointOutcome::Refused) {
-            put(&format!("{REFUSED} refused"), theme.problem);
+            words.push((format!("{REFUSED} refused"), theme.problem));
         }
-        put("● now", theme.focus);
+        words.push(("● now".to_owned(), theme.focus));
+        words
     }
 }

@@ -6,8 +6,8 @@ use crate::case::units::{self, System};
 use crate::case::{Case, Problem, field_range};
 use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::significant;
+use crate::report::chart::Span;
 use crate::study::axis::{Axis, AxisRange, Sampling};
-use crate::tui::panes::plot::Span;
 use crate::tui::rows;
 
 /// Greatest number of halvings or doublings of a range.
@@ -149,7 +149,7 @@ fn with_present(mut axis: Axis, range: &AxisRange, case: &Case) -> Axis {
 /// The round numbers within a range, as a range and their number.
 fn round(range: &AxisRange, most: usize) -> Option<(AxisRange, usize)> {
     let intervals = u16::try_from(most).unwrap_or(u16::MAX).saturating_sub(1);
-    let ticks = Span::new(range.from, range.to).ticks(intervals).labelled;
+    let ticks = Span::new(range.from, range.to).ticks(intervals);
     let numbers = ticks.into_iter().map(|(number, _)| {
         let text = significant(number, ROUND_DIGITS);
         text.parse::<f64>().unwrap_or(number)
