@@ -328,7 +328,7 @@ pub struct ChartRequest {
 }
 
 /// The chart, or the reason why there is none.
-pub type ChartValues = Result<Chart, String>;
+pub(super) type ChartValues = Result<Chart, String>;
 
 /// A part of the result of a request.
 #[derive(Debug, Clone, PartialEq)]

@@ -52,7 +52,7 @@ pub mod chart {
     pub use crate::tui::panes::chart::{first_contact, readout};
 
     pub mod curves {
-        pub use crate::tui::panes::chart::curves::{CurveSource, apart, curves, is_field};
+        pub use crate::tui::panes::chart::curves::{CurveSource, curves, is_field};
     }
 }
 

@@ -584,7 +584,7 @@ fn assert_legends(desk: &Desk) {
     let app = &desk.app;
     let text = chart(desk).join("\n");
     for graph in app.charts().shown() {
-        for curve in &curves::apart(curves::curves(&app.charts(), &GRAPHS[graph])) {
+        for curve in &curves::curves(&app.charts(), &GRAPHS[graph]) {
             let name = match curve.source {
                 CurveSource::Active(method) => format!("⠒ {}", method.name()),
                 CurveSource::Other(method) => method.name().to_owned(),

@@ -4,8 +4,6 @@
 pub(crate) mod curves;
 pub(crate) mod range;
 
-use std::sync::Arc;
-
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
@@ -29,7 +27,7 @@ use crate::tui::theme::Look;
 pub use curves::readout;
 use curves::{Curve, CurveSource, curves};
 pub(crate) use range::last_contact;
-use range::{ChartView, Frame, Occasion, Refit, Scale, angle_range_of, path, way};
+use range::{ChartView, Frame, Occasion, Scale, angle_range_of, path, way_of_all};
 
 /// Least height of each chart, in rows; it decides the number of charts.
 const ROWS: u16 = 16;
@@ -210,73 +208,55 @@ impl Charts<'_> {
         self.view().zoomed(steps, around, self.scale)
     }
 
-    /// The state that the axes depend on.
-    pub(crate) fn occasion(&self) -> Occasion {
-        let view = &self.pane.view;
-        Occasion {
-            answered: self.answer.map(|answer| (answer.serial, answer.pending.is_some())),
-            stiffness: self
-                .answer
-                .and_then(|answer| answer.stiffness.as_ref()?.as_ref().ok())
-                .map(|stiffness| Arc::as_ptr(stiffness).addr()),
-            pinned: self.baseline.map(|baseline| baseline.serial),
-            shown: (self.pane.graph, self.count(), self.units),
-            sight: (view.frame, view.zoom, view.middle.map(f64::to_bits)),
-            ground: (self.answer.map(|answer| answer.active), self.undone),
-        }
-    }
-
-    /// The axes, if they must change since an earlier occasion, with the new occasion.
-    pub(crate) fn fitted_since(&self, before: Occasion) -> Option<(Occasion, Scale)> {
-        let mut occasion = self.occasion();
-        let refit = occasion.since(before);
-        (before != occasion).then(|| (occasion, self.fitted(refit)))
-    }
-
-    /// Axes that contain every visible curve. Keeps the present axes while they fit.
-    fn fitted(&self, refit: Refit) -> Scale {
+    /// Axes that contain every visible curve, and what they are fitted to. Keeps the present axes
+    /// while they fit.
+    pub(crate) fn fitted(&self, before: Occasion) -> (Occasion, Scale) {
         let mut scale = *self.scale;
+        let mut occasion = Occasion {
+            shown: (self.pane.graph, self.count(), self.units),
+            ground: (self.answer.map(|answer| answer.active), self.undone),
+        };
         let Some(answer) = self.answer.filter(|_| !self.area.is_empty()) else {
-            return scale;
+            return (before, scale);
         };
-        // The axis does not shrink while the worker still solves a method.
+        // While an answer is incomplete, the method and the undo of the earlier occasion remain.
+        if answer.pending.is_some() || answer.serial < occasion.ground.1 {
+            occasion.ground = before.ground;
+        }
+        let is_new = occasion.ground != before.ground;
+        let fitted = |axis: Span, values: Span| {
+            if is_new { axis.refit(values) } else { axis.fitted(values) }
+        };
         let pinned = self.baseline.map(|baseline| (baseline, baseline.beside(answer.active)));
-        let way = pinned
-            .map_or(Span::NONE, |(base, method)| angle_range_of(base, method))
-            .and(way(answer));
+        let way = pinned.map_or(Span::NONE, |(base, method)| angle_range_of(base, method));
+        let way = way.and(way_of_all(answer));
         let way = if self.is_by_model() { way.and(path(answer)) } else { way };
-        scale.across = match (answer.pending, refit.all) {
-            (Some(_), _) => scale.across.grown(way),
-            (None, true) => scale.across.refit(way),
-            (None, false) => scale.across.fitted(way),
+        // The axis does not shrink while the worker still solves a method.
+        scale.across = match answer.pending {
+            Some(_) => scale.across.grown(way),
+            None => fitted(scale.across, way),
         };
-        let touches = [Some((answer, answer.active)), pinned];
-        let touches = touches
-            .into_iter()
-            .flatten()
-            .filter_map(|(answer, method)| first_contact(answer.of(method)?));
+        let touches = [Some((answer, answer.active)), pinned].into_iter().flatten();
+        let touches = touches.filter_map(|(answer, method)| first_contact(answer.of(method)?));
         let first = touches.fold(0.0, f64::max).to_degrees();
         let strike = Span::new(-first, AFTER_E * first);
-        scale.strike = match (strike.is_empty(), refit.all) {
-            (true, _) => Span::default(),
-            (false, true) => scale.strike.refit(strike),
-            (false, false) => scale.strike.fitted(strike),
-        };
+        scale.strike =
+            if strike.is_empty() { Span::default() } else { fitted(scale.strike, strike) };
         let window = self.view().window(&scale);
         for graph in self.shown() {
             let curves = curves(self, &GRAPHS[graph]);
-            let values =
-                curves.iter().map(|curve| curve.upright_within(window)).fold(Span::NONE, Span::and);
+            let values = curves.iter().map(|curve| curve.upright_within(window));
+            let values = values.fold(Span::NONE, Span::and);
             let now = scale.upright[graph];
-            let fitted = |now: Span| match GRAPHS[graph].by_model {
-                Some(_) => now.fitted_closely(values),
-                None => now.fitted(values),
+            let start =
+                if is_new || occasion.shown != before.shown { Span::default() } else { now };
+            let axis = match GRAPHS[graph].by_model {
+                Some(_) => start.fitted_closely(values),
+                None => start.fitted(values),
             };
-            let is_new = refit.upright || refit.all;
-            let axis = fitted(if is_new { Span::default() } else { now });
             scale.upright[graph] = if axis.is_empty() { now } else { axis };
         }
-        scale
+        (occasion, scale)
     }
 
     /// The visible charts: the selected chart, and below it the next charts of the active method.
@@ -421,7 +401,7 @@ pub(crate) fn draw(charts: &Charts, title: &Title, buffer: &mut Buffer) {
     }
     for (at, (graph, area, plot)) in charts.plots().into_iter().enumerate() {
         let graph = &GRAPHS[graph];
-        let curves = curves::apart(curves(charts, graph));
+        let curves = curves(charts, graph);
         let (chart, looks) = charts.chart(graph, &curves, plot.cells.width);
         if at == 0 && charts.answer.is_some() {
             title.draw(&format!("{stale}{}", chart.quantities()), charts.area, buffer);

@@ -267,15 +267,17 @@ impl Plot {
         }
     }
 
-    /// Draws the pieces of a curve; a piece with one point is a dot.
+    /// Draws the pieces of a curve; a piece with one point is a dot. A sign is in the cells that a
+    /// Braille curve crosses, so that a curve covers those that coincide with it.
     pub(crate) fn draw_pieces(
         &self,
         pieces: &[Vec<Point>],
         (marker, style): Look,
         buffer: &mut Buffer,
     ) {
+        let sign = if let Marker::Custom(sign) = marker { Some(sign) } else { None };
         let canvas = Canvas::default()
-            .marker(marker)
+            .marker(if sign.is_some() { Marker::Braille } else { marker })
             .x_bounds(widened(self.across))
             .y_bounds(widened(self.up))
             .paint(|context| {
@@ -292,7 +294,7 @@ impl Plot {
         canvas.render(self.cells, buffer);
         for position in self.cells.positions() {
             if let Some(cell) = buffer.cell_mut(position) {
-                finish(cell, style);
+                finish(cell, sign, style);
             }
         }
     }
@@ -362,12 +364,14 @@ fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffe
 }
 
 // A half block has two colours, for its upper and its lower half.
-fn finish(cell: &mut Cell, style: Style) {
+fn finish(cell: &mut Cell, sign: Option<char>, style: Style) {
     if cell.fg != OWN && cell.bg != OWN {
         return;
     }
-    if cell.bg == OWN {
-        cell.set_symbol("█");
+    match sign {
+        Some(sign) => _ = cell.set_char(sign),
+        None if cell.bg == OWN => _ = cell.set_symbol("█"),
+        None => (),
     }
     (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
     cell.modifier = Modifier::empty();

@@ -101,9 +101,7 @@ pub(super) fn run_chart(app: &mut App, command: ChartCommand) {
 
 /// Fits the axes to the visible curves.
 pub(super) fn fit_chart(app: &mut App) {
-    if let Some((occasion, scale)) = app.charts().fitted_since(app.tab.fitted) {
-        (app.tab.fitted, app.tab.scale) = (occasion, scale);
-    }
+    (app.tab.fitted, app.tab.scale) = app.charts().fitted(app.tab.fitted);
 }
 
 /// Scrolls to a moved cursor.

@@ -18,9 +18,6 @@ use crate::tui::ascii::symbol;
 use crate::tui::panes::plot::Look;
 use crate::tui::solver::Answer;
 
-/// Curves coincide if they differ by at most this fraction of the values.
-const ALIKE: f64 = 2e-3;
-
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;
 
@@ -88,27 +85,6 @@ impl<'a> Curve<'a> {
             CurveSource::Bound(bound) => name(bound),
             CurveSource::Model { model, .. } => model.name().to_owned(),
         }
-    }
-
-    // Keeps the points that are not hidden and their neighbours, so that the line meets the active
-    // curve.
-    fn without(self, is_hidden: impl Fn(Point) -> bool) -> Curve<'a> {
-        let pieces = self.pieces.iter().flat_map(|piece| {
-            let hidden: Vec<bool> = piece.iter().map(|point| is_hidden(*point)).collect();
-            let around = |at: usize| at.saturating_sub(1)..=(at + 1).min(piece.len() - 1);
-            let kept: Vec<usize> =
-                (0..piece.len()).filter(|&at| around(at).any(|near| !hidden[near])).collect();
-            let runs =
-                kept.chunk_by(|one, next| one + 1 == *next && !(hidden[*one] && hidden[*next]));
-            runs.map(|run| run.iter().map(|&at| piece[at]).collect()).collect::<Vec<Vec<Point>>>()
-        });
-        Curve { pieces: pieces.collect(), ..self }
-    }
-
-    /// The least and the greatest value.
-    #[must_use]
-    pub(crate) fn upright(&self) -> Span {
-        self.points().fold(Span::NONE, |span, (_, y)| span.with(y))
     }
 
     /// The least and the greatest value within a range of the angle.
@@ -207,26 +183,6 @@ fn models<'a>(answer: &Answer, column: &'static Column, system: System) -> Vec<C
 #[must_use]
 pub fn is_field(source: CurveSource) -> bool {
     matches!(source, CurveSource::Model { model, .. } if model.model().has_coupling)
-}
-
-/// The curves without the parts that coincide with the active curve.
-#[must_use]
-pub fn apart(curves: Vec<Curve<'_>>) -> Vec<Curve<'_>> {
-    let Some(own) =
-        curves.iter().find(|curve| matches!(curve.source, CurveSource::Active(_))).cloned()
-    else {
-        return curves;
-    };
-    let alike = ALIKE * curves.iter().map(Curve::upright).fold(Span::NONE, Span::and).length();
-    let coincides = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
-    let shown = curves.into_iter().map(|curve| match curve.source {
-        CurveSource::Other(_) | CurveSource::Pinned(_) => curve.without(coincides),
-        CurveSource::Active(_) | CurveSource::Bound(_) | CurveSource::Model { .. } => curve,
-    });
-    // The legend names the baseline even if its curve coincides.
-    shown
-        .filter(|curve| matches!(curve.source, CurveSource::Pinned(_)) || !curve.pieces.is_empty())
-        .collect()
 }
 
 /// The marker and the style of a curve.
@@ -340,26 +296,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_that_coincide_with_the_active_curve_are_not_drawn() {
-        let column = &crate::report::stations::COLUMNS[6];
-        let curve = |source, points: &[f64]| {
-            let points = points.iter().enumerate().map(|(at, y)| (at as f64, *y)).collect();
-            Curve { source, column, unit: column.shown, pieces: vec![points], solved: None }
-        };
-        let own = curve(CurveSource::Active(Method::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
-        let same = curve(CurveSource::Other(Method::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
-        let other =
-            curve(CurveSource::Other(Method::Paper), &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-        let shown = apart(vec![same, other, own]);
-        assert_eq!(shown.len(), 2);
-        assert_eq!(
-            shown[0].pieces,
-            [vec![(0.0, 9.0), (1.0, 1.0)], vec![(5.0, 5.0), (6.0, 6.0), (7.0, 7.0)]]
-        );
-        assert_eq!(shown[1].pieces[0].len(), 6);
-    }
-
-    #[test]
     fn values_are_interpolated_between_stations_and_absent_beyond_them() {
         let column = &crate::report::stations::COLUMNS[6];
         let pieces = vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]];
@@ -380,6 +316,6 @@ mod tests {
         ] {
             assert_eq!(curve.at(x), y, "{x}");
         }
-        assert_eq!(curve.upright(), Span::new(0.0, 8.0));
+        assert_eq!(curve.upright_within(Span::new(-0.5, 0.5)), Span::new(2.0, 8.0));
     }
 }

@@ -120,42 +120,14 @@ impl ChartView {
     }
 }
 
-/// The state that the axes were fitted to. The axes are fitted again when it changes.
+/// What the axes are fitted to. They are fitted anew when it changes, even if they still contain the
+/// values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Occasion {
-    /// The serial of the answered request, and whether the answer is still incomplete.
-    pub(crate) answered: Option<(u64, bool)>,
-    /// The address of the mesh stiffness, which arrives after the answer.
-    pub(crate) stiffness: Option<usize>,
-    /// The serial of the baseline's request.
-    pub(crate) pinned: Option<u64>,
-    /// The selected chart, the number of visible charts, and the units.
+    /// The selected chart, the number of visible charts, and the units, for the value axes.
     pub(crate) shown: (usize, usize, System),
-    /// The frame, the zoom, and the bits of the angle in the middle.
-    pub(crate) sight: (Frame, i32, Option<u64>),
-    /// The method, and the first request after the last undo.
+    /// The method, and the first request after the last undo, for all axes.
     pub(crate) ground: (Option<Method>, u64),
-}
-
-/// Which axes to fit again even if they still contain the values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Refit {
-    /// The value axes: for other charts or other units.
-    pub(crate) upright: bool,
-    /// All axes: for another method, or after an undo.
-    pub(crate) all: bool,
-}
-
-impl Occasion {
-    /// Compares with an earlier occasion. While an answer is incomplete, the method and the undo of
-    /// the earlier occasion remain.
-    #[must_use]
-    pub(crate) fn since(&mut self, before: Occasion) -> Refit {
-        if self.answered.is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1) {
-            self.ground = before.ground;
-        }
-        Refit { upright: self.shown != before.shown, all: self.ground != before.ground }
-    }
 }
 
 /// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
@@ -168,7 +140,7 @@ pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
 }
 
 /// The range from the first to the last station of all methods, in deg after E.
-pub(super) fn way(answer: &Answer) -> Span {
+pub(super) fn way_of_all(answer: &Answer) -> Span {
     answer
         .methods
         .iter()

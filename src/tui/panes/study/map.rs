@@ -15,7 +15,6 @@ use crate::tui::study::{LayerFound, StudyResults};
 
 /// Shades from the least to the greatest value.
 const SHADES: [&str; 5] = ["∙", "░", "▒", "▓", "█"];
-const SHADES_ASCII: [&str; 5] = [".", ":", "=", "%", "#"];
 /// The sign of the limit; the next sign marks the edge of contact.
 const LIMIT: &str = "+";
 const EDGE: &str = "o";
@@ -110,57 +109,40 @@ impl Map<'_> {
         y * self.across.points.len() + x
     }
 
-    fn value(&self, column: u16, row: u16) -> Option<f64> {
-        self.found.values.get(self.index(column, row)).copied().flatten()
-    }
-
-    fn outcome(&self, column: u16, row: u16) -> Option<PointOutcome> {
-        self.found.outcomes.get(self.index(column, row)).copied()
+    /// The outcome and the value of a cell.
+    fn point(&self, column: u16, row: u16) -> Option<(PointOutcome, Option<f64>)> {
+        let at = self.index(column, row);
+        Some((*self.found.outcomes.get(at)?, *self.found.values.get(at)?))
     }
 
     fn cell(&self, column: u16, row: u16) -> (&'static str, Style) {
         let theme = self.pane.look.theme;
-        match self.outcome(column, row) {
-            None => (" ", Style::new()),
-            Some(PointOutcome::Refused) => (REFUSED, theme.problem),
-            Some(PointOutcome::Solved(_)) if self.is_on_limit(column, row) => {
+        let is_above =
+            |value: Option<f64>| value.zip(self.limit).is_some_and(|(one, limit)| one > limit);
+        let has_beside = |is: &dyn Fn((PointOutcome, Option<f64>)) -> bool| {
+            let mut beside = self.beside(column, row);
+            beside.any(|(column, row)| self.point(column, row).is_some_and(is))
+        };
+        let Some((outcome, value)) = self.point(column, row) else {
+            return (" ", Style::new());
+        };
+        let strikes = PointOutcome::Solved(Outcome::CornerContact);
+        match (outcome, value) {
+            (PointOutcome::Refused, _) => (REFUSED, theme.problem),
+            // Above the limit, beside a point that is not.
+            _ if is_above(value) && has_beside(&|(_, beside)| !is_above(beside)) => {
                 (LIMIT, theme.problem)
             }
-            Some(PointOutcome::Solved(outcome)) => match self.value(column, row) {
-                Some(value) => (self.shade(value), theme.active),
-                None if self.is_on_edge(column, row, outcome) => (EDGE, theme.note),
-                None if outcome == Outcome::NoCornerContact => (NO_CONTACT, theme.note),
-                None => (" ", Style::new()),
-            },
+            (_, Some(value)) => (self.shade(value), theme.active),
+            (PointOutcome::Solved(Outcome::CornerContact), None) => (" ", Style::new()),
+            _ if has_beside(&|(beside, _)| beside == strikes) => (EDGE, theme.note),
+            _ => (NO_CONTACT, theme.note),
         }
     }
 
     fn shade(&self, value: f64) -> &'static str {
         let part = if self.values.is_empty() { 0.5 } else { self.values.part(value) };
-        let shades = if self.pane.look.ascii { &SHADES_ASCII } else { &SHADES };
-        let last = shades.len() - 1;
-        shades[((part * shades.len() as f64) as usize).min(last)]
-    }
-
-    /// Whether the value of a cell exceeds the limit and a neighbour does not.
-    fn is_on_limit(&self, column: u16, row: u16) -> bool {
-        let Some(limit) = self.limit else {
-            return false;
-        };
-        let exceeds = |column, row| self.value(column, row).map(|value| value > limit);
-        exceeds(column, row) == Some(true)
-            && self.beside(column, row).any(|(column, row)| {
-                self.outcome(column, row).is_some() && exceeds(column, row) != Some(true)
-            })
-    }
-
-    /// Whether a point without contact has a neighbour with contact.
-    fn is_on_edge(&self, column: u16, row: u16, outcome: Outcome) -> bool {
-        let strikes = PointOutcome::Solved(Outcome::CornerContact);
-        outcome == Outcome::NoCornerContact
-            && self
-                .beside(column, row)
-                .any(|(column, row)| self.outcome(column, row) == Some(strikes))
+        SHADES[((part * SHADES.len() as f64) as usize).min(SHADES.len() - 1)]
     }
 
     fn beside(&self, column: u16, row: u16) -> impl Iterator<Item = (u16, u16)> + use<> {
