@@ -17,7 +17,7 @@ use serde_json::Value;
 use tipstrike::case::file::Document;
 use tipstrike::model::dynamic::{Settings, dynamic};
 use tipstrike::model::inputs::Method;
-use tipstrike::model::spacing::Spacing;
+use tipstrike::model::stations::Spacing;
 use tipstrike::model::{Inputs, Quantity, Solution, Stage, Stages, solve};
 
 /// The compared quantities, with the names of their errors in the SciPy script.

@@ -13,11 +13,9 @@ pub mod deviation;
 pub mod dynamic;
 pub mod explanation;
 pub mod field;
-pub mod gear_pose;
 pub mod geometry;
 pub mod impact;
 pub mod inputs;
-pub mod interpolate;
 pub mod limits;
 pub mod masses;
 pub mod mesh;
@@ -31,38 +29,33 @@ pub mod relief;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod solve;
-pub mod spacing;
 pub mod stage;
-pub mod stage_inputs;
 pub mod static_load;
-pub mod static_spectrum;
 pub mod stations;
-pub mod tip_gap;
 
 pub use auto::Choice;
 pub use clearing::Clearing;
 pub use compliance::TeethCompliance;
-pub use contact_state::ContactState;
+pub use contact_state::{ContactState, Interpolated};
 pub use deviation::Deviation;
 pub use dynamic::Dynamic;
 pub use dynamic::speeds::SpeedCurve;
 pub use dynamic::steady::Steady;
 pub use explanation::Context;
-pub use gear_pose::GearPose;
 pub use geometry::Geometry;
 pub use impact::{Band, Friction, Impact};
 pub use inputs::Inputs;
-pub use interpolate::Interpolated;
 pub use limits::Refusal;
 pub use mesh::Mesh;
 pub use notes::{Note, notes};
+pub use outline::GearPose;
 pub use outline::Outline;
 pub use position::{Position, Velocity};
 pub use quantities::{QUANTITIES, Quantity};
 pub use solve::{Earlier, solve, solve_after, solve_while};
 pub use stage::{Stage, Stages};
 pub use static_load::StaticLoad;
-pub use static_spectrum::{Resonance, StaticSpectrum};
+pub use static_load::{Resonance, StaticSpectrum};
 pub use stations::{MeshStation, Station};
 
 use std::sync::Arc;
@@ -71,24 +64,13 @@ use twofloat::TwoFloat;
 
 use inputs::Method;
 use masses::Masses;
-use solve::Setup;
 
 /// Intermediate results for a later solve.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Kept {
     masses: Masses,
     /// The unrounded deviation.
     deviation: Deviation<TwoFloat>,
-    /// The values that the next solve shares; only where this solve and an earlier one share them,
-    /// so that a single solve allocates nothing.
-    setup: Option<Arc<Setup>>,
-}
-
-/// The shared values do not affect the equality of solutions.
-impl PartialEq for Kept {
-    fn eq(&self, other: &Kept) -> bool {
-        self.masses == other.masses && self.deviation == other.deviation
-    }
 }
 
 /// Whether the incoming tooth strikes.
@@ -106,7 +88,6 @@ impl Outcome {
     }
 
     /// The name in a report.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Outcome::CornerContact => "corner-contact",
@@ -216,14 +197,12 @@ impl Solution {
     }
 
     /// The stages with results, here or in the solve beside.
-    #[must_use]
     pub fn all_stages(&self) -> Stages {
         let beside = self.beside.as_ref().and_then(|beside| beside.as_ref().ok());
         beside.map_or(self.stages, |beside| self.stages.and(beside.stages))
     }
 
     /// The solve that computes a stage: this one, or that by a slower method beside it.
-    #[must_use]
     pub fn having(&self, stage: Stage) -> &Solution {
         match &self.beside {
             Some(Ok(beside)) if !self.method.stages().has(stage) => beside,

@@ -1,7 +1,7 @@
 //! Solves pairs one after the other and reuses the results of the previous pair.
 
 use crate::model::inputs::Method;
-use crate::model::solve::{Earlier, differ_in_load_alone, solve_after};
+use crate::model::solve::{Earlier, solve_after};
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// The last solve by each method.
@@ -63,26 +63,6 @@ impl Evaluator {
         solved.solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
         solved.inputs.clone_from(inputs);
         Ok(&solved.solution)
-    }
-
-    /// Solves the next point of a study. `check` first checks the values of the point, unless they
-    /// differ from those of the last point only in load and deviations and the method has a closed
-    /// form.
-    ///
-    /// # Errors
-    /// Those of [`solve_after`] and of `check`.
-    pub fn solve_point<E: From<Refusal>>(
-        &mut self,
-        inputs: &Inputs,
-        wanted: Stages,
-        check: impl FnOnce(&Inputs) -> Result<(), E>,
-        go_on: &dyn Fn(f64) -> bool,
-    ) -> Result<&Solution, E> {
-        let is_alike = |solved: &Solved| differ_in_load_alone(&solved.inputs, inputs);
-        if !Method::CLOSED_FORM.contains(&inputs.method) || !self.solved.iter().any(is_alike) {
-            check(inputs)?;
-        }
-        Ok(self.solve_kept(inputs, inputs.method, wanted, go_on)?)
     }
 }
 
@@ -166,9 +146,7 @@ mod tests {
         let wanted = Stages::of(Stage::Dynamic);
         for speed in ["2000 rpm", "300 rpm", "9000 rpm"] {
             let inputs = at(speed);
-            let kept: Result<_, Refusal> =
-                evaluator.solve_point(&inputs, wanted, |_| Ok(()), &|_| true);
-            let kept = kept.unwrap();
+            let kept = evaluator.solve_kept(&inputs, Method::Dynamic, wanted, &|_| true).unwrap();
             assert_eq!(kept.ran.has(Stage::Mesh), speed == "2000 rpm");
             let fresh = solve(&inputs, wanted).unwrap();
             assert_eq!(kept.dynamic, fresh.dynamic, "{speed}");

@@ -5,7 +5,8 @@ mod table;
 use super::units::Dimension;
 use crate::model::Inputs;
 use crate::model::compliance::{contact_of, model_of};
-use crate::model::inputs::{Gear, Method};
+use crate::model::inputs::{Gear, GearSide, Method};
+use crate::model::limits::Member;
 use crate::numeric::decimal::shortest;
 use Reason::{Idle, Partly};
 pub use table::FIELDS;
@@ -255,6 +256,16 @@ impl Field {
 #[must_use]
 pub fn index_of(key: &str) -> Option<usize> {
     FIELDS.iter().position(|field| field.key == key)
+}
+
+/// The key of a member of the inputs, of one gear or of the pair.
+#[must_use]
+pub fn key_of((gear, name): Member) -> &'static str {
+    let table = gear.map(|gear| if gear == GearSide::Driver { "driver" } else { "driven" });
+    let has_table =
+        |field: &Field| table.map_or(!field.is_of_gear(), |table| field.table() == table);
+    let field = FIELDS.iter().find(|field| field.name() == name && has_table(field));
+    field.map_or(name, |field| field.key)
 }
 
 /// The groups of the form: the name of the table in the file and the title.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::fields::key_of;
 use super::sanitize::sanitize;
 use crate::model::Refusal;
 
@@ -55,7 +56,7 @@ impl Problem {
 impl From<&Refusal> for Problem {
     fn from(refusal: &Refusal) -> Problem {
         let code = refusal.code().into();
-        Problem { code, ..Problem::new(refusal.field(), refusal.to_string(), refusal.fix()) }
+        Problem { code, ..Problem::new(key_of(refusal.at()), refusal.to_string(), refusal.fix()) }
     }
 }
 

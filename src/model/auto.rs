@@ -6,9 +6,9 @@ use std::fmt;
 use super::dynamic::Dynamic;
 use super::inputs::{Inputs, Method};
 use super::mesh::Mesh;
-use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, balance, static_load};
+use super::stations::Spacing;
 use super::{Outcome, Refusal, Solution};
 use crate::numeric::decimal::significant;
 
@@ -73,7 +73,6 @@ pub enum Reason {
 /// by the closed form, which has no force then, a trial motion always decides.
 ///
 /// The choice depends on the pair alone, not on the limits and the selected quantities.
-#[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     let Ok(solution) = closed_form else {
         return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
@@ -86,7 +85,6 @@ pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choic
 
 /// The method that computes the needed stages which `method` lacks, if it lacks any: the fastest
 /// that has them all, otherwise `dynamic`.
-#[must_use]
 pub(super) fn beside(inputs: &Inputs, method: Method) -> Option<Method> {
     let missing = inputs.needs.except(method.stages());
     let has_all = |method: &Method| method.stages().covers(missing);
@@ -101,16 +99,16 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     let load = solution.mesh_force / impact.force;
     let reason = if deviation.combined_deflection < deviation.equivalent_error {
         Reason::ContactLost
-    } else if impact.duration() > velocity.transit_time {
-        Reason::Outlasts(impact.duration(), velocity.transit_time)
-    } else if !(1.0 - 1e-9..=2.0 + 1e-9).contains(&impact.impulse_ratio()) {
-        Reason::Impulse(impact.impulse_ratio())
+    } else if impact.duration > velocity.transit_time {
+        Reason::Outlasts(impact.duration, velocity.transit_time)
+    } else if !(1.0 - 1e-9..=2.0 + 1e-9).contains(&impact.impulse_ratio) {
+        Reason::Impulse(impact.impulse_ratio)
     } else if load > inputs.within {
         Reason::LoadShared(load)
     } else {
         return Choice { method: Method::Exact, reason: Reason::FreeImpact, inertia: None };
     };
-    sharing(inputs, reason, swing(2.0 * impact.duration_spring(), velocity.transit_time))
+    sharing(inputs, reason, swing(2.0 * impact.duration_spring, velocity.transit_time))
 }
 
 /// `static` if the effect of inertia is small. Otherwise `dynamic`, also if a trial must decide.
@@ -128,13 +126,11 @@ fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
 
 impl Choice {
     /// Whether a trial motion must decide.
-    #[must_use]
     pub fn is_open(&self) -> bool {
         matches!(self.inertia, Some(Inertia::Between(..)))
     }
 
     /// The choice after a trial motion, with the relative effect `adds` of inertia.
-    #[must_use]
     pub fn tried(self, inputs: &Inputs, adds: f64) -> Choice {
         /// The difference is sampled and can be slightly larger between the samples.
         const SURE: f64 = 0.9;
@@ -166,7 +162,6 @@ fn swing(period: f64, time: f64) -> f64 {
 pub(super) const READS: Stages = Stages::of(Stage::Impact);
 
 /// The inputs for the chosen method.
-#[must_use]
 pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
     /// Tolerance of the peak force relative to `model.within`.
     const NUMERICAL: f64 = 0.02;

@@ -59,7 +59,6 @@ pub struct Meter {
 
 impl Meter {
     /// A meter with no work counted.
-    #[must_use]
     pub fn new(limit: u64) -> Meter {
         Meter { limit, spent: Cell::new(0) }
     }
@@ -71,13 +70,11 @@ impl Meter {
     }
 
     /// The total work.
-    #[must_use]
     pub fn spent(&self) -> u64 {
         self.spent.get()
     }
 
     /// The limit.
-    #[must_use]
     pub fn limit(&self) -> u64 {
         self.limit
     }

@@ -7,7 +7,7 @@ use super::budget::{Meter, SEARCH_TRIES, SEARCH_WORK};
 use super::dynamic::{Approach, Settings, approach};
 use super::inputs::{Inputs, Method};
 use super::mesh::MeshInputs;
-use super::mesh::range::Meshes;
+use super::mesh::build::Meshes;
 use super::position::printed_relief_to_clear;
 use super::static_load::{lead_before_start, places_before_start};
 use super::{Outcome, Refusal, Solution};
@@ -296,7 +296,6 @@ impl Solution {
     /// x is the displacement by the other pairs, in static balance or in the motion without contact
     /// of the incoming pair. The base pitch deviation moves only the incoming tooth. In every
     /// method an increase of f_pb by the gap/√2 closes the gap.
-    #[must_use]
     pub fn margin(&self) -> Option<f64> {
         if self.outcome == Outcome::CornerContact {
             return None;
@@ -311,7 +310,6 @@ impl Solution {
 
     /// How early the static load makes the tooth, in m. A negative value is the gap that is left.
     /// `None` if the mesh is not computed.
-    #[must_use]
     pub fn lead_at_rest(&self) -> Option<f64> {
         lead_before_start(self.mesh.as_ref()?).ok()
     }

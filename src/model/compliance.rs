@@ -4,19 +4,18 @@
 
 pub mod contact;
 pub mod flanks;
-mod list;
 pub mod tooth;
 
 use super::Refusal;
-use super::geometry::{GearShape, Geometry};
+use super::geometry::Geometry;
 use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
-use super::profile::Rack;
-use super::tip_gap::TipContact;
+use super::position::TipContact;
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::real::Lanes;
-use contact::{ContactLaw, ContactSpring, HalfWidth, PairContact};
+use contact::{ContactLaw, ContactSpring};
 use tooth::Tooth;
 
+pub use super::field::ElasticGear;
 pub use tooth::{contact_of, model_of, without_field};
 
 /// Elasticity of a pair: the inputs of its compliances besides the geometry.
@@ -34,40 +33,8 @@ pub struct Elasticity {
     pub width: f64,
 }
 
-/// One gear of an [`Elasticity`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ElasticGear {
-    /// The rack that cuts the profile.
-    pub rack: Rack,
-    /// Shape of the gear.
-    pub shape: GearShape,
-    /// Bore radius r_h, in m.
-    pub bore_radius: f64,
-    /// Young's modulus E, in Pa.
-    pub young: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-}
-
-impl ElasticGear {
-    /// A gear of the pair.
-    #[must_use]
-    pub fn of(inputs: &Inputs, gear: &Gear) -> ElasticGear {
-        ElasticGear {
-            rack: Rack::of(inputs, gear),
-            // The rounding of the tip moves the load but does not change the stiffness of the
-            // tooth.
-            shape: GearShape { tip_radius: None, ..gear.shape(inputs.module) },
-            bore_radius: gear.bore_radius,
-            young: gear.young,
-            poisson: gear.poisson,
-        }
-    }
-}
-
 impl Inputs {
     /// Elasticity of the pair.
-    #[must_use]
     pub fn elasticity(&self) -> Elasticity {
         let gear = |gear: &Gear| ElasticGear::of(self, gear);
         let tooth = model_of(self);
@@ -99,7 +66,6 @@ pub struct TeethCompliance {
 
 impl TeethCompliance {
     /// q₁ + q₂, in m²/N.
-    #[must_use]
     pub fn sum(&self) -> f64 {
         self.driver + self.driven
     }
@@ -118,7 +84,6 @@ pub struct ContactPlace {
 
 impl ContactPlace {
     /// The point of the line of action at the distance `along` from N₁.
-    #[must_use]
     pub fn on_line_of_action(geometry: &Geometry, along: f64) -> ContactPlace {
         let rest = geometry.tangent_length - along;
         let radius = |base: f64, length: f64| (base * base + length * length).sqrt();
@@ -130,7 +95,6 @@ impl ContactPlace {
     }
 
     /// The place with the gears swapped.
-    #[must_use]
     pub fn swapped(self) -> ContactPlace {
         ContactPlace {
             radius_driver: self.radius_driven,
@@ -140,7 +104,6 @@ impl ContactPlace {
     }
 
     /// The driven tip on the driver's flank.
-    #[must_use]
     pub fn at_tip(tip_radius: Option<f64>, geometry: &Geometry, tip: &TipContact) -> ContactPlace {
         ContactPlace {
             radius_driver: tip.radius_driver,
@@ -157,25 +120,6 @@ pub struct Teeth {
     geometry: Geometry,
     driver: Tooth,
     driven: Tooth,
-    contact: PairContact,
-}
-
-/// Compliance of a pair at a place, prepared for any force.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairCompliance {
-    /// Of the two teeth, in m²/N.
-    teeth: f64,
-    contact: ContactSpring,
-}
-
-impl PairCompliance {
-    /// Compliance under a given force, in m²/N.
-    ///
-    /// # Errors
-    /// Those of the [contact](ContactSpring::compliance).
-    pub fn at_load(&self, force: f64) -> Result<f64, Refusal> {
-        Ok(self.teeth + self.contact.compliance(force)?)
-    }
 }
 
 impl Teeth {
@@ -187,7 +131,6 @@ impl Teeth {
         Ok(Teeth {
             elasticity: *elasticity,
             geometry: *geometry,
-            contact: PairContact::of(elasticity),
             driver: Tooth::of(elasticity.tooth, &elasticity.driver, &geometry.driver)?,
             driven: Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)
                 .map_err(Refusal::at_driven)?,
@@ -195,19 +138,16 @@ impl Teeth {
     }
 
     /// The geometry of the pair.
-    #[must_use]
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
     /// 1/E' of the pair, in 1/Pa.
-    #[must_use]
     pub fn give(&self) -> f64 {
-        self.contact.give()
+        self.elasticity.give()
     }
 
     /// Common face width b, in m.
-    #[must_use]
     pub fn width(&self) -> f64 {
         self.elasticity.width
     }
@@ -217,11 +157,18 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn at(&self, place: &ContactPlace) -> Result<TeethCompliance, Refusal> {
-        Ok(TeethCompliance {
-            model: self.elasticity.tooth,
-            driver: self.driver.at(place.radius_driver)?,
-            driven: self.driven.at(place.radius_driven).map_err(Refusal::at_driven)?,
-        })
+        let [driver, driven] = self.both(place, Tooth::at)?;
+        Ok(TeethCompliance { model: self.elasticity.tooth, driver, driven })
+    }
+
+    /// A value of driver and driven gear at a place.
+    fn both<T>(
+        &self,
+        place: &ContactPlace,
+        of: impl Fn(&Tooth, f64) -> Result<T, Refusal>,
+    ) -> Result<[T; 2], Refusal> {
+        let driver = of(&self.driver, place.radius_driver)?;
+        Ok([driver, of(&self.driven, place.radius_driven).map_err(Refusal::at_driven)?])
     }
 
     /// The contact laws of driver and driven gear at a place. `None` for a model without contact.
@@ -229,10 +176,7 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn contacts(&self, place: &ContactPlace) -> Result<[Option<ContactLaw>; 2], Refusal> {
-        Ok([
-            self.driver.contact(place.radius_driver)?,
-            self.driven.contact(place.radius_driven).map_err(Refusal::at_driven)?,
-        ])
+        self.both(place, Tooth::contact)
     }
 
     /// The contact at a place: by the tooth model if it includes the contact, otherwise by the
@@ -244,20 +188,19 @@ impl Teeth {
         match self.contacts(place)? {
             [Some(driver), Some(driven)] => {
                 let teeth = self.at(place)?.sum();
-                Ok(HalfWidth::of(&self.elasticity).spring(place, teeth, driver + driven))
+                Ok(self.elasticity.spring(place, teeth, driver + driven))
             }
-            _ => self.contact.spring(&self.elasticity, &self.geometry, place),
+            _ => self.elasticity.contact_spring(&self.geometry, place),
         }
     }
 
     /// The place where the load acts on both teeth under a force, in N. If the pressure would
     /// extend beyond the corner of a tip, the load moves until the pressure ends at the corner.
-    #[must_use]
     pub fn under(&self, place: &ContactPlace, force: f64) -> ContactPlace {
         if !self.driver.has_corner() && !self.driven.has_corner() {
             return *place;
         }
-        let half_width = HalfWidth::of(&self.elasticity).at(place, force);
+        let half_width = self.elasticity.half_width(place, force);
         let moved = |radius: f64, tooth: &Tooth| radius.min(tooth.last_radius(half_width));
         ContactPlace {
             radius_driver: moved(place.radius_driver, &self.driver),
@@ -289,7 +232,6 @@ impl Teeth {
     }
 
     /// Whether the force on a pair displaces others.
-    #[must_use]
     pub fn is_coupled(&self) -> bool {
         self.elasticity.tooth.model().has_coupling
     }
@@ -300,14 +242,10 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn abscissas(&self, place: &ContactPlace) -> Result<[f64; 2], Refusal> {
-        Ok([
-            self.driver.abscissa(place.radius_driver)?,
-            self.driven.abscissa(place.radius_driven).map_err(Refusal::at_driven)?,
-        ])
+        self.both(place, Tooth::abscissa)
     }
 
     /// The same as [`Teeth::coupling`] at several [places](Teeth::abscissas) at once.
-    #[must_use]
     pub fn couplings(
         &self,
         later: [Lanes<TERMS>; 2],
@@ -324,14 +262,8 @@ impl Teeth {
     /// # Errors
     /// A [`Refusal`] outside the range of the models.
     pub fn pair_at_load(&self, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
-        self.pair(&self.under(place, force))?.at_load(force)
-    }
-
-    /// Compliance of the pair at a place.
-    ///
-    /// # Errors
-    /// A [`Refusal`] outside the range of the models.
-    pub fn pair(&self, place: &ContactPlace) -> Result<PairCompliance, Refusal> {
-        Ok(PairCompliance { contact: self.spring(place)?, teeth: self.at(place)?.sum() })
+        let place = self.under(place, force);
+        let spring = self.spring(&place)?;
+        Ok(self.at(&place)?.sum() + spring.compliance(force)?)
     }
 }

@@ -8,48 +8,11 @@ use smallvec::SmallVec;
 use twofloat::TwoFloat;
 
 use super::Refusal;
-use super::compliance::{ContactPlace, PairCompliance, Teeth};
+use super::compliance::{ContactPlace, Teeth};
 use super::geometry::Geometry;
 use super::inputs::{Combination, Gear, Inputs, Method};
 use super::pair_forces::{PITCHES, Pair, PairSet};
 use crate::numeric::Real;
-
-/// Deviations, reliefs and deflection that the case gives. The samples of a study differ in these
-/// values and share the elasticity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GivenDeviations {
-    /// `paper` scales the reliefs as printed. `static` and `dynamic` apply the reliefs to the
-    /// flanks.
-    pub method: Method,
-    /// Base pitch deviations f_pb of driver and driven gear, in m.
-    pub base_pitches: [f64; 2],
-    /// How these deviations add.
-    pub combination: Combination,
-    /// Normal backlash j_bn that Eq. 1 subtracts, in m: 0 except in `paper`.
-    pub backlash: f64,
-    /// Tip relief of the driven gear, in m.
-    pub driven_tip_relief: f64,
-    /// Root relief of the driver, in m.
-    pub driver_root_relief: f64,
-    /// Combined deflection δ, in m; `None` if the load causes it.
-    pub deflection: Option<f64>,
-}
-
-impl GivenDeviations {
-    /// Selects the stage inputs from the inputs of a solve.
-    #[must_use]
-    pub fn of(inputs: &Inputs) -> GivenDeviations {
-        GivenDeviations {
-            method: inputs.method,
-            base_pitches: inputs.base_pitches(),
-            combination: inputs.effective_combination(),
-            backlash: if inputs.method == Method::Paper { inputs.backlash } else { 0.0 },
-            driven_tip_relief: inputs.driven.tip_relief,
-            driver_root_relief: inputs.driver.root_relief,
-            deflection: inputs.given_deflection(),
-        }
-    }
-}
 
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,22 +38,20 @@ pub struct Deviation<T = f64> {
 /// # Errors
 /// Those of `by_load`.
 pub(super) fn deviation(
-    given: &GivenDeviations,
+    inputs: &Inputs,
     by_load: impl FnOnce() -> Result<Deflected, Refusal>,
 ) -> Result<Deviation<TwoFloat>, Refusal> {
-    let deflected =
-        given.deflection.map_or_else(by_load, |deflection| Ok(Deflected::alone(deflection)))?;
-    let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
-    let with_reliefs = equivalent_error(given);
-    let equivalent_error = if given.method.shares_load() {
-        pitch_error(given.base_pitches, given.combination)
-    } else {
-        with_reliefs
+    let deflected = match inputs.given_deflection() {
+        Some(pairs_ahead) => Deflected { pairs_ahead, incoming_pair: 0.0 },
+        None => by_load()?,
     };
-    let modification = modification(given);
+    let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
+    let with_reliefs = equivalent_error(inputs);
+    let equivalent_error =
+        if inputs.method.shares_load() { pitch_error(inputs) } else { with_reliefs };
     Ok(Deviation {
         equivalent_error,
-        modification,
+        modification: modification(inputs),
         combined_deflection,
         neighbour_deflection: deflected.incoming_pair.into(),
         total: with_reliefs + combined_deflection,
@@ -111,20 +72,19 @@ pub(super) fn deviation(
 /// random errors, as printed. The other methods count e_m in full, because a ground relief is no
 /// random error, and leave out j_bn: a backlash is the distance of the back flanks and does not
 /// delay a drive flank under load.
-fn equivalent_error(given: &GivenDeviations) -> TwoFloat {
-    let pitch_error = pitch_error(given.base_pitches, given.combination);
-    match given.method {
+fn equivalent_error(inputs: &Inputs) -> TwoFloat {
+    match inputs.method {
         Method::Paper => {
-            let scaled = modification(given) - TwoFloat::from(given.backlash);
-            pitch_error + scaled * twofloat::consts::FRAC_1_SQRT_2
+            let scaled = modification(inputs) - TwoFloat::from(inputs.backlash);
+            pitch_error(inputs) + scaled * twofloat::consts::FRAC_1_SQRT_2
         }
-        _ => pitch_error + modification(given),
+        _ => pitch_error(inputs) + modification(inputs),
     }
 }
 
 /// Modification e_m = −(driven tip relief + driver root relief), in m.
-fn modification(inputs: &GivenDeviations) -> TwoFloat {
-    -TwoFloat::new_add(inputs.driven_tip_relief, inputs.driver_root_relief)
+fn modification(inputs: &Inputs) -> TwoFloat {
+    -TwoFloat::new_add(inputs.driven.tip_relief, inputs.driver.root_relief)
 }
 
 /// Combined base pitch deviation f of both gears, in m.
@@ -138,8 +98,9 @@ fn modification(inputs: &GivenDeviations) -> TwoFloat {
 ///
 /// # Source
 /// Zhou & Chen 2014, Eq. 1, for independent deviations. Deviations that are known add.
-fn pitch_error([driver, driven]: [f64; 2], combination: Combination) -> TwoFloat {
-    match combination {
+fn pitch_error(inputs: &Inputs) -> TwoFloat {
+    let [driver, driven] = inputs.base_pitches();
+    match inputs.effective_combination() {
         Combination::Sum => TwoFloat::new_add(driver, driven),
         Combination::Independent if driver.to_bits() == driven.to_bits() => {
             TwoFloat::from(2.0 * driver) * twofloat::consts::FRAC_1_SQRT_2
@@ -161,145 +122,69 @@ pub(super) struct Deflected {
     incoming_pair: f64,
 }
 
-impl Deflected {
-    fn alone(pairs_ahead: f64) -> Deflected {
-        Deflected { pairs_ahead, incoming_pair: 0.0 }
-    }
-}
-
-/// The pairs that carry the load with the incoming pair at E, prepared for any force.
-#[derive(Debug, Clone)]
-pub(super) struct LoadedPairs {
-    /// Common face width b, in m.
-    width: f64,
-    /// The places of the incoming pair and of the loaded pairs. The load is at the contact, not
-    /// moved off a tip.
-    places: Places,
-    pairs: Carriers,
-}
-
 type Places = SmallVec<[ContactPlace; USUAL_PAIRS + 1]>;
 
 /// Number of loaded pairs stored without allocation.
 const USUAL_PAIRS: usize = 2;
 
-#[derive(Debug, Clone)]
-enum Carriers {
-    /// Independent springs, and the displacement of the incoming pair by a unit force on the first
-    /// spring, in m²/N.
-    Apart(Springs, f64),
-    /// Several coupled pairs.
-    Coupled,
-}
-
-impl LoadedPairs {
-    /// Finds the loaded pairs of a geometry. Builds the teeth only if a pair is in contact at F.
-    ///
-    /// # Errors
-    /// [`Refusal::ContactRatioBelowOne`] if no pair is in contact at F,
-    /// [`Refusal::InterferenceAtEnd`] if the only pair touches the driven gear inside its base
-    /// circle, or the errors of the compliance.
-    pub(super) fn of<'t>(
-        method: Method,
-        geometry: &Geometry,
-        teeth: impl FnOnce() -> Result<&'t Teeth, Refusal>,
-    ) -> Result<LoadedPairs, Refusal> {
-        let is_in_contact =
-            |along: &f64| *along <= geometry.end && *along < geometry.tangent_length;
-        let first = geometry.start + geometry.base_pitch;
-        let ahead = std::iter::successors(Some(first), |along| Some(along + geometry.base_pitch));
-        let mut ahead = ahead.take_while(is_in_contact).peekable();
-        if first <= geometry.end && ahead.peek().is_none() {
-            return Err(Refusal::InterferenceAtEnd {
-                start: geometry.tangent_length - geometry.end,
-            });
+/// The two parts of the combined deflection δ when the incoming pair is at E, in m. Builds the teeth
+/// only if a pair is in contact at F.
+///
+/// # Formula
+/// ```text
+/// δ = x − Σ_k Q_0k F_k/b,   x = Σ_j Q_kj F_j/b,   Σ F_k = F0,   F_k >= 0
+/// Q_kk = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. before B
+/// ```
+/// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load: δ =
+/// (Q_11 − Q_01) F0/b. With a higher contact ratio several pairs share the load. Without coupling
+/// (Q_kj = 0), and in the method `paper`, δ = F0/(b Σ 1/Q_kk). The load is at the contact, not moved
+/// off a tip.
+///
+/// # Source
+/// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of the curve in Fig. 3.
+/// The paper has no displacement of neighbours.
+///
+/// # Errors
+/// [`Refusal::ContactRatioBelowOne`] if no pair is in contact at F, [`Refusal::InterferenceAtEnd`] if
+/// the only pair touches the driven gear inside its base circle, or the errors of the compliance.
+pub(super) fn deflected<'t>(
+    method: Method,
+    geometry: &Geometry,
+    teeth: impl FnOnce() -> Result<&'t Teeth, Refusal>,
+    mesh_force: f64,
+) -> Result<Deflected, Refusal> {
+    let is_in_contact = |along: &f64| *along <= geometry.end && *along < geometry.tangent_length;
+    let first = geometry.start + geometry.base_pitch;
+    if !is_in_contact(&first) {
+        if first <= geometry.end {
+            let start = geometry.tangent_length - geometry.end;
+            return Err(Refusal::InterferenceAtEnd { start });
         }
-        if ahead.peek().is_none() {
-            let losses = geometry.tip_losses;
-            let whole = geometry.end - geometry.start + losses.total;
-            return Err(Refusal::ContactRatioBelowOne {
-                ratio: geometry.contact_ratio,
-                is_deflection_taken: !method.shares_load(),
-                cut: losses.greatest.filter(|_| whole > geometry.base_pitch),
-            });
-        }
-        let teeth = teeth()?;
-        let place =
-            |along: f64| teeth.under(&ContactPlace::on_line_of_action(geometry, along), 0.0);
-        let places: Places = std::iter::once(geometry.start).chain(ahead).map(place).collect();
-        let coupling = if method == Method::Paper {
-            0.0
-        } else {
-            teeth.coupling(&places[0], &places[1], 1)?
-        };
-        let pairs = if coupling != 0.0 && places.len() > 2 {
-            Carriers::Coupled
-        } else {
-            Carriers::Apart(springs(teeth, &places)?, coupling)
-        };
-        Ok(LoadedPairs { width: teeth.width(), places, pairs })
+        let losses = geometry.tip_losses;
+        let whole = geometry.end - geometry.start + losses.total;
+        return Err(Refusal::ContactRatioBelowOne {
+            ratio: geometry.contact_ratio,
+            is_deflection_taken: !method.shares_load(),
+            cut: losses.greatest.filter(|_| whole > geometry.base_pitch),
+        });
     }
-
-    /// The two parts of the combined deflection δ when the incoming pair is at E, in m.
-    ///
-    /// # Formula
-    /// ```text
-    /// δ = x − Σ_k Q_0k F_k/b,   x = Σ_j Q_kj F_j/b,   Σ F_k = F0,   F_k >= 0
-    /// Q_kk = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. before B
-    /// ```
-    /// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load: δ
-    /// = (Q_11 − Q_01) F0/b. With a higher contact ratio several pairs share the load. Without
-    /// coupling (Q_kj = 0), and in the method `paper`, δ = F0/(b Σ 1/Q_kk).
-    ///
-    /// # Source
-    /// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of the curve in
-    /// Fig. 3. The paper has no displacement of neighbours.
-    ///
-    /// # Errors
-    /// A [`Refusal`] if a contact has no compliance under the load.
-    pub(super) fn deflected(&self, teeth: &Teeth, mesh_force: f64) -> Result<Deflected, Refusal> {
-        let under = |place: &ContactPlace| teeth.under(place, mesh_force);
-        let is_moved = |place: &ContactPlace| under(place) != *place;
-        match &self.pairs {
-            Carriers::Coupled => {
-                let places: Places = self.places.iter().map(under).collect();
-                shared(teeth, &places, mesh_force)
-            }
-            Carriers::Apart(pairs, coupling) if !self.places.iter().any(is_moved) => {
-                self.apart(pairs, *coupling, mesh_force)
-            }
-            Carriers::Apart(_, coupling) => {
-                let places: Places = self.places.iter().map(under).collect();
-                let coupling = if *coupling == 0.0 {
-                    0.0
-                } else {
-                    teeth.coupling(&places[0], &places[1], 1)?
-                };
-                self.apart(&springs(teeth, &places)?, coupling, mesh_force)
-            }
-        }
+    let teeth = teeth()?;
+    let ahead = std::iter::successors(Some(first), |along| Some(along + geometry.base_pitch));
+    let loaded = std::iter::once(geometry.start).chain(ahead.take_while(is_in_contact));
+    let place = |along| teeth.under(&ContactPlace::on_line_of_action(geometry, along), mesh_force);
+    let places: Places = loaded.map(place).collect();
+    let coupling =
+        if method == Method::Paper { 0.0 } else { teeth.coupling(&places[0], &places[1], 1)? };
+    if coupling != 0.0 && places.len() > 2 {
+        return shared(teeth, &places, mesh_force);
     }
-
-    fn apart(
-        &self,
-        pairs: &[PairCompliance],
-        coupling: f64,
-        mesh_force: f64,
-    ) -> Result<Deflected, Refusal> {
-        let stiffnesses = pairs.iter().map(|pair| Ok(1.0 / pair.at_load(mesh_force)?));
-        let stiffness: f64 = stiffnesses.sum::<Result<_, Refusal>>()?;
-        Ok(Deflected {
-            pairs_ahead: mesh_force / (self.width * stiffness),
-            incoming_pair: coupling * (mesh_force / self.width),
-        })
-    }
-}
-
-type Springs = SmallVec<[PairCompliance; USUAL_PAIRS]>;
-
-/// The compliances of all places except the first.
-fn springs(teeth: &Teeth, places: &[ContactPlace]) -> Result<Springs, Refusal> {
-    places[1..].iter().map(|place| teeth.pair(place)).collect()
+    let stiffnesses =
+        places[1..].iter().map(|place| Ok(1.0 / teeth.pair_at_load(place, mesh_force)?));
+    let stiffness: f64 = stiffnesses.sum::<Result<_, Refusal>>()?;
+    Ok(Deflected {
+        pairs_ahead: mesh_force / (teeth.width() * stiffness),
+        incoming_pair: coupling * (mesh_force / teeth.width()),
+    })
 }
 
 /// The displacements if several coupled pairs, all places except the first, carry the force.
@@ -330,7 +215,6 @@ fn shared(teeth: &Teeth, places: &[ContactPlace], mesh_force: f64) -> Result<Def
 impl Deviation {
     /// The equivalent error by the definition of another method, in m, for the comparison of two
     /// methods: `static` and `dynamic` exclude the reliefs, the other methods include them.
-    #[must_use]
     pub fn equivalent_error_as_in(&self, own: Method, other: Method) -> f64 {
         match (own.shares_load(), other.shares_load()) {
             (true, false) => self.equivalent_error + self.modification,
@@ -341,11 +225,8 @@ impl Deviation {
             _ => self.equivalent_error,
         }
     }
-}
 
-impl Deviation {
     /// Deflection of the pairs that carry the load, in m.
-    #[must_use]
     pub fn loaded_deflection(&self) -> f64 {
         self.combined_deflection + self.neighbour_deflection
     }
@@ -375,7 +256,6 @@ pub enum Origin {
 }
 
 /// Why ISO 1328-1:2013 does not cover a gear, or `None` if it does.
-#[must_use]
 pub fn out_of_range(module: f64, teeth: u32) -> Option<&'static str> {
     let diameter = module * f64::from(teeth);
     if !(0.5e-3..=70e-3).contains(&module) {
@@ -395,7 +275,6 @@ impl Inputs {
     /// ```text
     /// f_pb = f_pT cos α  for a flank tolerance class
     /// ```
-    #[must_use]
     pub fn base_pitch_of(&self, gear: &Gear) -> (f64, Origin) {
         match (gear.base_pitch, gear.grade) {
             (Some(own), _) => (own, Origin::Own),
@@ -410,21 +289,18 @@ impl Inputs {
     }
 
     /// Single pitch deviation f_pT of a gear's flank tolerance class, in m.
-    #[must_use]
     pub fn graded_pitch(&self, gear: &Gear) -> Option<f64> {
         let diameter = self.module * f64::from(gear.teeth);
         Some(pitch_tolerance(gear.grade?, self.module, diameter))
     }
 
     /// Base pitch deviations of driver and driven gear, in m.
-    #[must_use]
     pub fn base_pitches(&self) -> [f64; 2] {
         [&self.driver, &self.driven].map(|gear| self.base_pitch_of(gear).0)
     }
 
     /// How the base pitch deviations add. Deviations of unlike sign are known with their signs, so
     /// that they add.
-    #[must_use]
     pub fn effective_combination(&self) -> Combination {
         let [driver, driven] = self.base_pitches();
         if driver * driven < 0.0 { Combination::Sum } else { self.combination }
@@ -432,9 +308,8 @@ impl Inputs {
 
     /// The common base pitch deviation of both gears whose combined deviation is that of this pair
     /// plus `more`, in m.
-    #[must_use]
     pub fn common_base_pitch(&self, more: f64) -> f64 {
-        let error = pitch_error(self.base_pitches(), self.effective_combination()).rounded();
+        let error = pitch_error(self).rounded();
         let times = match self.combination {
             Combination::Independent => SQRT_2,
             Combination::Sum => 2.0,
@@ -443,7 +318,6 @@ impl Inputs {
     }
 
     /// Whether a gear has its own base pitch deviation or flank tolerance class.
-    #[must_use]
     pub fn has_own_base_pitch(&self) -> bool {
         [&self.driver, &self.driven]
             .into_iter()
@@ -469,7 +343,6 @@ const MILLIMETRES: f64 = 1e3;
 ///
 /// # Source
 /// ISO 1328-1:2013, section 5.
-#[must_use]
 pub fn pitch_tolerance(class: u32, module: f64, diameter: f64) -> f64 {
     let fifth = 0.001 * diameter * MILLIMETRES + 0.4 * module * MILLIMETRES + 5.0;
     let exact = fifth * (0.5 * (f64::from(class) - 5.0)).exp2();
@@ -482,7 +355,6 @@ pub fn pitch_tolerance(class: u32, module: f64, diameter: f64) -> f64 {
 }
 
 /// Base pitch tolerance f_pb = f_pT cos α, in m.
-#[must_use]
 pub fn base_pitch_tolerance(class: u32, module: f64, diameter: f64, pressure_angle: f64) -> f64 {
     pitch_tolerance(class, module, diameter) * pressure_angle.cos()
 }

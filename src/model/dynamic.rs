@@ -5,7 +5,6 @@ mod motion;
 mod side;
 pub mod speeds;
 pub mod steady;
-mod step;
 #[cfg(test)]
 mod tests;
 mod watch;
@@ -15,12 +14,12 @@ use super::budget::{EVENT_WORK, MOTION_BYTES, MOTION_WORK, Meter};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::pair_forces::Touching;
-use super::spacing::{Resolution, Spacing};
 use super::stations::MeshStation;
+use super::stations::Spacing;
 use motion::{ALIKE, Motion, State, Window};
+use motion::{Course, Event, Step};
 use side::{PairName, TERMS};
-use steady::RepeatDetector;
-use step::{Course, Event, Step};
+use steady::{RepeatDetector, Start};
 pub use watch::Rattle;
 use watch::Watch;
 
@@ -59,21 +58,10 @@ pub struct Dynamic {
     pub approach: Vec<(f64, f64)>,
     /// Stations from the first contact through E to the last contact, including peaks and valleys.
     pub stations: Vec<MeshStation>,
-    /// Whether the stations are as dense as the curve needs.
-    pub resolution: Resolution,
-    /// Computational effort.
-    pub effort: Effort,
-}
-
-/// Counters of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Effort {
-    /// Steps.
-    pub steps: u64,
+    /// The reason why the stations are less dense than the curve needs.
+    pub rough: Option<Refusal>,
     /// Coefficients of the power series of the motion, and evaluations of series.
     pub evaluations: u64,
-    /// Course made and lost.
-    pub events: u64,
     /// Total work in units of the [budget](super::budget).
     pub work: u64,
 }
@@ -116,8 +104,9 @@ pub fn dynamic(
             }
         }
         run.check_reach()?;
-        let effort = Effort { work: meter.spent(), ..run.effort };
-        run.watch.finish(motion, (settings.spacing, settings.approach_samples), effort).map(Some)
+        let found = run.watch.finish(motion, settings)?;
+        let evaluations = found.evaluations + run.steps * TERMS as u64;
+        Ok(Some(Dynamic { evaluations, work: meter.spent(), ..found }))
     })
 }
 
@@ -193,7 +182,7 @@ struct Run<'a> {
     allowed: f64,
     repeats: RepeatDetector,
     watch: Watch,
-    effort: Effort,
+    steps: u64,
     meter: &'a Meter,
     /// Greatest difference of the driver's lead and the gap of the incoming tooth, in m, for a run
     /// without its contact.
@@ -211,31 +200,35 @@ impl<'a> Run<'a> {
         motion.check_pace(end - start)?;
         let borders = motion.borders(start, end);
         meter.spend((borders.len() / BORDERS) as u64);
-        let inside = f64::midpoint(start, borders.get(1).copied().unwrap_or(end));
-        let pairs = mesh.pair_set(start, inside);
-        let (displacement, forces) = pairs.shared(mesh.force);
-        if !displacement.is_finite() {
-            return Err(Refusal::BeyondReach);
-        }
-        let carries = pairs.pairs().iter().zip(forces);
-        let touching = carries.filter(|(_, force)| *force > 0.0);
-        Ok(Run {
+        let at_rest = Start::at_rest(mesh, &borders)?;
+        Ok(Run::from(motion, borders, at_rest, tolerance, meter))
+    }
+
+    /// A run from the first border on.
+    fn from(
+        motion: &'a Motion<'a>,
+        borders: Vec<f64>,
+        start: Start,
+        tolerance: f64,
+        meter: &'a Meter,
+    ) -> Run<'a> {
+        Run {
             motion,
             next: 1,
-            t: motion.time(start),
-            y: State::new(displacement, 0.0),
-            touching: touching.map(|(pair, _)| PairName::working(pair.ahead)).collect(),
-            borders,
+            t: motion.time(borders[0]),
+            y: start.state,
+            touching: start.touching,
             turned: Touching::NONE,
             is_even: true,
             allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
-            repeats: RepeatDetector::new(start, tolerance),
+            repeats: RepeatDetector::new(borders[0], tolerance),
+            borders,
             watch: Watch::default(),
-            effort: Effort::default(),
+            steps: 0,
             meter,
             lead: None,
             misses_back: false,
-        })
+        }
     }
 
     /// Advances to the next border, or to the end of the warm-up if it repeats. Returns false if
@@ -311,13 +304,12 @@ impl<'a> Run<'a> {
         let course = Course::new(self.motion, window, touching);
         let taken = course.step(self.t, &self.y, end, (self.allowed, self.is_even))?;
         let mut step = taken.step;
-        self.effort.steps += 1;
-        self.effort.evaluations += TERMS as u64;
+        self.steps += 1;
         self.count(1 + window.pairs.len() as u64 + self.motion.take_looks())?;
         let range = step.range();
         self.misses_back |= self.motion.misses_back(range.0);
         let standing_off = self.lead.and(window.incoming());
-        let event = step::first_event(&course, (&step, range), (self.turned, standing_off));
+        let event = motion::first_event(&course, (&step, range), (self.turned, standing_off));
         self.is_even = taken.ends_even && event.is_none();
         if let Some(event) = event {
             step = step.cut(event.part);
@@ -348,12 +340,11 @@ impl<'a> Run<'a> {
         if self.meter.spend(work) {
             return Ok(());
         }
-        Err(Refusal::MotionTooLong { steps: self.effort.steps, done: self.part_done() })
+        Err(Refusal::MotionTooLong { steps: self.steps, done: self.part_done() })
     }
 
     /// A pair gains or loses contact.
     fn turn(&mut self, window: &Window, touching: Touching, event: Event) -> Touching {
-        self.effort.events += 1;
         self.turned = self.turned.with(event.pair);
         if window.incoming() == Some(event.pair) {
             self.watch.turn(self.t, !touching.has(event.pair));
@@ -383,7 +374,6 @@ pub struct Settings {
 
 impl Settings {
     /// The settings of a case, with the mass at the line of action, in kg.
-    #[must_use]
     pub fn of(inputs: &Inputs, mass: f64) -> Settings {
         Settings {
             mass,
@@ -397,14 +387,12 @@ impl Settings {
     }
 
     /// The settings of the approach, which has no stations.
-    #[must_use]
     pub fn approach(inputs: &Inputs, mass: f64) -> Settings {
         let spacing = Spacing::Even(1);
         Settings { spacing, approach_samples: 0, ..Settings::of(inputs, mass) }
     }
 
     /// The settings of the steady motion, which has neither warm-up nor stations.
-    #[must_use]
     pub fn steady(inputs: &Inputs, mass: f64) -> Settings {
         Settings { warmup_cycles: 0, ..Settings::approach(inputs, mass) }
     }

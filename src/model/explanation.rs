@@ -95,7 +95,6 @@ pub type Check = fn(&Context) -> Option<Finding>;
 
 impl Finding {
     /// A finding, as the result of a [`Check`].
-    #[must_use]
     pub fn new(range: impl Into<String>, here: impl Into<String>, inside: bool) -> Option<Finding> {
         Some(Finding { range: range.into(), here: here.into(), inside })
     }
@@ -103,7 +102,6 @@ impl Finding {
 
 impl Formula {
     /// The formula that this case uses.
-    #[must_use]
     pub fn resolved(self, inputs: &Inputs) -> Formula {
         match self {
             Formula::Cases(cases) => cases
@@ -115,7 +113,6 @@ impl Formula {
     }
 
     /// The right-hand side if the formula is explicit.
-    #[must_use]
     pub fn explicit(self, context: &Context) -> Option<String> {
         match self.resolved(context.inputs) {
             Formula::Text(text) | Formula::Difference(text) => Some(text.to_owned()),
@@ -127,7 +124,6 @@ impl Formula {
 
 /// A number with `digits` significant digits. Removes trailing zeros if the shorter number is
 /// exact.
-#[must_use]
 pub fn tidy(value: f64, digits: usize) -> String {
     const EXACT: f64 = 4.0 * f64::EPSILON;
     let full = crate::numeric::decimal::significant(value, digits);

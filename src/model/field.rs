@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::geometry::GearShape;
+use super::inputs::{Gear, Inputs};
 pub use super::limits::FieldRefusal;
 use super::limits::POISSON;
 use super::profile::{Profile, Rack};
@@ -106,7 +107,6 @@ impl Field {
     /// q(a) = q(0) − (1 + ν)(2 − ν)/(4π h²) a²
     /// ```
     /// h is the depth of the centre line below the flank, along the force.
-    #[must_use]
     pub fn depth(&self, radius: f64, half_width: f64) -> f64 {
         let roll = self.flank.roll(radius);
         let share = half_width / self.centre_depth(radius);
@@ -120,7 +120,6 @@ impl Field {
     /// ```text
     /// q(a) = q(m) + 2 (1 − ν²)/π ln(m/a)
     /// ```
-    #[must_use]
     pub fn surface(&self, radius: f64, half_width: f64) -> f64 {
         let roll = self.flank.roll(radius);
         self.surface.at(self.abscissas[0].at(roll))
@@ -133,7 +132,6 @@ impl Field {
     /// ```text
     /// 2 (1 − ν²)/π
     /// ```
-    #[must_use]
     pub fn surface_slope(&self) -> f64 {
         surface_slope(self.poisson)
     }
@@ -143,7 +141,6 @@ impl Field {
     /// numbers.
     ///
     /// 0 for the loaded tooth itself, and for teeth more than [`PITCHES`] away.
-    #[must_use]
     pub fn cross(&self, loaded: f64, measured: f64, pitches: i32) -> f64 {
         let at = |radius: f64| Lanes([self.abscissa(radius)]);
         let Lanes([found]) = self.cross_at([at(loaded), at(measured)], pitches);
@@ -151,7 +148,6 @@ impl Field {
     }
 
     /// The same by the [abscissas](Field::abscissa) of load and displacement, several side by side.
-    #[must_use]
     pub fn cross_at<const L: usize>(
         &self,
         [loaded, measured]: [Lanes<L>; 2],
@@ -165,7 +161,6 @@ impl Field {
 
     /// The place at a radius in which displacements of other teeth are smooth, from −1 at the tip's
     /// load to 1 at the junction of fillet and involute.
-    #[must_use]
     pub fn abscissa(&self, radius: f64) -> f64 {
         self.abscissas[1].at(self.flank.roll(radius))
     }
@@ -179,7 +174,6 @@ impl Field {
     /// ```
     /// La is the length of the tangent from the base circle to the corner. The arc length of an
     /// involute is L²/(2 rb).
-    #[must_use]
     pub fn last_radius(&self, half_width: f64) -> f64 {
         let ([form, last], base) = (self.radii(), self.flank.base);
         let corner = base * self.flank.tip_roll;
@@ -188,21 +182,18 @@ impl Field {
     }
 
     /// The radii from the junction of fillet and involute to the load next to the tip, in m.
-    #[must_use]
     pub fn radii(&self) -> [f64; 2] {
         self.flank.radii
     }
 
     /// The displacement of all teeth by the twist of the body about its bore, which the other
     /// values exclude. `None` without a bore.
-    #[must_use]
     pub fn twist(&self) -> Option<f64> {
         self.twist
     }
 
     /// Depth of the centre line below the flank at a radius along the force, in m. The contact is
     /// inside the tooth if its half-width is smaller.
-    #[must_use]
     pub fn centre_depth(&self, radius: f64) -> f64 {
         self.module * self.depth_in_modules(self.flank.roll(radius))
     }
@@ -267,50 +258,80 @@ fn depth_loss(poisson: f64) -> f64 {
 /// Greatest number of cached gears, 2 kB each. A new gear replaces the least recently used one.
 const MOST_GEARS: usize = 256;
 
-/// All inputs of a gear's field.
+/// The inputs of a gear's compliance besides its circles. The field does not depend on Young's
+/// modulus.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FieldGear {
+pub struct ElasticGear {
     /// The rack that cuts the profile.
     pub rack: Rack,
     /// Shape of the gear.
     pub shape: GearShape,
     /// Bore radius r_h, in m; 0 without a bore.
     pub bore_radius: f64,
+    /// Young's modulus E, in Pa.
+    pub young: f64,
     /// Poisson's ratio ν.
     pub poisson: f64,
 }
 
-impl FieldGear {
+impl ElasticGear {
+    /// A gear of the pair.
+    pub fn of(inputs: &Inputs, gear: &Gear) -> ElasticGear {
+        ElasticGear {
+            rack: Rack::of(inputs, gear),
+            // The rounding of the tip moves the load but does not change the stiffness of the
+            // tooth.
+            shape: GearShape { tip_radius: None, ..gear.shape(inputs.module) },
+            bore_radius: gear.bore_radius,
+            young: gear.young,
+            poisson: gear.poisson,
+        }
+    }
+
     /// The field of the gear, built if no recent solve has built it.
+    ///
+    /// # Formula
+    /// ```text
+    /// q(r; a) = q(r) + q_H(r; m) + 2 (1 − ν²)/(π E) ln(m/a)
+    /// ```
+    /// q is the displacement of the tooth's centre line along a force at radius r. q_H is the
+    /// additional displacement of the flank under an elliptical pressure over ± a.
+    ///
+    /// # Source
+    /// [`Field`]: finite elements on half a pitch of the whole gear, in plane strain.
+    ///
+    /// # Valid for
+    /// A flank above the form circle. A load within 0.02 modules of the tip's corner acts at this
+    /// distance. Under the mesh force the distance is at least the half-width of the contact, so that
+    /// the pressure ends at the corner ([`Teeth::under`]). An impact uses the 0.02 modules.
     ///
     /// # Errors
     /// [`Refusal::NoField`] if the gear has no field, and the refusals of its circles.
     pub fn field(&self) -> Result<Arc<Field>, Refusal> {
         let entry = self.entry();
         // The list is not locked while a field is built, so that other gears do not wait.
-        entry.field.get_or_init(|| self.build().map(Arc::new)).clone()
+        entry.field.get_or_init(|| self.build_field().map(Arc::new)).clone()
     }
 
     /// The field of the gear, built without the cache.
     ///
     /// # Errors
-    /// Those of [`FieldGear::field`].
-    pub fn build(&self) -> Result<Field, Refusal> {
+    /// Those of [`ElasticGear::field`].
+    pub fn build_field(&self) -> Result<Field, Refusal> {
         Field::build(&self.input()?).map_err(|reason| self.refusal(reason))
     }
 
     /// Whether the gear has a field, without building it.
     ///
     /// # Errors
-    /// Those of [`FieldGear::field`].
-    pub fn check(&self) -> Result<(), Refusal> {
+    /// Those of [`ElasticGear::field`].
+    pub fn check_field(&self) -> Result<(), Refusal> {
         let check = || Field::check(&self.input()?).map_err(|reason| self.refusal(reason));
         *self.entry().check.get_or_init(check)
     }
 
     /// Whether the field of the gear is built.
-    #[must_use]
-    pub fn is_built(&self) -> bool {
+    pub fn is_field_built(&self) -> bool {
         self.entry().field.get().is_some()
     }
 
@@ -332,21 +353,30 @@ impl FieldGear {
 
     /// The entry of the gear. Needs no lock for the two gears that this thread used last.
     fn entry(&self) -> Arc<Entry> {
+        let gear = ElasticGear { young: 1.0, ..*self };
         LAST_READ.with_borrow_mut(|last| {
-            let known = last.iter().position(|entry| entry.gear == *self);
-            if let Some(at) = known {
-                return Arc::clone(&last[at]);
+            if let Some(known) = last.iter().find(|entry| entry.gear == gear) {
+                return Arc::clone(known);
             }
-            let entry = self.shared_entry();
+            let entry = Entry::shared(&gear);
             last.truncate(GEARS_OF_A_PAIR - 1);
             last.insert(0, Arc::clone(&entry));
             entry
         })
     }
+}
 
-    fn shared_entry(&self) -> Arc<Entry> {
+/// A gear with a Young's modulus of 1 and its field after the first request.
+struct Entry {
+    gear: ElasticGear,
+    check: OnceLock<Result<(), Refusal>>,
+    field: OnceLock<Result<Arc<Field>, Refusal>>,
+}
+
+impl Entry {
+    fn shared(gear: &ElasticGear) -> Arc<Entry> {
         let mut entries = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(at) = entries.iter().rposition(|entry| entry.gear == *self) {
+        if let Some(at) = entries.iter().rposition(|entry| entry.gear == *gear) {
             let last = entries.len() - 1;
             entries[at..=last].rotate_left(1);
             return Arc::clone(&entries[last]);
@@ -354,17 +384,10 @@ impl FieldGear {
         if entries.len() == MOST_GEARS {
             entries.remove(0);
         }
-        let entry = Arc::new(Entry { gear: *self, check: OnceLock::new(), field: OnceLock::new() });
+        let entry = Arc::new(Entry { gear: *gear, check: OnceLock::new(), field: OnceLock::new() });
         entries.push(Arc::clone(&entry));
         entry
     }
-}
-
-/// A gear and its field after the first request.
-struct Entry {
-    gear: FieldGear,
-    check: OnceLock<Result<(), Refusal>>,
-    field: OnceLock<Result<Arc<Field>, Refusal>>,
 }
 
 /// Recent gears, the most recently used one last. A field depends only on its gear, and building
@@ -551,7 +574,6 @@ fn stiffnesses(
 ///
 /// # Valid for
 /// 0 < r_h < r_f.
-#[must_use]
 pub fn body_twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
     base * base * (1.0 + poisson) / (2.0 * PI) * (root - bore) * (root + bore)
         / (bore * root * bore * root)
@@ -570,7 +592,6 @@ pub fn body_twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
 ///
 /// # Valid for
 /// 0 <= ν < 1/2.
-#[must_use]
 pub fn body_shift(poisson: f64) -> f64 {
     (3.0 - 4.0 * poisson) * (1.0 + poisson) / (4.0 * PI * (1.0 - poisson))
 }

@@ -1,11 +1,12 @@
 //! Involute geometry of the pair: circles, line of action, start of contact, and the force along the
 //! line of action.
 
-use nalgebra::{Matrix2, Rotation2, Vector2};
+use nalgebra::Vector2;
 use twofloat::TwoFloat;
 
 use super::Refusal;
-use super::inputs::{Gear, Inputs, Method};
+use super::inputs::{Gear, GearSide, Inputs, Method};
+use super::limits::Member;
 use crate::numeric::Real;
 
 /// A difference below this part of its terms is computed in double-double arithmetic, because f64
@@ -106,10 +107,10 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     let contact_ratio = (end - start).over(base_pitch);
     let towards_start = Vector2::new(centre_approach, driven.base + centre_curvature * tangent);
     let is_rounded = driver.edge > T::zero() || driven.edge > T::zero();
-    if let Some(field) = tip_losses.greatest.filter(|_| is_rounded)
+    if let Some(cut) = tip_losses.greatest.filter(|_| is_rounded)
         && contact_ratio < T::one()
     {
-        return Err(Refusal::RoundingBreaksContact { field, ratio: contact_ratio.rounded() });
+        return Err(Refusal::RoundingBreaksContact { cut, ratio: contact_ratio.rounded() });
     }
     Ok(Geometry {
         ratio: T::count(shape.driven.teeth).over(T::count(shape.driver.teeth)),
@@ -153,13 +154,8 @@ fn tangent_of<T: Real>(angle: T) -> T {
 /// The point of a flank with the radius of curvature `curvature` on a contact normal at `angle`,
 /// relative to O₁.
 pub(super) fn foot<T: Real>(base: T, curvature: T, angle: T) -> Vector2<T> {
-    turned(angle) * Vector2::new(base, -curvature)
-}
-
-/// Rotation of the plane by an angle.
-fn turned<T: Real>(angle: T) -> Rotation2<T> {
     let (sine, cosine) = angle.sine_cosine();
-    Rotation2::from_matrix_unchecked(Matrix2::new(cosine, -sine, sine, cosine))
+    Vector2::new(cosine * base + sine * curvature, sine * base - cosine * curvature)
 }
 
 /// Centre distance and tan α_w.
@@ -213,14 +209,12 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
 impl Geometry {
     /// Length of the path of contact with one additional pair in contact, (ε − ⌈ε⌉ + 1) p_b, in m.
     /// For 1 < ε < 2 this is the length of double contact at each end.
-    #[must_use]
     pub fn shared_length(&self) -> f64 {
         (self.contact_ratio - self.contact_ratio.ceil() + 1.0) * self.base_pitch
     }
 
     /// Whether f64 loses digits in a small difference: N₁E, the path of contact, EP, r_a − r_b, a −
     /// (r_b1 + r_b2), the wall between bore and base circle, or ε − 1 with rounded tips.
-    #[must_use]
     pub fn needs_precision(&self, bores: [f64; 2]) -> bool {
         const FLAT: f64 = 0.125;
         const SHORT: f64 = 1.0 / 32.0;
@@ -245,7 +239,6 @@ impl Geometry {
     /// Normal backlash from the centre distance, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m. α_w0
     /// is the working pressure angle without backlash. A negative value means that the teeth jam
     /// (ISO 21771).
-    #[must_use]
     pub fn backlash(&self, shape: &PairShape) -> f64 {
         let involute = |angle: f64| angle.tan() - angle;
         let alpha = shape.pressure_angle;
@@ -318,7 +311,6 @@ pub struct GearShape {
 impl Gear {
     /// Addendum coefficient: h_a* = d_a/(2 m) − z/2 − x if the tip diameter is given, otherwise the
     /// given coefficient. The module is in m.
-    #[must_use]
     pub fn addendum_coefficient(&self, module: f64) -> f64 {
         self.tip_diameter
             .map_or(self.addendum, |diameter| self.height_of(diameter, module) - self.profile_shift)
@@ -326,7 +318,6 @@ impl Gear {
 
     /// Dedendum coefficient: h_fP* = z/2 + x − d_f/(2 m) if the root diameter is given, otherwise
     /// the given coefficient. The module is in m.
-    #[must_use]
     pub fn dedendum_coefficient(&self, module: f64) -> f64 {
         self.root_diameter
             .map_or(self.dedendum, |diameter| self.profile_shift - self.height_of(diameter, module))
@@ -338,7 +329,6 @@ impl Gear {
     }
 
     /// Shape of the gear with a module in m.
-    #[must_use]
     pub fn shape(&self, module: f64) -> GearShape {
         GearShape {
             teeth: self.teeth,
@@ -355,7 +345,6 @@ impl Gear {
 
 impl Inputs {
     /// Shape of the pair. The method `paper` has only sharp tips.
-    #[must_use]
     pub fn shape(&self) -> PairShape {
         let shape = |gear: &Gear| {
             let shape = gear.shape(self.module);
@@ -372,7 +361,6 @@ impl Inputs {
     }
 
     /// Bore radii of driver and driven gear, in m.
-    #[must_use]
     pub fn bores(&self) -> [f64; 2] {
         [self.driver.bore_radius, self.driven.bore_radius]
     }
@@ -419,7 +407,7 @@ pub fn circles<T: Real>(
     let most_dedendum = std::f64::consts::FRAC_PI_4 / pressure_angle.tan();
     if gear.dedendum >= most_dedendum {
         return Err(Refusal::PointedRack {
-            field: "driver.dedendum",
+            gear: GearSide::Driver,
             dedendum: gear.dedendum,
             limit: most_dedendum,
         });
@@ -428,7 +416,8 @@ pub fn circles<T: Real>(
     if over_base <= T::zero() {
         let is_cut = over_base + gear.tip_chamfer.into() > T::zero();
         return Err(Refusal::TipInsideBase {
-            field: if is_cut { "driver.tip_chamfer" } else { "driver.addendum" },
+            gear: GearSide::Driver,
+            is_cut,
             tip: (reference + height).rounded(),
             base: base.rounded(),
         });
@@ -438,7 +427,7 @@ pub fn circles<T: Real>(
     let centre_over_base = over_base - edge;
     if centre_over_base <= T::zero() {
         return Err(Refusal::RoundingInsideBase {
-            field: "driver.tip_radius",
+            gear: GearSide::Driver,
             radius: edge.rounded(),
             limit: over_base.rounded(),
         });
@@ -481,7 +470,7 @@ fn check_room(
     let room = half_angle - (roll - roll.atan()) - radius / base;
     if room < 0.0 {
         return Err(Refusal::RoundingTooWide {
-            field: "driver.tip_radius",
+            gear: GearSide::Driver,
             radius,
             lack: -room * base,
         });
@@ -504,7 +493,6 @@ impl<T: Real> Circles<T> {
 
 impl Circles {
     /// The circles of the gear with a sharp tip.
-    #[must_use]
     pub fn sharp(&self) -> Circles {
         if self.edge <= 0.0 {
             return *self;
@@ -517,7 +505,6 @@ impl Circles {
     }
 
     /// Radius at which the involute ends, in m: the tip radius for a sharp tip.
-    #[must_use]
     pub fn involute_end(&self) -> f64 {
         if self.edge <= 0.0 { self.tip } else { self.base.hypot(self.tip_curvature) }
     }
@@ -528,26 +515,24 @@ impl Circles {
 pub struct TipLosses {
     /// The sum of the removed parts, in m.
     pub total: f64,
-    /// The key of the tip chamfer or tip radius that removes the greatest part; `None` for whole
-    /// tips.
-    pub greatest: Option<&'static str>,
+    /// The tip chamfer or tip radius that removes the greatest part; `None` for whole tips.
+    pub greatest: Option<Member>,
 }
 
 /// The removed parts of the path of contact of a pair, with the circles of driver and driven gear.
-#[must_use]
 fn tip_losses(shape: &PairShape, driver: &Circles, driven: &Circles) -> TipLosses {
     let [driver_chamfer, driver_radius] = losses(&shape.driver, driver);
     let [driven_chamfer, driven_radius] = losses(&shape.driven, driven);
     let all = [
-        (driver_chamfer, "driver.tip_chamfer"),
-        (driver_radius, "driver.tip_radius"),
-        (driven_chamfer, "driven.tip_chamfer"),
-        (driven_radius, "driven.tip_radius"),
+        (driver_chamfer, (Some(GearSide::Driver), "tip_chamfer")),
+        (driver_radius, (Some(GearSide::Driver), "tip_radius")),
+        (driven_chamfer, (Some(GearSide::Driven), "tip_chamfer")),
+        (driven_radius, (Some(GearSide::Driven), "tip_radius")),
     ];
     let greatest = all.iter().max_by(|one, other| one.0.total_cmp(&other.0));
     TipLosses {
         total: all.iter().map(|(loss, _)| loss).sum(),
-        greatest: greatest.filter(|(loss, _)| *loss > 0.0).map(|(_, key)| *key),
+        greatest: greatest.filter(|(loss, _)| *loss > 0.0).map(|(_, cut)| *cut),
     }
 }
 
@@ -560,7 +545,6 @@ fn losses(gear: &GearShape, circles: &Circles) -> [f64; 2] {
 }
 
 /// Mesh force F₀ = T₁/r_b1, in N.
-#[must_use]
 pub fn mesh_force(torque: f64, geometry: &Geometry) -> f64 {
     torque / geometry.driver.base
 }

@@ -3,13 +3,11 @@
 
 use std::f64::consts::PI;
 
-use super::compliance::contact::{ContactModel, ContactSpring};
-use super::compliance::tooth::ToothModel;
-use super::compliance::{ContactPlace, Teeth, contact, model_of, tooth};
+use super::compliance::{ContactPlace, Teeth, model_of};
 use super::geometry::Geometry;
 use super::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
 use super::masses::Masses;
-use super::tip_gap::{TipContact, angle_by_growth, seen_from, tip_at};
+use super::position::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Refusal, TeethCompliance, Velocity};
 
 /// The impact at D.
@@ -25,77 +23,22 @@ pub struct Impact {
     pub energy: f64,
     /// Energy of the sliding W_f, whole width, in J.
     pub sliding_energy: f64,
-    /// Values for the durations and the half-width, which are computed on demand: a study of the
-    /// force does not need them.
-    terms: Terms,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Terms {
-    method: Method,
-    /// Common face width b, in m.
-    width: f64,
-    /// Approach velocity ΔV_n, in m/s.
-    approach: f64,
-    /// Reduced mass of Eq. 33, in kg.
-    reduced_mass: f64,
-    /// Reduced radius of curvature ρ_S, in m.
-    curvature_radius: f64,
-    /// 1/E', in 1/Pa.
-    give: f64,
-    /// The contact.
-    spring: ContactSpring,
+    /// Hertz half-width at F_S, in m.
+    pub hertz_half_width: f64,
+    /// Impact duration T_S of the method, in s.
+    pub duration: f64,
+    /// Impact duration by Eq. 32 as printed, in s.
+    pub duration_printed: f64,
+    /// Half period of the model's spring, in s.
+    pub duration_spring: f64,
+    /// (2/π) F_S T_S/(M ΔV_n): 2 for the elastic spring, impossible below 1.
+    pub impulse_ratio: f64,
 }
 
 impl Impact {
-    /// Hertz half-width at F_S, in m.
-    #[must_use]
-    pub fn hertz_half_width(&self) -> f64 {
-        self.terms.spring.half_width(self.force)
-    }
-
-    /// Impact duration T_S of the method, in s.
-    #[must_use]
-    pub fn duration(&self) -> f64 {
-        match self.terms.method {
-            Method::Paper => self.duration_printed(),
-            _ => self.duration_spring(),
-        }
-    }
-
-    /// Impact duration by Eq. 32 as printed, in s.
-    ///
-    /// # Formula
-    /// ```text
-    /// TS = (m_red²/(π² ΔVn ρS E'²))^(1/5)
-    /// ```
-    ///
-    /// # Source
-    /// Zhou & Chen 2014, Eq. 32, with the reduced mass of Eq. 33 in kg. Hertz's duration for two
-    /// spheres is 4.53398 times as long, because the paper omits the prefactor.
-    #[must_use]
-    pub fn duration_printed(&self) -> f64 {
-        let Terms { approach, curvature_radius, .. } = self.terms;
-        let ratio = self.terms.reduced_mass * self.terms.give / PI;
-        (ratio * ratio / (approach * curvature_radius)).powf(0.2)
-    }
-
     /// Eq. 32 with Hertz's prefactor, in s.
-    #[must_use]
     pub fn duration_hertz(&self) -> f64 {
-        HERTZ_PREFACTOR * self.duration_printed()
-    }
-
-    /// Half period of the model's spring, in s.
-    #[must_use]
-    pub fn duration_spring(&self) -> f64 {
-        PI * (self.effective_mass * self.pair_compliance / self.terms.width).sqrt()
-    }
-
-    /// (2/π) F_S T_S/(M ΔV_n): 2 for the elastic spring, impossible below 1.
-    #[must_use]
-    pub fn impulse_ratio(&self) -> f64 {
-        2.0 / PI * self.force * self.duration() / (self.effective_mass * self.terms.approach)
+        HERTZ_PREFACTOR * self.duration_printed
     }
 }
 
@@ -104,13 +47,15 @@ impl Impact {
 /// # Formula
 /// ```text
 /// Ek = M ΔVn²/2,  Wf = M ΔVτ²/2,  FS = ΔVn √(b M/qs),  qs = q1 + q2 + qH(FS)
+/// TS = (m_red²/(π² ΔVn ρS E'²))^(1/5)  as printed,  π √(M qs/b)  of the spring
 /// ```
 /// The Hertz half-width in q_H and F_S are solved together.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 50-57. Corrected: Eq. 53 is inverted (δ_s = F_S q_s/b, which agrees with
 /// Eq. 57). The pair of Eq. 54 is the pair in contact at D, with the load at the tip of the driven
-/// tooth. The energies apply to the whole width.
+/// tooth. The energies apply to the whole width. Eq. 32 has the reduced mass of Eq. 33 in kg; Hertz's
+/// duration for two spheres is 4.53398 times as long, because the paper omits the prefactor.
 ///
 /// # Errors
 /// [`Refusal::HertzWidthTooLarge`] if Eq. 55 has no solution.
@@ -128,21 +73,22 @@ pub fn impact(
     let effective_mass = masses.effective(geometry, tip);
     let (force, pair_compliance) =
         spring.impact(compliance.sum(), velocity.normal * (width * effective_mass).sqrt())?;
+    let ratio = masses.reduced() * teeth.give() / PI;
+    let duration_printed = (ratio * ratio / (velocity.normal * place.curvature_radius)).powf(0.2);
+    let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
+    let is_printed = inputs.method == Method::Paper;
+    let duration = if is_printed { duration_printed } else { duration_spring };
     Ok(Impact {
         force,
         effective_mass,
         pair_compliance,
         energy: 0.5 * effective_mass * velocity.normal * velocity.normal,
         sliding_energy: 0.5 * effective_mass * velocity.sliding * velocity.sliding,
-        terms: Terms {
-            method: inputs.method,
-            width,
-            approach: velocity.normal,
-            reduced_mass: masses.reduced(),
-            curvature_radius: place.curvature_radius,
-            give: teeth.give(),
-            spring,
-        },
+        hertz_half_width: spring.half_width(force),
+        duration,
+        duration_printed,
+        duration_spring,
+        impulse_ratio: 2.0 / PI * force * duration / (effective_mass * velocity.normal),
     })
 }
 
@@ -172,7 +118,6 @@ pub struct Friction {
 ///
 /// # Valid for
 /// The ratio is kinematic. Coulomb's coefficient does not limit it.
-#[must_use]
 pub fn friction(
     inputs: &Inputs,
     geometry: &Geometry,
@@ -182,13 +127,13 @@ pub fn friction(
     reduced_mass: f64,
 ) -> Friction {
     let speeds = (inputs.speed, inputs.speed / geometry.ratio);
-    let turn = speeds.1 * impact.duration_printed();
+    let turn = speeds.1 * impact.duration_printed;
     let from_contact = seen_from(geometry, tip);
     let end = match inputs.method {
         Method::Paper => printed_end(&from_contact, tip, turn),
         _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
-    let gained = impact.force * impact.duration_printed() / (reduced_mass * tip.radius_driven);
+    let gained = impact.force * impact.duration_printed / (reduced_mass * tip.radius_driven);
     let ratio = end
         .map(|end| changes_ratio(speeds, &end, gained))
         .filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
@@ -279,31 +224,21 @@ pub struct Band {
     pub high: f64,
 }
 
-/// A tooth model with a contact model.
-#[derive(Debug, Clone, Copy)]
+/// A tooth compliance with a contact compliance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StiffnessModels {
     /// Model of the teeth.
-    pub tooth: &'static ToothModel,
+    pub tooth: ToothCompliance,
     /// Model of the contact; `None` if the model of the teeth includes the contact.
-    pub contact: Option<&'static ContactModel>,
-}
-
-impl PartialEq for StiffnessModels {
-    fn eq(&self, other: &StiffnessModels) -> bool {
-        let contact = |models: &StiffnessModels| models.contact.map(|contact| contact.name);
-        self.tooth.name == other.tooth.name && contact(self) == contact(other)
-    }
+    pub contact: Option<ContactCompliance>,
 }
 
 impl StiffnessModels {
     /// The models of a pair: given by the case, otherwise by range and method.
-    #[must_use]
     pub fn of(inputs: &Inputs) -> StiffnessModels {
-        let tooth = model_of(inputs).model();
-        StiffnessModels {
-            tooth,
-            contact: (!tooth.has_contact).then(|| inputs.contact_compliance.model()),
-        }
+        let tooth = model_of(inputs);
+        let contact = (!tooth.model().has_contact).then_some(inputs.contact_compliance);
+        StiffnessModels { tooth, contact }
     }
 
     /// The models that cover the pair, without the models of the case.
@@ -313,57 +248,45 @@ impl StiffnessModels {
     }
 
     /// The models of a pair whose case names no tooth compliance.
-    #[must_use]
     pub fn by_default(inputs: &Inputs) -> StiffnessModels {
         StiffnessModels::of(&Inputs { tooth_compliance: None, ..inputs.clone() })
     }
 
     /// Every tooth model with every contact model that it needs.
     pub fn all() -> impl Iterator<Item = StiffnessModels> {
-        tooth::MODELS.into_iter().flat_map(|tooth| {
-            let own = tooth.has_contact.then_some(None);
-            let others = contact::MODELS.map(Some);
-            let others = others.into_iter().filter(|_| !tooth.has_contact);
+        ToothCompliance::ALL.into_iter().flat_map(|tooth| {
+            let has_contact = tooth.model().has_contact;
+            let others = ContactCompliance::ALL.map(Some).into_iter().filter(move |_| !has_contact);
+            let own = has_contact.then_some(None);
             own.into_iter().chain(others).map(move |contact| StiffnessModels { tooth, contact })
         })
     }
 
     /// The models whose tooth model covers the pair.
     pub fn covering(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
-        let covers = tooth::MODELS.map(|model| (model.covers)(inputs));
-        let covering = move |models: &StiffnessModels| {
-            let all = tooth::MODELS.iter().zip(covers);
-            all.into_iter().any(|(model, covers)| covers && model.name == models.tooth.name)
-        };
-        StiffnessModels::all().filter(covering)
+        let covers = ToothCompliance::ALL.map(|tooth| (tooth, (tooth.model().covers)(inputs)));
+        StiffnessModels::all().filter(move |models| covers.contains(&(models.tooth, true)))
     }
 
     /// The inputs with these models.
-    #[must_use]
     pub fn in_place_of(&self, inputs: &Inputs) -> Inputs {
-        let contact = self
-            .contact
-            .map_or(inputs.contact_compliance, |contact| ContactCompliance::named(contact.name));
         Inputs {
-            tooth_compliance: Some(ToothCompliance::named(self.tooth.name)),
-            contact_compliance: contact,
+            tooth_compliance: Some(self.tooth),
+            contact_compliance: self.contact.unwrap_or(inputs.contact_compliance),
             ..inputs.clone()
         }
     }
 
     /// The symbol of the impact force by these models.
-    #[must_use]
     pub fn symbol(&self) -> String {
-        let contact = self.contact.map_or(String::new(), |contact| format!(",{}", contact.index));
-        format!("F_{}{contact}", self.tooth.index)
+        let contact = self.contact.map(|contact| format!(",{}", contact.model().index));
+        format!("F_{}{}", self.tooth.model().index, contact.unwrap_or_default())
     }
 
     /// The names of the models.
-    #[must_use]
     pub fn names(&self) -> String {
-        let contact =
-            self.contact.map_or(String::new(), |contact| format!(" and {}", contact.name));
-        format!("{}{contact}", self.tooth.name)
+        let contact = self.contact.map(|contact| format!(" and {}", contact.name()));
+        format!("{}{}", self.tooth.name(), contact.unwrap_or_default())
     }
 }
 
@@ -371,7 +294,6 @@ impl StiffnessModels {
 /// models of the case. Each force uses its own deflection unless the case gives the deflection.
 /// `force` is the result of the case's models. `solved` computes the others, or `None` if a model
 /// has no result.
-#[must_use]
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
     StiffnessModels::others(inputs).filter_map(|models| solved(&models.in_place_of(inputs))).fold(
         Band { low: force, high: force },

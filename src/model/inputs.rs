@@ -2,7 +2,23 @@
 
 use super::stage::{Stage, Stages};
 
-/// One gear of the pair.
+/// A gear of the pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GearSide {
+    /// Gear 1.
+    Driver,
+    /// Gear 2.
+    Driven,
+}
+
+impl GearSide {
+    /// The other gear.
+    pub fn other(self) -> GearSide {
+        if self == GearSide::Driver { GearSide::Driven } else { GearSide::Driver }
+    }
+}
+
+/// Inputs of one gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gear {
     /// Number of teeth z.
@@ -111,13 +127,11 @@ impl Method {
 
     /// Whether all pairs in contact share the load. Reliefs then act along the flanks, and the
     /// method ignores a given deflection.
-    #[must_use]
     pub fn shares_load(self) -> bool {
         matches!(self, Method::Static | Method::Dynamic)
     }
 
     /// The stages of the method.
-    #[must_use]
     pub fn stages(self) -> Stages {
         const IMPACT: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
         const AT_REST: Stages = Stages::of(Stage::StaticSpectrum).with(Stage::Resonance);
@@ -133,7 +147,6 @@ impl Method {
     }
 
     /// The stages that decide whether the tooth strikes, besides those of every solve.
-    #[must_use]
     pub fn deciding_stages(self) -> Stages {
         match self {
             Method::Exact => Stages::NONE,
@@ -145,7 +158,6 @@ impl Method {
     }
 
     /// The name in a case file.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Method::Paper => "paper",
@@ -167,7 +179,6 @@ impl ToothCompliance {
     }
 
     /// The name in a case file.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.0
     }
@@ -183,7 +194,6 @@ impl ContactCompliance {
     }
 
     /// The name in a case file.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.0
     }
@@ -330,26 +340,27 @@ impl Default for Inputs {
 
 impl Inputs {
     /// The inputs with more stages that the method `auto` computes besides its choice.
-    #[must_use]
     pub fn needing(self, stages: impl IntoIterator<Item = Stage>) -> Inputs {
         let needs = stages.into_iter().fold(self.needs, Stages::with);
         Inputs { needs, ..self }
     }
 
+    /// A gear of the pair.
+    pub fn gear(&self, side: GearSide) -> &Gear {
+        if side == GearSide::Driver { &self.driver } else { &self.driven }
+    }
+
     /// Transmission ratio i = z₂/z₁ = ω₁/ω₂.
-    #[must_use]
     pub fn ratio(&self) -> f64 {
         f64::from(self.driven.teeth) / f64::from(self.driver.teeth)
     }
 
     /// Speed of the driven gear ω₂ = ω₁/i, in rad/s.
-    #[must_use]
     pub fn driven_speed(&self) -> f64 {
         self.speed / self.ratio()
     }
 
     /// Torque on the driver T₁, in N m.
-    #[must_use]
     pub fn torque(&self) -> f64 {
         match self.drive {
             Drive::Power(power) => power / self.speed,
@@ -358,13 +369,11 @@ impl Inputs {
     }
 
     /// The given deflection if the method uses it, in m.
-    #[must_use]
     pub fn given_deflection(&self) -> Option<f64> {
         self.deflection.filter(|_| !self.method.shares_load())
     }
 
     /// Common face width b, the smaller of the two, in m.
-    #[must_use]
     pub fn common_width(&self) -> f64 {
         self.driver.face_width.min(self.driven.face_width)
     }

@@ -5,9 +5,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::Refusal;
 use super::geometry::{Circles, Geometry};
-use super::inputs::{Gear, InertiaModel, Inputs, Method};
+use super::inputs::{Gear, GearSide, InertiaModel, Inputs, Method};
+use super::position::TipContact;
 use super::profile::{Profile, Rack};
-use super::tip_gap::TipContact;
+use crate::numeric::root::last_where;
 use crate::numeric::{Real, quadrature};
 
 /// Masses of the two gears at their base circles J/r_b², in kg.
@@ -33,10 +34,9 @@ impl Masses {
     ///
     /// # Errors
     /// [`Refusal::BoreTooLarge`] if a bore is larger than the body.
-    pub fn of<T: Real>(bodies: &[Body; 2], geometry: &Geometry<T>) -> Result<Masses, Refusal> {
-        let [driver, driven] = bodies;
-        let driver = Inertia::of(driver, &geometry.driver)?;
-        let driven = Inertia::of(driven, &geometry.driven)?;
+    pub fn of<T: Real>(inputs: &Inputs, geometry: &Geometry<T>) -> Result<Masses, Refusal> {
+        let driver = Inertia::of(inputs, GearSide::Driver, &geometry.driver)?;
+        let driven = Inertia::of(inputs, GearSide::Driven, &geometry.driven)?;
         let mass = |inertia: &Inertia, circles: &Circles<T>| {
             let base = circles.base.rounded();
             inertia.moment / (base * base)
@@ -49,14 +49,12 @@ impl Masses {
     }
 
     /// Reduced mass of Eq. 33, 1/m_red = 1/m_red,1 + 1/m_red,2, in kg.
-    #[must_use]
     pub fn reduced(&self) -> f64 {
         self.driver * self.driven / (self.driver + self.driven)
     }
 
     /// Effective mass of Eq. 50, M = J₁ J₂/(J₁ r_b2'² + J₂ r_b1²), in kg: the reduced mass with the
     /// driven gear's arm at D instead of its base radius.
-    #[must_use]
     pub fn effective(&self, geometry: &Geometry, tip: &TipContact) -> f64 {
         let arm = tip.normal_radius_driven / geometry.driven.base;
         self.driver * self.driven / (self.driver * arm * arm + self.driven)
@@ -66,55 +64,16 @@ impl Masses {
 /// Relative tolerance of the integral over the fillet.
 const TOLERANCE: f64 = 1e-14;
 
-/// A gear's body: the inputs of its inertia besides its circles.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Body {
-    /// The given moment of inertia of all parts that turn with the gear, in kg m².
-    Given(f64),
-    /// The outline of the gear.
-    Outline(Blank, Rack, f64),
-    /// A disc up to the base circle, Eq. 47.
-    BaseCircle(Blank),
-}
-
-/// Bore, width and density of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blank {
-    /// Key of the field of the bore.
-    pub bore_field: &'static str,
-    /// Bore radius r_h, in m.
-    pub bore_radius: f64,
-    /// Face width b, in m.
-    pub face_width: f64,
-    /// Density ρ, in kg/m³.
-    pub density: f64,
-}
-
 impl Inputs {
-    /// Bodies of driver and driven gear. The method `paper` uses the disc of Eq. 47.
-    #[must_use]
-    pub fn bodies(&self) -> [Body; 2] {
-        let body = |bore_field, gear: &Gear| {
-            let blank = Blank {
-                bore_field,
-                bore_radius: gear.bore_radius,
-                face_width: gear.face_width,
-                density: gear.density,
-            };
-            match (self.inertia_model(), gear.inertia) {
-                (_, Some(given)) => Body::Given(given),
-                (InertiaModel::Outline, None) => {
-                    let addendum = gear.addendum_coefficient(self.module);
-                    Body::Outline(blank, Rack::of(self, gear), addendum)
-                }
-                (InertiaModel::BaseCircle, None) => Body::BaseCircle(blank),
-            }
-        };
-        [body("driver.bore_radius", &self.driver), body("driven.bore_radius", &self.driven)]
+    /// The inputs of a gear's inertia besides its circles.
+    pub(super) fn body(&self, gear: &Gear) -> impl PartialEq + use<> {
+        let section = || (Rack::of(self, gear), gear.addendum_coefficient(self.module));
+        let section = (self.inertia_model() == InertiaModel::Outline).then(section);
+        let blank = || (gear.bore_radius, gear.face_width, gear.density, section);
+        (gear.inertia, gear.inertia.is_none().then(blank))
     }
 
     /// The inertia model of a gear without a given inertia. The method `paper` has only one model.
-    #[must_use]
     pub fn inertia_model(&self) -> InertiaModel {
         match self.method {
             Method::Paper => InertiaModel::BaseCircle,
@@ -146,27 +105,38 @@ impl Inertia {
     ///
     /// # Errors
     /// [`Refusal::BoreTooLarge`] if the bore is larger than the body.
-    pub fn of<T: Real>(body: &Body, circles: &Circles<T>) -> Result<Inertia, Refusal> {
-        let disc = |blank: &Blank, is_fallback| {
-            disc(blank, circles).map(|moment| Inertia { moment, is_fallback })
+    pub fn of<T: Real>(
+        inputs: &Inputs,
+        side: GearSide,
+        circles: &Circles<T>,
+    ) -> Result<Inertia, Refusal> {
+        let gear = inputs.gear(side);
+        if let Some(moment) = gear.inertia {
+            return Ok(Inertia { moment, is_fallback: false });
+        }
+        let bore = gear.bore_radius;
+        let check = |circle, limit| {
+            let is_too_large = bore >= limit;
+            let refusal = Refusal::BoreTooLarge { gear: side, bore, circle, limit };
+            if is_too_large { Err(refusal) } else { Ok(()) }
         };
-        match body {
-            Body::Given(moment) => Ok(Inertia { moment: *moment, is_fallback: false }),
-            Body::BaseCircle(blank) => disc(blank, false),
-            Body::Outline(blank, rack, addendum) => {
-                let circles = whole(&circles.rounded(), rack, *addendum);
-                check_bore(blank, "root", circles.root)?;
-                let section =
-                    polar_moment(&Profile::of(rack, &circles), rack.teeth, blank.bore_radius);
-                match section {
-                    Some(section) => Ok(Inertia {
-                        moment: blank.density * blank.face_width * section,
-                        is_fallback: false,
-                    }),
-                    None => disc(blank, true),
-                }
+        check("root", circles.root.rounded())?;
+        let is_outline = inputs.inertia_model() == InertiaModel::Outline;
+        if is_outline {
+            let rack = Rack::of(inputs, gear);
+            let addendum = gear.addendum_coefficient(inputs.module);
+            let profile = Profile::of(&rack, &whole(&circles.rounded(), &rack, addendum));
+            if let Some(section) = polar_moment(&profile, rack.teeth, bore) {
+                let moment = gear.density * gear.face_width * section;
+                return Ok(Inertia { moment, is_fallback: false });
             }
         }
+        check("base", circles.base.rounded())?;
+        let wall = (circles.base - bore.into()).rounded();
+        let base = circles.base.rounded();
+        let fourth_powers = wall * (base + bore) * (base * base + bore * bore);
+        let moment = PI * gear.density * gear.face_width / 2.0 * fourth_powers;
+        Ok(Inertia { moment, is_fallback: is_outline })
     }
 }
 
@@ -174,28 +144,6 @@ impl Inertia {
 fn whole(circles: &Circles, rack: &Rack, addendum: f64) -> Circles {
     let tip = circles.reference + rack.module * (addendum + rack.profile_shift);
     Circles { tip, tip_curvature: ((tip - circles.base) * (tip + circles.base)).sqrt(), ..*circles }
-}
-
-/// J of the disc to the base circle, in kg m².
-fn disc<T: Real>(blank: &Blank, circles: &Circles<T>) -> Result<f64, Refusal> {
-    let (base, bore): (T, T) = (circles.base, blank.bore_radius.into());
-    check_bore(blank, "root", circles.root.rounded())?;
-    check_bore(blank, "base", base.rounded())?;
-    let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), blank.bore_radius);
-    let fourth_powers = wall * (base + bore) * (base * base + bore * bore);
-    Ok(PI * blank.density * blank.face_width / 2.0 * fourth_powers)
-}
-
-fn check_bore(blank: &Blank, circle: &'static str, limit: f64) -> Result<(), Refusal> {
-    if blank.bore_radius >= limit {
-        return Err(Refusal::BoreTooLarge {
-            field: blank.bore_field,
-            bore: blank.bore_radius,
-            circle,
-            limit,
-        });
-    }
-    Ok(())
 }
 
 /// Polar moment of area of the gear's section, in m⁴. J is this moment times density and face
@@ -209,7 +157,6 @@ fn check_bore(blank: &Blank, circle: &'static str, limit: f64) -> Result<(), Ref
 ///
 /// # Source
 /// The profile cut by the rack, see [`Profile`].
-#[must_use]
 pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> Option<f64> {
     let root = profile.circles().root;
     let ring = PI / 2.0
@@ -268,23 +215,4 @@ fn fillet_moment(profile: &Profile) -> Option<f64> {
         section.half_thickness.atan2(section.along) * squared * profile.fillet_rise(normal)
     });
     is_whole.get().then_some(moment)
-}
-
-/// The greatest value at which a condition is true, by bisection. The condition is true at `from`
-/// and changes at most once.
-fn last_where(from: f64, to: f64, is_true: impl Fn(f64) -> bool) -> f64 {
-    const HALVINGS: usize = 60;
-    if is_true(to) {
-        return to;
-    }
-    let (mut low, mut high) = (from, to);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        if is_true(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }

@@ -1,10 +1,8 @@
 //! Gap and stiffness of every tooth pair along the line of action, used by the methods `static` and
 //! `dynamic`.
 
-mod build;
-pub(super) mod couplings;
-pub(super) mod range;
-mod sharing;
+pub(super) mod build;
+pub(super) mod sharing;
 mod zones;
 
 use std::sync::{Arc, OnceLock};
@@ -19,7 +17,7 @@ use super::relief::Reliefs;
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::{quadrature, root};
-use couplings::Couplings;
+use sharing::Couplings;
 use sharing::Sharing;
 pub use sharing::{Line, Meeting, Of, Shares};
 use zones::{GAP, LEVER, SLIDING, STIFFNESS, Zone};
@@ -67,52 +65,45 @@ pub struct Mesh {
 
 impl Mesh {
     /// The mesh at another speed of the driver, in rad/s.
-    #[must_use]
     pub fn turning_at(self: &Arc<Mesh>, driver_speed: f64) -> Arc<Mesh> {
         if driver_speed.to_bits() == self.driver_speed.to_bits() {
             return Arc::clone(self);
         }
-        Arc::new(Mesh {
-            speed: driver_speed * self.base_radii.0,
-            driver_speed,
-            ..Mesh::clone(self)
-        })
+        Arc::new(self.at_speed(driver_speed))
+    }
+
+    fn at_speed(&self, driver_speed: f64) -> Mesh {
+        Mesh { speed: driver_speed * self.base_radii.0, driver_speed, ..self.clone() }
     }
 
     /// The mesh without deviation of the incoming pair.
-    #[must_use]
     pub fn without_error(&self) -> Mesh {
         Mesh { error: 0.0, ..self.clone() }
     }
 
     /// Work of the computation, in units of the [budget](super::budget).
-    #[must_use]
     pub fn work(&self) -> u64 {
         self.work
     }
 
     /// First and last place of the incoming pair with a computed gap, in m.
-    #[must_use]
     pub fn ends(&self) -> (f64, f64) {
         let from = self.zones.first().map_or(0.0, |zone| zone.from);
         (from, self.zones.last().map_or(0.0, |zone| zone.to))
     }
 
     /// Whether the computed range extends to the ends of the tip circles.
-    #[must_use]
     pub fn is_whole(&self) -> bool {
         self.is_whole
     }
 
     /// The friction coefficient; 0 if the case gives none.
-    #[must_use]
     pub fn friction(&self) -> f64 {
         self.friction
     }
 
     /// Place of the incoming pair at the pitch point, in m. `None` if the path of contact does not
     /// include the pitch point.
-    #[must_use]
     pub fn pitch_point(&self) -> Option<f64> {
         Some(self.pitch_point).filter(|&point| point > 0.0 && point < self.length)
     }
@@ -120,7 +111,6 @@ impl Mesh {
     /// The pairs that may touch with the incoming pair at `s`. On a border, `inside` selects the
     /// side. If a pair is at E' for `inside` itself, the pair is on the flank of its tooth, not on
     /// the arc of the tip.
-    #[must_use]
     pub fn pair_set(&self, s: f64, inside: f64) -> PairSet {
         let inside = self.on_flank(inside);
         let pairs: OfPairs<Pair> =
@@ -131,7 +121,6 @@ impl Mesh {
     }
 
     /// Whether the force on a pair displaces other pairs.
-    #[must_use]
     pub fn is_coupled(&self) -> bool {
         self.couplings.is_some()
     }
@@ -164,21 +153,29 @@ impl Mesh {
         let (from, to) = self.ends();
         let first = ((from - s) / self.base_pitch).ceil() as i32;
         let last = ((to - s) / self.base_pitch).floor() as i32;
-        (first..=last).map(move |ahead| (ahead, self.zone(s + f64::from(ahead) * self.base_pitch)))
+        (first..=last).map(move |ahead| (ahead, self.zone(self.place(ahead, s))))
     }
 
     /// The pair `ahead` with the incoming pair at `s`. The sliding direction is that at `inside`.
     fn pair(&self, ahead: i32, zone: usize, s: f64, inside: f64) -> Pair {
-        let way = f64::from(ahead) * self.base_pitch;
-        let series = &self.zones[zone].series;
-        let [stiffness, gap] = series.at(s + way);
+        let (stiffness, gap) = self.spring(ahead, zone, s);
         let weight = if self.friction > 0.0 {
-            let direction = series.one(SLIDING, inside + way).signum();
-            1.0 - self.friction * direction * series.one(LEVER, s + way)
+            let lever = self.zones[zone].series.one(LEVER, self.place(ahead, s));
+            1.0 - self.friction * self.direction(ahead, zone, inside) * lever
         } else {
             1.0
         };
-        Pair { ahead, stiffness, gap: gap - self.error_of(ahead), weight }
+        Pair { ahead, stiffness, gap, weight }
+    }
+
+    /// Place of the pair `ahead` with the incoming pair at `s`.
+    fn place(&self, ahead: i32, s: f64) -> f64 {
+        s + f64::from(ahead) * self.base_pitch
+    }
+
+    /// Sign of the sliding velocity of a pair.
+    pub(super) fn direction(&self, ahead: i32, zone: usize, s: f64) -> f64 {
+        self.zones[zone].series.one(SLIDING, self.place(ahead, s)).signum()
     }
 
     /// Refuses a lead of the driver, in m, with which pairs beyond the ends of the mesh may touch.
@@ -193,7 +190,6 @@ impl Mesh {
 
     /// The incoming pair at `s` without its error, and the slope of its gap over s. At E' the pair
     /// is on the flank of its tooth.
-    #[must_use]
     pub fn incoming(&self, s: f64) -> (Place, f64) {
         let series = &self.zones[self.zone(self.on_flank(s))].series;
         let [stiffness, gap, lever, sliding] = series.at(s);
@@ -221,7 +217,6 @@ impl Mesh {
 
     /// The places of the incoming pair from `from` to `to` at which a pair passes into another
     /// zone. Between two of them all functions of the mesh are smooth.
-    #[must_use]
     pub fn borders(&self, from: f64, to: f64) -> Vec<f64> {
         let edges =
             self.zones.iter().map(|zone| zone.from).chain(self.zones.last().map(|zone| zone.to));
@@ -263,7 +258,6 @@ pub struct MeshInputs {
 
 impl Inputs {
     /// Inputs of the mesh.
-    #[must_use]
     pub fn mesh(&self) -> MeshInputs {
         MeshInputs {
             shape: self.shape(),
@@ -282,7 +276,6 @@ impl MeshInputs {
     }
 
     /// The inputs at another speed of the driver, in rad/s.
-    #[must_use]
     pub fn at_speed(self, speed: f64) -> MeshInputs {
         MeshInputs { speed, ..self }
     }
@@ -309,13 +302,11 @@ impl MeshInputs {
 impl Mesh {
     /// Stiffness and gap of a pair, including its error.
     pub(super) fn spring(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
-        let at = s + f64::from(ahead) * self.base_pitch;
-        let [stiffness, gap] = self.zones[zone].series.at(at);
+        let [stiffness, gap] = self.zones[zone].series.at(self.place(ahead, s));
         (stiffness, gap - self.error_of(ahead))
     }
 
     /// Stiffness of the incoming pair just after E over its stiffness just before E.
-    #[must_use]
     pub fn stiffness_step(&self) -> f64 {
         let beside = 1e-9 * self.base_pitch;
         let [before, after] = [-beside, beside].map(|s| self.spring(0, self.zone(s), 0.0).0);
@@ -335,19 +326,6 @@ impl Mesh {
             self.zones[zone].series.local(STIFFNESS, self.above(ahead, s), length);
         gap.0[0] -= self.error_of(ahead);
         [stiffness, gap]
-    }
-
-    /// The gap of a pair, see [`Mesh::spring_along`].
-    pub(super) fn gap_along(
-        &self,
-        ahead: i32,
-        zone: usize,
-        s: f64,
-        length: f64,
-    ) -> Polynomial<TERMS> {
-        let [mut gap] = self.zones[zone].series.local(GAP, self.above(ahead, s), length);
-        gap.0[0] -= self.error_of(ahead);
-        gap
     }
 
     /// Between what values its gap is on the piece that serves from `s` up.
@@ -378,14 +356,7 @@ impl Mesh {
 
     /// The place of a pair, and the distance below which two places are equal.
     pub(super) fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
-        (s + f64::from(ahead) * self.base_pitch, 16.0 * f64::EPSILON * s.abs())
-    }
-
-    /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.
-    pub(super) fn slide(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
-        let at = s + f64::from(ahead) * self.base_pitch;
-        let [_, _, lever, sliding] = self.zones[zone].series.at(at);
-        (lever, self.driver_speed * sliding)
+        (self.place(ahead, s), 16.0 * f64::EPSILON * s.abs())
     }
 }
 
@@ -428,7 +399,6 @@ impl Zone {
 
 impl Mesh {
     /// Mean stiffness of the mesh over a base pitch, with the pairs on the line of action, in N/m.
-    #[must_use]
     pub fn mean_stiffness(&self) -> f64 {
         let mean = || self.stiffness_on_line() / self.base_pitch;
         *self.mean_stiffness.0.get_or_init(mean)

@@ -78,7 +78,6 @@ pub struct Carrying {
 
 impl Carrying {
     /// Whether the pair `ahead` carries.
-    #[must_use]
     pub fn has(self, ahead: i32) -> bool {
         usize::try_from(ahead - self.first).is_ok_and(|index| self.touching.has(index))
     }
@@ -98,7 +97,6 @@ impl Carrying {
 
 impl PairSet {
     /// `pairs` begins with the rearmost pair and has no gaps in its order.
-    #[must_use]
     pub fn new(
         pairs: impl IntoIterator<Item = Pair>,
         couplings: impl IntoIterator<Item = [f64; PITCHES]>,
@@ -107,13 +105,11 @@ impl PairSet {
     }
 
     /// The pairs, the rearmost first.
-    #[must_use]
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
     }
 
     /// The pairs without their gaps.
-    #[must_use]
     pub fn of_no_gap(mut self) -> PairSet {
         for pair in &mut self.pairs {
             pair.gap = 0.0;
@@ -123,7 +119,6 @@ impl PairSet {
 
     /// The pairs with wider gaps. `more` gives the addition in m for the base pitches that a pair
     /// is ahead.
-    #[must_use]
     pub fn widened(&self, more: impl Fn(i32) -> f64) -> PairSet {
         let mut pairs = self.pairs.clone();
         for pair in &mut pairs {
@@ -143,7 +138,6 @@ impl PairSet {
     /// # Source
     /// The linear complementarity problem by its parameter x: Cottle, Pang & Stone 2009, "The
     /// Linear Complementarity Problem", section 4.5.
-    #[must_use]
     pub fn balance(&self, force: f64) -> Balance {
         let incoming = self.pairs.iter().position(|pair| pair.ahead == 0);
         let (displacement, forces) = self.shared(force);
@@ -166,7 +160,6 @@ impl PairSet {
     }
 
     /// Displacement of the driver ahead, in m, and the force of each pair, in N, in the balance.
-    #[must_use]
     pub fn shared(&self, force: f64) -> (f64, OfPairs<f64>) {
         if self.couplings.is_empty() {
             let displacement = self.of_springs(force);
@@ -176,7 +169,6 @@ impl PairSet {
     }
 
     /// The force of each pair at a displacement of the driver ahead, in N.
-    #[must_use]
     pub fn forces(&self, displacement: f64) -> OfPairs<f64> {
         if self.couplings.is_empty() {
             return self.pairs.iter().map(|pair| pair.alone(displacement)).collect();
@@ -186,7 +178,6 @@ impl PairSet {
 
     /// How far the displacement under the other pairs' forces exceeds a pair's gap, in m. Above 0
     /// the pair carries.
-    #[must_use]
     pub fn lead(mut self, ahead: i32, force: f64) -> f64 {
         let Some(index) = self.pairs.iter().position(|pair| pair.ahead == ahead) else {
             return f64::NEG_INFINITY;
@@ -199,7 +190,6 @@ impl PairSet {
 
     /// The overlap x − gap − Σ Q_kj F_j of each pair, in m, if exactly these pairs touch. A
     /// positive value means that a touching pair has a force, or that another pair would overlap.
-    #[must_use]
     pub fn leads(&self, touching: Touching, displacement: f64) -> Vec<f64> {
         let gap = |index: usize| self.pairs[index].gap;
         if self.couplings.is_empty() {
@@ -219,7 +209,6 @@ impl PairSet {
     }
 
     /// Displacement of a pair by the forces of the others, in m.
-    #[must_use]
     pub fn pushed(&self, index: usize, forces: &[f64]) -> f64 {
         if self.couplings.is_empty() {
             return 0.0;
@@ -231,7 +220,6 @@ impl PairSet {
     }
 
     /// Whether the compliances are positive definite, so that the set of touching pairs is unique.
-    #[must_use]
     pub fn is_definite(&self) -> bool {
         let all: Vec<usize> = (0..self.pairs.len()).collect();
         self.couplings.is_empty() || self.compliances(&self.own()).among(&all).is_some()
@@ -279,37 +267,31 @@ impl Touching {
     pub const NONE: Touching = Touching(0);
 
     /// Whether the subset includes the pair.
-    #[must_use]
     pub fn has(self, pair: usize) -> bool {
         self.0 & 1 << pair != 0
     }
 
     /// Whether the subset is empty.
-    #[must_use]
     pub fn is_none(self) -> bool {
         self.0 == 0
     }
 
     /// The subset with the membership of the pair inverted.
-    #[must_use]
     pub fn toggled(self, pair: usize) -> Touching {
         Touching(self.0 ^ 1 << pair)
     }
 
     /// The subset with the pair added.
-    #[must_use]
     pub fn with(self, pair: usize) -> Touching {
         Touching(self.0 | 1 << pair)
     }
 
     /// The members before a pair.
-    #[must_use]
     pub fn before(self, pair: usize) -> Touching {
         Touching(self.0 & !u64::MAX.checked_shl(pair as u32).unwrap_or(0))
     }
 
     /// The members from a pair on, renumbered from that pair.
-    #[must_use]
     pub fn since(self, pair: usize) -> Touching {
         Touching(self.0.checked_shr(pair as u32).unwrap_or(0))
     }
@@ -339,7 +321,6 @@ pub struct Compliances<'a> {
 
 impl Compliances<'_> {
     /// Displacement of one pair by the force on another, in m/N.
-    #[must_use]
     pub fn at(&self, one: usize, other: usize) -> f64 {
         let (behind, ahead) = (one.min(other), one.max(other));
         match ahead - behind {
@@ -350,7 +331,6 @@ impl Compliances<'_> {
     }
 
     /// The factors of the matrix of the touching pairs. `None` if it is not positive definite.
-    #[must_use]
     pub fn among(&self, touching: &[usize]) -> Option<Banded<ROW>> {
         let entry = |at: usize, distance: usize| {
             let other = at.checked_sub(distance).map(|other| touching[other]);

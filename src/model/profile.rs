@@ -39,21 +39,18 @@ pub struct Junction {
 
 impl Profile {
     /// The profile that a rack with the standard tip rounding cuts.
-    #[must_use]
     pub fn of(rack: &Rack, circles: &Circles) -> Profile {
         Profile::cut_by(rack, circles, RACK_ROUNDING)
     }
 
     /// The profile cut by a rack with a tip rounding of `rounding` modules. If the tip is too
     /// narrow, its rounding is the largest possible one.
-    #[must_use]
     pub fn cut_by(rack: &Rack, circles: &Circles, rounding: f64) -> Profile {
         let flank = Profile::without_junction(rack, circles, rounding);
         Profile { junction: flank.find_junction(rack.pressure_angle), ..flank }
     }
 
     /// The profile without the search for the junction, for the involute alone.
-    #[must_use]
     pub(super) fn of_flank(rack: &Rack, circles: &Circles) -> Profile {
         Profile::without_junction(rack, circles, RACK_ROUNDING)
     }
@@ -78,31 +75,26 @@ impl Profile {
     }
 
     /// Half of the pitch angle π/z, in rad.
-    #[must_use]
     pub fn half_pitch(&self) -> f64 {
         self.half_pitch
     }
 
     /// Half of the tooth's angle at the base circle, in rad, for flanks without undercut.
-    #[must_use]
     pub fn base_half_angle(&self) -> f64 {
         self.base_half_angle
     }
 
     /// The circles of the gear.
-    #[must_use]
     pub fn circles(&self) -> &Circles {
         &self.circles
     }
 
     /// Half of the tooth's angle at the root circle, in rad.
-    #[must_use]
     pub fn root_half_angle(&self) -> f64 {
         self.half_pitch - self.centre_offset / self.circles.reference
     }
 
     /// Roll angle of the involute at a radius, √(radius² − r_b²)/r_b, in rad.
-    #[must_use]
     pub fn roll_at(&self, radius: f64) -> f64 {
         let base = self.circles.base;
         ((radius - base).max(0.0) * (radius + base)).sqrt() / base
@@ -110,26 +102,22 @@ impl Profile {
 
     /// Angle between the force on the flank and the normal of the tooth's centre line at a roll
     /// angle, in rad.
-    #[must_use]
     pub fn load_angle(&self, roll: f64) -> f64 {
         roll - self.base_half_angle
     }
 
     /// Depth from the flank to the centre line along the line of force at a radius, in m.
-    #[must_use]
     pub fn depth_along_force(&self, radius: f64) -> f64 {
         let roll = self.roll_at(radius);
         self.involute_at(roll).half_thickness / self.load_angle(roll).cos()
     }
 
     /// Radius of the junction: the form circle of the tooth, in m.
-    #[must_use]
     pub fn form_radius(&self) -> f64 {
         self.circles.base.hypot(self.circles.base * self.junction.roll)
     }
 
     /// Thickness of the tooth at its tip circle, in m; negative if the flanks meet below.
-    #[must_use]
     pub fn tip_thickness(&self) -> f64 {
         let roll = self.circles.tip_curvature / self.circles.base;
         2.0 * self.circles.tip * (self.base_half_angle - roll + roll.atan())
@@ -137,7 +125,6 @@ impl Profile {
 
     /// The involute at a roll angle: the point at the end of the tangent unwound from the base
     /// circle.
-    #[must_use]
     pub fn involute_at(&self, roll: f64) -> Section {
         let base = self.circles.base;
         let (sine, cosine) = self.load_angle(roll).sin_cos();
@@ -153,7 +140,6 @@ impl Profile {
     /// # Source
     /// Rolling of the rack's line on the reference circle: every normal passes through the pitch
     /// point (Litvin 1994, "Gear Geometry and Applied Theory").
-    #[must_use]
     pub fn fillet_at(&self, normal: f64) -> Section {
         let (radius, depth) = (self.circles.reference, self.centre_depth);
         let (sine, cosine) = normal.sin_cos();
@@ -179,7 +165,6 @@ impl Profile {
     /// ```text
     /// r² = l² + R² − 2 R (e sin t + h),  l = e + h/sin t
     /// ```
-    #[must_use]
     pub fn fillet_rise(&self, normal: f64) -> f64 {
         let (sine, cosine) = normal.sin_cos();
         let reach = self.rounding + self.centre_depth / sine;
@@ -264,7 +249,6 @@ pub struct Rack {
 
 impl Rack {
     /// The rack of a gear of the pair.
-    #[must_use]
     pub fn of(inputs: &Inputs, gear: &Gear) -> Rack {
         Rack {
             module: inputs.module,
@@ -288,7 +272,6 @@ impl Rack {
     }
 
     /// Least profile shift without undercut, h_fP* − ρ_fP* (1 − sin α) − z sin²α/2.
-    #[must_use]
     pub fn least_shift(&self) -> f64 {
         let sine = self.pressure_angle.sin();
         self.dedendum - self.rounding() * (1.0 - sine) - f64::from(self.teeth) * sine * sine / 2.0
@@ -308,7 +291,6 @@ pub struct Section {
 
 impl Section {
     /// The end of the section on the flank, y above 0.
-    #[must_use]
     pub fn point(&self) -> Point2<f64> {
         Point2::new(self.along, self.half_thickness)
     }

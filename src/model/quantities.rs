@@ -46,7 +46,7 @@ pub struct Quantity {
     pub stage: Stage,
     /// The value in SI. `None` if the solution has no value.
     pub value: fn(&Solution) -> Option<f64>,
-    /// Meaning and use of the quantity.
+    /// Meaning and use of the quantity, or the words with which every variant begins.
     pub meaning: &'static str,
     /// How the value is computed.
     pub formula: Formula,
@@ -58,7 +58,7 @@ pub struct Quantity {
     pub assumptions: &'static str,
     /// Ranges of validity.
     pub checks: &'static [Check],
-    /// Replacements of texts in some cases. The first variant whose condition is true is used.
+    /// Texts in some cases. The first variant whose condition is true is used.
     pub variants: &'static [Variant],
     /// Whether the value can be negative.
     pub is_signed: bool,
@@ -97,7 +97,7 @@ const PLAIN: Quantity = Quantity {
     by_dynamic: None,
 };
 
-/// Replacements of texts of a quantity in some cases.
+/// Texts of a quantity in some cases: the end of the meaning, and other assumptions.
 #[derive(Debug, Clone, Copy)]
 pub struct Variant {
     when: When,
@@ -117,7 +117,6 @@ impl Variant {
 
 impl Quantity {
     /// The value in SI if it is finite. Zero has no sign.
-    #[must_use]
     pub fn finite_value(&self, solution: &Solution) -> Option<f64> {
         (self.value)(solution.having(self.stage))
             .filter(|value| value.is_finite())
@@ -125,19 +124,16 @@ impl Quantity {
     }
 
     /// Whether the value is true (1) or false (0).
-    #[must_use]
     pub fn is_flag(&self) -> bool {
         self.shown == "yes/no"
     }
 
     /// The symbol in a method. It differs from the closed form if the definition differs.
-    #[must_use]
     pub fn symbol_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) { "Δf_0" } else { self.symbol }
     }
 
     /// The label in a method.
-    #[must_use]
     pub fn label_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) { "error without reliefs" } else { self.label }
     }
@@ -148,13 +144,12 @@ impl Quantity {
     }
 
     /// Meaning and use of the quantity in a case with these inputs.
-    #[must_use]
-    pub fn meaning_in(&self, inputs: &Inputs) -> &'static str {
-        self.variant(inputs).map_or(self.meaning, |variant| variant.meaning)
+    pub fn meaning_in(&self, inputs: &Inputs) -> String {
+        let end = self.variant(inputs).map_or("", |variant| variant.meaning);
+        format!("{}{end}", self.meaning)
     }
 
     /// The assumptions of the formula in a case with these inputs.
-    #[must_use]
     pub fn assumptions_in(&self, inputs: &Inputs) -> &'static str {
         self.variant(inputs).and_then(|variant| variant.assumptions).unwrap_or(self.assumptions)
     }
@@ -165,14 +160,12 @@ impl Quantity {
 
     /// Whether the quantity belongs to the free impact at D. Every method computes this closed form
     /// besides its own results.
-    #[must_use]
     pub fn is_of_free_impact(&self) -> bool {
         FREE_IMPACT.contains(&self.stage)
     }
 
     /// The corresponding quantity of a method for a quantity of the free impact. For a closed-form
     /// method, the quantity itself.
-    #[must_use]
     pub fn by(&'static self, method: Method) -> Option<&'static Quantity> {
         match method {
             Method::Paper | Method::Exact => Some(self),
@@ -183,13 +176,11 @@ impl Quantity {
     }
 
     /// The quantity of a key.
-    #[must_use]
     pub fn find(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
     /// The quantity of a key or of its symbol in any method.
-    #[must_use]
     pub fn named(name: &str) -> Option<&'static Quantity> {
         let has_symbol = |quantity: &&Quantity| {
             let mut symbols = Method::ALL.map(|method| quantity.symbol_in(method)).into_iter();

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::Refusal;
 use super::geometry::Geometry;
-use super::inputs::{Gear, Inputs, ReliefShape};
+use super::inputs::{Gear, GearSide, Inputs, ReliefShape};
 
 /// Reliefs of the pair given by the case.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +32,6 @@ pub struct GearReliefs {
 
 impl Inputs {
     /// Reliefs of the pair.
-    #[must_use]
     pub fn reliefs(&self) -> Reliefs {
         let of = |gear: &Gear| GearReliefs {
             tip: gear.tip_relief,
@@ -58,10 +57,10 @@ pub(super) fn check_reliefs(inputs: &Inputs, geometry: &Geometry) -> Result<(), 
     /// No tooth is thinner, in modules.
     const SMALL: f64 = 0.1;
     let gears = [
-        (&inputs.driver, &geometry.driver, ["driver.tip_relief", "driver.root_relief"]),
-        (&inputs.driven, &geometry.driven, ["driven.tip_relief", "driven.root_relief"]),
+        (GearSide::Driver, &inputs.driver, &geometry.driver),
+        (GearSide::Driven, &inputs.driven, &geometry.driven),
     ];
-    for (gear, circles, keys) in gears {
+    for (side, gear, circles) in gears {
         let reliefs = [gear.tip_relief, gear.root_relief];
         if reliefs.iter().all(|relief| *relief <= SMALL * inputs.module) {
             continue;
@@ -69,8 +68,9 @@ pub(super) fn check_reliefs(inputs: &Inputs, geometry: &Geometry) -> Result<(), 
         let (angle, tangent) = (inputs.pressure_angle, inputs.pressure_angle.tan());
         let at_reference = (FRAC_PI_2 + 2.0 * gear.profile_shift * tangent) / f64::from(gear.teeth);
         let half = circles.base * (at_reference + tangent - angle);
-        if let Some((field, relief)) = keys.into_iter().zip(reliefs).find(|one| one.1 >= half) {
-            return Err(Refusal::ReliefTooLarge { field, relief, half });
+        if let Some(at) = reliefs.iter().position(|relief| *relief >= half) {
+            let (is_at_tip, relief) = (at == 0, reliefs[at]);
+            return Err(Refusal::ReliefTooLarge { gear: side, is_at_tip, relief, half });
         }
     }
     Ok(())
@@ -78,7 +78,6 @@ pub(super) fn check_reliefs(inputs: &Inputs, geometry: &Geometry) -> Result<(), 
 
 impl Reliefs {
     /// The sum of all reliefs, in m.
-    #[must_use]
     pub fn sum(&self) -> f64 {
         (self.driver.tip + self.driver.root) + (self.driven.tip + self.driven.root)
     }
@@ -105,7 +104,6 @@ impl Relief {
     ///
     /// The default length of a relief is [`Geometry::shared_length`]: for 1 < ε < 2 up to the start
     /// of single-tooth contact, the long relief.
-    #[must_use]
     pub fn of(reliefs: &Reliefs, geometry: &Geometry) -> Relief {
         let usual = geometry.shared_length();
         let ramps = |gear: &GearReliefs, tip: f64, root: f64| {
@@ -134,7 +132,6 @@ impl Relief {
     /// ```
     /// Before E the driven tip touches the driver above the point of E. There the driver's root
     /// relief decreases, and the relief of the driven tip is at its full amount.
-    #[must_use]
     pub fn at(&self, driver: f64, driven: f64) -> f64 {
         let sum = |ramps: &[Ramp; 2], curvature: f64| -> f64 {
             ramps.iter().map(|ramp| ramp.at(curvature, self.shape)).sum()
@@ -154,14 +151,12 @@ impl Relief {
 
     /// Effect of the rounding of a radius of curvature on the relief of both flanks, in m. Limits
     /// the precision of a steep relief.
-    #[must_use]
     pub fn rounding(&self) -> f64 {
         let ramps = self.driver.iter().chain(&self.driven);
         ramps.map(Ramp::rounding).sum()
     }
 
     /// Upper bound of the relief of both flanks together, in m.
-    #[must_use]
     pub fn most(&self) -> f64 {
         self.driver.iter().chain(&self.driven).map(|ramp| ramp.amount).sum()
     }

@@ -1,16 +1,26 @@
 //! A solve: runs the wanted stages and reuses valid earlier results.
 
-mod by_choice;
-mod by_method;
-
-use super::dynamic::speeds::over_speed;
+use super::auto::{self, Choice, Reason};
+use super::budget::{MOTION_WORK, Meter};
+use super::clearing::clearing;
+use super::compliance::{ContactPlace, Teeth};
+use super::deviation::{deflected, deviation};
+use super::dynamic::speeds::{SPEEDS, over_speed};
+use super::dynamic::steady::steady;
+use super::dynamic::{Settings, dynamic};
+use super::geometry::{geometry, mesh_force, precise};
 use super::inputs::{Inputs, Method};
+use super::masses::Masses;
+use super::mesh::build::{Meshes, late};
+use super::position::{position, velocity};
+use super::relief::check_reliefs;
 use super::stage::{Stage, Stages};
-use super::{Refusal, Solution, SpeedCurve};
-use by_choice::solve_by_choice;
-pub(super) use by_method::Setup;
-use by_method::solve_by_method;
-pub use by_method::{Earlier, differ_in_load_alone};
+use super::static_load::{Resonance, static_load, static_spectrum};
+use super::stations::{Spacing, stations};
+use super::{Geometry, Kept, Mesh, Outcome, Position, Refusal, Solution, SpeedCurve, impact};
+use std::cell::OnceCell;
+use std::sync::Arc;
+use twofloat::TwoFloat;
 
 /// Solves the pair. Runs only the wanted stages and the stages that they need.
 ///
@@ -67,6 +77,471 @@ pub fn speeds(
     over_speed(&inputs, &solution, show)
 }
 
+/// An earlier solve by the same method.
+#[derive(Debug, Clone, Copy)]
+pub struct Earlier<'a> {
+    /// Its inputs.
+    pub inputs: &'a Inputs,
+    /// Its results.
+    pub solution: &'a Solution,
+}
+
+/// Solves by the method of the inputs, which is not `auto`. Ignores an earlier solve by another
+/// method.
+///
+/// # Errors
+/// Those of [`solve_after`](super::solve_after).
+pub(crate) fn solve_by_method(
+    inputs: &Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'_>>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    let mut run = Run {
+        inputs,
+        wanted: wanted.within(inputs.method.stages()),
+        earlier: earlier.filter(|earlier| earlier.solution.method == inputs.method),
+        go_on,
+        changed: Stages::NONE,
+        done: Stages::NONE,
+        ran: Stages::NONE,
+    };
+    let lazy = Lazy::default();
+    let mut solution = run.begin(&lazy)?;
+    run.locate(&lazy, &mut solution)?;
+    run.share(&mut solution)?;
+    solution.clearing =
+        run.stage(Stage::Clearing, |s| s.clearing, || clearing(inputs, &solution, go_on))?;
+    Ok(Solution { stages: run.done, ran: run.ran, ..solution })
+}
+
+/// The state of a solve.
+struct Run<'a> {
+    inputs: &'a Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'a>>,
+    go_on: &'a dyn Fn(f64) -> bool,
+    /// The stages whose results differ from the earlier ones.
+    changed: Stages,
+    /// The stages with results.
+    done: Stages,
+    /// The stages that ran.
+    ran: Stages,
+}
+
+impl<'a> Run<'a> {
+    /// The earlier solution if its result of this stage is still valid: the stage has the same
+    /// inputs from the case and from other stages.
+    fn kept(&self, stage: Stage) -> Option<&'a Solution> {
+        let Earlier { inputs, solution } = self.earlier?;
+        let is_valid = solution.stages.has(stage)
+            && stage.depends_on().within(self.changed) == Stages::NONE
+            && stage.has_equal_inputs(self.inputs, inputs);
+        is_valid.then_some(solution)
+    }
+
+    /// The result of a stage: the earlier result if it is valid, otherwise a new one.
+    fn result<T: PartialEq>(
+        &mut self,
+        stage: Stage,
+        of: impl Fn(&Solution) -> Option<T>,
+        new: impl FnOnce() -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        if let Some(held) = self.kept(stage).and_then(&of) {
+            self.done = self.done.with(stage);
+            return Ok(held);
+        }
+        let found = new()?;
+        let earlier = self.earlier.filter(|earlier| earlier.solution.stages.has(stage));
+        if earlier.and_then(|earlier| of(earlier.solution)).as_ref() != Some(&found) {
+            self.changed = self.changed.with(stage);
+        }
+        (self.done, self.ran) = (self.done.with(stage), self.ran.with(stage));
+        Ok(found)
+    }
+
+    /// The result of a stage if it is wanted.
+    fn stage<T: PartialEq>(
+        &mut self,
+        stage: Stage,
+        of: impl Fn(&Solution) -> Option<T>,
+        new: impl FnOnce() -> Result<T, Refusal>,
+    ) -> Result<Option<T>, Refusal> {
+        self.wanted.has(stage).then(|| self.result(stage, of, new)).transpose()
+    }
+
+    /// Geometry, load, masses and deviation.
+    fn begin(&mut self, lazy: &Lazy) -> Result<Solution, Refusal> {
+        let inputs = self.inputs;
+        let geometry =
+            self.result(Stage::Geometry, |s| Some(s.geometry), || lazy.geometry(inputs))?;
+        if self.ran.has(Stage::Geometry) {
+            // The earlier result can differ beyond its rounded digits.
+            self.changed = self.changed.with(Stage::Geometry);
+        }
+        check_reliefs(inputs, &geometry)?;
+        let force = || Ok(mesh_force(inputs.torque(), &geometry));
+        let mesh_force = self.result(Stage::Load, |s| Some(s.mesh_force), force)?;
+        let masses = || match lazy.precise(inputs, &geometry)? {
+            Some(precise) => Masses::of(inputs, precise),
+            None => Masses::of(inputs, &geometry),
+        };
+        let masses = self.result(Stage::Masses, |s| Some(s.kept.masses), masses)?;
+        let teeth = || lazy.teeth(inputs, &geometry);
+        let by_load = || deflected(inputs.method, &geometry, teeth, mesh_force);
+        let deviation = || deviation(inputs, by_load);
+        let deviation = self.result(Stage::Deviation, |s| Some(s.kept.deviation), deviation)?;
+        Ok(Solution::new(inputs.method, geometry, mesh_force, Kept { masses, deviation }))
+    }
+
+    /// D and all later stages of the impact.
+    fn locate(&mut self, lazy: &Lazy, solution: &mut Solution) -> Result<(), Refusal> {
+        let (inputs, geometry) = (self.inputs, &solution.geometry);
+        let located = || {
+            let precise = lazy.precise(inputs, geometry)?;
+            position(inputs, geometry, precise, &solution.kept.deviation)
+        };
+        match self.stage(Stage::Position, |s| Some(s.position), located) {
+            Ok(None) => {}
+            Ok(Some(Some(position))) => {
+                solution.position = Some(position);
+                solution.withheld = self.strike(lazy, solution, &position).err();
+            }
+            Ok(Some(None)) => solution.outcome = Outcome::NoCornerContact,
+            // Methods with load sharing do not need the position.
+            Err(refusal) if inputs.method.shares_load() => solution.withheld = Some(refusal),
+            Err(refusal) => return Err(refusal),
+        }
+        Ok(())
+    }
+
+    /// The wanted stages from the velocity on that can be computed.
+    fn strike(
+        &mut self,
+        lazy: &Lazy,
+        solution: &mut Solution,
+        position: &Position,
+    ) -> Result<(), Refusal> {
+        let (inputs, tip) = (self.inputs, &position.contact);
+        let Solution { geometry, kept: Kept { masses, .. }, .. } = solution;
+        let new = || Ok(velocity(inputs.driven_speed(), tip));
+        solution.velocity = self.stage(Stage::Velocity, |s| s.velocity, new)?;
+        let place = ContactPlace::at_tip(inputs.driven.tip_radius, geometry, tip);
+        let new = || lazy.teeth(inputs, geometry)?.at(&place);
+        solution.compliance = self.stage(Stage::Compliance, |s| s.compliance, new)?;
+        let (Some(velocity), Some(compliance)) = (solution.velocity, solution.compliance) else {
+            return Ok(());
+        };
+        let new = || {
+            let teeth = lazy.teeth(inputs, geometry)?;
+            impact::impact(inputs, teeth, masses, tip, &compliance, &velocity)
+        };
+        solution.impact = self.stage(Stage::Impact, |s| s.impact, new)?;
+        let Some(impact) = &solution.impact else {
+            return Ok(());
+        };
+        let new = || {
+            let reduced = masses.reduced();
+            Ok(impact::friction(inputs, geometry, tip, &velocity, impact, reduced))
+        };
+        solution.friction = self.stage(Stage::Friction, |s| s.friction, new)?;
+        let new = || Ok(impact::band(inputs, impact.force, force));
+        solution.band = self.stage(Stage::Band, |s| s.band, new)?;
+        let new = || Ok(stations(inputs, geometry, masses, position, impact.force));
+        let of = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
+        if let Some((stations, withheld)) = self.stage(Stage::Stations, of, new)? {
+            (solution.stations, solution.stations_withheld) = (stations, withheld);
+        }
+        Ok(())
+    }
+
+    /// The result of a stage on the first mesh that is wide enough for it, if it is wanted.
+    fn on_mesh<T: PartialEq>(
+        &mut self,
+        stage: Stage,
+        of: impl Fn(&Solution) -> Option<T>,
+        meshes: &mut Meshes<'_>,
+        find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
+    ) -> Result<Option<T>, Refusal> {
+        let speed = self.inputs.speed;
+        self.stage(stage, of, || meshes.find(|mesh| find(&mesh.turning_at(speed))))
+    }
+
+    /// The mesh in the needed range, and the stages that are computed on it. The last of `static`
+    /// and `dynamic` decides whether the tooth strikes.
+    fn share(&mut self, solution: &mut Solution) -> Result<(), Refusal> {
+        if !self.wanted.has(Stage::Mesh) {
+            return Ok(());
+        }
+        let (inputs, mass, go_on) = (self.inputs, solution.reduced_mass, self.go_on);
+        let of_mesh = inputs.mesh();
+        let kept = self.kept(Stage::Mesh).and_then(|earlier| earlier.mesh.clone());
+        if kept.is_none() {
+            self.changed = self.changed.with(Stage::Mesh);
+        }
+        let alike = self.kept(Stage::Geometry).and_then(|earlier| earlier.mesh.as_ref());
+        let mut meshes = Meshes::new(&of_mesh, solution, alike, kept.as_ref());
+        let find = |mesh: &Arc<Mesh>| static_load(mesh, Spacing::of(inputs));
+        let of = |s: &Solution| s.static_load.clone();
+        solution.static_load = self.on_mesh(Stage::Static, of, &mut meshes, find)?;
+        let find = |mesh: &Arc<Mesh>| dynamic(mesh, &Settings::of(inputs, mass), go_on);
+        let of = |s: &Solution| s.dynamic.clone();
+        solution.dynamic = self.on_mesh(Stage::Dynamic, of, &mut meshes, find)?;
+        let find = |mesh: &Arc<Mesh>| Ok(Resonance::of(inputs.speed, mesh, mass));
+        solution.resonance = self.on_mesh(Stage::Resonance, |s| s.resonance, &mut meshes, find)?;
+        let find = |mesh: &Arc<Mesh>| late(mesh, static_spectrum(mesh));
+        let of = |s: &Solution| s.static_spectrum;
+        solution.static_spectrum = self.on_mesh(Stage::StaticSpectrum, of, &mut meshes, find)?;
+        let find = |mesh: &Arc<Mesh>| {
+            let (settings, meter) = (Settings::steady(inputs, mass), Meter::new(MOTION_WORK));
+            late(mesh, steady(mesh, &settings, None, &meter, go_on))
+        };
+        let of = |s: &Solution| s.steady.clone();
+        solution.steady = self.on_mesh(Stage::SteadyMotion, of, &mut meshes, find)?;
+        let find = |mesh: &Arc<Mesh>| {
+            let done = |curve: &SpeedCurve| curve.up.iter().chain(&curve.down).flatten().count();
+            let total = (2 * SPEEDS) as f64;
+            let mut show = |curve: &SpeedCurve| go_on(done(curve) as f64 / total);
+            late(mesh, over_speed(inputs, solution, &mut show).map(Arc::new))
+        };
+        let of = |s: &Solution| s.over_speed.clone();
+        solution.over_speed = self.on_mesh(Stage::SpeedRun, of, &mut meshes, find)?;
+        self.done = self.done.with(Stage::Mesh);
+        let (mesh, is_new) = meshes.last(kept)?;
+        if is_new {
+            self.ran = self.ran.with(Stage::Mesh);
+        }
+        solution.mesh = Some(mesh.turning_at(inputs.speed));
+        let load = solution.static_load.as_ref();
+        let motion = solution.dynamic.as_ref();
+        let found = [
+            load.map(|load| (load.first_contact_angle, load.rough)),
+            motion.map(|motion| (motion.first_contact_angle, motion.rough)),
+        ];
+        for (angle, rough) in found.into_iter().flatten() {
+            solution.outcome = Outcome::of_contact(angle.is_some());
+            solution.stations_withheld = solution.stations_withheld.or(rough);
+        }
+        Ok(())
+    }
+}
+
+/// The impact force, if the tooth strikes.
+fn force(inputs: &Inputs) -> Option<f64> {
+    let solution = solve_by_method(inputs, Stages::of(Stage::Impact), None, &|_| true).ok()?;
+    Some(solution.impact?.force)
+}
+
+/// Values that several stages of a solve need, each computed once. The caller passes the geometry of
+/// the pair.
+#[derive(Debug, Default)]
+struct Lazy {
+    /// Geometry in double-double arithmetic if it is needed.
+    precise: OnceCell<Option<Geometry<TwoFloat>>>,
+    teeth: OnceCell<Result<Teeth, Refusal>>,
+}
+
+impl Lazy {
+    fn geometry(&self, inputs: &Inputs) -> Result<Geometry, Refusal> {
+        let plain = geometry::<f64>(&inputs.shape());
+        let precise = precise(inputs, plain.as_ref().ok())?;
+        let rounded = precise.map(Geometry::rounded);
+        let _ = self.precise.set(precise);
+        rounded.map_or(plain, Ok)
+    }
+
+    /// Geometry in double-double arithmetic if it is requested or if small differences need it.
+    fn precise(
+        &self,
+        inputs: &Inputs,
+        plain: &Geometry,
+    ) -> Result<Option<&Geometry<TwoFloat>>, Refusal> {
+        if self.precise.get().is_none() {
+            let _ = self.precise.set(precise(inputs, Some(plain))?);
+        }
+        Ok(self.precise.get().and_then(Option::as_ref))
+    }
+
+    fn teeth(&self, inputs: &Inputs, geometry: &Geometry) -> Result<&Teeth, Refusal> {
+        let known = self.teeth.get_or_init(|| Teeth::of(&inputs.elasticity(), geometry));
+        known.as_ref().map_err(|refusal| *refusal)
+    }
+}
+
+/// Solves with the method that the closed form suggests, or decides by a trial motion. Reuses the
+/// earlier choice for equal inputs. The required relief is that of the chosen method.
+fn solve_by_choice(
+    inputs: &Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'_>>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    let auto = Auto { inputs, go_on };
+    let wanted = wanted.and(Method::Auto.deciding_stages());
+    let before =
+        earlier.filter(|earlier| earlier.inputs == inputs && earlier.solution.choice.is_some());
+    let chosen = match before {
+        Some(earlier) => Solution { ran: Stages::NONE, ..earlier.solution.clone() },
+        None => auto.with_beside(auto.chosen(wanted.except(Stages::LATE))?)?,
+    };
+    if before.is_none() && wanted.within(Stages::LATE) == Stages::NONE {
+        return Ok(chosen);
+    }
+    let whole = auto.solve(chosen.method, wanted, Some(&chosen))?;
+    Ok(Solution { choice: chosen.choice, beside: chosen.beside, ..whole })
+}
+
+/// A case that leaves the method open.
+struct Auto<'a> {
+    inputs: &'a Inputs,
+    go_on: &'a dyn Fn(f64) -> bool,
+}
+
+impl Auto<'_> {
+    /// Solves by one method after a known solution by it. For `static` its results replace the
+    /// wanted results of `dynamic`.
+    fn solve(
+        &self,
+        method: Method,
+        wanted: Stages,
+        known: Option<&Solution>,
+    ) -> Result<Solution, Refusal> {
+        let inputs = auto::taken(self.inputs, method);
+        let wanted = if method == Method::Static && wanted.has(Stage::Dynamic) {
+            wanted.and(Stages::of(Stage::Static))
+        } else {
+            wanted
+        };
+        let earlier = known.map(|solution| Earlier { inputs: &inputs, solution });
+        let found = solve_by_method(&inputs, wanted, earlier, self.go_on)?;
+        let ran = known.map_or(Stages::NONE, |known| known.ran);
+        Ok(Solution { ran: found.ran.and(ran), ..found })
+    }
+
+    /// Adds the results that limits or selected quantities need from a slower method.
+    fn with_beside(&self, solution: Solution) -> Result<Solution, Refusal> {
+        let Some(method) = auto::beside(self.inputs, solution.method) else {
+            return Ok(Solution { beside: None, ..solution });
+        };
+        let missing = self.inputs.needs.except(solution.method.stages());
+        let wanted = missing.iter().map(Stages::of).fold(Stages::NONE, Stages::and);
+        // A trial motion, or the motion of an earlier solve.
+        let known = solution.beside.as_ref().and_then(|known| known.as_deref().ok());
+        let beside = match self.solve(method, wanted, known) {
+            Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+            found => found.map(Box::new),
+        };
+        let ran = beside.as_ref().map_or(Stages::NONE, |beside| beside.ran);
+        Ok(Solution { ran: solution.ran.and(ran), beside: Some(beside), ..solution })
+    }
+
+    /// Solves by the chosen method. Uses static balance if the speed is too low for a motion.
+    fn chosen(&self, wanted: Stages) -> Result<Solution, Refusal> {
+        let exact = auto::taken(self.inputs, Method::Exact);
+        let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
+        let closed_form = solve_by_method(&exact, read, None, &|_| true);
+        let choice = auto::choose(self.inputs, &closed_form);
+        let still = || self.solve(Method::Static, wanted, None);
+        let (solution, choice) = match (choice.method, &closed_form) {
+            (Method::Exact, Ok(known)) => (self.solve(Method::Exact, wanted, Some(known))?, choice),
+            (Method::Static, _) => (still()?, choice),
+            _ => match self.solve(Method::Dynamic, wanted, None) {
+                Err(Refusal::TooSlow { .. }) => (still()?, choice),
+                // The slower the pair turns, the longer its motion.
+                Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. })
+                    if choice.reason == Reason::NoContact =>
+                {
+                    (still()?, choice)
+                }
+                Ok(moved) if choice.is_open() => self.decided(choice, moved, wanted)?,
+                found => (found?, choice),
+            },
+        };
+        Ok(Solution { choice: Some(Choice { method: solution.method, ..choice }), ..solution })
+    }
+
+    /// The motion, or the static balance on the same mesh if the effect of inertia is small.
+    fn decided(
+        &self,
+        choice: Choice,
+        moved: Solution,
+        wanted: Stages,
+    ) -> Result<(Solution, Choice), Refusal> {
+        let adds = auto::added_by_inertia(&moved);
+        let choice = adds.map_or(choice, |adds| choice.tried(self.inputs, adds));
+        if choice.method == Method::Dynamic {
+            return Ok((moved, choice));
+        }
+        let known = Solution { method: Method::Static, ..moved.clone() };
+        let found = self.solve(Method::Static, wanted, Some(&known))?;
+        Ok((Solution { beside: Some(Ok(Box::new(moved))), ..found }, choice))
+    }
+}
+
+impl Stage {
+    /// Whether the inputs of the stage are equal in two cases.
+    pub fn has_equal_inputs(self, one: &Inputs, other: &Inputs) -> bool {
+        let cases = [one, other];
+        let stages =
+            |stages: &[Stage]| stages.iter().all(|stage| stage.has_equal_inputs(one, other));
+        match self {
+            Stage::Geometry => equal(cases, |i| (i.shape(), i.bores(), i.accurate)),
+            Stage::Load => equal(cases, Inputs::torque),
+            Stage::Masses => equal(cases, |i| (i.body(&i.driver), i.body(&i.driven))),
+            // The load causes the deflection if the case does not give it.
+            Stage::Deviation => {
+                equal(cases, given_deviations)
+                    && (one.given_deflection().is_some() || equal(cases, Inputs::elasticity))
+            }
+            Stage::Position => equal(cases, |i| (i.method, i.shape(), i.driven.tip_radius)),
+            Stage::Velocity => equal(cases, Inputs::driven_speed),
+            Stage::Compliance => equal(cases, |i| (i.driven.tip_radius, i.elasticity())),
+            Stage::Impact => equal(cases, |i| i.method) && stages(&[Stage::Compliance]),
+            Stage::Friction => equal(cases, |i| (i.method, i.speed)),
+            Stage::Band => {
+                stages(&[Stage::Deviation, Stage::Position, Stage::Velocity, Stage::Impact])
+            }
+            Stage::Stations => {
+                stages(&[Stage::Velocity, Stage::Impact]) && equal(cases, Spacing::of)
+            }
+            Stage::Mesh => equal(cases, |i| i.mesh().at_speed(1.0)),
+            Stage::Resonance => equal(cases, |i| i.speed),
+            Stage::Static => equal(cases, |i| (i.speed, Spacing::of(i))),
+            Stage::Dynamic => equal(cases, |i| (i.speed, Settings::of(i, 0.0))),
+            // This stage reads only the results of other stages.
+            Stage::StaticSpectrum => true,
+            Stage::SteadyMotion => equal(cases, |i| (i.speed, Settings::steady(i, 0.0))),
+            // The torque stays the same at every speed.
+            Stage::SpeedRun => stages(&[Stage::SteadyMotion]) && equal(cases, Inputs::torque),
+            Stage::Clearing => {
+                equal(cases, |i| (i.method, i.driven.tip_relief))
+                    && match one.method {
+                        Method::Exact | Method::Auto => true,
+                        Method::Paper => equal(cases, Inputs::shape),
+                        Method::Static => equal(cases, Inputs::mesh),
+                        Method::Dynamic => {
+                            equal(cases, |i| (i.mesh(), i.speed, Settings::approach(i, 0.0)))
+                        }
+                    }
+            }
+        }
+    }
+}
+
+/// Deviations, reliefs and deflection that the case gives. Only `paper` subtracts the backlash.
+fn given_deviations(inputs: &Inputs) -> impl PartialEq + use<> {
+    let backlash = if inputs.method == Method::Paper { inputs.backlash } else { 0.0 };
+    let reliefs = [inputs.driven.tip_relief, inputs.driver.root_relief];
+    let pitches = (inputs.base_pitches(), inputs.effective_combination());
+    (inputs.method, pitches, backlash, reliefs, inputs.given_deflection())
+}
+
+/// Whether the inputs of a stage are equal in two cases.
+fn equal<T: PartialEq>(cases: [&Inputs; 2], of: impl Fn(&Inputs) -> T) -> bool {
+    let [one, other] = cases.map(of);
+    one == other
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,7 +567,6 @@ mod tests {
             let mut before = (inputs.clone(), solve(&inputs, Stages::CLOSED_FORM).unwrap());
             for edit in edits {
                 edit(&mut inputs);
-                assert!(differ_in_load_alone(&before.0, &inputs));
                 for stage in Stages::CLOSED_FORM.iter() {
                     let is_own = matches!(stage, Stage::Load | Stage::Deviation);
                     let is_equal = stage.has_equal_inputs(&before.0, &inputs);
@@ -107,8 +581,5 @@ mod tests {
                 }
             }
         }
-        let mut other = pair.clone();
-        other.driven.density *= 1.1;
-        assert!(!differ_in_load_alone(&pair, &other));
     }
 }

@@ -1,4 +1,5 @@
-//! The method `static`: the load shared by all pairs in contact, without inertia.
+//! The load shared by all pairs in contact without inertia, the harmonics of its transmission error,
+//! and the frequencies of the mesh.
 
 #[cfg(test)]
 mod tests;
@@ -7,10 +8,10 @@ use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
 use super::mesh::Mesh;
 use super::pair_forces::Balance;
-use super::spacing::{Resolution, Spacing};
-use super::stations::MeshStation;
-use crate::numeric::root;
+use super::stations::{MeshStation, Spacing};
 use crate::numeric::root::greatest;
+use crate::numeric::{quadrature, root};
+use std::f64::consts::TAU;
 
 /// Samples in a base pitch in the search for the incoming pair.
 const SAMPLES: f64 = 16.0;
@@ -36,8 +37,8 @@ pub struct StaticLoad {
     pub pitch_jump: Option<f64>,
     /// From the first contact through E to the last contact.
     pub stations: Vec<MeshStation>,
-    /// Whether the stations are as dense as the curve needs.
-    pub resolution: Resolution,
+    /// The reason why the stations are less dense than the curve needs.
+    pub rough: Option<Refusal>,
 }
 
 /// A place of the incoming pair in m, and a place on the same side of every border of the mesh.
@@ -125,7 +126,7 @@ fn load_within(
     balances.push(at(contact.last));
     let balances = with_bends(mesh, &balances);
     let peak_force = peak(mesh, &balances, |balance| balance.force);
-    let (stations, resolution) = stations(mesh, contact, peak_force, spacing);
+    let (stations, rough) = stations(mesh, contact, peak_force, spacing);
     Ok(StaticLoad {
         first_contact_angle: (first < 0.0).then(|| -first / mesh.base_radii.1),
         last_contact_angle: (last > mesh.length).then(|| (last - mesh.length) / mesh.base_radii.0),
@@ -135,13 +136,12 @@ fn load_within(
             + peak(mesh, &balances, |balance| -balance.displacement),
         pitch_jump: pitch_jump(mesh),
         stations,
-        resolution,
+        rough,
     })
 }
 
 /// The balance with the incoming pair at `s`. On a border the sliding direction is that at
 /// `inside`.
-#[must_use]
 pub fn balance(mesh: &Mesh, s: f64, inside: f64) -> Balance {
     mesh.pair_set(s, inside).balance(mesh.force)
 }
@@ -213,7 +213,6 @@ fn greatest_lead(mesh: &Mesh, end: f64, to: f64) -> Result<f64, Refusal> {
 }
 
 /// Work of [`lead_before_start`]: the number of places times the pairs at each place.
-#[must_use]
 pub fn places_before_start(mesh: &Mesh) -> u64 {
     let (from, _) = mesh.ends();
     let pairs = mesh.standing(0.0).count();
@@ -330,7 +329,7 @@ fn stations(
     contact: Contact,
     peak: f64,
     spacing: Spacing,
-) -> (Vec<MeshStation>, Resolution) {
+) -> (Vec<MeshStation>, Option<Refusal>) {
     let most = STATIONS.min(CURVE_WORK / mesh.standing(0.0).count().max(1));
     MeshStation::through_start(contact.first.0, contact.last.0, |from, to| {
         spacing.stations(&[from, to], peak, most, |s| {
@@ -342,4 +341,202 @@ fn stations(
             )
         })
     })
+}
+
+/// Samples between two borders of the mesh to find changes of the pairs in contact.
+const LOOKS: usize = 16;
+
+/// Static transmission error and tooth force of equal pairs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StaticSpectrum {
+    /// The transmission error over a base pitch.
+    pub spectrum: Spectrum,
+    /// Greatest force of a tooth, in N.
+    pub tooth_force: f64,
+}
+
+/// The static displacement of the driver over one base pitch, for a mesh without base pitch
+/// deviations.
+///
+/// # Formula
+/// ```text
+/// x(s) by Σ w_k F_k = F0 with e_k = 0,   s from 0 to pb
+/// ```
+/// Every border of the mesh and every gain or loss of contact divides the pitch, so that each piece
+/// of x is smooth.
+///
+/// # Source
+/// The balance of [`static_load`](super::static_load::static_load). Gregory, Harris & Munro 1963
+/// name the transmission error as the cause of whine.
+///
+/// # Errors
+/// [`Refusal::BeyondReach`] if the deflection of the pairs exceeds the computed range of the mesh.
+pub fn static_spectrum(mesh: &Mesh) -> Result<StaticSpectrum, Refusal> {
+    let mesh = &mesh.without_error();
+    if reaches_ends(mesh) {
+        return Err(Refusal::BeyondReach);
+    }
+    let mut fourier = Fourier::new();
+    let mut tooth_force = 0.0f64;
+    for ends in mesh.borders(0.0, mesh.base_pitch).windows(2) {
+        let inside = f64::midpoint(ends[0], ends[1]);
+        for piece in pieces(mesh, (ends[0], ends[1]), inside).windows(2) {
+            let (from, to) = (piece[0], piece[1]);
+            let place = |part: f64| from + part * (to - from);
+            let ahead = |s: f64| balance(mesh, s, inside).displacement;
+            let pitch = mesh.base_pitch;
+            fourier.add((from / pitch, to / pitch), |part| ahead(place(part)));
+            for sign in [-1.0, 1.0] {
+                fourier.include(sign * peak_between((from, to), |s| sign * ahead(s)));
+            }
+            let force = |s: f64| {
+                let forces = mesh.pair_set(s, inside).shared(mesh.force).1;
+                forces.into_iter().fold(0.0, f64::max)
+            };
+            tooth_force = tooth_force.max(peak_between((from, to), force));
+        }
+    }
+    Ok(StaticSpectrum { spectrum: fourier.spectrum(1), tooth_force })
+}
+
+/// The greatest value of a smooth function.
+fn peak_between((from, to): (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
+    const PLACES: usize = 8;
+    let known: Vec<(f64, f64)> = (0..=PLACES)
+        .map(|step| from + (to - from) * step as f64 / PLACES as f64)
+        .map(|s| (s, value(s)))
+        .collect();
+    greatest(&known, value).1
+}
+
+/// The borders of the pieces with the same touching pairs, between two borders of the mesh.
+fn pieces(mesh: &Mesh, (from, to): (f64, f64), inside: f64) -> Vec<f64> {
+    let touching = |s: f64| {
+        let pairs = mesh.pair_set(s, inside);
+        let (_, forces) = pairs.shared(mesh.force);
+        let carries = pairs.pairs().iter().zip(forces);
+        let carries = carries.filter(|(_, force)| *force > 0.0);
+        carries.map(|(pair, _)| pair.ahead).collect::<Vec<i32>>()
+    };
+    let places: Vec<f64> =
+        (0..=LOOKS).map(|step| from + (to - from) * step as f64 / LOOKS as f64).collect();
+    let sets: Vec<Vec<i32>> = places.iter().map(|&s| touching(s)).collect();
+    let mut cuts = vec![from, to];
+    for (ends, sets) in places.windows(2).zip(sets.windows(2)) {
+        let turned = sets[0].iter().chain(&sets[1]);
+        let turned = turned.filter(|pair| sets[0].contains(pair) != sets[1].contains(pair));
+        cuts.extend(turned.map(|&pair| {
+            root::between(ends[0], ends[1], |s| {
+                let lead = mesh.pair_set(s, inside).lead(pair, mesh.force);
+                lead.clamp(-mesh.length, mesh.length)
+            })
+        }));
+    }
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup_by(|one, other| *one - *other <= 1e-12 * mesh.base_pitch);
+    cuts
+}
+
+/// Frequencies of a pair, in Hz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resonance {
+    /// Tooth engagements per second, f_z = z₁ n₁.
+    pub mesh_frequency: f64,
+    /// Natural frequency f_n of the pair with the mean mesh stiffness.
+    pub natural_frequency: f64,
+}
+
+impl Resonance {
+    /// The frequencies of a mesh at a speed of the driver in rad/s, with the reduced mass in kg.
+    ///
+    /// # Formula
+    /// ```text
+    /// f_z = ω1 rb1/pb = z1 ω1/(2 π),   f_n = √(k_m/m_red)/(2 π),   N = f_z/f_n
+    /// ```
+    ///
+    /// # Source
+    /// ISO 6336-1:2019, 6.5: N = n1/n_E1, n_E1 = 30 000 √(c_γ/m_red)/(π z1).
+    ///
+    /// # Valid for
+    /// Rigid shafts: one mass on the mesh stiffness.
+    pub fn of(speed: f64, mesh: &Mesh, mass: f64) -> Resonance {
+        Resonance {
+            mesh_frequency: speed * mesh.base_radii.0 / mesh.base_pitch,
+            natural_frequency: (mesh.mean_stiffness() / mass).sqrt() / TAU,
+        }
+    }
+
+    /// N = f_z/f_n.
+    pub fn ratio(&self) -> f64 {
+        self.mesh_frequency / self.natural_frequency
+    }
+}
+
+/// Number of harmonics in a spectrum.
+pub const HARMONICS: usize = 10;
+
+/// A transmission error over p mesh periods; p = 1 unless the motion repeats after several periods.
+/// Amplitudes of the multiples of the mesh frequency, averaged over the periods, without
+/// subharmonics.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spectrum {
+    /// Amplitudes of the harmonics of the mesh frequency from the first, in m.
+    pub amplitudes: [f64; HARMONICS],
+    /// Difference of the greatest and the least value, in m.
+    pub peak_to_peak: f64,
+}
+
+/// Partial sums of a Fourier analysis.
+///
+/// # Formula
+/// ```text
+/// A_n = 2 |∫ x(τ) exp(−2 π i n τ) dτ|,   τ from 0 to 1 over the period
+/// ```
+///
+/// # Source
+/// Fourier series; the integral over each smooth piece by the 12-point Gauss-Legendre rule.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fourier {
+    sums: [[f64; 2]; HARMONICS],
+    least: f64,
+    most: f64,
+}
+
+impl Fourier {
+    pub(super) fn new() -> Fourier {
+        Fourier { sums: [[0.0; 2]; HARMONICS], least: f64::INFINITY, most: f64::NEG_INFINITY }
+    }
+
+    /// Adds a smooth piece between two parts of the period. `value` is a function of the part of
+    /// the piece, from 0 to 1.
+    pub(super) fn add(&mut self, (from, to): (f64, f64), value: impl Fn(f64) -> f64) {
+        /// Number of quadrature intervals per period, which resolves the highest harmonic in each
+        /// interval.
+        const PIECES_OF_PERIOD: f64 = 2.0 * HARMONICS as f64;
+        const LEAST: f64 = 3.0;
+        let count = ((to - from) * PIECES_OF_PERIOD).ceil().max(LEAST);
+        for piece in 0..count as u32 {
+            for (node, weight) in quadrature::nodes() {
+                let part = (f64::from(piece) + node) / count;
+                let height = weight * (to - from) / count * value(part);
+                let phase = TAU * (from + part * (to - from));
+                for (order, sum) in (1..).zip(&mut self.sums) {
+                    let (sine, cosine) = (f64::from(order) * phase).sin_cos();
+                    *sum = [sum[0] + height * cosine, sum[1] + height * sine];
+                }
+            }
+        }
+    }
+
+    /// Includes a value in the peak-to-peak range.
+    pub(super) fn include(&mut self, value: f64) {
+        (self.least, self.most) = (self.least.min(value), self.most.max(value));
+    }
+
+    /// The spectrum after `periods` periods.
+    pub(super) fn spectrum(&self, periods: u32) -> Spectrum {
+        let amplitude =
+            |[cosine, sine]: [f64; 2]| 2.0 * cosine.hypot(sine) / f64::from(periods.max(1));
+        Spectrum { amplitudes: self.sums.map(amplitude), peak_to_peak: self.most - self.least }
+    }
 }

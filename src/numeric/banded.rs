@@ -39,7 +39,6 @@ impl<const ROW: usize, T: Entry> Banded<ROW, T> {
     ///
     /// # Source
     /// Golub & Van Loan 2013, "Matrix Computations", section 4.3.6.
-    #[must_use]
     pub fn factored(rows: impl IntoIterator<Item = [T; ROW]>) -> Option<Banded<ROW, T>> {
         let mut rows: Rows<T, ROW> = rows.into_iter().collect();
         for at in 0..rows.len() {

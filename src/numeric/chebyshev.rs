@@ -2,6 +2,7 @@
 //! precision and cheap to evaluate.
 
 use std::array::from_fn;
+use std::convert::Infallible;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -50,9 +51,15 @@ impl<const N: usize> Series<N> {
         rest: &impl Fn(f64, f64) -> [f64; N],
         f: &impl Fn(f64) -> Result<[f64; N], E>,
     ) -> Result<Series<N>, E> {
-        let mut pieces = Vec::new();
-        halve(from, to, rest, MOST_HALVINGS, f, &mut pieces)?;
-        Ok(Series { pieces })
+        let mut series = [Series { pieces: Vec::new() }];
+        let fill = |places: &Places, values: &mut [Terms<N>]| {
+            let mut values = places.iter().zip(&mut values[0]);
+            values.try_for_each(|(place, value)| f(*place).map(|found| *value = found))
+        };
+        let rest = |_, from, to| rest(from, to);
+        halve((from, to), &rest, MOST_HALVINGS, &fill, &mut series)?;
+        let [series] = series;
+        Ok(series)
     }
 
     /// Samples groups of functions on common pieces. `f` writes the values of all groups at several
@@ -61,21 +68,24 @@ impl<const N: usize> Series<N> {
         from: f64,
         to: f64,
         rest: &[[f64; N]],
-        f: &impl Fn(&Places, &mut [[[f64; N]; TERMS]]),
+        f: &impl Fn(&Places, &mut [Terms<N>]),
     ) -> Vec<Series<N>> {
         let mut groups = vec![Series { pieces: Vec::new() }; rest.len()];
-        halve_groups((from, to), rest, MOST_HALVINGS, f, &mut groups);
+        let fill = |places: &Places, values: &mut [Terms<N>]| {
+            f(places, values);
+            Ok::<(), Infallible>(())
+        };
+        let Ok(()) =
+            halve((from, to), &|group, _, _| rest[group], MOST_HALVINGS, &fill, &mut groups);
         groups
     }
 
     /// The values of the first `M` functions at `x`. `x` may be beyond the interval by rounding.
-    #[must_use]
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
         self.piece(x).map_or([f64::NAN; M], |piece| values(&piece.powers, 0, piece.inner(x)))
     }
 
     /// The values of `M` functions, from `first` on, at several places.
-    #[must_use]
     pub fn many<const M: usize>(&self, first: usize, places: &Places) -> [Lanes<TERMS>; M] {
         let low = places.iter().copied().fold(f64::INFINITY, f64::min);
         let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -97,7 +107,6 @@ impl<const N: usize> Series<N> {
 
     /// No value of one function is below the first and none above the second, on the piece that
     /// serves from `x` up by [`Series::serves_until`].
-    #[must_use]
     pub fn bounds(&self, function: usize, (x, least): (f64, f64)) -> (f64, f64) {
         self.piece_above(x, least).map_or((f64::NEG_INFINITY, f64::INFINITY), |piece| {
             let middle = piece.powers[0][function];
@@ -108,7 +117,6 @@ impl<const N: usize> Series<N> {
     }
 
     /// The value of one function at `x`.
-    #[must_use]
     pub fn one(&self, function: usize, x: f64) -> f64 {
         let [value] = self
             .piece(x)
@@ -117,7 +125,6 @@ impl<const N: usize> Series<N> {
     }
 
     /// The slope of one function at `x`.
-    #[must_use]
     pub fn slope(&self, function: usize, x: f64) -> f64 {
         self.piece(x).map_or(f64::NAN, |piece| {
             let t = piece.inner(x);
@@ -129,7 +136,6 @@ impl<const N: usize> Series<N> {
 
     /// `M` functions, starting with function `first`, from `x` to `x + length` as polynomials from
     /// 0 to 1. The piece is the piece of [`Series::serves_until`].
-    #[must_use]
     pub fn local<const M: usize>(
         &self,
         first: usize,
@@ -148,7 +154,6 @@ impl<const N: usize> Series<N> {
 
     /// End of the piece used from `x` on. A piece with less than `least` left is skipped. Infinite
     /// for the last piece.
-    #[must_use]
     pub fn serves_until(&self, x: f64, least: f64) -> f64 {
         let last = self.pieces.last().map_or(f64::NAN, |piece| piece.from);
         self.piece_above(x, least)
@@ -157,33 +162,28 @@ impl<const N: usize> Series<N> {
     }
 
     /// The functions of `about` − x, each multiplied by its sign.
-    #[must_use]
     pub fn reversed(&self, about: f64, signs: [f64; N]) -> Series<N> {
         let pieces = self.pieces.iter().rev();
         Series { pieces: pieces.map(|piece| piece.reversed(about, signs)).collect() }
     }
 
     /// The start of the first piece.
-    #[must_use]
     pub fn start(&self) -> f64 {
         self.pieces.first().map_or(f64::NAN, |piece| piece.from)
     }
 
     /// Number of evaluations of the functions that the construction needed.
-    #[must_use]
     pub fn evaluations(&self) -> usize {
         // N pieces come from N − 1 halvings, so the construction sampled 2 N − 1 intervals.
         TERMS * (2 * self.pieces.len()).saturating_sub(1)
     }
 
     /// Memory of the pieces, in bytes.
-    #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.pieces)
     }
 
     /// The integral of one function over the whole interval.
-    #[must_use]
     pub fn integral(&self, function: usize) -> f64 {
         self.pieces
             .iter()
@@ -232,47 +232,32 @@ impl<const N: usize> Piece<N> {
     }
 }
 
+/// Halves the interval until the last terms of each function are below the `rest` of its group and
+/// of the piece.
 fn halve<const N: usize, E>(
-    from: f64,
-    to: f64,
-    rest: &impl Fn(f64, f64) -> [f64; N],
-    halvings: u32,
-    f: &impl Fn(f64) -> Result<[f64; N], E>,
-    pieces: &mut Vec<Piece<N>>,
-) -> Result<(), E> {
-    let terms = interpolate(from, to, f)?;
-    let middle = f64::midpoint(from, to);
-    if may_not_halve((from, to), halvings, pieces.len()) || has_settled(&terms, &rest(from, to)) {
-        pieces.push(Piece { from, to, powers: powers(&terms) });
-        return Ok(());
-    }
-    halve(from, middle, rest, halvings - 1, f, pieces)?;
-    halve(middle, to, rest, halvings - 1, f, pieces)
-}
-
-fn halve_groups<const N: usize>(
     (from, to): (f64, f64),
-    rest: &[[f64; N]],
+    rest: &impl Fn(usize, f64, f64) -> [f64; N],
     halvings: u32,
-    f: &impl Fn(&Places, &mut [[[f64; N]; TERMS]]),
+    f: &impl Fn(&Places, &mut [Terms<N>]) -> Result<(), E>,
     groups: &mut [Series<N>],
-) {
+) -> Result<(), E> {
     let mut terms = vec![[[0.0; N]; TERMS]; groups.len()];
-    f(&from_fn(|point| place(from, to, point)), &mut terms);
+    f(&from_fn(|point| place(from, to, point)), &mut terms)?;
     for terms in &mut terms {
         *terms = terms_of(terms);
     }
     let middle = f64::midpoint(from, to);
     let pieces = groups.first().map_or(0, |group| group.pieces.len());
-    let has_settled = terms.iter().zip(rest).all(|(terms, rest)| has_settled(terms, rest));
-    if has_settled || may_not_halve((from, to), halvings, pieces) {
+    let has_settled =
+        |(group, terms): (usize, &Terms<N>)| has_settled(terms, &rest(group, from, to));
+    if may_not_halve((from, to), halvings, pieces) || terms.iter().enumerate().all(has_settled) {
         for (group, terms) in groups.iter_mut().zip(&terms) {
             group.pieces.push(Piece { from, to, powers: powers(terms) });
         }
-        return;
+        return Ok(());
     }
-    halve_groups((from, middle), rest, halvings - 1, f, groups);
-    halve_groups((middle, to), rest, halvings - 1, f, groups);
+    halve((from, middle), rest, halvings - 1, f, groups)?;
+    halve((middle, to), rest, halvings - 1, f, groups)
 }
 
 /// Whether the interval has its least width, or the halvings or the pieces reached their limit.
@@ -283,7 +268,7 @@ fn may_not_halve((from, to): (f64, f64), halvings: u32, pieces: usize) -> bool {
 
 /// One value of every function for each order. This layout allows sums of several functions at
 /// once.
-type Terms<const N: usize> = [[f64; N]; TERMS];
+pub type Terms<const N: usize> = [[f64; N]; TERMS];
 
 /// cos(k π/(2 TERMS)) over a whole turn.
 static COSINES: LazyLock<[f64; 4 * TERMS]> =
@@ -317,21 +302,7 @@ fn place(from: f64, to: f64, point: usize) -> f64 {
     f64::midpoint(from, to) + 0.5 * (to - from) * COSINES[2 * point + 1]
 }
 
-/// The Chebyshev coefficients of the polynomials through the function's values at the Chebyshev
-/// points of the first kind.
-fn interpolate<const N: usize, E>(
-    from: f64,
-    to: f64,
-    f: &impl Fn(f64) -> Result<[f64; N], E>,
-) -> Result<Terms<N>, E> {
-    let mut values = [[0.0; N]; TERMS];
-    for (point, value) in values.iter_mut().enumerate() {
-        *value = f(place(from, to, point))?;
-    }
-    Ok(terms_of(&values))
-}
-
-/// The Chebyshev coefficients from the values at these points. The points are symmetric: terms of
+/// The Chebyshev coefficients from the values at the Chebyshev points. The points are symmetric: terms of
 /// even order need the sums of opposite values, terms of odd order their differences.
 fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
     let cosines = &*COSINES;

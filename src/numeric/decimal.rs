@@ -2,7 +2,6 @@
 
 /// The shortest text that parses to the same number: plain from 1e-4 to 1e7, otherwise with an
 /// exponent.
-#[must_use]
 pub fn shortest(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
     if is_plain { format!("{value}") } else { format!("{value:e}") }
@@ -10,7 +9,6 @@ pub fn shortest(value: f64) -> String {
 
 /// A number with `digits` significant digits: plain from 1e-3 to 1e6, otherwise with an exponent.
 /// Never NaN or minus zero.
-#[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "n/a".to_owned();

@@ -13,7 +13,6 @@ impl<const N: usize> Polynomial<N> {
     pub const ZERO: Polynomial<N> = Polynomial([0.0; N]);
 
     /// The coefficients up to the last nonzero coefficient.
-    #[must_use]
     pub fn terms(&self) -> &[f64] {
         let count =
             self.0.iter().rposition(|&coefficient| coefficient != 0.0).map_or(0, |last| last + 1);
@@ -21,19 +20,16 @@ impl<const N: usize> Polynomial<N> {
     }
 
     /// Its value at `t`.
-    #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         horner(&self.0, t)
     }
 
     /// Its slope at `t`.
-    #[must_use]
     pub fn slope(&self, t: f64) -> f64 {
         self.derivative().at(t)
     }
 
     /// Its derivative. The last coefficient is 0.
-    #[must_use]
     pub fn derivative(&self) -> Polynomial<N> {
         let mut derivative = [0.0; N];
         for power in 1..N {
@@ -43,13 +39,11 @@ impl<const N: usize> Polynomial<N> {
     }
 
     /// Its integral from 0 to 1.
-    #[must_use]
     pub fn integral(&self) -> f64 {
         self.0.iter().enumerate().map(|(power, coefficient)| coefficient / (power + 1) as f64).sum()
     }
 
     /// The polynomial a(`by` t).
-    #[must_use]
     pub fn stretched(mut self, by: f64) -> Polynomial<N> {
         self.stretch(by);
         self
@@ -68,21 +62,18 @@ impl<const N: usize> Polynomial<N> {
     }
 
     /// Every coefficient times `factor`.
-    #[must_use]
     pub fn scaled(mut self, factor: f64) -> Polynomial<N> {
         self.0.iter_mut().for_each(|coefficient| *coefficient *= factor);
         self
     }
 
     /// The sum of this polynomial and `factor` times `other`, which has at most as many terms.
-    #[must_use]
     pub fn plus<const M: usize>(mut self, factor: f64, other: &Polynomial<M>) -> Polynomial<N> {
         self.0.iter_mut().zip(other.0).for_each(|(sum, coefficient)| *sum += factor * coefficient);
         self
     }
 
     /// The product with `other`, truncated to `P` terms.
-    #[must_use]
     pub fn times<const M: usize, const P: usize>(&self, other: &Polynomial<M>) -> Polynomial<P> {
         let mut product = [0.0; P];
         // Each round adds to all powers, so that the sums of a round are independent of each other.
@@ -95,7 +86,6 @@ impl<const N: usize> Polynomial<N> {
     }
 
     /// a(t)/t for a polynomial with a(0) = 0.
-    #[must_use]
     pub fn over_argument(&self) -> Polynomial<N> {
         let mut rest = [0.0; N];
         rest[..N - 1].copy_from_slice(&self.0[1..]);
@@ -138,7 +128,6 @@ impl<const N: usize> Bernstein<N> {
     /// # Source
     /// Farouki & Rajan 1987, "On the numerical condition of polynomials in Bernstein form",
     /// Computer Aided Geometric Design 4, Eq. 6.
-    #[must_use]
     pub fn of(polynomial: &Polynomial<N>) -> Bernstein<N> {
         const { assert!(N.is_multiple_of(SIDE_BY_SIDE), "multiple of four terms") };
         let (terms, mut form) = (polynomial.terms(), [0.0; N]);
@@ -154,7 +143,6 @@ impl<const N: usize> Bernstein<N> {
     }
 
     /// A lower and an upper bound of the values from 0 to 1.
-    #[must_use]
     pub fn bounds(&self) -> (f64, f64) {
         self.0.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
             (low.min(value), high.max(value))
@@ -199,7 +187,6 @@ const fn weights<const N: usize>() -> [[f64; N]; N] {
 /// or more often by an even number. No change and one change are therefore certain. With more
 /// changes the search halves the interval. Lane & Riesenfeld 1981, "Bounds on a polynomial", BIT
 /// 21.
-#[must_use]
 pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
     let form = Bernstein::of(polynomial);
     if form.0.iter().all(|&value| value >= 0.0) {
@@ -219,7 +206,6 @@ pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
 
 /// The places between 0 and 1 where the polynomial changes its sign, in order. Values within
 /// rounding have no sign.
-#[must_use]
 pub fn sign_changes<const N: usize>(polynomial: &Polynomial<N>) -> Vec<f64> {
     const ROUNDING: f64 = 64.0 * f64::EPSILON;
     let form = Bernstein::of(polynomial);

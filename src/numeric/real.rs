@@ -29,29 +29,23 @@ pub trait Real:
     const PI: Self;
 
     /// `self/divisor`.
-    #[must_use]
     fn over(self, divisor: Self) -> Self;
 
     /// √x.
-    #[must_use]
     fn root(self) -> Self;
 
     /// Sine and cosine of an angle within a turn.
-    #[must_use]
     fn sine_cosine(self) -> (Self, Self);
 
     /// The angle whose tangent is `self/x`, in the quadrant of `(x, self)`.
-    #[must_use]
     fn angle_to(self, x: Self) -> Self;
 
     /// Rounded to f64.
-    #[must_use]
     fn rounded(self) -> f64 {
         self.into()
     }
 
     /// Converts a whole number.
-    #[must_use]
     fn count(count: u32) -> Self {
         f64::from(count).into()
     }
@@ -138,7 +132,6 @@ const NEAR: f64 = 0.05;
 ///
 /// # Source
 /// The arrangement of `log1p` in Sun's fdlibm, with series terms instead of fitted coefficients.
-#[must_use]
 pub fn logarithm_near_one(x: f64) -> f64 {
     if x.abs() < SMALL {
         let rest = 1.0 / 3.0 - x * (0.25 - x * (0.2 - x * (1.0 / 6.0)));
@@ -155,7 +148,6 @@ pub fn logarithm_near_one(x: f64) -> f64 {
 }
 
 /// e^x.
-#[must_use]
 pub fn exponential_near_zero(x: f64) -> f64 {
     if x.abs() < SMALL {
         let rest = 1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0));
@@ -171,7 +163,6 @@ pub struct Lanes<const L: usize>(pub [f64; L]);
 
 impl<const L: usize> Lanes<L> {
     /// The same number everywhere.
-    #[must_use]
     pub fn all(number: f64) -> Lanes<L> {
         Lanes([number; L])
     }

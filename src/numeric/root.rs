@@ -6,7 +6,6 @@
 ///
 /// # Source
 /// Brent 1973, "Algorithms for Minimization without Derivatives", chapter 4.
-#[must_use]
 pub fn between(from: f64, to: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     const STEPS: usize = 200;
     let (mut best, mut other) = (to, from);
@@ -56,9 +55,8 @@ fn bold_step(best: (f64, f64), other: (f64, f64), opposite: (f64, f64)) -> f64 {
 
 /// The greatest value at which the condition holds, by bisection. The condition holds at `from` and
 /// changes at most once up to `to`.
-#[must_use]
 pub fn last_where(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    const HALVINGS: usize = 54;
+    const HALVINGS: usize = 60;
     if holds(to) {
         return to;
     }
@@ -200,7 +198,6 @@ impl Bracket {
 /// # Source
 /// Parabolas and golden section: Brent 1973, "Algorithms for Minimization without Derivatives",
 /// chapter 5.
-#[must_use]
 pub fn greatest(known: &[Sample], at: impl Fn(f64) -> f64) -> Sample {
     let mut tops: Vec<Bracket> = brackets(known).collect();
     tops.sort_by(|one, other| other.best.1.total_cmp(&one.best.1));

@@ -26,7 +26,6 @@ impl<const N: usize> Oscillator<N> {
     /// Taylor's method with recurrences for the coefficients: Corliss & Chang 1982, "Solving
     /// ordinary differential equations using Taylor series", ACM TOMS 8; Barrio 2005, "Performance
     /// of the Taylor series method for ODEs/DAEs", Applied Mathematics and Computation 163.
-    #[must_use]
     pub fn series(&self, x: f64, v: f64) -> Polynomial<N> {
         let (mut series, mut pulls) = ([0.0; N], [0.0; N]);
         let stiffness = self.stiffness.terms();
@@ -58,7 +57,6 @@ fn add_pull(pulls: &mut [f64], stiffness: &[f64], term: f64) {
 /// Jorba & Zou 2005, "A software package for the numerical integration of ODEs by means of
 /// high-order Taylor methods", Experimental Mathematics 14, section 3. The step length is known
 /// before the step, so that no step is rejected.
-#[must_use]
 pub fn convergent_part<const N: usize>(series: &Polynomial<N>, allowed: f64) -> f64 {
     const LAST: usize = 3;
     let part = |order: usize| {

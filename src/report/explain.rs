@@ -44,7 +44,7 @@ pub struct Page {
     /// Why the value is absent.
     pub missing: Option<String>,
     /// The meaning and the use of the quantity.
-    pub meaning: &'static str,
+    pub meaning: String,
     /// For a quantity of the free impact, its counterpart in the method.
     pub beside: Option<String>,
     /// The formula of the quantity, then the formula of each step.
@@ -127,7 +127,7 @@ pub fn write_json(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()
         ("value", page.value.into()),
         ("shown", page.shown.as_ref().map(Shown::to_string).into()),
         ("missing", page.missing.as_ref().into()),
-        ("meaning", page.meaning.into()),
+        ("meaning", page.meaning.as_str().into()),
         ("beside", page.beside.as_ref().into()),
         ("derivation", page.derivation.iter().map(Work::json).collect()),
         ("with", page.leaves.iter().map(Leaf::json).collect()),

@@ -1,7 +1,7 @@
 //! The table of station values of the incoming tooth, for text, JSON, CSV and charts.
 
+use crate::model::contact_state::DIGITS_BETWEEN;
 use crate::model::inputs::Method;
-use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::model::{Inputs, Interpolated, MeshStation, Solution, Station};
 
 /// A station of the incoming tooth.

@@ -217,8 +217,8 @@ fn by_compliance(trade: &Trade) -> Vec<String> {
 /// The models of tooth and contact in at most 22 characters.
 #[must_use]
 pub fn compliance_name(models: StiffnessModels) -> String {
-    let contact = models.contact.map(|contact| format!(" {}", contact.name));
-    models.tooth.name.to_owned() + &contact.unwrap_or_default()
+    let contact = models.contact.map(|contact| format!(" {}", contact.name()));
+    models.tooth.name().to_owned() + &contact.unwrap_or_default()
 }
 
 /// The setting that the solve used.
@@ -297,8 +297,8 @@ pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<(
 fn fineness(setting: &Setting, models: Option<StiffnessModels>) -> [(&'static str, Json); 4] {
     let contact = models.and_then(|models| models.contact);
     [
-        ("tooth_compliance", models.map(|models| models.tooth.name).into()),
-        ("contact_compliance", contact.map(|contact| contact.name).into()),
+        ("tooth_compliance", models.map(|models| models.tooth.name()).into()),
+        ("contact_compliance", contact.map(|contact| contact.name()).into()),
         ("stations", setting.stations.map_or_else(|| setting.stations_text().into(), Json::from)),
         ("tolerance", setting.tolerance.into()),
     ]

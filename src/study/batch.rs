@@ -320,11 +320,11 @@ impl<'a> PointSolver<'a> {
         // No quantity reads the stations.
         self.inputs.stations = Some(1);
         let wanted = self.wanted.and(self.inputs.method.deciding_stages());
-        let fits = |inputs: &Inputs| match violated_rule(inputs) {
-            Some(problem) => Err(Unsolved::from(problem)),
-            None => Ok(()),
-        };
-        self.evaluator.solve_point(&self.inputs, wanted, fits, &|_| go_on())
+        if let Some(problem) = violated_rule(&self.inputs) {
+            return Err(problem.into());
+        }
+        let (inputs, method) = (&self.inputs, self.inputs.method);
+        Ok(self.evaluator.solve_kept(inputs, method, wanted, &|_| go_on())?)
     }
 }
 

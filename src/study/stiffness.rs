@@ -1,7 +1,6 @@
 //! Tooth compliance over the flank of each gear, by every model and by finite elements.
 
-use crate::model::compliance::contact::HalfWidth;
-use crate::model::compliance::tooth::{Tooth, ToothModel, field_of};
+use crate::model::compliance::tooth::{Tooth, ToothModel};
 use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity, Teeth};
 use crate::model::field::Field;
 use crate::model::geometry::{Circles, Geometry, geometry, mesh_force};
@@ -121,7 +120,7 @@ pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal>
     let elasticity = inputs.elasticity();
     let pitch_point = geometry.start + geometry.approach_length;
     let place = ContactPlace::on_line_of_action(&geometry, pitch_point);
-    let contact_half_width = HalfWidth::of(&elasticity).at(&place, mesh_force);
+    let contact_half_width = elasticity.half_width(&place, mesh_force);
     let models: Vec<_> =
         ToothCompliance::ALL.into_iter().filter(|model| model.name() != FIELD).collect();
     let flank = |name, gear, elastic: ElasticGear, circles, pitch_radius| {
@@ -150,7 +149,7 @@ pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Re
 fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
     let geometry = geometry::<f64>(&inputs.shape())?;
     // Refuses a bore that leaves no gear body.
-    Masses::of(&inputs.bodies(), &geometry)?;
+    Masses::of(inputs, &geometry)?;
     let mesh_force = mesh_force(inputs.torque(), &geometry);
     Ok((geometry, mesh_force))
 }
@@ -183,7 +182,7 @@ impl Flank<'_> {
                 column
             })
             .collect();
-        let field = field_of(&self.elastic);
+        let field = self.elastic.field();
         let young = self.elastic.young;
         let points = radii.iter().enumerate().map(|(index, &radius)| Point {
             radius,

@@ -8,7 +8,6 @@ use std::time::{Duration, Instant};
 use crate::case::Case;
 use crate::case::fields::{AUTO, index_of};
 use crate::model::compliance::ElasticGear;
-use crate::model::compliance::tooth::field_gear;
 use crate::model::impact::StiffnessModels;
 use crate::model::inputs::{Gear, Method};
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages, auto};
@@ -89,7 +88,7 @@ pub struct Figures {
     /// Time of a solve of the stages that the answer needs.
     pub time: Time,
     /// Evaluations of the motion in method `dynamic`, see
-    /// [`Effort`](crate::model::dynamic::Effort).
+    /// [`Dynamic`](crate::model::Dynamic).
     pub evaluations: Option<u64>,
     /// Difference from the finest setting of the same method.
     pub numerical: Differences,
@@ -173,7 +172,7 @@ pub fn trade(
             Figures {
                 taken,
                 time,
-                evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.effort.evaluations),
+                evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.evaluations),
                 numerical: best.map_or(NO_DIFFERENCES, |best| answer.all_off(best)),
                 total: off(&answer),
             }
@@ -243,7 +242,7 @@ impl Build {
     fn measure(inputs: &Inputs) -> Result<Build, Refusal> {
         let of = |gear: &Gear| {
             let begun = Instant::now();
-            black_box(field_gear(&ElasticGear::of(inputs, gear)).build()?);
+            black_box(ElasticGear::of(inputs, gear).build_field()?);
             Ok::<f64, Refusal>(begun.elapsed().as_secs_f64())
         };
         Ok(Build { driver: of(&inputs.driver)?, driven: of(&inputs.driven)? })
@@ -524,9 +523,9 @@ impl Setting {
         if own == self.models {
             return;
         }
-        write(case, "model.tooth_compliance", self.models.map_or("", |models| models.tooth.name));
+        write(case, "model.tooth_compliance", self.models.map_or("", |models| models.tooth.name()));
         if let Some(contact) = self.models.and_then(|models| models.contact) {
-            write(case, "model.contact_compliance", contact.name);
+            write(case, "model.contact_compliance", contact.name());
         }
     }
 }

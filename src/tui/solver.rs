@@ -4,8 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::case::{Case, Evaluator};
-use crate::model::compliance::model_of;
-use crate::model::compliance::tooth::Compliance;
+use crate::model::compliance::without_field;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
 use crate::study::stiffness::{PATH_POINTS, PathComparison, compare_path};
@@ -169,7 +168,7 @@ pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
     let methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
     let needs_field = methods.into_iter().any(|method| {
         let inputs = Inputs { method, ..request.inputs.clone() };
-        matches!(model_of(&inputs).model().compliance, Compliance::PerGear(_))
+        without_field(&inputs).is_some()
     });
     if needs_field {
         return None;

@@ -180,7 +180,7 @@ impl Tab {
     /// other, the one with a value.
     #[must_use]
     pub(crate) fn refused_row(&self) -> Option<usize> {
-        let field = fields::index_of(self.refusal?.field())?;
+        let field = fields::index_of(fields::key_of(self.refusal?.at()))?;
         let partner = fields::FIELDS[field].partner();
         let other = partner.filter(|&other| self.case.text(other).is_some());
         Some(other.filter(|_| self.case.text(field).is_none()).unwrap_or(field))

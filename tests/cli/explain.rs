@@ -223,7 +223,9 @@ fn every_quantity_is_explained_in_all_its_parts() {
     every_page(|name, page| {
         let Quantity { key, symbol, .. } = page.quantity;
         assert!(
-            [page.meaning, page.source, page.assumptions].iter().all(|part| part.ends_with('.')),
+            [page.meaning.as_str(), page.source, page.assumptions]
+                .iter()
+                .all(|part| part.ends_with('.')),
             "{key}"
         );
         assert_eq!(page.derivation.first().map(|work| work.symbol), Some(*symbol), "{key}");
@@ -243,7 +245,7 @@ fn every_equation_that_is_cited_is_one() {
     every_page(|_, page| {
         cited_errors.extend(page.corrections.iter().map(|row| row.equation));
         let equation = page.quantity.equation;
-        let cited = [page.source, page.meaning, page.assumptions];
+        let cited = [page.source, &page.meaning, page.assumptions];
         let named = if let [number] = equations(equation)[..] {
             equations(page.source).contains(&number)
         } else {

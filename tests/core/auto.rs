@@ -26,7 +26,7 @@ fn solved(inputs: &Inputs) -> Result<Solution, Refusal> {
 
 /// Evaluations of the motion, and number of stages that ran.
 fn counts(solution: &Solution) -> (f64, f64) {
-    let evaluations = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.effort.evaluations);
+    let evaluations = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.evaluations);
     (evaluations as f64, solution.ran.iter().count() as f64)
 }
 

@@ -9,10 +9,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use envelope::Random;
-use tipstrike::case::fields::{AUTO, FIELDS, Kind, Range, index_of};
+use tipstrike::case::fields::{AUTO, FIELDS, Kind, Range, index_of, key_of};
 use tipstrike::case::{Case, Document};
 use tipstrike::model::budget::{MOTION_WORK, SEARCH_TRIES, SEARCH_WORK};
-use tipstrike::model::compliance::tooth::field_gear;
 use tipstrike::model::compliance::{ElasticGear, model_of};
 use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{Inputs, QUANTITIES, Refusal, Solution, Stage, Stages, notes, solve};
@@ -113,7 +112,7 @@ fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
         let gears = [&inputs.driver, &inputs.driven];
         let refused = gears.into_iter().find_map(|gear| {
             let gear = ElasticGear::of(&inputs, gear);
-            field_gear(&gear).build().err()
+            gear.build_field().err()
         });
         let served = model_of(&inputs);
         let what = refused.map_or("field", |refusal| refusal.code());
@@ -193,7 +192,7 @@ fn taken(name: &str, number: u64, inputs: &Inputs) -> Taken {
 /// The work of a solution, with every part within its budget.
 fn work(name: &str, solution: &Solution) -> u64 {
     let mesh = solution.mesh.as_ref().map_or(0, |mesh| mesh.work());
-    let motion = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.effort.work);
+    let motion = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.work);
     assert!(motion <= MOTION_WORK, "{name}: {motion} of the motion");
     assert!(mesh <= MARGIN, "{name}: {mesh} of the mesh");
     let search = solution.clearing.map_or(0, |clearing| {
@@ -422,7 +421,7 @@ fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
     let outcome = taken("0.25 rpm", 0, &inputs).outcome;
     assert_eq!(outcome, "refused: motion-too-large");
     let refusal = solve(&inputs, Stages::of(Stage::Dynamic)).unwrap_err();
-    assert_eq!(refusal.field(), "operation.speed");
+    assert_eq!(key_of(refusal.at()), "operation.speed");
     let fix = "give a higher speed, or set model.method to static";
     assert!(refusal.fix().starts_with(fix), "{}", refusal.fix());
     let sentence = refusal.to_string();

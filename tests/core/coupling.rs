@@ -14,9 +14,9 @@ use tipstrike::model::compliance::{ContactPlace, Teeth};
 use tipstrike::model::geometry::{PairShape, geometry};
 use tipstrike::model::inputs::{Drive, Gear, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
-use tipstrike::model::spacing::Spacing;
+use tipstrike::model::position::tip_at;
 use tipstrike::model::static_load::{balance, static_load};
-use tipstrike::model::tip_gap::tip_at;
+use tipstrike::model::stations::Spacing;
 use tipstrike::model::{Geometry, Inputs, Outline, Solution, Stage, Stages, notes, solve};
 
 use crate::support::standard_pair;
@@ -60,7 +60,7 @@ impl Check {
         let shape = inputs.shape();
         let swapped = PairShape { driver: shape.driven, driven: shape.driver, ..shape };
         let load = (solution.mesh_force, solution.deviation.equivalent_error);
-        let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load, 3e-4);
+        let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load, 3e-4, None);
         let gear = |gear: &Gear, circles| {
             let outline = Outline::of(&inputs, gear, circles);
             WholeGear::new(outline, gear.teeth, gear.bore_radius, gear.poisson)

@@ -90,7 +90,7 @@ fn static_quantities_and_curves_of_every_row() {
             row.name
         );
         let (force, error) = (solution.mesh_force, solution.deviation.equivalent_error);
-        let mesh = Mesh::new(&row.inputs.mesh(), &solution.geometry, (force, error), 1e-3)
+        let mesh = Mesh::new(&row.inputs.mesh(), &solution.geometry, (force, error), 1e-3, None)
             .expect("a mesh");
         for (angle, expected) in row.samples("static_samples") {
             let s = -angle * mesh.base_radii.1;

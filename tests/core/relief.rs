@@ -1,6 +1,7 @@
 //! The tip relief to specify, compared with whole solves and with every relief of a grid.
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use tipstrike::case::fields::key_of;
 use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::{Drive, Gear, Method, ReliefShape, ToothCompliance};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, solve};
@@ -325,7 +326,7 @@ fn a_relief_as_thick_as_half_the_tooth_is_refused_by_name() {
             }
             let inputs = Inputs { method, ..case.inputs().unwrap() };
             let found = solve(&inputs, Stages::of(Stage::Deviation)).err();
-            let field = found.map(|refusal| refusal.field());
+            let field = found.map(|refusal| key_of(refusal.at()));
             assert_eq!(field, is_refused.then_some(key), "{key} = {amount}");
         }
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde_json::Value;
+use tipstrike::case::fields::key_of;
 use tipstrike::case::file::Document;
 use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{Inputs, MeshStation, Quantity, Refusal, Solution, Stage, Stages, solve};
@@ -176,7 +177,7 @@ fn a_tip_radius_beyond_its_limits_is_refused_by_name() {
     };
     let too_wide = refusal(&|inputs| inputs.driven.tip_radius = Some(0.75 * inputs.module));
     assert!(matches!(too_wide, Refusal::RoundingTooWide { .. }), "{too_wide}");
-    assert_eq!(too_wide.field(), "driven.tip_radius");
+    assert_eq!(key_of(too_wide.at()), "driven.tip_radius");
     let inside = refusal(&|inputs| inputs.driver.tip_radius = Some(2.0 * inputs.module));
     assert!(matches!(inside, Refusal::RoundingInsideBase { .. }), "{inside}");
     let apart = refusal(&|inputs| {
@@ -203,7 +204,7 @@ fn refusal_of(method: Method, [driver, driven]: [Tip; 2], distance: f64) -> [&'s
     inputs.centre_distance = Some(distance * 0.5 * module * teeth);
     (inputs.deflection, inputs.tooth_compliance) = (None, Some(ToothCompliance::BEAM));
     let refusal = solve(&inputs, Stages::ALL).unwrap_err();
-    [refusal.code(), refusal.field()]
+    [refusal.code(), key_of(refusal.at())]
 }
 
 /// The refusal of a path that the tips shorten names the field that shortens it the most.

@@ -63,8 +63,13 @@ fn independent_solution(inputs: &Inputs, solution: &Solution) -> Result<Second, 
     let error = solution.deviation.equivalent_error;
     let mut reach = error.abs() + 4.0 * solution.deviation.loaded_deflection();
     loop {
-        let mesh =
-            Mesh::new(&inputs.mesh(), &solution.geometry, (solution.mesh_force, error), reach)?;
+        let mesh = Mesh::new(
+            &inputs.mesh(),
+            &solution.geometry,
+            (solution.mesh_force, error),
+            reach,
+            None,
+        )?;
         let mut run = Run::begin(&mesh, inputs, solution.reduced_mass)?;
         run.go();
         if run.most_ahead + error.max(0.0) < reach || mesh.is_whole() {

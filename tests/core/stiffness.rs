@@ -3,6 +3,7 @@ use crate::support;
 
 use crate::validation::inputs;
 use support::standard_pair;
+use tipstrike::case::fields::key_of;
 use tipstrike::model::compliance::tooth::beam;
 use tipstrike::model::compliance::{ContactPlace, Teeth};
 use tipstrike::model::geometry::{Geometry, geometry};
@@ -203,7 +204,7 @@ fn a_contact_below_the_form_circle_is_refused_at_the_addendum_that_reaches_there
             gear.addendum = if gear.teeth == 40 { 1.3 } else { 1.0 };
         }
         let refusal = solve(&inputs, Stages::EVERY).unwrap_err();
-        assert_eq!((refusal.code(), refusal.field()), ("below-form-circle", key));
+        assert_eq!((refusal.code(), key_of(refusal.at())), ("below-form-circle", key));
     }
 }
 

@@ -111,7 +111,7 @@ fn a_pair_without_a_field_is_compared_with_the_beam_and_the_page_says_why() {
     inputs.tooth_compliance = None;
     let trade = traded(&inputs, 0.05);
     let models = trade.reference.as_ref().unwrap().setting.models.unwrap();
-    assert_eq!(models.tooth.name, ToothCompliance::BEAM.name());
+    assert_eq!(models.tooth.name(), ToothCompliance::BEAM.name());
     assert!(matches!(trade.build, Err(Refusal::NoField { .. })), "{:?}", trade.build);
     let words = text(&trade).replace('\n', " ");
     assert!(words.contains("There is no elastic field to compare with: "), "{words}");
@@ -335,7 +335,7 @@ fn cost_grows_linearly_with_cycles_and_stations() {
         };
         let solution = solve(&Inputs { damping_ratio, ..inputs }, Stages::of(Stage::Dynamic))
             .expect("a solution");
-        solution.dynamic.expect("the method").effort.evaluations as f64
+        solution.dynamic.expect("the method").evaluations as f64
     };
     let slope = |from: f64, to: f64, steps: f64| (to - from) / steps;
     let (few, some, many) =

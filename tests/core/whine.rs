@@ -7,8 +7,8 @@ use tipstrike::model::dynamic::speeds::SPEEDS;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::solve::speeds;
+use tipstrike::model::static_load::HARMONICS;
 use tipstrike::model::static_load::balance;
-use tipstrike::model::static_spectrum::HARMONICS;
 use tipstrike::model::{Inputs, Note, QUANTITIES, Refusal, Solution, Stages, Steady, notes, solve};
 
 fn case(name: &str) -> Inputs {

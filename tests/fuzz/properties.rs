@@ -1,7 +1,7 @@
 //! Properties of every text, every case and every report.
 
 use serde_json::Value;
-use tipstrike::case::fields::index_of;
+use tipstrike::case::fields::{index_of, key_of};
 use tipstrike::case::file::{Fault, FaultKind};
 use tipstrike::case::{Document, FIELDS};
 use tipstrike::model::{Inputs, Refusal, Solution};
@@ -79,7 +79,7 @@ pub(crate) fn assert_named(refusal: &Refusal) {
         !refusal.code().is_empty() && !refusal.fix().is_empty() && !message.contains('\n'),
         "{refusal:?}"
     );
-    assert!(index_of(refusal.field()).is_some(), "{refusal:?}");
+    assert!(index_of(key_of(refusal.at())).is_some(), "{refusal:?}");
     assert_numbers(&message);
 }
 

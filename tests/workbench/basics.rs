@@ -11,7 +11,6 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::symbols::Marker;
 use tipstrike::case::{Document, fields};
 use tipstrike::model::compliance::ElasticGear;
-use tipstrike::model::compliance::tooth::field_gear;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::testing::actions::Effect;
@@ -810,7 +809,7 @@ fn the_first_frame_waits_for_no_elastic_field() {
         let inputs = document.case.inputs().expect("valid inputs");
         let is_built = || {
             let gears = [&inputs.driver, &inputs.driven];
-            gears.map(|gear| field_gear(&ElasticGear::of(&inputs, gear)).is_built())
+            gears.map(|gear| ElasticGear::of(&inputs, gear).is_field_built())
         };
         let app = App::at_start(document, None, Look::FULL, LARGE);
         let area = Rect::from((Position::ORIGIN, LARGE));

@@ -1,23 +1,20 @@
-//! Compliance of the contact between two flanks, and the list of its models. A new model needs one
-//! file in this folder and one entry in [`MODELS`].
-
-mod constant;
-mod logarithmic;
-mod weber;
+//! Compliance of the contact between two flanks, and its models. A new model needs one entry in
+//! [`MODELS`].
 
 use std::f64::consts::PI;
 use std::ops::Add;
 
-use super::list::listed;
 use super::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::Refusal;
-use crate::model::explanation::{Context, Step};
+use crate::model::explanation::Formula::{Text, Words};
+use crate::model::explanation::{Context, Step, step};
 use crate::model::geometry::Geometry;
-use crate::model::inputs::ContactCompliance;
+use crate::model::inputs::{ContactCompliance, GearSide};
+use crate::model::profile::{Profile, Rack};
 use crate::numeric::real::logarithm_near_one;
 
 /// Every model; the first is the default of a case.
-pub const MODELS: [&ContactModel; 3] = [&logarithmic::MODEL, &constant::MODEL, &weber::MODEL];
+pub const MODELS: [&ContactModel; 3] = [&LOGARITHMIC, &CONSTANT, &WEBER];
 
 /// A model of the compliance of a contact.
 #[derive(Debug)]
@@ -26,28 +23,18 @@ pub struct ContactModel {
     pub name: &'static str,
     /// The index in a symbol such as F_fit,log.
     pub index: &'static str,
-    /// Help text in the form, without a full stop.
-    pub help: &'static str,
     /// Whether the compliance depends on the half-width, and so on load and curvature.
     pub reads_half_width: bool,
     /// Whether the compliance depends on the root of the tooth, and so on the dedendum.
     pub reads_root: bool,
     /// The steps of q_H at the impact force.
     pub steps: &'static [Step],
-    /// Dependence of q_H on the half-width.
+    /// Computes the dependence of q_H on the half-width.
     pub law: Law,
 }
 
-/// Computes the [`ContactLaw`] of a pair.
-#[derive(Debug, Clone, Copy)]
-pub enum Law {
-    /// Independent of the place.
-    Everywhere(fn(&Elasticity) -> ContactLaw),
-    /// Computed at each place.
-    AtPlace(LawAtPlace),
-}
-
-type LawAtPlace = fn(&Elasticity, &Geometry, &ContactPlace) -> Result<ContactLaw, Refusal>;
+/// Computes the law of a contact at a place.
+pub type Law = fn(&Elasticity, &Geometry, &ContactPlace) -> Result<ContactLaw, Refusal>;
 
 /// The compliance of a contact as a function of the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +73,6 @@ impl ContactSpring {
     ///
     /// # Source
     /// Hertz 1882. The paper does not define a in its Eq. 55.
-    #[must_use]
     pub fn half_width(&self, force: f64) -> f64 {
         self.width_per_root_force * force.sqrt()
     }
@@ -153,106 +139,53 @@ impl ContactSpring {
     }
 }
 
-/// The contact of a pair by the model of the case, prepared for any place.
-#[derive(Debug, Clone, Copy)]
-pub struct PairContact {
-    law: PairLaw,
-    half_width: HalfWidth,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum PairLaw {
-    Everywhere(ContactLaw),
-    AtPlace(LawAtPlace),
-}
-
-impl PairContact {
-    /// The contact of a pair.
-    #[must_use]
-    pub fn of(elasticity: &Elasticity) -> PairContact {
-        PairContact {
-            law: match elasticity.contact.model().law {
-                Law::Everywhere(law) => PairLaw::Everywhere(law(elasticity)),
-                Law::AtPlace(law) => PairLaw::AtPlace(law),
-            },
-            half_width: HalfWidth::of(elasticity),
-        }
-    }
-
-    /// 1/E' of the pair, in 1/Pa.
-    #[must_use]
-    pub fn give(&self) -> f64 {
-        self.half_width.give
-    }
-
-    /// The contact at a place.
+impl Elasticity {
+    /// The contact at a place by the contact model of the case.
     ///
     /// # Errors
     /// Those of the tooth profile, because `weber` needs the thickness.
-    pub fn spring(
+    pub fn contact_spring(
         &self,
-        elasticity: &Elasticity,
         geometry: &Geometry,
         place: &ContactPlace,
     ) -> Result<ContactSpring, Refusal> {
-        let law = match self.law {
-            PairLaw::Everywhere(law) => law,
-            PairLaw::AtPlace(law) => law(elasticity, geometry, place)?,
-        };
-        Ok(self.half_width.spring(place, 0.0, law))
-    }
-}
-
-/// Hertz half-width of the contact of a pair, independent of the compliance model.
-#[derive(Debug, Clone, Copy)]
-pub struct HalfWidth {
-    /// 1/E', in 1/Pa.
-    give: f64,
-    /// Common face width b, in m.
-    width: f64,
-}
-
-impl HalfWidth {
-    /// The half-width of a pair.
-    #[must_use]
-    pub fn of(elasticity: &Elasticity) -> HalfWidth {
-        HalfWidth { give: plane_strain_compliance(elasticity), width: elasticity.width }
-    }
-
-    /// Half-width at a place and a force, in m, by the formula of [`ContactSpring::half_width`].
-    #[must_use]
-    pub fn at(&self, place: &ContactPlace, force: f64) -> f64 {
-        self.per_root_force(place) * force.sqrt()
+        let law = (self.contact.model().law)(self, geometry, place)?;
+        Ok(self.spring(place, 0.0, law))
     }
 
     /// The contact with a given law at a place. `teeth` is the compliance without contact, in m²/N,
     /// if the tooth model includes the contact, otherwise 0.
-    #[must_use]
     pub fn spring(&self, place: &ContactPlace, teeth: f64, law: ContactLaw) -> ContactSpring {
-        ContactSpring { law, least: -teeth, width_per_root_force: self.per_root_force(place) }
+        ContactSpring { law, least: -teeth, width_per_root_force: self.width_per_root_force(place) }
     }
 
-    fn per_root_force(&self, place: &ContactPlace) -> f64 {
-        (4.0 * place.curvature_radius * self.give / (PI * self.width)).sqrt()
+    /// Hertz half-width at a place and a force, in m, independent of the compliance model, by the
+    /// formula of [`ContactSpring::half_width`].
+    pub fn half_width(&self, place: &ContactPlace, force: f64) -> f64 {
+        self.width_per_root_force(place) * force.sqrt()
+    }
+
+    /// 1/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, in 1/Pa.
+    pub fn give(&self) -> f64 {
+        self.driver.give() + self.driven.give()
+    }
+
+    fn width_per_root_force(&self, place: &ContactPlace) -> f64 {
+        (4.0 * place.curvature_radius * self.give() / (PI * self.width)).sqrt()
     }
 }
 
-/// 1/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, in 1/Pa.
-#[must_use]
-pub fn plane_strain_compliance(elasticity: &Elasticity) -> f64 {
-    give(&elasticity.driver) + give(&elasticity.driven)
-}
-
-/// (1 − ν²)/E, in 1/Pa.
-fn give(gear: &ElasticGear) -> f64 {
-    (1.0 - gear.poisson) * (1.0 + gear.poisson) / gear.young
+impl ElasticGear {
+    /// (1 − ν²)/E, in 1/Pa.
+    fn give(&self) -> f64 {
+        (1.0 - self.poisson) * (1.0 + self.poisson) / self.young
+    }
 }
 
 /// The contact under the impact force, for the step q_H.
 fn at_impact(context: &Context) -> Option<f64> {
     let (elasticity, geometry) = (context.inputs.elasticity(), &context.solution.geometry);
-    let contact = PairContact::of(&elasticity);
-    let spring = contact.spring(&elasticity, geometry, &place_at_d(context)?).ok()?;
+    let spring = elasticity.contact_spring(geometry, &place_at_d(context)?).ok()?;
     spring.compliance(context.solution.impact?.force).ok()
 }
 
@@ -261,7 +194,190 @@ fn place_at_d(context: &Context) -> Option<ContactPlace> {
     Some(ContactPlace::at_tip(context.inputs.driven.tip_radius, &context.solution.geometry, &tip))
 }
 
-listed!(ContactCompliance, ContactModel);
+impl ContactCompliance {
+    /// Every model, in the order of the list.
+    pub const ALL: [ContactCompliance; MODELS.len()] =
+        [ContactCompliance::LOGARITHMIC, ContactCompliance::CONSTANT, ContactCompliance::WEBER];
+
+    /// The names in a case file.
+    pub const NAMES: [&str; MODELS.len()] = [MODELS[0].name, MODELS[1].name, MODELS[2].name];
+
+    /// One sentence for each model, for the form.
+    pub const HELP: &str = "logarithmic: Eq. 55. constant: Yang & Sun 1985. weber: Weber & Banaschek \
+        1953, from the thickness of the teeth.";
+
+    /// The entry of the list.
+    pub fn model(self) -> &'static ContactModel {
+        MODELS.into_iter().find(|model| model.name == self.name()).unwrap_or(MODELS[0])
+    }
+}
+
+const LOGARITHMIC: ContactModel = ContactModel {
+    name: "logarithmic",
+    index: "log",
+    reads_half_width: true,
+    reads_root: false,
+    steps: &[step(
+        "q_H",
+        "contact at the impact force, Eq. 55",
+        "um mm/N",
+        Text("(1.27 + 0.781 ln(m/a_H))/(π E')"),
+        at_impact,
+    )],
+    law: |elasticity, _, _| Ok(logarithmic(elasticity)),
+};
+
+impl ContactCompliance {
+    /// Eq. 55, logarithmic in the Hertz half-width.
+    pub const LOGARITHMIC: ContactCompliance = ContactCompliance::named(LOGARITHMIC.name);
+}
+
+/// Offset and slope of Eq. 55.
+///
+/// # Formula
+/// ```text
+/// qH = 2 (1 − ν²)/(π E) (1.27 + 0.781 ln(m/a))
+/// ```
+/// For two materials (1 − ν²)/E is the mean.
+///
+/// # Source
+/// Zhou & Chen 2014, Eq. 55 (from Xiao & Tang 1995).
+///
+/// # Valid for
+/// A half-width small against the module. q_H is negative for a above 5.08 m.
+fn logarithmic(elasticity: &Elasticity) -> ContactLaw {
+    const CONSTANT: f64 = 1.27;
+    const FACTOR: f64 = 0.781;
+    let give = elasticity.give();
+    ContactLaw {
+        offset: give / PI * (CONSTANT + FACTOR * elasticity.driver.rack.module.ln()),
+        slope: give / PI * FACTOR,
+    }
+}
+
+const CONSTANT: ContactModel = ContactModel {
+    name: "constant",
+    index: "const",
+    reads_half_width: false,
+    reads_root: false,
+    steps: &[step(
+        "q_H",
+        "contact at any force, Yang & Sun 1985",
+        "um mm/N",
+        Text("2/(π E')"),
+        at_impact,
+    )],
+    law: |elasticity, _, _| Ok(constant(elasticity)),
+};
+
+impl ContactCompliance {
+    /// 4 (1 − ν²)/(π E), Yang & Sun 1985.
+    pub const CONSTANT: ContactCompliance = ContactCompliance::named(CONSTANT.name);
+}
+
+/// Contact compliance without the half-width, q_H = 4 (1 − ν²)/(π E), in m²/N.
+///
+/// # Source
+/// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the
+/// mean.
+fn constant(elasticity: &Elasticity) -> ContactLaw {
+    ContactLaw { offset: 2.0 * elasticity.give() / PI, slope: 0.0 }
+}
+
+/// The step of the depth h at a gear.
+macro_rules! depth_step {
+    ($symbol:literal, $meaning:literal, $gear:ident, $radius:ident) => {
+        step($symbol, $meaning, "mm", Words("from the tooth profile"), |k| {
+            let rack = Rack::of(k.inputs, &k.inputs.$gear);
+            let profile = Profile::of(&rack, &k.solution.geometry.$gear);
+            Some(profile.depth_along_force(place_at_d(k)?.$radius))
+        })
+    };
+}
+
+const WEBER: ContactModel = ContactModel {
+    name: "weber",
+    index: "weber",
+    reads_half_width: true,
+    reads_root: true,
+    steps: &[
+        step(
+            "q_H",
+            "contact at the impact force, Weber & Banaschek 1953",
+            "um mm/N",
+            Text(
+                "(1 - ν1²)/(π E1) (2 ln(2 h_1/a_H) - ν1/(1 - ν1)) + (1 - ν2²)/(π E2) (2 \
+                    ln(2 h_2/a_H) - ν2/(1 - ν2))",
+            ),
+            at_impact,
+        ),
+        depth_step!(
+            "h_1",
+            "from the driver's flank at O1D to the centre line of its tooth, along the force",
+            driver,
+            radius_driver
+        ),
+        depth_step!(
+            "h_2",
+            "from the driven tip to the centre line of its tooth, along the force",
+            driven,
+            radius_driven
+        ),
+    ],
+    law: weber,
+};
+
+impl ContactCompliance {
+    /// Weber & Banaschek 1953, from the depth to the tooth's centre line.
+    pub const WEBER: ContactCompliance = ContactCompliance::named(WEBER.name);
+}
+
+/// Offset and slope of Weber's contact term.
+///
+/// # Formula
+/// ```text
+/// qH = Σ (1 − ν_i²)/(π E_i) (2 ln(2 h_i/a) − ν_i/(1 − ν_i))
+/// ```
+/// h_i is the depth from the contact to the centre line of the tooth along the line of force.
+///
+/// # Source
+/// Weber & Banaschek 1953, "Formänderung und Profilrücknahme bei gerad- und schrägverzahnten
+/// Rädern".
+///
+/// # Valid for
+/// A half-width small against the depth h.
+///
+/// # Errors
+/// [`Refusal::PointedTip`] if the tooth has no thickness at the load point.
+fn weber(
+    elasticity: &Elasticity,
+    geometry: &Geometry,
+    place: &ContactPlace,
+) -> Result<ContactLaw, Refusal> {
+    let of = |gear: &ElasticGear, depth: f64| {
+        let scale = gear.give() / PI;
+        ContactLaw {
+            offset: scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)),
+            slope: 2.0 * scale,
+        }
+    };
+    let driver =
+        depth(&Profile::of_flank(&elasticity.driver.rack, &geometry.driver), place.radius_driver)?;
+    let driven =
+        depth(&Profile::of_flank(&elasticity.driven.rack, &geometry.driven), place.radius_driven)
+            .map_err(Refusal::at_driven)?;
+    Ok(of(&elasticity.driver, driver) + of(&elasticity.driven, driven))
+}
+
+/// Depth from the flank to the centre line of the tooth at a radius.
+fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
+    let depth = profile.depth_along_force(radius);
+    if depth > 0.0 {
+        Ok(depth)
+    } else {
+        Err(Refusal::PointedTip { gear: GearSide::Driver, thickness: 2.0 * depth })
+    }
+}
 
 #[cfg(test)]
 mod tests {

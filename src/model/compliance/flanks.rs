@@ -1,9 +1,9 @@
 //! Compliance of the teeth along the flanks of the path of contact, as series that are cheap to
 //! evaluate.
 
-use super::contact::{ContactLaw, HalfWidth, PairContact};
+use super::contact::ContactLaw;
 use super::tooth::Tooth;
-use super::{ContactPlace, Elasticity};
+use super::{ContactPlace, Elasticity, Teeth};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
 use crate::numeric::chebyshev::Series;
@@ -38,17 +38,6 @@ struct Flank {
     base: f64,
 }
 
-/// The limit that determines the place of a load on a flank.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Limit {
-    /// No limit: the load is at the contact.
-    Contact,
-    /// The pressure ends at the corner of the tip.
-    Corner,
-    /// Greatest distance with a known compliance.
-    Last,
-}
-
 impl Flank {
     fn of(tooth: &Tooth, circles: &Circles, (from, to): (f64, f64)) -> Result<Flank, Refusal> {
         let (base, radius) = (circles.base, tooth.last_radius(0.0));
@@ -77,14 +66,12 @@ impl Flank {
         square.max(0.0).sqrt().max(self.ends.0)
     }
 
-    /// The limit that determines the place of a load, and the place by each limit.
-    fn limit(&self, (curvature, half_width): (f64, f64)) -> (Limit, [f64; 3]) {
+    /// The limit that determines the place of a load: the contact, the corner of the tip, or the
+    /// greatest distance with a known compliance; and the place by each limit.
+    fn limit(&self, (curvature, half_width): (f64, f64)) -> (usize, [f64; 3]) {
         let places = [curvature, self.at_corner(half_width), self.ends.1];
-        let limits = [Limit::Contact, Limit::Corner, Limit::Last];
         let least = places.iter().copied().fold(f64::INFINITY, f64::min);
-        let named = limits.into_iter().zip(places);
-        let mut found = named.filter(|(_, place)| *place <= least);
-        (found.next().map_or(Limit::Contact, |(limit, _)| limit), places)
+        (places.iter().position(|place| *place <= least).unwrap_or(0), places)
     }
 
     /// Places between the ends at which another limit begins to determine the load.
@@ -102,7 +89,7 @@ impl Flank {
             if before.1 != here.1 {
                 let difference = |at: f64| {
                     let (_, places) = self.limit(load(at));
-                    places[before.1 as usize] - places[here.1 as usize]
+                    places[before.1] - places[here.1]
                 };
                 bends.push(root::between(before.0, here.0, difference));
             }
@@ -117,12 +104,8 @@ impl Flanks {
     ///
     /// # Errors
     /// Those of the teeth, see [`Teeth`](super::Teeth).
-    pub fn new(elasticity: &Elasticity, geometry: &Geometry) -> Result<Flanks, Refusal> {
-        let tooth = |gear, circles| Tooth::of(elasticity.tooth, gear, circles);
-        let (driver, driven) = (
-            tooth(&elasticity.driver, &geometry.driver)?,
-            tooth(&elasticity.driven, &geometry.driven).map_err(Refusal::at_driven)?,
-        );
+    pub fn new(teeth: &Teeth) -> Result<Flanks, Refusal> {
+        let Teeth { geometry, driver, driven, .. } = teeth;
         let contacts = [
             driver.contact(geometry.driver.tip)?,
             driven.contact(geometry.driven.tip).map_err(Refusal::at_driven)?,
@@ -132,8 +115,8 @@ impl Flanks {
         let ends =
             [(geometry.start, highest(&geometry.driver)), (lowest, highest(&geometry.driven))];
         Ok(Flanks {
-            driver: Flank::of(&driver, &geometry.driver, ends[0])?,
-            driven: Flank::of(&driven, &geometry.driven, ends[1]).map_err(Refusal::at_driven)?,
+            driver: Flank::of(driver, &geometry.driver, ends[0])?,
+            driven: Flank::of(driven, &geometry.driven, ends[1]).map_err(Refusal::at_driven)?,
             slope: match contacts {
                 [Some(driver), Some(driven)] => Some(driver.slope + driven.slope),
                 _ => None,
@@ -144,7 +127,6 @@ impl Flanks {
     /// Places between the ends at which a load begins or stops to move off the corner of a tip.
     /// `load` gives the distances of the load points from N₁ and N₂ and the half-width of the
     /// contact.
-    #[must_use]
     pub fn bends(&self, ends: (f64, f64), load: impl Fn(f64) -> ((f64, f64), f64)) -> Vec<f64> {
         let mut bends = self.driver.bends(ends, |at| {
             let ((driver, _), half_width) = load(at);
@@ -158,7 +140,6 @@ impl Flanks {
     }
 
     /// The flanks with the gears swapped.
-    #[must_use]
     pub fn swapped(&self) -> Flanks {
         Flanks { driver: self.driven.clone(), driven: self.driver.clone(), slope: self.slope }
     }
@@ -176,16 +157,16 @@ impl Flanks {
         (driver, driven): (f64, f64),
         force: f64,
     ) -> Result<f64, Refusal> {
-        let half_width = HalfWidth::of(elasticity).at(place, force);
+        let half_width = elasticity.half_width(place, force);
         let driver = self.driver.at(driver, half_width);
         let driven = self.driven.at(driven, half_width);
         let teeth = driver[TOOTH] + driven[TOOTH];
         let spring = match self.slope {
             Some(slope) => {
                 let offset = driver[OFFSET] + driven[OFFSET];
-                HalfWidth::of(elasticity).spring(place, teeth, ContactLaw { offset, slope })
+                elasticity.spring(place, teeth, ContactLaw { offset, slope })
             }
-            None => PairContact::of(elasticity).spring(elasticity, geometry, place)?,
+            None => elasticity.contact_spring(geometry, place)?,
         };
         Ok(teeth + spring.compliance(force)?)
     }
@@ -194,7 +175,6 @@ impl Flanks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::compliance::Teeth;
     use crate::model::geometry::geometry;
     use crate::model::inputs::{Inputs, ToothCompliance};
     use crate::model::sample::standard_pair;
@@ -205,8 +185,8 @@ mod tests {
             let inputs = Inputs { tooth_compliance: Some(model), ..standard_pair(20, 33, 4e-3) };
             let geometry = geometry::<f64>(&inputs.shape()).unwrap();
             let elasticity = inputs.elasticity();
-            let flanks = Flanks::new(&elasticity, &geometry).unwrap();
             let teeth = Teeth::of(&elasticity, &geometry).unwrap();
+            let flanks = Flanks::new(&teeth).unwrap();
             for step in 0..=40 {
                 let along =
                     geometry.start + (geometry.end - geometry.start) * f64::from(step) / 40.0;
@@ -237,7 +217,7 @@ mod tests {
             (tip - radius) * (tip + radius) / (2.0 * geometry.driver.base)
         };
         for force in [5e3, 2e4, 8e4] {
-            let half_width = HalfWidth::of(&elasticity).at(&at_tip, force);
+            let half_width = elasticity.half_width(&at_tip, force);
             let moved = teeth.under(&at_tip, force);
             let off = arc(&moved) / half_width - 1.0;
             assert!(off.abs() < 1e-9, "error under {force} N: {off:e}");

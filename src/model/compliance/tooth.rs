@@ -5,18 +5,15 @@ pub mod beam;
 pub mod finite_element;
 pub mod kuang_yang;
 
-use std::fmt::Debug;
 use std::sync::Arc;
-
-pub use finite_element::{field_gear, field_of};
 
 use super::ElasticGear;
 use super::contact::ContactLaw;
-use super::list::listed;
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
+use crate::model::field::Field;
 use crate::model::geometry::{Circles, Geometry};
-use crate::model::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, GearSide, Inputs, Method, ToothCompliance};
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::real::Lanes;
 
@@ -30,8 +27,6 @@ pub struct ToothModel {
     pub name: &'static str,
     /// The index in a symbol such as F_fit,log.
     pub index: &'static str,
-    /// Help text in the form, without a full stop.
-    pub help: &'static str,
     /// The range, in words.
     pub range: &'static str,
     /// Whether the pair is in the range.
@@ -53,23 +48,19 @@ pub struct ToothModel {
     pub has_coupling: bool,
     /// The steps of q_1 and q_2, and of q_H if the model includes the contact.
     pub steps: &'static [Step],
-    /// Computation of the compliance.
-    pub compliance: Compliance,
+    /// Prepares the tooth of a gear.
+    pub tooth: fn(&ElasticGear, &Circles) -> Result<Kind, Refusal>,
 }
 
-type ByRadius = fn(&ElasticGear, &Circles, f64) -> Result<f64, Refusal>;
-type Line = fn(&ElasticGear, &Circles) -> Result<StiffnessLine, Refusal>;
-type Build = fn(&ElasticGear, &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal>;
-
-/// The form of a compliance function for one tooth, contact excluded, per unit width, in m²/N.
-#[derive(Debug, Clone, Copy)]
-pub enum Compliance {
-    /// Computed from the radius of the load point at each call.
-    AtRadius(ByRadius),
+/// A tooth by one of the models.
+#[derive(Debug, Clone)]
+pub enum Kind {
     /// The stiffness is linear in the radius of the load point.
-    Line(Line),
-    /// Uses an object that is built once per gear and evaluated at each radius.
-    PerGear(Build),
+    Line(StiffnessLine),
+    /// Computed from the circles and the radius of the load point at each call.
+    Beam(Circles),
+    /// The elastic field of the gear.
+    Field(Arc<Field>),
 }
 
 /// N/(µm mm) in Pa.
@@ -105,73 +96,11 @@ impl StiffnessLine {
     }
 }
 
-/// The teeth of one gear under a load, built by a [`Compliance::PerGear`].
-pub trait LoadedTooth: Debug + Send + Sync {
-    /// Compliance of the tooth loaded at a radius, contact excluded, in m²/N.
-    ///
-    /// # Errors
-    /// A [`Refusal`] outside the range of the model.
-    fn at(&self, gear: &ElasticGear, radius: f64) -> Result<f64, Refusal>;
-
-    /// The contact law of the tooth loaded at a radius. `None` for a model without contact.
-    ///
-    /// # Errors
-    /// A [`Refusal`] outside the range of the model.
-    fn contact(&self, _gear: &ElasticGear, _radius: f64) -> Result<Option<ContactLaw>, Refusal> {
-        Ok(None)
-    }
-
-    /// See [`Tooth::neighbour`], with the radii of load and displacement. 0 for a model without
-    /// coupling.
-    ///
-    /// # Errors
-    /// A [`Refusal`] outside the range of the model.
-    fn neighbour(
-        &self,
-        _gear: &ElasticGear,
-        _radii: [f64; 2],
-        _pitches: i32,
-    ) -> Result<f64, Refusal> {
-        Ok(0.0)
-    }
-
-    /// See [`Tooth::abscissa`].
-    ///
-    /// # Errors
-    /// A [`Refusal`] outside the range of the model.
-    fn abscissa(&self, radius: f64) -> Result<f64, Refusal> {
-        Ok(radius)
-    }
-
-    /// See [`Tooth::neighbours`]; 0 for a model of single teeth.
-    fn neighbours(
-        &self,
-        _gear: &ElasticGear,
-        _places: [Lanes<TERMS>; 2],
-        _pitches: i32,
-    ) -> Lanes<TERMS> {
-        Lanes::all(0.0)
-    }
-
-    /// See [`Tooth::last_radius`]. Infinite for a model without a corner.
-    fn last_radius(&self, _half_width: f64) -> f64 {
-        f64::INFINITY
-    }
-}
-
 /// One tooth of a gear, prepared for any load point.
 #[derive(Debug, Clone)]
 pub struct Tooth {
     gear: ElasticGear,
-    circles: Circles,
-    serves: Serves,
-}
-
-#[derive(Debug, Clone)]
-enum Serves {
-    AtRadius(ByRadius),
-    Line(StiffnessLine),
-    Built(Arc<dyn LoadedTooth>),
+    kind: Kind,
 }
 
 impl Tooth {
@@ -184,31 +113,21 @@ impl Tooth {
         gear: &ElasticGear,
         circles: &Circles,
     ) -> Result<Tooth, Refusal> {
-        Tooth::by(&model.model().compliance, gear, circles)
+        Ok(Tooth { gear: *gear, kind: (model.model().tooth)(gear, circles)? })
     }
 
-    fn by(
-        compliance: &Compliance,
-        gear: &ElasticGear,
-        circles: &Circles,
-    ) -> Result<Tooth, Refusal> {
-        let serves = match compliance {
-            Compliance::AtRadius(of) => Serves::AtRadius(*of),
-            Compliance::Line(of) => Serves::Line(of(gear, circles)?),
-            Compliance::PerGear(build) => Serves::Built(build(gear, circles)?),
-        };
-        Ok(Tooth { gear: *gear, circles: *circles, serves })
-    }
-
-    /// Compliance of the tooth loaded at a radius, in m²/N.
+    /// Compliance of the tooth loaded at a radius, contact excluded, in m²/N.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn at(&self, radius: f64) -> Result<f64, Refusal> {
-        match &self.serves {
-            Serves::AtRadius(of) => of(&self.gear, &self.circles, radius),
-            Serves::Line(line) => line.compliance(radius),
-            Serves::Built(built) => built.at(&self.gear, radius),
+        match &self.kind {
+            Kind::Line(line) => line.compliance(radius),
+            Kind::Beam(circles) => beam::tooth(&self.gear, circles, radius),
+            Kind::Field(field) => {
+                check_radius(field, radius)?;
+                Ok(field.depth(radius, 0.0) / self.gear.young)
+            }
         }
     }
 
@@ -217,10 +136,15 @@ impl Tooth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn contact(&self, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
-        match &self.serves {
-            Serves::AtRadius(_) | Serves::Line(_) => Ok(None),
-            Serves::Built(built) => built.contact(&self.gear, radius),
-        }
+        let Some(field) = self.field() else {
+            return Ok(None);
+        };
+        check_radius(field, radius)?;
+        let (module, young) = (self.gear.rack.module, self.gear.young);
+        let contact = field.surface(radius, module) - field.depth(radius, 0.0);
+        let slope = field.surface_slope();
+        let offset = (contact + slope * module.ln()) / young;
+        Ok(Some(ContactLaw { offset, slope: slope / young }))
     }
 
     /// Displacement of another tooth's flank at radius `measured`, along its own line of force, for
@@ -234,16 +158,17 @@ impl Tooth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn neighbour(&self, loaded: f64, measured: f64, pitches: i32) -> Result<f64, Refusal> {
-        match &self.serves {
-            Serves::AtRadius(_) | Serves::Line(_) => Ok(0.0),
-            Serves::Built(built) => built.neighbour(&self.gear, [loaded, measured], pitches),
-        }
+        let Some(field) = self.field() else {
+            return Ok(0.0);
+        };
+        check_radius(field, loaded)?;
+        check_radius(field, measured)?;
+        Ok(field.cross(loaded, measured, pitches) / self.gear.young)
     }
 
     /// Whether the model has the corner of the tip, so that [`Tooth::last_radius`] can be finite.
-    #[must_use]
     pub fn has_corner(&self) -> bool {
-        matches!(self.serves, Serves::Built(_))
+        self.field().is_some()
     }
 
     /// The place at a radius by which [`Tooth::neighbours`] names load and displacement.
@@ -251,35 +176,41 @@ impl Tooth {
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     pub fn abscissa(&self, radius: f64) -> Result<f64, Refusal> {
-        match &self.serves {
-            Serves::AtRadius(_) | Serves::Line(_) => Ok(radius),
-            Serves::Built(built) => built.abscissa(radius),
-        }
+        let Some(field) = self.field() else {
+            return Ok(radius);
+        };
+        check_radius(field, radius)?;
+        Ok(field.abscissa(radius))
     }
 
     /// The same as [`Tooth::neighbour`] at several pairs of [places](Tooth::abscissa) at once:
     /// those of the loads and those of the displacements.
-    #[must_use]
     pub fn neighbours(&self, places: [Lanes<TERMS>; 2], pitches: i32) -> Lanes<TERMS> {
-        match &self.serves {
-            Serves::AtRadius(_) | Serves::Line(_) => Lanes::all(0.0),
-            Serves::Built(built) => built.neighbours(&self.gear, places, pitches),
-        }
+        let per_young = self.gear.young.recip();
+        self.field().map_or(Lanes::all(0.0), |field| field.cross_at(places, pitches) * per_young)
     }
 
     /// Radius in m of the load whose pressure over ± `half_width` ends at the corner of the tip. A
     /// load farther out acts at this radius. Infinite for a model without a corner.
-    #[must_use]
     pub fn last_radius(&self, half_width: f64) -> f64 {
-        match &self.serves {
-            Serves::AtRadius(_) | Serves::Line(_) => f64::INFINITY,
-            Serves::Built(built) => built.last_radius(half_width),
-        }
+        self.field().map_or(f64::INFINITY, |field| field.last_radius(half_width))
+    }
+
+    fn field(&self) -> Option<&Field> {
+        if let Kind::Field(field) = &self.kind { Some(field) } else { None }
     }
 }
 
+/// Refuses a load below the form circle.
+fn check_radius(field: &Field, radius: f64) -> Result<(), Refusal> {
+    let [form, _] = field.radii();
+    if radius < form {
+        return Err(Refusal::BelowFormCircle { gear: GearSide::Driver, radius, form });
+    }
+    Ok(())
+}
+
 /// The models in order of preference if the case names none.
-#[must_use]
 pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
     if inputs.method == Method::Paper {
         [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL]
@@ -290,7 +221,6 @@ pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
 
 /// The tooth compliance of a pair: the choice of the case, or the first of the [`preferences`] that
 /// covers the pair. If none covers the pair, the beam, whose refusal gives the reason.
-#[must_use]
 pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     let by_range = || {
         let covering = preferences(inputs).into_iter().find(|model| (model.covers)(inputs));
@@ -300,55 +230,41 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
 }
 
 /// A tooth compliance that is quick to build, if the model of the pair needs an elastic field.
-#[must_use]
 pub fn without_field(inputs: &Inputs) -> Option<ToothCompliance> {
     let has_field = model_of(inputs) == ToothCompliance::FINITE_ELEMENT;
     has_field.then_some(ToothCompliance::BEAM)
 }
 
 /// The contact compliance of a pair; `None` if the tooth compliance includes the contact.
-#[must_use]
 pub fn contact_of(inputs: &Inputs) -> Option<ContactCompliance> {
     let has_contact = model_of(inputs).model().has_contact;
     (!has_contact).then_some(inputs.contact_compliance)
 }
 
-listed!(ToothCompliance, ToothModel);
+impl ToothCompliance {
+    /// Every model, in the order of the list.
+    pub const ALL: [ToothCompliance; MODELS.len()] =
+        [ToothCompliance::KUANG_YANG, ToothCompliance::BEAM, ToothCompliance::FINITE_ELEMENT];
+
+    /// The names in a case file.
+    pub const NAMES: [&str; MODELS.len()] = [MODELS[0].name, MODELS[1].name, MODELS[2].name];
+
+    /// One sentence for each model, for the form.
+    pub const HELP: &str = "kuang-yang: Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel. \
+        beam: potential energy on the true profile, in plane strain. finite-element: plane strain of \
+        the whole gear with its contact, the default except in method paper.";
+
+    /// The entry of the list.
+    pub fn model(self) -> &'static ToothModel {
+        MODELS.into_iter().find(|model| model.name == self.name()).unwrap_or(MODELS[0])
+    }
+}
 
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
     use super::*;
     use crate::model::geometry::geometry;
     use crate::model::sample::standard_pair;
-
-    static BUILT: AtomicUsize = AtomicUsize::new(0);
-
-    #[derive(Debug)]
-    struct Field(f64);
-
-    impl LoadedTooth for Field {
-        fn at(&self, _: &ElasticGear, radius: f64) -> Result<f64, Refusal> {
-            Ok(self.0 * radius)
-        }
-    }
-
-    #[test]
-    fn an_object_of_a_gear_is_built_once_for_every_load_point() {
-        let build = Compliance::PerGear(|gear, _| {
-            BUILT.fetch_add(1, Ordering::Relaxed);
-            Ok(Arc::new(Field(1.0 / gear.young)))
-        });
-        let inputs = standard_pair(20, 30, 5e-3);
-        let geometry = geometry::<f64>(&inputs.shape()).unwrap();
-        let gear = inputs.elasticity().driver;
-        let tooth = Tooth::by(&build, &gear, &geometry.driver).unwrap();
-        for radius in [0.048, 0.05, 0.052] {
-            assert_eq!(tooth.at(radius), Ok(1.0 / inputs.driver.young * radius));
-        }
-        assert_eq!(BUILT.load(Ordering::Relaxed), 1);
-    }
 
     #[test]
     fn a_model_has_coupling_where_a_force_displaces_the_next_tooth() {

@@ -175,3 +175,101 @@ fn angles_beyond_the_range_are_limited_to_its_ends() {
         assert!(moment.roll_angle_driver.is_finite(), "{angle}: {moment:?}");
     }
 }
+
+mod interpolated {
+    use super::super::*;
+    use crate::model::inputs::{InertiaModel, Method};
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stages, solve};
+
+    fn solved(method: Method, stations: usize) -> (Inputs, Solution) {
+        let mut inputs = standard_pair(20, 30, 5e-3);
+        inputs.inertia = InertiaModel::BaseCircle;
+        (inputs.method, inputs.base_pitch_deviation, inputs.stations) =
+            (method, 10e-6, Some(stations));
+        let solution = solve(&inputs, Stages::EVERY).unwrap();
+        (inputs, solution)
+    }
+
+    fn curve(method: Method, stations: usize) -> (Inputs, Solution, Vec<(f64, f64)>) {
+        let (inputs, solution) = solved(method, stations);
+        let of = |stations: &[MeshStation]| {
+            stations.iter().map(|one| (one.roll_angle_driver, one.force)).collect()
+        };
+        let curve = match method {
+            Method::Dynamic => of(&solution.dynamic.as_ref().unwrap().stations),
+            Method::Static => of(&solution.static_load.as_ref().unwrap().stations),
+            _ => solution
+                .stations
+                .iter()
+                .map(|one| (one.roll_angle_driver, one.impact_force))
+                .collect(),
+        };
+        (inputs, solution, curve)
+    }
+
+    fn force(interpolated: Interpolated) -> f64 {
+        interpolated
+            .impact()
+            .map_or_else(|| interpolated.load().unwrap().force, |station| station.impact_force)
+    }
+
+    #[test]
+    fn values_between_stations_agree_with_those_of_a_finer_solve() {
+        for (method, good_to) in
+            [(Method::Exact, 1e-12), (Method::Static, 1e-9), (Method::Dynamic, 5e-3)]
+        {
+            let (inputs, coarse, _) = curve(method, 64);
+            let (_, _, fine) = curve(method, 2048);
+            let peak = fine.iter().map(|(_, force)| *force).fold(0.0, f64::max);
+            let off = |(angle, expected): &(f64, f64)| {
+                Some((force(Interpolated::at(&inputs, &coarse, *angle)?) - expected).abs())
+            };
+            let off: Vec<f64> = fine[1..fine.len() - 1].iter().filter_map(off).collect();
+            assert!(off.len() > 2000, "{method:?} {}", off.len());
+            let most = off.into_iter().fold(0.0, f64::max);
+            assert!(most <= good_to * peak, "{method:?} {:e}", most / peak);
+        }
+    }
+
+    /// Contact begins and ends without force. There the balance is a difference of large numbers.
+    #[test]
+    fn the_force_at_the_ends_of_contact_is_zero_without_rounding() {
+        for (teeth, deviation) in [(30, 10e-6), (25, 16e-6), (41, 23e-6), (67, 7e-6)] {
+            for method in [Method::Static, Method::Dynamic] {
+                let mut inputs = standard_pair(20, teeth, 5e-3);
+                (inputs.method, inputs.base_pitch_deviation) = (method, deviation);
+                let solution = solve(&inputs, Stages::EVERY).unwrap();
+                let stations = match method {
+                    Method::Static => &solution.static_load.as_ref().unwrap().stations,
+                    _ => &solution.dynamic.as_ref().unwrap().stations,
+                };
+                let of_stations = stations.iter().map(|station| station.force);
+                let interpolated = stations.iter().map(|station| {
+                    let angle = station.roll_angle_driver;
+                    force(Interpolated::at(&inputs, &solution, angle).unwrap())
+                });
+                for force in of_stations.chain(interpolated) {
+                    let is_rounding = force != 0.0 && force < 1e-9 * solution.mesh_force;
+                    assert!(!is_rounding, "20/{teeth} {method:?}: {force:e} N");
+                }
+                assert_eq!(stations[0].force.to_bits(), 0f64.to_bits());
+            }
+        }
+    }
+
+    #[test]
+    fn there_are_no_values_without_contact() {
+        for method in [Method::Paper, Method::Exact, Method::Static, Method::Dynamic] {
+            let (inputs, solution, curve) = curve(method, 64);
+            let (first, last) = (curve[0].0, curve[curve.len() - 1].0);
+            for angle in [first * 1.001, last - 1e-3, f64::NAN, f64::INFINITY] {
+                assert_eq!(Interpolated::at(&inputs, &solution, angle), None, "{method:?} {angle}");
+            }
+            assert!(
+                Interpolated::at(&inputs, &solution, first).is_some()
+                    && Interpolated::at(&inputs, &solution, 0.5 * first).is_some()
+            );
+        }
+    }
+}

@@ -1,19 +1,18 @@
-//! The equation of motion between two borders of the mesh.
-
-use std::cell::{Cell, RefCell};
-use std::f64::consts::TAU;
-use std::rc::Rc;
-use std::sync::Arc;
-
-use nalgebra::Vector2;
+//! The equation of motion between two borders of the mesh, and its steps by power series.
 
 use super::Settings;
-use super::side::{Flank, PairName, Side, Standing, TERMS};
+use super::side::{FORCE_TERMS, Flank, Lead, PairName, Side, Standing, TERMS};
 use crate::model::Refusal;
 use crate::model::budget::{MOTION_OSCILLATIONS, PAIRS};
 use crate::model::mesh::{Meeting, Mesh, Shares};
 use crate::model::pair_forces::Touching;
-use crate::numeric::polynomial::Polynomial;
+use crate::numeric::polynomial::{Bernstein, Polynomial};
+use crate::numeric::taylor::{Oscillator, convergent_part};
+use nalgebra::Vector2;
+use std::cell::{Cell, RefCell};
+use std::f64::consts::TAU;
+use std::rc::Rc;
+use std::sync::Arc;
 
 /// Displacement of the driver ahead in m, and its rate in m/s.
 pub(super) type State = Vector2<f64>;
@@ -33,22 +32,15 @@ pub(super) struct Motion<'a> {
     pub(super) backlash: f64,
     /// The mesh of the back flanks if the motion includes them.
     pub(super) back: Option<Mesh>,
-    /// Cached load sharing of coupled pairs.
-    sharing: RefCell<Vec<Rc<Sharing>>>,
-    crossings: Crossings,
+    /// Cached values of each window.
+    crossings: RefCell<Vec<Rc<Crossing>>>,
+    /// The shares that this motion has used.
+    used: RefCell<Vec<Arc<Shares>>>,
     /// Number of places where shares were computed, by this motion or another motion on the same
     /// mesh.
     looks: Cell<u64>,
     /// Memory of shares and crossings, in bytes.
     bytes: Cell<usize>,
-}
-
-/// Load sharing of coupled pairs in given zones.
-#[derive(Debug)]
-struct Sharing {
-    flank: Flank,
-    zones: Vec<usize>,
-    known: RefCell<Vec<(Meeting, Arc<Shares>)>>,
 }
 
 /// The values that are constant between two borders: the pairs that may touch, and their zones.
@@ -60,9 +52,7 @@ pub(super) struct Window {
     pub(super) pairs: Vec<Standing>,
     /// Number of working pairs.
     working: usize,
-    /// Load sharing of both sides. `None` if the pairs are independent springs.
-    sharing: [Option<Rc<Sharing>>; 2],
-    /// Cached stiffness and load of this window.
+    /// Cached values of this window.
     pub(super) crossing: Rc<Crossing>,
 }
 
@@ -78,8 +68,8 @@ impl<'a> Motion<'a> {
             warmup_cycles: settings.warmup_cycles,
             backlash: settings.backlash.unwrap_or(f64::INFINITY),
             back: None,
-            sharing: RefCell::default(),
-            crossings: Crossings::default(),
+            crossings: RefCell::default(),
+            used: RefCell::default(),
             looks: Cell::default(),
             bytes: Cell::default(),
         }
@@ -169,11 +159,8 @@ impl<'a> Motion<'a> {
         let inside = f64::midpoint(from, to);
         let mut pairs = standing(self.mesh, Flank::Working, inside);
         let working = pairs.len();
-        let mut sharing = [self.sharing(self.mesh, &pairs), None];
         if let Some(back) = &self.back {
-            let behind = standing(back, Flank::Back, inside + self.mesh.back_place());
-            sharing[1] = self.sharing(back, &behind);
-            pairs.extend(behind);
+            pairs.extend(standing(back, Flank::Back, inside + self.mesh.back_place()));
         }
         if pairs.len() > PAIRS {
             return Err(Refusal::TooManyPairs { pairs: pairs.len(), limit: PAIRS });
@@ -183,13 +170,28 @@ impl<'a> Motion<'a> {
         let zones = std::iter::once(working).chain(zones);
         let is_incoming = |pair: &Standing| pair.name() == PairName::working(0);
         let incoming = pairs.iter().position(is_incoming);
-        Ok(Window {
-            ends: (from, to),
-            crossing: self.crossings.of(zones, incoming),
-            pairs,
-            working,
-            sharing,
-        })
+        let crossing = self.crossing(zones, incoming);
+        Ok(Window { ends: (from, to), crossing, pairs, working })
+    }
+
+    /// The cached values of pairs in these zones, which repeat after a base pitch; `incoming` is the
+    /// incoming pair among them.
+    fn crossing(
+        &self,
+        zones: impl Iterator<Item = usize> + Clone,
+        incoming: Option<usize>,
+    ) -> Rc<Crossing> {
+        let mut all = self.crossings.borrow_mut();
+        let is_alike = |known: &&Rc<Crossing>| {
+            known.incoming == incoming && known.zones.iter().copied().eq(zones.clone())
+        };
+        if let Some(crossing) = all.iter().find(is_alike) {
+            return Rc::clone(crossing);
+        }
+        let (actings, shares) = Default::default();
+        let crossing = Rc::new(Crossing { zones: zones.collect(), incoming, actings, shares });
+        all.push(Rc::clone(&crossing));
+        crossing
     }
 
     /// The pairs of the working flanks for a set of touching pairs.
@@ -199,11 +201,7 @@ impl<'a> Motion<'a> {
             mesh: self.mesh,
             pairs: &window.pairs[..window.working],
             touching,
-            shares: self.shares(
-                self.mesh,
-                window.sharing[0].as_ref(),
-                (touching, window.incoming()),
-            ),
+            shares: self.shares(self.mesh, window, Flank::Working, touching),
             offset: 0.0,
             backlash: 0.0,
             sign: 1.0,
@@ -222,50 +220,41 @@ impl<'a> Motion<'a> {
             mesh,
             pairs: &window.pairs[window.working..],
             touching,
-            shares: self.shares(mesh, window.sharing[1].as_ref(), (touching, None)),
+            shares: self.shares(mesh, window, Flank::Back, touching),
             offset: self.mesh.back_place(),
             backlash: self.backlash,
             sign: -1.0,
         })
     }
 
-    /// The load sharing of pairs in these zones, which repeats after a base pitch. `None` if the
-    /// pairs are independent springs.
-    fn sharing(&self, mesh: &Mesh, pairs: &[Standing]) -> Option<Rc<Sharing>> {
-        let flank = pairs.first().filter(|_| mesh.is_coupled())?.flank;
-        let mut all = self.sharing.borrow_mut();
-        let zones = || pairs.iter().map(|pair| pair.zone);
-        let known = all
-            .iter()
-            .find(|known| known.flank == flank && known.zones.iter().copied().eq(zones()));
-        if let Some(sharing) = known {
-            return Some(Rc::clone(sharing));
-        }
-        let sharing =
-            Rc::new(Sharing { flank, zones: zones().collect(), known: RefCell::default() });
-        all.push(Rc::clone(&sharing));
-        Some(sharing)
-    }
-
-    /// The load sharing of coupled pairs. `None` if no pair touches or all are independent springs.
+    /// The load sharing of the coupled pairs of a side. `None` if no pair touches or all are
+    /// independent springs.
     fn shares(
         &self,
         mesh: &Mesh,
-        sharing: Option<&Rc<Sharing>>,
-        (touching, incoming): (Touching, Option<usize>),
+        window: &Window,
+        flank: Flank,
+        touching: Touching,
     ) -> Option<Arc<Shares>> {
-        let sharing = sharing.filter(|_| !touching.is_none())?;
-        let deviating = incoming.filter(|&pair| touching.has(pair) && mesh.error != 0.0);
-        let mut known = sharing.known.borrow_mut();
-        let is_same = |known: &Meeting| (known.touching, known.deviating) == (touching, deviating);
-        if let Some((_, shares)) = known.iter().find(|(known, _)| is_same(known)) {
+        if touching.is_none() || !mesh.is_coupled() {
+            return None;
+        }
+        let incoming = window.incoming().filter(|_| flank == Flank::Working && mesh.error != 0.0);
+        let key = (flank, touching, incoming.filter(|&pair| touching.has(pair)));
+        let mut known = window.crossing.shares.borrow_mut();
+        if let Some((_, shares)) = known.iter().find(|(known, _)| *known == key) {
             return Some(Arc::clone(shares));
         }
-        let meeting = Meeting { zones: sharing.zones.clone(), touching, deviating };
-        let shares = mesh.shares(&meeting);
-        self.looks.set(self.looks.get() + shares.evaluations() as u64);
-        self.keep(shares.bytes());
-        known.push((meeting, Arc::clone(&shares)));
+        let pairs = window.pairs.iter().filter(|pair| pair.flank == flank);
+        let zones = pairs.map(|pair| pair.zone).collect();
+        let shares = mesh.shares(&Meeting { zones, touching, deviating: key.2 });
+        let mut used = self.used.borrow_mut();
+        if !used.iter().any(|used| Arc::ptr_eq(used, &shares)) {
+            self.looks.set(self.looks.get() + shares.evaluations() as u64);
+            self.keep(shares.bytes());
+            used.push(Arc::clone(&shares));
+        }
+        known.push((key, Arc::clone(&shares)));
         Some(shares)
     }
 
@@ -288,8 +277,8 @@ impl<'a> Motion<'a> {
 /// The pairs that may touch with the incoming pair at a place, in m.
 fn standing(mesh: &Mesh, flank: Flank, inside: f64) -> Vec<Standing> {
     let standing = mesh.standing(inside).map(|(ahead, zone)| {
-        let (_, sliding) = mesh.slide(ahead, zone, inside);
-        Standing { flank, ahead, zone, direction: sliding.signum() }
+        let direction = mesh.direction(ahead, zone, inside);
+        Standing { flank, ahead, zone, direction }
     });
     standing.collect()
 }
@@ -338,21 +327,17 @@ pub(super) struct Acting {
     pub(super) load: Polynomial<TERMS>,
 }
 
-/// Stiffness and load between two borders of the mesh, cached because they repeat after a base
-/// pitch.
+/// Values between two borders of the mesh, cached because they repeat after a base pitch.
 #[derive(Debug)]
 pub(super) struct Crossing {
     /// The number of working pairs, then the zones of all pairs.
     zones: Vec<usize>,
     /// Index of the incoming pair, the only pair with a deviation.
     incoming: Option<usize>,
-    known: RefCell<Vec<Known>>,
-}
-
-#[derive(Debug)]
-struct Known {
-    stretch: Stretch,
-    acting: Rc<Acting>,
+    /// Stiffness and load of each stretch.
+    actings: RefCell<Vec<(Stretch, Rc<Acting>)>>,
+    /// Load sharing of a side by its touching pairs and the one of them that deviates.
+    shares: RefCell<Vec<((Flank, Touching, Option<usize>), Arc<Shares>)>>,
 }
 
 /// A part of the motion with the same touching pairs.
@@ -374,43 +359,272 @@ impl Crossing {
         new: impl FnOnce() -> Acting,
     ) -> Rc<Acting> {
         let is_near = |one: f64, other: f64| (one - other).abs() <= ALIKE * mesh.base_pitch;
-        let is_alike = |known: &&Known| {
-            let other = known.stretch;
-            other.touching == stretch.touching
-                && is_near(other.from, stretch.from)
-                && is_near(other.way, stretch.way)
+        let is_alike = |(known, _): &&(Stretch, Rc<Acting>)| {
+            known.touching == stretch.touching
+                && is_near(known.from, stretch.from)
+                && is_near(known.way, stretch.way)
         };
-        let mut all = self.known.borrow_mut();
-        if let Some(known) = all.iter().find(is_alike) {
-            return Rc::clone(&known.acting);
+        let mut all = self.actings.borrow_mut();
+        if let Some((_, acting)) = all.iter().find(is_alike) {
+            return Rc::clone(acting);
         }
         let acting = Rc::new(new());
-        all.push(Known { stretch, acting: Rc::clone(&acting) });
+        all.push((stretch, Rc::clone(&acting)));
         acting
     }
 }
 
-/// The cached crossings of a motion.
-#[derive(Debug, Default)]
-pub(super) struct Crossings(RefCell<Vec<Rc<Crossing>>>);
+/// Stiffness and load for a set of touching pairs.
+#[derive(Clone)]
+pub(super) struct Course<'a> {
+    pub(super) motion: &'a Motion<'a>,
+    pub(super) window: &'a Window,
+    touching: Touching,
+    working: Side<'a>,
+    /// `None` if no back flank is within reach.
+    back: Option<Side<'a>>,
+}
 
-impl Crossings {
-    /// The crossing of pairs in these zones; `incoming` is the incoming pair among them.
-    pub(super) fn of(
-        &self,
-        zones: impl Iterator<Item = usize> + Clone,
-        incoming: Option<usize>,
-    ) -> Rc<Crossing> {
-        let mut all = self.0.borrow_mut();
-        let is_alike = |known: &&Rc<Crossing>| {
-            known.incoming == incoming && known.zones.iter().copied().eq(zones.clone())
-        };
-        if let Some(crossing) = all.iter().find(is_alike) {
-            return Rc::clone(crossing);
-        }
-        let crossing =
-            Rc::new(Crossing { zones: zones.collect(), incoming, known: RefCell::default() });
-        all.push(Rc::clone(&crossing));
-        crossing
+/// A computed step.
+pub(super) struct StepResult {
+    pub(super) step: Step,
+    /// Whether the step ends where a pair passes to another polynomial. A step of the next base
+    /// pitch ends at the same place.
+    pub(super) ends_even: bool,
+}
+
+/// A step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Step {
+    /// Start time, in s.
+    pub(super) t: f64,
+    /// Duration, in s.
+    pub(super) length: f64,
+    /// Displacement of the driver as a function of the part of the step, in m.
+    pub(super) ahead: Polynomial<TERMS>,
+}
+
+impl Step {
+    /// Displacement and rate after a part of the step.
+    pub(super) fn state(&self, part: f64) -> State {
+        State::new(self.ahead.at(part), self.ahead.slope(part) / self.length)
     }
+
+    /// Bounds of the displacement, in m.
+    pub(super) fn range(&self) -> (f64, f64) {
+        Bernstein::of(&self.ahead).bounds()
+    }
+
+    /// End time, in s.
+    pub(super) fn end(&self) -> f64 {
+        self.t + self.length
+    }
+
+    /// The first part of the step, as a step.
+    pub(super) fn cut(&self, part: f64) -> Step {
+        Step { length: part * self.length, ahead: self.ahead.stretched(part), ..*self }
+    }
+}
+
+impl<'a> Course<'a> {
+    pub(super) fn new(
+        motion: &'a Motion<'a>,
+        window: &'a Window,
+        touching: Touching,
+    ) -> Course<'a> {
+        Course {
+            motion,
+            window,
+            touching,
+            working: motion.working_side(window, touching),
+            back: motion.back_side(window, touching),
+        }
+    }
+
+    /// Number of pairs that may touch.
+    pub(super) fn pairs(&self) -> usize {
+        self.window.pairs.len()
+    }
+
+    pub(super) fn touches(&self, pair: usize) -> bool {
+        self.touching.has(pair)
+    }
+
+    /// The step from a state on: as long as its series converges, at most to `end`, and on one
+    /// polynomial of every pair. The last terms of the series are at most `allowed`, in m. A step
+    /// that `begins_even` can use the cache of the last base pitch.
+    ///
+    /// # Errors
+    /// [`Refusal::NotConverged`] if the series is not finite.
+    pub(super) fn step(
+        &self,
+        t: f64,
+        y: &State,
+        end: f64,
+        (allowed, begins_even): (f64, bool),
+    ) -> Result<StepResult, Refusal> {
+        let whole = self.serves_until(t).min(end) - t;
+        let length = whole.min(self.motion.longest_step());
+        let acting = if begins_even {
+            self.known_acting(t, length)
+        } else {
+            Rc::new(self.acting(t, length))
+        };
+        let oscillator = self.oscillator(&acting, length);
+        let ahead = oscillator.series(y[0], y[1] * length);
+        let step = Step { t, length, ahead };
+        let part = convergent_part(&ahead, allowed);
+        if part >= 1.0 {
+            return Ok(StepResult { step, ends_even: length >= whole });
+        }
+        // Divides the rest into steps of equal length, so that the last step is not very short.
+        let part = if length < whole { part } else { 1.0 / (1.0 / part).ceil() };
+        if part * length <= 0.0 || !part.is_finite() {
+            return Err(Refusal::NotConverged);
+        }
+        Ok(StepResult { step: step.cut(part), ends_even: false })
+    }
+
+    /// The time up to which every function of the pairs is one polynomial.
+    fn serves_until(&self, t: f64) -> f64 {
+        let s = self.motion.place(t);
+        let ends = self.sides().map(|side| side.serves_until(s));
+        self.motion.time(ends.fold(f64::INFINITY, f64::min))
+    }
+
+    /// Stiffness and load over a time interval, from the cache of the last base pitch if possible.
+    fn known_acting(&self, t: f64, length: f64) -> Rc<Acting> {
+        let mesh = self.motion.mesh;
+        let stretch = Stretch {
+            touching: self.touching,
+            from: mesh.above(self.working.rearmost(), self.motion.place(t)).0,
+            way: mesh.speed * length,
+        };
+        self.window.crossing.acting(stretch, mesh, || {
+            self.motion.keep(size_of::<Acting>());
+            self.acting(t, length)
+        })
+    }
+
+    /// Stiffness and load over a time interval.
+    fn acting(&self, t: f64, length: f64) -> Acting {
+        let mut acting = Acting { stiffness: Polynomial::ZERO, load: Polynomial::ZERO };
+        acting.load.0[0] = self.motion.mesh.force;
+        let way = (self.motion.place(t), self.motion.mesh.speed * length);
+        for side in self.sides() {
+            side.add(way, (&mut acting.stiffness, &mut acting.load));
+        }
+        acting
+    }
+
+    /// The equation of motion over a time interval, scaled to the length 1.
+    fn oscillator(&self, acting: &Acting, length: f64) -> Oscillator<TERMS> {
+        let Motion { mass, damping, .. } = *self.motion;
+        let damping = if self.touching.is_none() { 0.0 } else { damping * length / mass };
+        let scale = length * length / mass;
+        Oscillator {
+            stiffness: acting.stiffness.scaled(scale),
+            load: acting.load.scaled(scale),
+            damping,
+        }
+    }
+
+    /// The touching pairs of the back flanks.
+    pub(super) fn back_pairs(&self) -> impl Iterator<Item = usize> {
+        self.window.back(self.touching)
+    }
+
+    fn sides(&self) -> impl Iterator<Item = &Side<'a>> {
+        std::iter::once(&self.working).chain(&self.back)
+    }
+
+    /// The side of a pair, and the index of the pair on this side.
+    pub(super) fn side_of(&self, pair: usize) -> (&Side<'a>, usize) {
+        let working = self.working.pairs.len();
+        match &self.back {
+            Some(back) if pair >= working => (back, pair - working),
+            _ => (&self.working, pair),
+        }
+    }
+
+    /// Place of the incoming pair at the beginning of a step, and its path in the step, in m.
+    pub(super) fn way_of(&self, step: &Step) -> (f64, f64) {
+        let speed = self.motion.mesh.speed;
+        (self.motion.place(step.t), speed * step.length)
+    }
+
+    /// Whether a pair does not turn in a step wherever in its range the displacement is.
+    pub(super) fn is_clear(&self, pair: usize, step: &Step, range: (f64, f64)) -> bool {
+        let (side, index) = self.side_of(pair);
+        side.is_clear(index, self.motion.place(step.t), range)
+    }
+
+    /// The lead of a pair over a step.
+    pub(super) fn lead_along(&self, pair: usize, step: &Step) -> Lead {
+        let (side, index) = self.side_of(pair);
+        let (s, way) = self.way_of(step);
+        side.lead_along(index, s, way)
+    }
+
+    /// Force of a touching pair over a step, in N.
+    pub(super) fn force_along(&self, pair: usize, step: &Step) -> Polynomial<FORCE_TERMS> {
+        let (side, index) = self.side_of(pair);
+        side.force_along(index, &step.ahead, self.way_of(step))
+    }
+
+    /// Friction power of a touching pair over a step, divided by the friction coefficient, in W.
+    pub(super) fn rubbing_along(&self, pair: usize, step: &Step) -> f64 {
+        let (side, index) = self.side_of(pair);
+        side.rubbing_along(index, &step.ahead, self.way_of(step))
+    }
+
+    /// Displacement of the driver at which a pair touches, in m.
+    pub(super) fn gap(&self, pair: usize, t: f64) -> f64 {
+        let (side, index) = self.side_of(pair);
+        side.gap(index, self.motion.place(t))
+    }
+
+    /// Force of a touching pair for a displacement of the driver, in N.
+    pub(super) fn force(&self, pair: usize, t: f64, ahead: f64) -> f64 {
+        let (side, index) = self.side_of(pair);
+        side.force(index, self.motion.place(t), ahead)
+    }
+
+    /// Sum of the forces of all working flanks, in N.
+    pub(super) fn total(&self, t: f64, ahead: f64) -> f64 {
+        self.working.total(self.motion.place(t), ahead)
+    }
+}
+
+/// A gain or loss of contact of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Event {
+    /// The pair's index in the window.
+    pub(super) pair: usize,
+    /// The part of the step before the event.
+    pub(super) part: f64,
+}
+
+/// The first event of a step. The lead of a pair is a polynomial over the step, so that no event is
+/// missed. Pairs in `turned` begin the step with a lead of 0 within rounding; several of them can
+/// change together. The pair `standing_off` has no events.
+pub(super) fn first_event(
+    course: &Course<'_>,
+    (step, range): (&Step, (f64, f64)),
+    (turned, standing_off): (Touching, Option<usize>),
+) -> Option<Event> {
+    let may_turn = (0..course.pairs()).filter(|&pair| Some(pair) != standing_off);
+    let events = may_turn.filter_map(|pair| {
+        if course.is_clear(pair, step, range) {
+            return None;
+        }
+        let (lead, touches) = (course.lead_along(pair, step), course.touches(pair));
+        if lead.is_clear(touches, range) {
+            return None;
+        }
+        let sign = if touches { 1.0 } else { -1.0 };
+        let part = lead.first_fall(&step.ahead, sign, turned.has(pair))?;
+        Some(Event { pair, part })
+    });
+    events.min_by(|one, other| one.part.total_cmp(&other.part))
 }

@@ -106,19 +106,11 @@ impl Side<'_> {
     }
 
     /// Stiffness in N/m, and displacement of the driver at which the pair touches, in m.
-    fn spring_along(&self, pair: &Standing, s: f64, way: f64) -> [Along; 2] {
+    pub(super) fn spring_along(&self, pair: &Standing, s: f64, way: f64) -> [Along; 2] {
         let own = s + self.offset;
         let [spring, mut gap] = self.mesh.spring_along(pair.ahead, pair.zone, own, way);
         gap.0[0] += self.backlash;
         [spring, gap]
-    }
-
-    /// Displacement of the driver at which a pair touches, in m.
-    pub(super) fn gap_along(&self, pair: &Standing, s: f64, way: f64) -> Along {
-        let own = s + self.offset;
-        let mut gap = self.mesh.gap_along(pair.ahead, pair.zone, own, way);
-        gap.0[0] += self.backlash;
-        gap
     }
 
     /// The part of a pair's force or stiffness that turns the driver.
@@ -171,7 +163,8 @@ impl Side<'_> {
     /// The lead of a pair over a step.
     pub(super) fn lead_along(&self, pair: usize, s: f64, way: f64) -> Lead {
         let Some(shares) = &self.shares else {
-            return self.lead_of_gap(self.gap_along(&self.pairs[pair], s, way));
+            let [_, gap] = self.spring_along(&self.pairs[pair], s, way);
+            return self.lead_of_gap(gap);
         };
         let (slope, offset) = self.line(shares, Of::Pair(pair), (s, way));
         Lead::Shared { slope: slope.scaled(self.sign), offset }

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::Settings;
-use super::steady::{Start, Steady, steady};
+use super::steady::{Start, steady};
 use crate::model::budget::Meter;
 use crate::model::inputs::Drive;
 use crate::model::mesh::Mesh;
-use crate::model::static_spectrum::static_spectrum;
+use crate::model::static_load::static_spectrum;
 use crate::model::{Inputs, Refusal, Resonance, Solution};
 
 /// Number of speeds of a run.
@@ -75,19 +75,16 @@ impl SpeedCurve {
     }
 
     /// The point of the run-up with the greatest dynamic factor of a tooth.
-    #[must_use]
     pub fn peak_rising(&self) -> Option<&AtSpeed> {
         greatest(&self.up)
     }
 
     /// The point of the run-down with the greatest dynamic factor of a tooth.
-    #[must_use]
     pub fn peak_falling(&self) -> Option<&AtSpeed> {
         greatest(&self.down)
     }
 
     /// The intervals of speed with loss of contact in the run-up or run-down, in rad/s.
-    #[must_use]
     pub fn lost(&self) -> Vec<(f64, f64)> {
         let mut found: Vec<(usize, usize)> = Vec::new();
         for (at, (up, down)) in self.up.iter().zip(&self.down).enumerate() {
@@ -114,7 +111,7 @@ fn greatest(run: &[Option<AtSpeed>]) -> Option<&AtSpeed> {
 ///
 /// # Errors
 /// The [`Refusal`] of the pair; [`Refusal::Stopped`] if `show` returns false.
-pub(in crate::model) fn over_speed(
+pub(crate) fn over_speed(
     inputs: &Inputs,
     solution: &Solution,
     show: &mut dyn FnMut(&SpeedCurve) -> bool,
@@ -142,16 +139,11 @@ pub(in crate::model) fn over_speed(
         work: Meter::new(WORK),
     };
     let mut last = None;
-    for at in 0..SPEEDS {
-        let speed = curve.speeds[at];
-        curve.up[at] = runs.at(speed, &mut last)?;
-        if !show(&curve) {
-            return Err(Refusal::Stopped);
-        }
-    }
-    for at in (0..SPEEDS).rev() {
-        let speed = curve.speeds[at];
-        curve.down[at] = runs.at(speed, &mut last)?;
+    let rising = (0..SPEEDS).map(|at| (at, true));
+    for (at, rises) in rising.clone().chain(rising.rev().map(|(at, _)| (at, false))) {
+        let found = runs.at(curve.speeds[at], &mut last)?;
+        let run = if rises { &mut curve.up } else { &mut curve.down };
+        run[at] = found;
         if !show(&curve) {
             return Err(Refusal::Stopped);
         }
@@ -165,7 +157,7 @@ fn wide_mesh(inputs: &Inputs, solution: &Solution) -> Result<Mesh, Refusal> {
     const REACH: f64 = 60.0;
     let yields = solution.deviation.loaded_deflection() + inputs.reliefs().sum();
     let load = (solution.mesh_force, 0.0);
-    Mesh::new(&inputs.mesh(), &solution.geometry, load, REACH * yields)
+    Mesh::new(&inputs.mesh(), &solution.geometry, load, REACH * yields, None)
 }
 
 struct Runs<'a> {
@@ -193,20 +185,15 @@ impl Runs<'_> {
                 return Ok(None);
             }
         };
-        let found = self.at_speed(speed, &steady);
         *last = Some(steady.start);
-        Ok(Some(found))
-    }
-
-    fn at_speed(&self, speed: f64, steady: &Steady) -> AtSpeed {
-        AtSpeed {
+        Ok(Some(AtSpeed {
             speed,
             ratio: speed / self.resonance,
             tooth_factor: steady.tooth_force / self.tooth_force,
             mesh_factor: steady.mesh_force / self.mesh.force,
             peak_to_peak: steady.spectrum.peak_to_peak,
             contact_lost: steady.contact_lost,
-        }
+        }))
     }
 }
 

@@ -1,17 +1,17 @@
 //! The steady motion of equal pairs, which repeats with every base pitch and causes whine.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Matrix2;
 
 use super::motion::{ALIKE, Motion, State, Window};
+use super::motion::{Course, Step};
 use super::side::{FORCE_TERMS, Flank, PairName};
-use super::step::{Course, Step};
 use super::watch::{Rattle, RattleWatch, Watch};
-use super::{Effort, Run, SHARE_OF_A_STEP, Settings, across_backlash};
+use super::{Run, Settings, across_backlash};
 use crate::model::Refusal;
 use crate::model::budget::Meter;
 use crate::model::mesh::Mesh;
 use crate::model::pair_forces::Touching;
-use crate::model::static_spectrum::{Fourier, Spectrum};
+use crate::model::static_load::{Fourier, Spectrum};
 use crate::numeric::polynomial::{Polynomial, extremes};
 
 /// Greatest number of base pitches in a period. Loss of contact can double the period.
@@ -49,12 +49,28 @@ pub struct Steady {
 /// A state of the motion at the beginning of a base pitch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
-    /// Displacement of the driver ahead in m, and its rate in m/s.
-    state: [f64; 2],
-    touching: Vec<PairName>,
+    pub(super) state: State,
+    pub(super) touching: Vec<PairName>,
 }
 
 impl Start {
+    /// The static balance at the first of the borders.
+    pub(super) fn at_rest(mesh: &Mesh, borders: &[f64]) -> Result<Start, Refusal> {
+        let start = borders[0];
+        let inside = f64::midpoint(start, borders.get(1).copied().unwrap_or(mesh.ends().1));
+        let pairs = mesh.pair_set(start, inside);
+        let (displacement, forces) = pairs.shared(mesh.force);
+        if !displacement.is_finite() {
+            return Err(Refusal::BeyondReach);
+        }
+        let carries = pairs.pairs().iter().zip(forces);
+        let touching = carries.filter(|(_, force)| *force > 0.0);
+        Ok(Start {
+            state: State::new(displacement, 0.0),
+            touching: touching.map(|(pair, _)| PairName::working(pair.ahead)).collect(),
+        })
+    }
+
     /// Whether back flanks touch.
     fn is_at_back(&self) -> bool {
         self.touching.iter().any(|pair| pair.flank == Flank::Back)
@@ -111,7 +127,7 @@ fn repeated(
             return round.measured(periods, laps).map(Some);
         }
         if let Some(state) = fixed_point(motion, &before, &start) {
-            round.run.y = State::from(state);
+            round.run.y = state;
             before.clear();
         } else {
             before.insert(0, start);
@@ -140,8 +156,8 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
     const NEARLY: f64 = 1e-6;
     let scale = motion.scale();
     let moved = |then: &Start| {
-        let by = |at: usize| ((now.state[at] - then.state[at]) / scale[at]).abs();
-        if then.touching == now.touching { by(0).max(by(1)) } else { f64::INFINITY }
+        let by = (now.state - then.state).component_div(&scale);
+        if then.touching == now.touching { by.amax() } else { f64::INFINITY }
     };
     let moved: Vec<f64> = before.iter().map(moved).collect();
     moved.iter().position(|&moved| moved <= NONE)?;
@@ -156,7 +172,7 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
 /// ```text
 /// v_n = y_n+1 − y_n,   A = (v_1 v_2)(v_0 v_1)⁻¹,   y* = y_3 + (1 − A)⁻¹ A v_2
 /// ```
-fn fixed_point(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<[f64; 2]> {
+fn fixed_point(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<State> {
     /// Greatest distance of the last two states, relative to the scale of the state.
     const NEAR: f64 = 0.03;
     /// Greatest distance of the fixed point, in distances of the last two states.
@@ -170,8 +186,7 @@ fn fixed_point(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<[f6
         return None;
     }
     let scale = motion.scale();
-    let [y0, y1, y2, y3] =
-        states.map(|start| Vector2::new(start.state[0] / scale[0], start.state[1] / scale[1]));
+    let [y0, y1, y2, y3] = states.map(|start| start.state.component_div(&scale));
     let (v0, v1, v2) = (y1 - y0, y2 - y1, y3 - y2);
     let differences = Matrix2::from_columns(&[v0, v1]);
     let is_flat = differences.determinant().abs() <= LEAST_ANGLE * v0.norm() * v1.norm();
@@ -181,8 +196,7 @@ fn fixed_point(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<[f6
     let map = Matrix2::from_columns(&[v1, v2]) * differences.try_inverse()?;
     let way = (Matrix2::identity() - map).try_inverse()? * map * v2;
     let is_sound = map.determinant().abs() < MOST_GROWTH && way.norm() <= FAR * v2.norm();
-    let state = y3 + way;
-    is_sound.then_some([state[0] * scale[0], state[1] * scale[1]])
+    is_sound.then(|| (y3 + way).component_mul(&scale))
 }
 
 /// A run that repeats one base pitch.
@@ -206,25 +220,12 @@ impl<'a> Round<'a> {
             borders.windows(2).map(|ends| motion.window(ends[0], ends[1])).collect();
         let start = match from {
             Some(start) => start.clone(),
-            None => at_rest(mesh, &borders)?,
+            None => Start::at_rest(mesh, &borders)?,
         };
         let tolerance = settings.tolerance.min(TOLERANCE);
         let run = Run {
-            motion,
-            next: 1,
-            t: 0.0,
-            y: State::from(start.state),
-            touching: start.touching,
-            borders,
-            turned: Touching::NONE,
-            is_even: true,
-            allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
-            repeats: RepeatDetector::new(0.0, tolerance),
             watch: Watch::of_contact_alone(),
-            effort: Effort::default(),
-            meter,
-            lead: None,
-            misses_back: false,
+            ..Run::from(motion, borders, start, tolerance, meter)
         };
         Ok(Round { motion, windows: windows?, run })
     }
@@ -232,7 +233,7 @@ impl<'a> Round<'a> {
     fn start(&self) -> Start {
         let mut touching = self.run.touching.clone();
         touching.sort_unstable();
-        Start { state: [self.run.y[0], self.run.y[1]], touching }
+        Start { state: self.run.y, touching }
     }
 
     /// Runs one base pitch and shows every step.
@@ -280,22 +281,6 @@ impl<'a> Round<'a> {
             start,
         })
     }
-}
-
-/// The static balance at the beginning of a base pitch.
-fn at_rest(mesh: &Mesh, borders: &[f64]) -> Result<Start, Refusal> {
-    let inside = 0.5 * borders.get(1).copied().unwrap_or(mesh.base_pitch);
-    let pairs = mesh.pair_set(0.0, inside);
-    let (displacement, forces) = pairs.shared(mesh.force);
-    if !displacement.is_finite() {
-        return Err(Refusal::BeyondReach);
-    }
-    let carries = pairs.pairs().iter().zip(forces);
-    let touching = carries.filter(|(_, force)| *force > 0.0);
-    Ok(Start {
-        state: [displacement, 0.0],
-        touching: touching.map(|(pair, _)| PairName::working(pair.ahead)).collect(),
-    })
 }
 
 /// The results from the steps of a period.

@@ -1,15 +1,16 @@
 //! Tests of the motion against the linear oscillator and the balance of energy.
 
+use super::motion::{Course, Step};
 use super::motion::{Motion, State};
-use super::step::{Course, Step};
 use super::watch::Watch;
 use super::*;
+use crate::model::compliance::Teeth;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::inputs::{Inputs, Method, ToothCompliance};
-use crate::model::mesh::couplings::ByRadii;
+use crate::model::mesh::sharing::with_neighbours;
 use crate::model::sample::standard_pair;
-use crate::model::spacing::Spacing;
 use crate::model::static_load;
+use crate::model::stations::Spacing;
 use crate::model::{Solution, Stage, Stages, solve};
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::quadrature;
@@ -30,30 +31,27 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let (inputs, solution) = at_rest(adjust);
     let error = solution.deviation.equivalent_error;
     let mesh =
-        Mesh::new(&inputs.mesh(), &solution.geometry, (solution.mesh_force, error), 1e-3).unwrap();
+        Mesh::new(&inputs.mesh(), &solution.geometry, (solution.mesh_force, error), 1e-3, None)
+            .unwrap();
     (mesh, settings(&inputs, solution.reduced_mass))
 }
 
 /// The pair with coupled teeth.
 fn coupled(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let (inputs, solution) = at_rest(adjust);
-    let flanks = Flanks::new(&inputs.elasticity(), &solution.geometry).unwrap();
+    let flanks =
+        Flanks::new(&Teeth::of(&inputs.elasticity(), &solution.geometry).unwrap()).unwrap();
     let load = (solution.mesh_force, solution.deviation.equivalent_error);
     let scale = inputs.common_width() / solution.mesh.as_ref().unwrap().mean_stiffness();
-    let neighbours = ByRadii(|rear: [f64; 2], front: [f64; 2], pitches| {
+    let by_radii = |rear: [f64; 2], front: [f64; 2], pitches| {
         let share = if pitches == 1 { 0.3 } else { 0.12 };
         let place = 40.0 * (rear[0] + 2.0 * front[1] - 0.2);
         share * scale * (1.0 + 0.4 * place.sin())
+    };
+    let mesh = with_neighbours(by_radii, |neighbours| {
+        let parts = (&flanks.into(), Some(neighbours), None);
+        Mesh::of_parts(&inputs.mesh(), &solution.geometry, parts, load, 1e-3).unwrap()
     });
-    let mesh = Mesh::of_parts(
-        &inputs.mesh(),
-        &solution.geometry,
-        (&flanks.into(), &neighbours),
-        None,
-        load,
-        1e-3,
-    )
-    .unwrap();
     (mesh, settings(&inputs, solution.reduced_mass))
 }
 
@@ -266,13 +264,13 @@ impl Watch {
     /// The unexplained energy over all stored steps, and the converted energy, in J.
     pub(super) fn energies(&self, motion: &Motion<'_>, mesh: &Mesh) -> (f64, f64) {
         let (mut unexplained, mut turned_over) = (0.0, 0.0);
-        self.each_step(motion, |course, step| {
+        for (course, _, step) in self.steps(motion) {
             let put_in =
                 step.length * over_halves(3, &|part| course.power(motion, mesh, step, part));
             unexplained +=
                 course.stored(motion, step, 1.0) - course.stored(motion, step, 0.0) - put_in;
             turned_over += put_in.abs();
-        });
+        }
         (unexplained.abs(), turned_over)
     }
 }
@@ -328,7 +326,7 @@ impl Course<'_> {
         let force = self.force_along(pair, &still);
         let (side, index) = self.side_of(pair);
         let (s, way) = self.way_of(step);
-        let gap = side.gap_along(&side.pairs[index], s, way);
+        let [_, gap] = side.spring_along(&side.pairs[index], s, way);
         let pressed = side.sign * still.ahead.0[0] - gap.at(part);
         0.5 * (force.slope(part) * pressed - force.at(part) * gap.slope(part)) / step.length
     }

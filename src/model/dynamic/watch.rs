@@ -3,16 +3,15 @@
 
 use std::cell::Cell;
 
+use super::motion::{Course, Step};
 use super::motion::{Motion, State, Window};
-use super::side::FORCE_TERMS;
-use super::step::{Course, Step};
-use super::{Dynamic, Effort};
+use super::{Dynamic, Settings};
 use crate::model::Refusal;
 use crate::model::budget::{CURVE_WORK, STATIONS, TURNS};
 use crate::model::pair_forces::Touching;
-use crate::model::spacing::{Resolution, Spacing};
 use crate::model::stations::MeshStation;
-use crate::numeric::polynomial::{Polynomial, extremes, sign_changes};
+use crate::model::stations::Spacing;
+use crate::numeric::polynomial::{extremes, sign_changes};
 
 /// Memory of a growing list, relative to its contents: twice the contents in the new place and once
 /// in the old.
@@ -100,8 +99,9 @@ impl Watch {
     /// Whether the incoming pair has finally left: after B, without contact, and with a gap greater
     /// than the driver's greatest lead.
     pub(super) fn is_over(&self, motion: &Motion<'_>) -> bool {
-        let last = |passage| Some((passage, Passage::records(passage).last()?));
-        let Some((passage, record)) = self.passages.iter().rev().find_map(last) else {
+        let mut passages = self.passages.iter().rev();
+        let last = passages.find_map(|passage| Some((passage, passage.records.last()?)));
+        let Some((passage, record)) = last else {
             return false;
         };
         let t = record.step.end();
@@ -115,8 +115,7 @@ impl Watch {
     pub(super) fn finish(
         &self,
         motion: &Motion<'_>,
-        (spacing, samples): (Spacing, usize),
-        effort: Effort,
+        settings: &Settings,
     ) -> Result<Dynamic, Refusal> {
         let mesh = motion.mesh;
         if self.touches.len() != self.leaves.len() {
@@ -129,10 +128,9 @@ impl Watch {
         };
         let swings = self.swings(motion);
         let end = || end_of_first_impact(&swings.phases, swings.peak);
-        let (stations, resolution) =
-            first.zip(last).map_or((Vec::new(), Resolution::Full), |contact| {
-                self.stations(motion, &swings, contact, spacing)
-            });
+        let (stations, rough) = first.zip(last).map_or((Vec::new(), None), |contact| {
+            self.stations(motion, &swings, contact, settings.spacing)
+        });
         Ok(Dynamic {
             first_contact_angle: early.map(|first| -motion.place(first) / mesh.base_radii.1),
             last_contact_angle: last.and_then(after_end),
@@ -144,11 +142,12 @@ impl Watch {
             rattle: motion.has_backlash().then(|| self.rattle.found()),
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
             approach: early.map_or_else(Vec::new, |first| {
-                self.approach(motion, (&swings.turns, samples), first)
+                self.approach(motion, (&swings.turns, settings.approach_samples), first)
             }),
             stations,
-            resolution,
-            effort: Effort { evaluations: effort.evaluations + self.looks.get(), ..effort },
+            rough,
+            evaluations: self.looks.get(),
+            work: 0,
         })
     }
 
@@ -166,77 +165,71 @@ impl Watch {
         let even = (0..=samples).map(|at| first * (1.0 - at as f64 / samples as f64));
         let turns = turns.iter().copied().filter(|&turn| turn < 0.0).take(TURNS);
         even.chain(turns)
-            .filter_map(|t| Some((motion.place(t), self.moment(motion, t)?.force(t))))
+            .filter_map(|t| Some((motion.place(t), self.moment(motion, t)?.2)))
             .collect()
     }
 
     /// Every stored step with its passage, in order.
     fn records(&self) -> impl Iterator<Item = (&Passage, &Record)> + Clone {
-        let of = |passage| Passage::records(passage).iter().map(move |record| (passage, record));
-        self.passages.iter().flat_map(of)
+        self.passages
+            .iter()
+            .flat_map(|passage| passage.records.iter().map(move |record| (passage, record)))
     }
 
-    /// Shows every stored step with its stiffness and load.
-    #[cfg(test)]
-    pub(super) fn each_step(&self, motion: &Motion<'_>, mut show: impl FnMut(&Course<'_>, &Step)) {
-        for (passage, record) in self.records() {
-            show(&passage.course(motion, record), &record.step);
-        }
-    }
-
-    /// The steps with load on the incoming tooth, with stiffness, load and the index of the pair in
-    /// the window.
-    fn carried<'a>(
+    /// Every stored step with its stiffness and load, and the index of the incoming pair in the
+    /// window.
+    pub(super) fn steps<'a>(
         &'a self,
         motion: &'a Motion<'a>,
     ) -> impl Iterator<Item = (Course<'a>, usize, &'a Step)> {
-        self.records().filter(|(passage, record)| record.touching.has(passage.incoming)).map(
-            |(passage, record)| {
-                let course = passage.course(motion, record);
-                (course, passage.incoming, &record.step)
-            },
-        )
+        self.records().map(|(passage, record)| {
+            (passage.course(motion, record), passage.incoming, &record.step)
+        })
     }
 
     /// Greatest difference of the driver's lead and the gap of the incoming tooth before E, in m,
     /// for a tooth without contact.
     fn lead(&self, motion: &Motion<'_>) -> f64 {
-        let before = self.records().filter(|(passage, record)| {
-            record.step.t < 0.0 && !record.touching.has(passage.incoming)
-        });
-        before.fold(f64::NEG_INFINITY, |lead, (passage, record)| {
-            let course = passage.course(motion, record);
-            let overlap = course.lead_along(passage.incoming, &record.step);
-            overlap.most(&record.step.ahead, lead)
+        let apart = self
+            .steps(motion)
+            .filter(|(course, incoming, step)| step.t < 0.0 && !course.touches(*incoming));
+        apart.fold(f64::NEG_INFINITY, |lead, (course, incoming, step)| {
+            course.lead_along(incoming, step).most(&step.ahead, lead)
         })
     }
 
     fn swings(&self, motion: &Motion<'_>) -> Swings {
         let mut swings = Swings::default();
         let mut follows_gap = true;
-        for (passage, record) in self.records() {
-            if !record.touching.has(passage.incoming) {
+        for (course, incoming, step) in self.steps(motion) {
+            if !course.touches(incoming) {
                 follows_gap = true;
                 continue;
             }
-            let course = passage.course(motion, record);
-            let force = course.force_along(passage.incoming, &record.step);
-            let swing = Swing::of(&record.step, &force);
-            swings.peak = swings.peak.max(swing.peak());
-            if swing.is_before_start() {
+            let force = course.force_along(incoming, step);
+            let turns = sign_changes(&force.derivative());
+            let time = |part: f64| step.t + part * step.length;
+            swings.turns.extend(turns.iter().map(|&part| time(part)));
+            let ends: Vec<f64> =
+                std::iter::once(0.0).chain(turns).chain(std::iter::once(1.0)).collect();
+            swings.peak = ends.iter().map(|&part| force.at(part)).fold(swings.peak, f64::max);
+            // A step ends at E within rounding.
+            if step.t + 0.5 * step.length < 0.0 {
                 swings.peak_before_start = swings.peak;
             }
-            swings.turns.extend(swing.turns());
-            swings.phases.extend(swing.phases(follows_gap));
-            follows_gap = false;
+            for ends in ends.windows(2) {
+                let rise = force.at(ends[1]) - force.at(ends[0]);
+                swings.phases.push(Phase { end: time(ends[1]), rise, follows_gap });
+                follows_gap = false;
+            }
         }
         swings
     }
 
     /// ∫ μ F |ΔVτ| dt of the incoming tooth, in J.
     fn friction_work(&self, motion: &Motion<'_>) -> f64 {
-        let rubbed = self
-            .carried(motion)
+        let carried = self.steps(motion).filter(|(course, incoming, _)| course.touches(*incoming));
+        let rubbed = carried
             .map(|(course, incoming, step)| step.length * course.rubbing_along(incoming, step));
         motion.mesh.friction() * rubbed.sum::<f64>()
     }
@@ -250,30 +243,30 @@ impl Watch {
         swings: &Swings,
         (first, last): (f64, f64),
         spacing: Spacing,
-    ) -> (Vec<MeshStation>, Resolution) {
+    ) -> (Vec<MeshStation>, Option<Refusal>) {
         let (peak, turns) = (swings.peak, &*swings.turns);
         let is_given = spacing.count().is_some();
-        let (stations, resolution) = MeshStation::through_start(first, last, |from, to| {
+        let (stations, rough) = MeshStation::through_start(first, last, |from, to| {
             let ends = if is_given { vec![from, to] } else { self.ends(motion, turns, (from, to)) };
-            let (times, resolution) = spacing.stations(&ends, peak, CURVE_WORK, |t| {
+            let (times, rough) = spacing.stations(&ends, peak, CURVE_WORK, |t| {
                 self.looks.set(self.looks.get() + 1);
                 // Without a given number, the heights decide.
                 let moment = (!is_given).then(|| self.moment(motion, t)).flatten();
-                (moment.map_or(f64::NAN, |moment| moment.force(t)), t)
+                (moment.map_or(f64::NAN, |(.., force)| force), t)
             });
             let (times, thinned) = at_most(STATIONS, times);
             let mut stations = Vec::with_capacity(times.len());
             stations.extend(times.into_iter().filter_map(|t| self.station(motion, t)));
-            (stations, resolution.and(thinned))
+            (stations, rough.or(thinned))
         });
         if is_given {
             let most = turns.len().min(TURNS);
-            let turns_resolution =
-                if most < turns.len() { Resolution::Limited(TURNS) } else { Resolution::Full };
+            let is_cut = most < turns.len();
+            let cut = is_cut.then_some(Refusal::CurveTooRough { limit: TURNS });
             let stations = self.with_turns(motion, &turns[..most], stations);
-            return (stations, resolution.and(turns_resolution));
+            return (stations, rough.or(cut));
         }
-        (stations, resolution)
+        (stations, rough)
     }
 
     /// Times between which the force is smooth, has no turning point, and has no hidden
@@ -329,126 +322,46 @@ impl Watch {
     }
 
     fn station(&self, motion: &Motion<'_>, t: f64) -> Option<MeshStation> {
-        let moment = self.moment(motion, t)?;
-        let Moment { course, state, .. } = &moment;
-        let station = MeshStation::at(
-            motion.mesh,
-            motion.place(t),
-            moment.force(t),
-            course.total(t, state[0]),
-            state[0],
-            Some(t),
-        );
+        let (course, state, force) = self.moment(motion, t)?;
+        let (s, total) = (motion.place(t), course.total(t, state[0]));
+        let station = MeshStation::at(motion.mesh, s, force, total, state[0], Some(t));
         Some(MeshStation { rate: Some(state[1]), ..station })
     }
 
-    /// The motion at a time from the stored steps.
-    fn moment<'a>(&'a self, motion: &'a Motion<'a>, t: f64) -> Option<Moment<'a>> {
+    /// The motion at a time from the stored steps, and the force of the incoming tooth, in N.
+    fn moment<'a>(&'a self, motion: &'a Motion<'a>, t: f64) -> Option<(Course<'a>, State, f64)> {
         let begins = |record: &Record| record.step.t <= t;
         let has_begun = |passage: &Passage| passage.records.first().is_some_and(begins);
         let next = self.passages.partition_point(has_begun);
         let passage = self.passages.get(next.saturating_sub(1))?;
         let next = passage.records.partition_point(begins);
-        let Record { touching, step } = passage.records.get(next.saturating_sub(1))?;
-        Some(Moment {
-            course: Course::new(motion, &passage.window, *touching),
-            incoming: passage.incoming,
-            state: step.state((t - step.t) / step.length),
-        })
+        let record = passage.records.get(next.saturating_sub(1))?;
+        let (course, incoming) = (passage.course(motion, record), passage.incoming);
+        let state = record.step.state((t - record.step.t) / record.step.length);
+        let touches = course.touches(incoming);
+        let force = if touches { course.force(incoming, t, state[0]).max(0.0) } else { 0.0 };
+        Some((course, state, force))
     }
 }
 
 /// At most `most` of the times, evenly selected, with the first and the last time.
-fn at_most(most: usize, times: Vec<f64>) -> (Vec<f64>, Resolution) {
+fn at_most(most: usize, times: Vec<f64>) -> (Vec<f64>, Option<Refusal>) {
     if times.len() <= most {
-        return (times, Resolution::Full);
+        return (times, None);
     }
     let last = times.len() - 1;
     let chosen = (0..most).map(|at| times[at * last / (most - 1)]);
-    (chosen.collect(), Resolution::Limited(most))
-}
-
-/// The motion at a time.
-struct Moment<'a> {
-    course: Course<'a>,
-    /// The incoming pair's index in the window.
-    incoming: usize,
-    state: State,
-}
-
-impl Moment<'_> {
-    /// Force of the incoming tooth, in N.
-    fn force(&self, t: f64) -> f64 {
-        if self.course.touches(self.incoming) {
-            self.course.force(self.incoming, t, self.state[0]).max(0.0)
-        } else {
-            0.0
-        }
-    }
-}
-
-/// A step in which the incoming tooth carries load.
-struct Swing {
-    /// Start time and duration, in s.
-    begin: f64,
-    length: f64,
-    force: Polynomial<FORCE_TERMS>,
-    /// Parts of the step at the turning points of the force.
-    turns: Vec<f64>,
+    (chosen.collect(), Some(Refusal::CurveTooRough { limit: most }))
 }
 
 /// A stretch with a monotonic force.
-pub(super) struct Phase {
+struct Phase {
     /// End time, in s.
     end: f64,
     /// Rise of the force, in N.
     rise: f64,
     /// Whether the tooth is apart before the stretch.
     follows_gap: bool,
-}
-
-impl Swing {
-    /// The rise and fall of a force over a step, in N.
-    pub(super) fn of(step: &Step, force: &Polynomial<FORCE_TERMS>) -> Swing {
-        Swing {
-            begin: step.t,
-            length: step.length,
-            force: *force,
-            turns: sign_changes(&force.derivative()),
-        }
-    }
-
-    /// Whether the step is before E. A step ends at E within rounding.
-    fn is_before_start(&self) -> bool {
-        self.begin + 0.5 * self.length < 0.0
-    }
-
-    fn time(&self, part: f64) -> f64 {
-        self.begin + part * self.length
-    }
-
-    /// Times of the turning points of the force, in s.
-    pub(super) fn turns(&self) -> impl Iterator<Item = f64> {
-        self.turns.iter().map(|&part| self.time(part))
-    }
-
-    /// The stretches of the step. `follows_gap` says whether the tooth is apart before the step.
-    fn phases(&self, follows_gap: bool) -> impl Iterator<Item = Phase> {
-        let begins = std::iter::once(0.0).chain(self.turns.iter().copied());
-        let ends = self.turns.iter().copied().chain([1.0]);
-        let stretches = begins.zip(ends).enumerate();
-        stretches.map(move |(index, (begin, end))| Phase {
-            end: self.time(end),
-            rise: self.force.at(end) - self.force.at(begin),
-            follows_gap: follows_gap && index == 0,
-        })
-    }
-
-    /// The greatest force, in N.
-    pub(super) fn peak(&self) -> f64 {
-        let ends = [0.0, 1.0];
-        self.turns.iter().chain(&ends).map(|&part| self.force.at(part)).fold(0.0, f64::max)
-    }
 }
 
 /// Time of the first minimum of the force after its first peak, or of the loss of contact. `peak`
@@ -539,10 +452,6 @@ impl Passage {
         }
         self.records.push(record);
         (self.records.capacity() - room) * size_of::<Record>()
-    }
-
-    fn records(&self) -> &[Record] {
-        &self.records
     }
 
     fn course<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Course<'a> {

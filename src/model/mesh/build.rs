@@ -1,16 +1,16 @@
-//! Computes a mesh from a case: its zones, its couplings and the mirrored mesh of the back flanks.
+//! Computes a mesh from a case: its zones, its couplings, its range of gaps, and the mirrored mesh of
+//! the back flanks.
 
-use std::sync::Arc;
-
-use super::couplings::{Couplings, Neighbours, Way};
+use super::sharing::{Couplings, Neighbours, Way};
 use super::zones::{End, LEVER, Zone, line_zones};
 use super::{Mesh, MeshInputs};
-use crate::model::Refusal;
 use crate::model::budget::PAIRS;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::geometry::{Geometry, PairShape};
 use crate::model::relief::Relief;
+use crate::model::{Refusal, Solution};
+use std::sync::Arc;
 
 impl Mesh {
     /// The mesh in the range where the gaps before E and after B are at most `reach`, in m.
@@ -29,58 +29,58 @@ impl Mesh {
     /// driver's tip. A sharp tip has the radius of curvature of its flank, a rounded tip that of
     /// its edge.
     ///
+    /// Parts of an `earlier` mesh of this geometry that do not change are used again.
+    ///
     /// # Errors
     /// A [`Refusal`] if a compliance cannot be computed, the run-out interferes, or more pairs may
     /// touch at a time than the [budget](crate::model::budget) allows.
     pub fn new(
         inputs: &MeshInputs,
         geometry: &Geometry,
-        load: (f64, f64),
-        reach: f64,
-    ) -> Result<Mesh, Refusal> {
-        let flanks = Arc::new(Flanks::new(&inputs.elasticity, geometry)?);
-        let teeth = Teeth::of(&inputs.elasticity, geometry)?;
-        Mesh::of_parts(inputs, geometry, (&flanks, &teeth), None, load, reach)
-    }
-
-    /// The same as [`Mesh::new`], with the parts of an earlier mesh of this geometry that do not
-    /// change. The compliance of the teeth depends on the elasticity alone, the couplings also on
-    /// load, reach and tips, and all but the error of the mesh on everything else.
-    ///
-    /// # Errors
-    /// Those of [`Mesh::new`].
-    pub(in crate::model) fn after(
-        earlier: &Arc<Mesh>,
-        inputs: &MeshInputs,
-        geometry: &Geometry,
         (force, error): (f64, f64),
         reach: f64,
+        earlier: Option<&Mesh>,
     ) -> Result<Mesh, Refusal> {
-        let (load, last) = ((force, error), &earlier.inputs);
-        if last.elasticity != inputs.elasticity {
-            return Mesh::new(inputs, geometry, load, reach);
+        // The compliance of the teeth depends on the elasticity alone, the couplings also on load,
+        // reach and tips, and all but the error of the mesh on everything else.
+        let earlier = earlier.filter(|earlier| earlier.inputs.elasticity == inputs.elasticity);
+        let has_same_load = |earlier: &&Mesh| {
+            earlier.force.to_bits() == force.to_bits() && earlier.reach.to_bits() == reach.to_bits()
+        };
+        let alike = earlier.filter(has_same_load);
+        if let Some(same) = alike.filter(|alike| alike.inputs == inputs.at_speed(1.0)) {
+            return Ok(Mesh { error, ..same.at_speed(inputs.speed) });
         }
-        let has_same_load = earlier.force.to_bits() == force.to_bits()
-            && earlier.reach.to_bits() == reach.to_bits();
-        if has_same_load && *last == inputs.at_speed(last.speed) {
-            return Ok(Mesh { error, ..Mesh::clone(&earlier.turning_at(inputs.speed)) });
-        }
-        let is_alike =
-            has_same_load && last.shape == inputs.shape && last.tip_radii == inputs.tip_radii;
-        let couplings = is_alike.then_some(&earlier.couplings);
+        let has_same_tips = |alike: &&Mesh| {
+            alike.inputs.shape == inputs.shape && alike.inputs.tip_radii == inputs.tip_radii
+        };
+        let couplings = alike.filter(has_same_tips).map(|alike| alike.couplings.clone());
         let teeth = Teeth::of(&inputs.elasticity, geometry)?;
-        Mesh::of_parts(inputs, geometry, (&earlier.flanks, &teeth), couplings, load, reach)
+        let flanks = match earlier {
+            Some(earlier) => Arc::clone(&earlier.flanks),
+            None => Arc::new(Flanks::new(&teeth)?),
+        };
+        let abscissas = |place: &ContactPlace| teeth.abscissas(&teeth.under(place, force));
+        let displacements = |rear, front, pitches| teeth.couplings(rear, front, pitches);
+        let neighbours = Neighbours { abscissas: &abscissas, displacements: &displacements };
+        let neighbours = teeth.is_coupled().then_some(neighbours);
+        let parts = (&flanks, neighbours.as_ref(), couplings);
+        Mesh::of_parts(inputs, geometry, parts, (force, error), reach)
     }
 
-    /// Like [`Mesh::new`], with known teeth, their compliance and perhaps known couplings.
+    /// Like [`Mesh::new`], with the compliance of the teeth, their coupling, and perhaps the known
+    /// couplings of the pairs.
     ///
     /// # Errors
     /// Those of [`Mesh::new`].
-    pub(in crate::model) fn of_parts(
+    pub(crate) fn of_parts(
         inputs: &MeshInputs,
         geometry: &Geometry,
-        (flanks, neighbours): (&Arc<Flanks>, &dyn Neighbours),
-        known: Option<&Option<Arc<Couplings>>>,
+        (flanks, neighbours, known): (
+            &Arc<Flanks>,
+            Option<&Neighbours<'_>>,
+            Option<Option<Arc<Couplings>>>,
+        ),
         (force, error): (f64, f64),
         reach: f64,
     ) -> Result<Mesh, Refusal> {
@@ -125,9 +125,12 @@ impl Mesh {
         let at_start = (&place(0.0), ends);
         let own =
             flanks.pair_at_load(&inputs.elasticity, geometry, at_start.0, at_start.1, force)?;
-        let couplings = match known {
-            Some(known) => known.clone(),
-            None => Couplings::of(&way, (own / width, width), force, neighbours, &place)?,
+        let couplings = match (known, neighbours) {
+            (Some(known), _) => known,
+            (None, Some(neighbours)) => {
+                Couplings::of(&way, (own / width, width), neighbours, &place)?
+            }
+            (None, None) => None,
         };
         let coupling_work = couplings.as_deref().map_or(0, Couplings::evaluations) as u64;
         let mesh = Mesh {
@@ -159,7 +162,6 @@ impl Mesh {
     }
 
     /// The mesh without coupling.
-    #[must_use]
     pub fn uncoupled(&self) -> Mesh {
         Mesh {
             couplings: None,
@@ -214,14 +216,12 @@ impl Mesh {
     ///
     /// # Valid for
     /// Symmetric teeth with the same reliefs on both flanks.
-    #[must_use]
     pub fn back(&self) -> Mesh {
         let back = self.back.0.get_or_init(|| self.reversed());
         Mesh { speed: self.speed, driver_speed: self.driver_speed, ..back.clone() }
     }
 
     /// The path s' of a back pair with the incoming pair at E, from 0 to a base pitch, in m.
-    #[must_use]
     pub fn back_place(&self) -> f64 {
         self.back_place
     }
@@ -268,10 +268,113 @@ pub(super) fn back_place(shape: &PairShape, geometry: &Geometry) -> f64 {
     (geometry.end - geometry.start - start).rem_euclid(geometry.base_pitch)
 }
 
+/// The first range of gaps of the mesh, in m: a power of √2, so that cases with similar load,
+/// deviation and reliefs have the same range. A deviation above the deflection lets the pairs lose
+/// contact and move farther. Few motions need a larger range.
+fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
+    const TIMES: f64 = 2.5;
+    const TIMES_APART: f64 = 4.0;
+    let deviation = &solution.deviation;
+    let (deflection, error) = (deviation.loaded_deflection(), deviation.equivalent_error.abs());
+    let times = if error > deflection { TIMES_APART } else { TIMES };
+    let reach = times * (deflection + error + inputs.reliefs.sum());
+    (0.5 * (2.0 * reach.log2()).ceil()).exp2()
+}
+
+/// The meshes of a pair with geometry, load and deviation of a solution, each with a larger range of
+/// gaps than the one before. Every result uses the first mesh that is wide enough for it, because
+/// the range changes its last digits.
+pub(crate) struct Meshes<'a> {
+    inputs: &'a MeshInputs,
+    geometry: Geometry,
+    /// F₀ in N, and the equivalent error in m.
+    load: (f64, f64),
+    /// A mesh of the same geometry.
+    alike: Option<&'a Arc<Mesh>>,
+    first_reach: f64,
+    computed: Vec<Arc<Mesh>>,
+}
+
+impl<'a> Meshes<'a> {
+    /// `alike` is a mesh of the same geometry, if known, and `same` one of the same inputs.
+    pub(crate) fn new(
+        inputs: &'a MeshInputs,
+        solution: &Solution,
+        alike: Option<&'a Arc<Mesh>>,
+        same: Option<&Arc<Mesh>>,
+    ) -> Meshes<'a> {
+        let first_reach = first_reach(inputs, solution);
+        let is_first = |mesh: &&Arc<Mesh>| mesh.reach.to_bits() == first_reach.to_bits();
+        let computed = same.filter(is_first).cloned().into_iter().collect();
+        let load = (solution.mesh_force, solution.deviation.equivalent_error);
+        Meshes { inputs, geometry: solution.geometry, load, alike, first_reach, computed }
+    }
+
+    /// The result of `find` on the first mesh that is wide enough for it.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`] and of `find`.
+    pub(crate) fn find<T>(
+        &mut self,
+        find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        let mut number = 0;
+        loop {
+            let mesh = self.mesh(number)?;
+            match find(&mesh) {
+                Err(Refusal::BeyondReach) if !mesh.is_whole => number += 1,
+                found => return found,
+            }
+        }
+    }
+
+    fn mesh(&mut self, number: usize) -> Result<Arc<Mesh>, Refusal> {
+        const FURTHER: f64 = 4.0;
+        if let Some(mesh) = self.computed.get(number) {
+            return Ok(Arc::clone(mesh));
+        }
+        let (geometry, load) = (&self.geometry, self.load);
+        let last = self.computed.last();
+        let reach = last.map_or(self.first_reach, |mesh| FURTHER * mesh.reach);
+        let earlier = last.or(self.alike).map(|earlier| &**earlier);
+        let mesh = Arc::new(Mesh::new(self.inputs, geometry, load, reach, earlier)?);
+        self.computed.push(Arc::clone(&mesh));
+        Ok(mesh)
+    }
+
+    /// The widest mesh, and whether it is another one than `same`, which stays if no result needs a
+    /// wider one.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`].
+    pub(crate) fn last(mut self, same: Option<Arc<Mesh>>) -> Result<(Arc<Mesh>, bool), Refusal> {
+        match same {
+            Some(same) if self.computed.len() <= 1 => Ok((same, false)),
+            _ => {
+                self.mesh(0)?;
+                Ok((self.computed.swap_remove(self.computed.len() - 1), true))
+            }
+        }
+    }
+}
+
+/// The result of a stage whose refusal does not affect other results.
+pub(crate) fn late<T>(
+    mesh: &Mesh,
+    found: Result<T, Refusal>,
+) -> Result<Result<T, Refusal>, Refusal> {
+    match found {
+        Err(Refusal::Stopped) => Err(Refusal::Stopped),
+        Err(Refusal::BeyondReach) if !mesh.is_whole => Err(Refusal::BeyondReach),
+        found => Ok(found),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::inputs::{Method, ToothCompliance};
+    use crate::model::dynamic::{Settings, dynamic};
+    use crate::model::inputs::{Inputs, Method, ToothCompliance};
     use crate::model::sample::standard_pair;
     use crate::model::{Stage, Stages, solve};
     use crate::numeric::root;
@@ -293,7 +396,7 @@ mod tests {
             ("load", inputs.mesh(), 1.5 * force, error, reach, [true, false, false]),
             ("reach", inputs.mesh(), force, error, 2.0 * reach, [true, false, false]),
         ] {
-            let mesh = Mesh::after(&first, &inputs, geometry, (force, error), reach).unwrap();
+            let mesh = Mesh::new(&inputs, geometry, (force, error), reach, Some(&first)).unwrap();
             let parts = [
                 Arc::ptr_eq(&mesh.flanks, &first.flanks),
                 mesh.couplings.as_ref().map(Arc::as_ptr)
@@ -302,7 +405,7 @@ mod tests {
             ];
             assert_eq!(parts, same, "{name}");
             assert!(mesh.couplings.is_some());
-            let new = Mesh::new(&inputs, geometry, (force, error), reach).unwrap();
+            let new = Mesh::new(&inputs, geometry, (force, error), reach, None).unwrap();
             assert!(mesh == new, "{name}");
         }
     }
@@ -361,5 +464,26 @@ mod tests {
             let pitches = (mesh.back_place() - expected) / mesh.base_pitch;
             assert!((pitches - pitches.round()).abs() < 1e-9, "{teeth:?}: {pitches}");
         }
+    }
+
+    #[test]
+    fn a_motion_beyond_the_computed_gaps_is_refused() {
+        let inputs = Inputs {
+            method: Method::Dynamic,
+            base_pitch_deviation: 12e-6,
+            ..standard_pair(20, 30, 5e-3)
+        };
+        let solution = solve(&inputs, Stages::of(Stage::Dynamic)).unwrap();
+        let stations = &solution.dynamic.as_ref().unwrap().stations;
+        let most = stations.iter().map(|station| station.transmission_error);
+        let most = most.fold(0.0, f64::max) + solution.deviation.equivalent_error;
+        let motion = |reach: f64| {
+            let load = (solution.mesh_force, solution.deviation.equivalent_error);
+            let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load, reach, None)?;
+            let settings = Settings::of(&inputs, solution.reduced_mass);
+            dynamic(&mesh, &settings, &|_| true)
+        };
+        assert_eq!(motion(0.95 * most).err(), Some(Refusal::BeyondReach));
+        assert_eq!(motion(4.0 * most).err(), None);
     }
 }

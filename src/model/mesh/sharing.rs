@@ -1,19 +1,18 @@
-//! Load sharing of coupled pairs between two borders of the mesh, as polynomials.
-
-use std::sync::{Arc, Mutex, PoisonError};
+//! Displacements of pairs by forces on other pairs, and load sharing of coupled pairs as polynomials.
 
 use super::Mesh;
 use super::zones::{GAP, LEVER, SLIDING, STIFFNESS};
+use crate::model::Refusal;
+use crate::model::compliance::ContactPlace;
 use crate::model::pair_forces::{PITCHES, Touching};
 use crate::numeric::banded::Banded;
-use crate::numeric::chebyshev::{Places, Series, TERMS};
+use crate::numeric::chebyshev::{Places, Series, TERMS, Terms};
 use crate::numeric::polynomial::Polynomial;
+use crate::numeric::real::Lanes;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Number of functions evaluated together.
 const SIDE_BY_SIDE: usize = 2;
-
-/// A value at each of several places.
-type Lanes = crate::numeric::real::Lanes<TERMS>;
 
 /// Pairs in zones, and those of them that touch.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,25 +99,21 @@ impl Of {
 
 impl Shares {
     /// End of the piece that begins at or includes a place of the rearmost pair.
-    #[must_use]
     pub fn serves_until(&self, (at, least): (f64, f64)) -> f64 {
         self.functions[0].serves_until(at, least)
     }
 
     /// Number of evaluations of the compliances.
-    #[must_use]
     pub fn evaluations(&self) -> usize {
         self.functions[0].evaluations()
     }
 
     /// Memory of the functions, in bytes.
-    #[must_use]
     pub fn bytes(&self) -> usize {
         self.functions.iter().map(Series::bytes).sum()
     }
 
     /// End of the functions that are valid from a place of the rearmost pair on.
-    #[must_use]
     pub fn along(&self, of: Of, place: (f64, f64), length: f64) -> Line<Polynomial<TERMS>> {
         let [slope, offset] = self.functions[of.index()].local(0, place, length);
         Line {
@@ -132,7 +127,6 @@ impl Shares {
     }
 
     /// All functions from a place of the rearmost pair over `length`.
-    #[must_use]
     pub fn at(&self, of: Of, at: f64) -> Line<f64> {
         let [slope, offset] = self.functions[of.index()].at(at);
         Line {
@@ -143,7 +137,6 @@ impl Shares {
     }
 
     /// The row of a pair among all functions, with one function for each touching pair.
-    #[must_use]
     pub fn bounds(&self, of: Of, place: (f64, f64)) -> Line<(f64, f64)> {
         let functions = &self.functions[of.index()];
         Line {
@@ -163,7 +156,7 @@ impl Shares {
 
 impl Mesh {
     /// The lines of the pairs of a meeting.
-    pub(in crate::model) fn shares(&self, meeting: &Meeting) -> Arc<Shares> {
+    pub(crate) fn shares(&self, meeting: &Meeting) -> Arc<Shares> {
         self.sharing.0.of(meeting, || Meet::of(self, meeting).shares())
     }
 
@@ -189,7 +182,7 @@ struct Meet<'a> {
 }
 
 /// The lines of several pairs at several places, as (slope, offset, change with the error).
-type Lines = Vec<[Lanes; 3]>;
+type Lines = Vec<[Lanes<TERMS>; 3]>;
 
 const SLOPE: usize = 0;
 const OFFSET: usize = 1;
@@ -216,7 +209,7 @@ impl<'a> Meet<'a> {
     fn shares(&self) -> Shares {
         let (pairs, deviates) = (self.meeting.zones.len(), self.meeting.deviating.is_some());
         let rest = self.rest();
-        let fill = |places: &Places, values: &mut [[[f64; SIDE_BY_SIDE]; TERMS]]| {
+        let fill = |places: &Places, values: &mut [Terms<SIDE_BY_SIDE>]| {
             let lines = self.lines(places);
             let lines = lines.unwrap_or_else(|| vec![[Lanes::all(f64::NAN); 3]; 1 + pairs]);
             for (index, line) in lines.iter().enumerate() {
@@ -269,7 +262,7 @@ impl<'a> Meet<'a> {
     fn lines(&self, places: &Places) -> Option<Lines> {
         let zero = Lanes::all(0.0);
         let mut forces: Lines = Vec::with_capacity(self.touching.len());
-        let mut rows: Vec<[Lanes; 1 + PITCHES]> = Vec::with_capacity(self.touching.len());
+        let mut rows: Vec<[Lanes<TERMS>; 1 + PITCHES]> = Vec::with_capacity(self.touching.len());
         for (at, &pair) in self.touching.iter().enumerate() {
             let [stiffness, gap] = self.values(pair, STIFFNESS, places);
             let mut row = [zero; 1 + PITCHES];
@@ -294,7 +287,7 @@ impl<'a> Meet<'a> {
     }
 
     /// The sum of the forces that turn the driver.
-    fn sum(&self, forces: &Lines, places: &Places) -> [Lanes; 3] {
+    fn sum(&self, forces: &Lines, places: &Places) -> [Lanes<TERMS>; 3] {
         let mut sum = [Lanes::all(0.0); 3];
         for (&pair, line) in self.touching.iter().zip(forces) {
             let weight = self.weight(pair, places);
@@ -306,7 +299,7 @@ impl<'a> Meet<'a> {
     }
 
     /// The part of a pair's force that turns the driver; all of it without friction.
-    fn weight(&self, pair: usize, places: &Places) -> Option<Lanes> {
+    fn weight(&self, pair: usize, places: &Places) -> Option<Lanes<TERMS>> {
         let friction = self.mesh.friction;
         if friction == 0.0 {
             return None;
@@ -318,7 +311,7 @@ impl<'a> Meet<'a> {
     }
 
     /// The overlap of a pair without contact.
-    fn apart(&self, pair: usize, forces: &Lines, places: &Places) -> [Lanes; 3] {
+    fn apart(&self, pair: usize, forces: &Lines, places: &Places) -> [Lanes<TERMS>; 3] {
         let [gap] = self.values(pair, GAP, places);
         let mut line = [Lanes::all(1.0), gap, Lanes::all(0.0)];
         for (&other, force) in self.touching.iter().zip(forces) {
@@ -333,14 +326,19 @@ impl<'a> Meet<'a> {
     }
 
     /// Values of a pair, from one function on.
-    fn values<const M: usize>(&self, pair: usize, first: usize, places: &Places) -> [Lanes; M] {
+    fn values<const M: usize>(
+        &self,
+        pair: usize,
+        first: usize,
+        places: &Places,
+    ) -> [Lanes<TERMS>; M] {
         let zone = &self.mesh.zones[self.meeting.zones[pair]];
         let way = self.way(pair);
         zone.series.many(first, &places.map(|place| place + way))
     }
 
     /// Displacement of one pair by the force on the other, in m/N.
-    fn coupling(&self, rear: usize, front: usize, places: &Places) -> Lanes {
+    fn coupling(&self, rear: usize, front: usize, places: &Places) -> Lanes<TERMS> {
         let couplings = self.mesh.couplings.as_ref();
         let couplings = couplings.filter(|_| front - rear <= PITCHES);
         couplings.map_or(Lanes::all(0.0), |couplings| {
@@ -352,13 +350,188 @@ impl<'a> Meet<'a> {
 }
 
 fn put(
-    values: &mut [[[f64; SIDE_BY_SIDE]; TERMS]],
+    values: &mut [Terms<SIDE_BY_SIDE>],
     (group, function): (usize, usize),
-    lanes: &Lanes,
+    lanes: &Lanes<TERMS>,
 ) {
     for (values, lane) in values[group].iter_mut().zip(lanes.0) {
         values[function] = lane;
     }
+}
+
+/// Displacement of a pair by a unit force on another, as a function of the place of the rear pair.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Couplings {
+    /// One list for each number of pitches between the pairs, in order.
+    stretches: [Vec<Stretch>; PITCHES],
+}
+
+/// A part of the path in which the load points of both pairs move smoothly.
+#[derive(Debug, Clone, PartialEq)]
+struct Stretch {
+    to: f64,
+    series: Series<1>,
+}
+
+/// The range in which pairs may touch, in m.
+#[derive(Debug, Clone)]
+pub(super) struct Way {
+    /// First and last place of a pair.
+    pub(super) ends: (f64, f64),
+    /// Places where the motion of a pair's load points has a bend.
+    pub(super) bends: Vec<f64>,
+    /// p_b.
+    pub(super) base_pitch: f64,
+}
+
+/// How the force on one pair displaces another, by the places where they touch.
+pub(crate) struct Neighbours<'a> {
+    /// Where a pair touches the driver and the driven gear, in a measure of the model's own.
+    pub(crate) abscissas: &'a dyn Fn(&ContactPlace) -> Result<[f64; 2], Refusal>,
+    /// Displacement of the rear pair by the force on the front one so many pitches ahead, or of
+    /// that one by the force on this one, in m²/N, at several places of both.
+    pub(crate) displacements: &'a dyn Fn([Lanes<TERMS>; 2], [Lanes<TERMS>; 2], i32) -> Lanes<TERMS>,
+}
+
+/// Where a pair touches both gears, over its place.
+struct Abscissas {
+    stretches: Vec<(f64, Series<2>)>,
+}
+
+impl Abscissas {
+    fn of(way: &Way, at: impl Fn(f64) -> Result<[f64; 2], Refusal>) -> Result<Abscissas, Refusal> {
+        /// Of the size of an abscissa, which changes a coupling by a twentieth of the compliance of
+        /// a pair; rounding of a large gear's radii is half of it.
+        const REST: f64 = 2e-12;
+        let borders = way.borders(0);
+        let stretches = borders.windows(2).map(|ends| {
+            let rest = at(f64::midpoint(ends[0], ends[1]))?.map(|size| REST * size.abs().max(1e-3));
+            let series = Series::of(ends[0], ends[1], &|_, _| rest, &at)?;
+            Ok((ends[1], series))
+        });
+        Ok(Abscissas { stretches: stretches.collect::<Result<_, Refusal>>()? })
+    }
+
+    /// At several places, smoothly on from `inside`.
+    fn many(&self, places: &Places, inside: f64) -> [Lanes<TERMS>; 2] {
+        let index = self.stretches.partition_point(|(to, _)| *to < inside);
+        let stretch = self.stretches.get(index).or_else(|| self.stretches.last());
+        stretch.map_or([Lanes::all(f64::NAN); 2], |(_, series)| series.many(0, places))
+    }
+}
+
+impl Couplings {
+    /// The couplings, in m/N, of two pairs from the place of the rear pair and the pitches between
+    /// them. `own` is the compliance of one pair. `None` if no two pairs can touch.
+    ///
+    /// # Errors
+    /// Those of `neighbours`.
+    pub(super) fn of(
+        way: &Way,
+        (own, width): (f64, f64),
+        neighbours: &Neighbours<'_>,
+        place: &dyn Fn(f64) -> ContactPlace,
+    ) -> Result<Option<Arc<Couplings>>, Refusal> {
+        /// Of the compliance of one pair.
+        const REST: f64 = 1e-13;
+        let abscissas = Abscissas::of(way, |s| (neighbours.abscissas)(&place(s)))?;
+        let mut stretches = [const { Vec::new() }; PITCHES];
+        for (pitches, stretches) in (1..).zip(&mut stretches) {
+            let apart = f64::from(pitches) * way.base_pitch;
+            for ends in way.borders(pitches).windows(2) {
+                let inside = f64::midpoint(ends[0], ends[1]);
+                let fill = |places: &Places, values: &mut [Terms<1>]| {
+                    let front = places.map(|place| place + apart);
+                    let rear = abscissas.many(places, inside);
+                    let front = abscissas.many(&front, inside + apart);
+                    let found = (neighbours.displacements)(rear, front, pitches);
+                    values[0] = found.0.map(|found| [found / width]);
+                };
+                let series = Series::groups(ends[0], ends[1], &[[REST * own]], &fill);
+                stretches.extend(series.into_iter().map(|series| Stretch { to: ends[1], series }));
+            }
+        }
+        let is_empty = stretches.iter().all(Vec::is_empty);
+        Ok((!is_empty).then(|| Arc::new(Couplings { stretches })))
+    }
+
+    /// The displacement in m/N of two pairs with `between` pairs between them and the rear pair at
+    /// `s`. On a border, `inside` selects the side.
+    pub(super) fn at(&self, between: usize, s: f64, inside: f64) -> f64 {
+        self.stretch(between, inside).map_or(0.0, |stretch| stretch.series.one(0, s))
+    }
+
+    /// The same at several places of the rear pair.
+    pub(super) fn many(&self, between: usize, places: &Places, inside: f64) -> Lanes<TERMS> {
+        self.stretch(between, inside).map_or(Lanes::all(0.0), |stretch| {
+            let [found] = stretch.series.many(0, places);
+            found
+        })
+    }
+
+    fn stretch(&self, between: usize, inside: f64) -> Option<&Stretch> {
+        let stretches = &self.stretches[between];
+        let index = stretches.partition_point(|stretch| stretch.to < inside);
+        stretches.get(index).or_else(|| stretches.last())
+    }
+
+    /// The couplings of the back flanks, whose places run backwards from `length`, in m. The rear
+    /// and the front pair are then exchanged.
+    pub(super) fn reversed(&self, length: f64, base_pitch: f64) -> Couplings {
+        let mut pitches = 0.0;
+        let stretches = self.stretches.each_ref().map(|stretches| {
+            pitches += 1.0;
+            let about = length - pitches * base_pitch;
+            let reversed = stretches.iter().rev().map(|stretch| Stretch {
+                to: about - stretch.series.start(),
+                series: stretch.series.reversed(about, [1.0]),
+            });
+            reversed.collect()
+        });
+        Couplings { stretches }
+    }
+
+    /// Number of evaluations of the coupling.
+    pub(super) fn evaluations(&self) -> usize {
+        let all = self.stretches.iter().flatten();
+        all.map(|stretch| stretch.series.evaluations()).sum()
+    }
+}
+
+impl Way {
+    /// Places where the rear pair begins or ends, or one of both pairs passes a bend. Empty if the
+    /// range is too short for both pairs.
+    fn borders(&self, pitches: i32) -> Vec<f64> {
+        let apart = f64::from(pitches) * self.base_pitch;
+        let (from, to) = (self.ends.0, self.ends.1 - apart);
+        let bends = self.bends.iter();
+        let mut borders: Vec<f64> = bends
+            .flat_map(|bend| [*bend, bend - apart])
+            .filter(|edge| (from..=to).contains(edge))
+            .collect();
+        if from < to {
+            borders.extend([from, to]);
+        }
+        borders.sort_by(f64::total_cmp);
+        borders.dedup_by(|one, other| *one - *other <= 1e-12 * self.base_pitch);
+        borders
+    }
+}
+
+/// For tests: neighbours with a displacement by the radii of the rear pair and of the front one and
+/// the pitches between them.
+#[cfg(test)]
+pub(crate) fn with_neighbours<T>(
+    by_radii: impl Fn([f64; 2], [f64; 2], i32) -> f64,
+    find: impl FnOnce(&Neighbours<'_>) -> T,
+) -> T {
+    let at = |pair: [Lanes<TERMS>; 2], lane: usize| pair.map(|radii| radii.0[lane]);
+    find(&Neighbours {
+        abscissas: &|place| Ok([place.radius_driver, place.radius_driven]),
+        displacements: &|rear, front, pitches| {
+            Lanes(std::array::from_fn(|lane| by_radii(at(rear, lane), at(front, lane), pitches)))
+        },
+    })
 }
 
 #[cfg(test)]

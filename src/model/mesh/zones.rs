@@ -4,12 +4,11 @@
 use super::MeshInputs;
 use crate::model::Refusal;
 use crate::model::compliance::ContactPlace;
-use crate::model::compliance::contact::HalfWidth;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::geometry::{Geometry, geometry};
-use crate::model::position::{GapSeries, first_contact};
+use crate::model::position::first_contact;
+use crate::model::position::{TipContact, angle_at_curvature, gap, tip_at};
 use crate::model::relief::Relief;
-use crate::model::tip_gap::{TipContact, angle_at_curvature, gap, tip_at};
 use crate::numeric::chebyshev::Series;
 use crate::numeric::root;
 
@@ -118,7 +117,7 @@ pub(super) fn line_zones(
     let bends = flanks.bends((0.0, length), |s| {
         let along = geometry.start + s;
         let place = ContactPlace::on_line_of_action(geometry, along);
-        let half_width = HalfWidth::of(&inputs.elasticity).at(&place, force);
+        let half_width = inputs.elasticity.half_width(&place, force);
         ((along, rest - s), half_width)
     });
     let ends = driver_ends.chain(driven_ends).chain(pitch_point);
@@ -151,8 +150,7 @@ impl End {
         let circle = angle_at_curvature(&self.geometry, self.geometry.end);
         let whole = if circle.is_finite() { circle.min(LARGEST_ANGLE) } else { LARGEST_ANGLE };
         let whole = self.end_of_rounding(whole);
-        let series = GapSeries::of(&self.geometry);
-        match first_contact(&self.geometry, &series, reach) {
+        match first_contact(&self.geometry, reach) {
             Ok(angle) if angle < whole => (angle, false),
             _ => (whole, true),
         }
@@ -197,7 +195,7 @@ impl End {
         self.flanks.bends((0.0, reach), |angle| {
             let tip = tip_at(&self.geometry, angle);
             let place = self.place_of(&tip);
-            let half_width = HalfWidth::of(&self.inputs.elasticity).at(&place, force);
+            let half_width = self.inputs.elasticity.half_width(&place, force);
             (self.arms(&tip), half_width)
         })
     }

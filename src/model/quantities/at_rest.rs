@@ -1,14 +1,14 @@
 //! Rows of the static load sharing.
 
-use super::conditions::friction_given;
+use super::conditions::{always, friction_given};
 use super::{PLAIN, Quantity, Variant, checks, of_driver};
 use crate::model::Stage::{Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::explanation::Formula::{self, Difference, Found, Made, Solved, Text, Words};
 use crate::model::explanation::{Check, Context, Equation, Step, step};
+use crate::model::position::TipContact;
 use crate::model::position::{gap, tip_at};
 use crate::model::relief::Relief;
-use crate::model::tip_gap::TipContact;
 use crate::numeric::quadrature;
 
 const SPRINGS: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
@@ -108,19 +108,17 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 5,
         value: |s| Some(s.static_load.as_ref()?.peak_force),
         meaning: "The peak force on the incoming tooth at rest from its first contact to its \
-            last. In single-tooth contact it carries the whole mesh force.",
+            last. In single-tooth contact it carries the whole mesh force",
         formula: Found(
             "the largest F_k of the tooth from its first contact to its last, F_k >= 0 with x + e_k \
                 - S_k = Σ_j Q_kj F_j/b where F_k > 0, and Σ w_k F_k = F_0",
             SHARED,
         ),
         corrections: &["Eq. 53", "Eq. 54"],
-        variants: &[Variant::meaning(
-            friction_given,
-            "The peak force on the incoming tooth at rest from its first contact to its last. In \
-                single-tooth contact it carries the whole mesh force and the addition by \
-                friction.",
-        )],
+        variants: &[
+            Variant::meaning(friction_given, " and the addition by friction."),
+            Variant::meaning(always, "."),
+        ],
         ..AT_REST
     },
     Quantity {

@@ -2,7 +2,7 @@
 
 use crate::model::compliance::model_of;
 use crate::model::explanation::{Context, Finding, four, micro, mm};
-use crate::model::notes::inertia_at_rest;
+use crate::model::notes::{USUAL_BACKLASH, backlash, inertia_at_rest, is_possible, sliding};
 use crate::model::profile::{Profile, Rack};
 
 /// No interference at the start of contact.
@@ -38,15 +38,11 @@ pub(super) fn contact_ratio(k: &Context) -> Option<Finding> {
 
 /// A given centre distance leaves a usual backlash.
 pub(super) fn distance(k: &Context) -> Option<Finding> {
-    const JAM: f64 = -1e-4;
-    const OPEN: f64 = 0.1;
-    k.inputs.centre_distance?;
-    let backlash = k.solution.geometry.backlash(&k.inputs.shape());
-    let part = backlash / k.inputs.module;
+    let (backlash, part) = backlash(k)?;
     Finding::new(
         "a given centre distance leaves a normal backlash of 0 to a tenth of the module",
         format!("{}, {} of the module", mm(backlash), four(part)),
-        (JAM..=OPEN).contains(&part),
+        USUAL_BACKLASH.contains(&part),
     )
 }
 
@@ -101,9 +97,7 @@ pub(super) fn edge(k: &Context) -> Option<Finding> {
 
 /// Sliding does not reverse between D and E.
 pub(super) fn keeps_sliding(k: &Context) -> Option<Finding> {
-    let at_contact = k.solution.velocity?.sliding;
-    let speeds = k.inputs.speed + k.inputs.driven_speed();
-    let at_start = speeds * k.solution.geometry.approach_length;
+    let [at_contact, at_start] = sliding(k)?;
     Finding::new(
         "sliding keeps its direction from D to E",
         format!("{} m/s at D, {} m/s at E", four(at_contact), four(at_start)),
@@ -127,7 +121,7 @@ pub(super) fn pair_ahead(k: &Context) -> Option<Finding> {
 
 /// The impact ends before E.
 pub(super) fn within_approach(k: &Context) -> Option<Finding> {
-    let (duration, transit) = (k.solution.impact?.duration(), k.solution.velocity?.transit_time);
+    let (duration, transit) = (k.solution.impact?.duration, k.solution.velocity?.transit_time);
     Finding::new(
         "T_S <= t_DE: the impact ends before the normal mesh begins",
         format!("T_S = {}, t_DE = {}", micro(duration, "us"), micro(transit, "us")),
@@ -137,20 +131,18 @@ pub(super) fn within_approach(k: &Context) -> Option<Finding> {
 
 /// Force and duration are consistent.
 pub(super) fn possible(k: &Context) -> Option<Finding> {
-    const ROUNDING: f64 = 1e-9;
-    let ratio = k.solution.impact?.impulse_ratio();
-    let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
+    let ratio = k.solution.impact?.impulse_ratio;
     Finding::new(
         "1 <= κ <= 2: force and duration belong to one impact",
         format!("κ = {}", four(ratio)),
-        possible.contains(&ratio),
+        is_possible(ratio),
     )
 }
 
 /// The printed duration equals Hertz's.
 pub(super) fn printed_shorter(k: &Context) -> Option<Finding> {
     let impact = k.solution.impact?;
-    let (printed, hertz) = (impact.duration_printed(), impact.duration_hertz());
+    let (printed, hertz) = (impact.duration_printed, impact.duration_hertz());
     Finding::new(
         "T_S,32 equals the duration after Hertz",
         format!("T_S,32 = {}, T_S,H = {}", micro(printed, "us"), micro(hertz, "us")),
@@ -174,7 +166,7 @@ pub(super) fn coulomb(k: &Context) -> Option<Finding> {
 
 /// D' is before E.
 pub(super) fn before_start(k: &Context) -> Option<Finding> {
-    let printed = k.solution.impact?.duration_printed();
+    let printed = k.solution.impact?.duration_printed;
     let transit = k.solution.velocity?.transit_time;
     Finding::new(
         "T_S,32 <= t_DE: D' is before E",
@@ -197,7 +189,7 @@ pub(super) fn teeth_of_deflection(k: &Context) -> Option<Finding> {
 /// The contact is small compared with the tooth.
 pub(super) fn contact_small(k: &Context) -> Option<Finding> {
     const SMALL: f64 = 0.1;
-    let half_width = k.solution.impact?.hertz_half_width();
+    let half_width = k.solution.impact?.hertz_half_width;
     let limit = SMALL * k.inputs.module;
     Finding::new(
         "the contact is small compared with the tooth: a_H <= m/10",

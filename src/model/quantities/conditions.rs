@@ -4,133 +4,111 @@ use crate::model::deviation::Origin;
 use crate::model::inputs::{Combination, Drive, InertiaModel, Inputs, Method};
 
 /// Always true.
-#[must_use]
 pub const fn always(_: &Inputs) -> bool {
     true
 }
 
 /// Method `paper`.
-#[must_use]
 pub fn paper(inputs: &Inputs) -> bool {
     inputs.method == Method::Paper
 }
 
 /// Method `static`.
-#[must_use]
 pub fn at_rest(inputs: &Inputs) -> bool {
     inputs.method == Method::Static
 }
 
 /// Method `dynamic`.
-#[must_use]
 pub fn in_motion(inputs: &Inputs) -> bool {
     inputs.method == Method::Dynamic
 }
 
 /// A method with load sharing: `static` or `dynamic`.
-#[must_use]
 pub fn shared_load(inputs: &Inputs) -> bool {
     inputs.method.shares_load()
 }
 
 /// Method `auto`, which can choose any other method.
-#[must_use]
 pub fn auto(inputs: &Inputs) -> bool {
     inputs.method == Method::Auto
 }
 
 /// The case gives the power.
-#[must_use]
 pub fn power_given(inputs: &Inputs) -> bool {
     matches!(inputs.drive, Drive::Power(_))
 }
 
 /// The case gives the centre distance.
-#[must_use]
 pub fn distance_given(inputs: &Inputs) -> bool {
     inputs.centre_distance.is_some()
 }
 
 /// The case gives the deflection and the method uses it.
-#[must_use]
 pub fn deflection_used(inputs: &Inputs) -> bool {
     inputs.given_deflection().is_some()
 }
 
 /// The case gives a friction coefficient.
-#[must_use]
 pub fn friction_given(inputs: &Inputs) -> bool {
     inputs.friction_coefficient.is_some()
 }
 
 /// The case gives the edge radius of the driven tip.
-#[must_use]
 pub fn edge_given(inputs: &Inputs) -> bool {
     inputs.driven.tip_radius.is_some()
 }
 
 /// The driven tip is rounded, and the method includes the rounding.
-#[must_use]
 pub fn driven_rounded(inputs: &Inputs) -> bool {
     edge_given(inputs) && !paper(inputs)
 }
 
 /// The driver's tip is rounded, and the method includes the rounding.
-#[must_use]
 pub fn driver_rounded(inputs: &Inputs) -> bool {
     inputs.driver.tip_radius.is_some() && !paper(inputs)
 }
 
 /// A gear has its own base pitch deviation or flank tolerance class, or the deviations are known.
-#[must_use]
 pub fn any_base_pitch(inputs: &Inputs) -> bool {
     inputs.has_own_base_pitch() || inputs.combination == Combination::Sum
 }
 
 /// The driver's flank tolerance class gives its base pitch deviation.
-#[must_use]
 pub fn driver_graded(inputs: &Inputs) -> bool {
     inputs.base_pitch_of(&inputs.driver).1 == Origin::Grade
 }
 
 /// The case gives the driver's own base pitch deviation.
-#[must_use]
 pub fn driver_pitch_given(inputs: &Inputs) -> bool {
     inputs.driver.base_pitch.is_some()
 }
 
 /// The case gives the driver's moment of inertia.
-#[must_use]
 pub fn driver_inertia_given(inputs: &Inputs) -> bool {
     inputs.driver.inertia.is_some()
 }
 
 /// The driver's moment of inertia comes from its outline.
-#[must_use]
 pub fn driver_outline(inputs: &Inputs) -> bool {
     !driver_inertia_given(inputs) && inputs.inertia_model() == InertiaModel::Outline
 }
 
 /// The driven gear's flank tolerance class gives its base pitch deviation.
-#[must_use]
 pub fn driven_graded(inputs: &Inputs) -> bool {
     inputs.base_pitch_of(&inputs.driven).1 == Origin::Grade
 }
 
 /// The case gives the driven gear's own base pitch deviation.
-#[must_use]
 pub fn driven_pitch_given(inputs: &Inputs) -> bool {
     inputs.driven.base_pitch.is_some()
 }
 
 /// The case gives the driven gear's moment of inertia.
-#[must_use]
 pub fn driven_inertia_given(inputs: &Inputs) -> bool {
     inputs.driven.inertia.is_some()
 }
 
 /// The driven gear's moment of inertia comes from its outline.
-#[must_use]
 pub fn driven_outline(inputs: &Inputs) -> bool {
     !driven_inertia_given(inputs) && inputs.inertia_model() == InertiaModel::Outline
 }

@@ -7,7 +7,7 @@ use super::conditions::{
 use super::{PLAIN, Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};
-use crate::model::compliance::{ContactPlace, Teeth};
+use crate::model::compliance::{ContactPlace, Teeth, TeethCompliance};
 use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
 use crate::model::explanation::{Step, step};
 use crate::model::inputs::{Combination, Method};
@@ -31,7 +31,7 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "equivalent error",
         value: |s| Some(s.deviation.equivalent_error),
         meaning: "The distance along the line of action by which the deviations of both gears \
-            bring the incoming tooth into contact early. Relief reduces it by its full amount.",
+            bring the incoming tooth into contact early",
         formula: Cases(&[
             (any_base_pitch, Made(own_error)),
             (paper, Difference("(2 f_pb + e_m - j_bn)/√2")),
@@ -45,23 +45,20 @@ pub(super) const TABLE: &[Quantity] = &[
         variants: &[
             Variant::words(
                 shared_load,
-                "The distance along the line of action by which the deviations of both gears \
-                    bring the incoming tooth into contact early, without the reliefs. In this \
-                    method the reliefs act on the flanks over their length. Method exact calls \
-                    the sum of this distance and e_m Δf.",
+                ", without the reliefs. In this method the reliefs act on the flanks over their \
+                    length. Method exact calls the sum of this distance and e_m Δf.",
                 "Deviations of which only the size is known are independent and add as squares, \
                     hence the factor 1/√2; with combination sum they add with their signs. The \
                     reliefs are not included. A backlash does not delay a drive flank under load.",
             ),
             Variant::words(
                 paper,
-                "The distance along the line of action by which the deviations of both gears \
-                    bring the incoming tooth into contact early. Relief reduces it by 1/√2 of its \
-                    amount, as printed.",
+                ". Relief reduces it by 1/√2 of its amount, as printed.",
                 "The f_pb of both gears, j_bn and e_m are independent random deviations, which \
                     add as squares: hence the factor 1/√2. A ground relief is not random: method \
                     exact counts its full amount.",
             ),
+            Variant::meaning(always, ". Relief reduces it by its full amount."),
         ],
         is_signed: true,
         ..DEVIATION
@@ -71,28 +68,21 @@ pub(super) const TABLE: &[Quantity] = &[
         symbol: "e_m",
         label: "modification at run-in",
         value: |s| Some(s.deviation.modification),
-        meaning: "The material that the reliefs remove where the incoming tooth first touches: \
-            the tip relief of the driven gear and the root relief of the driver, as a negative \
-            number. Δf and Δ include its full amount.",
+        meaning: "The material that the reliefs remove where tip and root meet: the tip relief of \
+            the driven gear and the root relief of the driver, as a negative number.",
         formula: Text("-(Ca2 + Cf1)"),
         assumptions: "Both reliefs have their full amount at the first contact, whatever their \
             length.",
         variants: &[
             Variant::words(
                 shared_load,
-                "The material that the reliefs remove where tip and root meet: the tip relief of \
-                    the driven gear and the root relief of the driver, as a negative number. Only \
-                    Δ includes it. The forces of this method follow the reliefs on the flanks, \
+                " Only Δ includes it. The forces of this method follow the reliefs on the flanks, \
                     with their length and shape.",
                 "Both reliefs have their full amount where the driven tip meets the driver's \
                     flank.",
             ),
-            Variant::meaning(
-                paper,
-                "The material that the reliefs remove where tip and root meet: the tip relief of \
-                    the driven gear and the root relief of the driver, as a negative number. Δf \
-                    includes 1/√2 of it, as printed.",
-            ),
+            Variant::meaning(paper, " Δf includes 1/√2 of it, as printed."),
+            Variant::meaning(always, " Δf and Δ include its full amount."),
         ],
         is_signed: true,
         ..DEVIATION
@@ -104,7 +94,7 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "Eq. 3",
         value: |s| Some(s.deviation.combined_deflection),
         meaning: "The deflection along the line of action of the pairs that carry the load when \
-            the incoming pair is at E.",
+            the incoming pair is at E",
         formula: Cases(&[(deflection_used, Given("model.deflection")), (always, Made(deflection))]),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of \
             the curve in Fig. 3. Table 1 uses 24.7 um from reference 20 of the paper.",
@@ -117,24 +107,20 @@ pub(super) const TABLE: &[Quantity] = &[
         variants: &[
             Variant::meaning(
                 in_motion,
-                "The deflection at rest along the line of action of the pairs that carry the load \
-                    when the incoming pair is at E. In motion the mesh oscillates about this \
-                    deflection. The method ignores a deflection that the case gives.",
+                ", at rest. In motion the mesh oscillates about this deflection. The method \
+                    ignores a deflection that the case gives.",
             ),
             Variant::meaning(
                 shared_load,
-                "The deflection along the line of action of the pairs that carry the load when \
-                    the incoming pair is at E, on flanks without relief. The method ignores a \
-                    deflection that the case gives.",
+                ", on flanks without relief. The method ignores a deflection that the case gives.",
             ),
             Variant::words(
                 deflection_used,
-                "The deflection along the line of action of the pairs that carry the load when \
-                    the incoming pair is at E. The case gives it, and the load does not change \
-                    it.",
+                ". The case gives it, and the load does not change it.",
                 "The given deflection belongs to the load of the case. The program does not \
                     compare the two.",
             ),
+            Variant::meaning(always, "."),
         ],
         ..DEVIATION
     },
@@ -144,8 +130,7 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "total deviation",
         equation: "Eq. 5",
         value: |s| Some(s.deviation.total),
-        meaning: "The total distance by which the incoming tooth is early. Above 0 the tip \
-            strikes before E. At 0 or below there is no contact before E.",
+        meaning: "The total distance by which the incoming tooth is early",
         formula: Cases(&[
             (shared_load, Difference("Δf_0 + e_m + δ")),
             (always, Difference("Δf + δ")),
@@ -156,16 +141,14 @@ pub(super) const TABLE: &[Quantity] = &[
         variants: &[
             Variant::words(
                 in_motion,
-                "The total distance by which the incoming tooth is early at rest. In motion the \
-                    mesh oscillates, so the tooth may touch before E whether Δ is positive or \
+                " at rest. In motion the mesh oscillates, so the tooth may touch before E whether Δ is positive or \
                     negative; see dynamic_first_contact_angle.",
                 "Deviations and deflection add up along the line of action. The gears are at \
                     rest, and the pairs ahead are on flanks without relief.",
             ),
             Variant::words(
                 shared_load,
-                "The total distance by which the incoming tooth is early if the pairs ahead are \
-                    on flanks without relief. Above 0 it touches before E, at 0 or below it does \
+                " if the pairs ahead are on flanks without relief. Above 0 it touches before E, at 0 or below it does \
                     not. The balance of all pairs decides: static_first_contact_angle has the \
                     answer.",
                 "Deviations and deflection add up along the line of action. The pairs ahead are \
@@ -173,9 +156,12 @@ pub(super) const TABLE: &[Quantity] = &[
             ),
             Variant::meaning(
                 paper,
-                "The total distance by which the incoming tooth is early. At 0 or below there is \
-                    no contact before E. Above 0 the tip strikes if the printed equations give an \
-                    angle before E.",
+                ". At 0 or below there is no contact before E. Above 0 the tip strikes if the \
+                    printed equations give an angle before E.",
+            ),
+            Variant::meaning(
+                always,
+                ". Above 0 the tip strikes before E. At 0 or below there is no contact before E.",
             ),
         ],
         is_signed: true,
@@ -271,10 +257,8 @@ fn displaced(k: &Context) -> String {
 
 /// Displacement of the incoming pair at E by a unit force on the pair at F.
 fn coupling_at_start(k: &Context) -> Option<f64> {
-    let elasticity = k.inputs.elasticity();
-    let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
-    let place = |pitches| Some(teeth.under(&place(k, pitches)?, k.solution.mesh_force));
-    teeth.coupling(&place(0)?, &place(1)?, 1).ok()
+    let (teeth, start) = loaded(k, 0)?;
+    teeth.coupling(&start, &loaded(k, 1)?.1, 1).ok()
 }
 
 /// Eqs. 3 and 4 with the number of loaded pairs.
@@ -300,67 +284,97 @@ fn place(k: &Context, pitches: u32) -> Option<ContactPlace> {
     before_end.then(|| ContactPlace::on_line_of_action(geometry, along))
 }
 
-/// Compliance of the pair `pitches` base pitches after E, under the mesh force.
-fn ahead(k: &Context, pitches: u32) -> Option<f64> {
-    let solution = k.solution;
-    let elasticity = k.inputs.elasticity();
-    let teeth = Teeth::of(&elasticity, &solution.geometry).ok()?;
-    teeth.pair_at_load(&place(k, pitches)?, solution.mesh_force).ok()
+/// The teeth, and the place of the load `pitches` base pitches after E under the mesh force.
+fn loaded(k: &Context, pitches: u32) -> Option<(Teeth, ContactPlace)> {
+    let teeth = Teeth::of(&k.inputs.elasticity(), &k.solution.geometry).ok()?;
+    let place = teeth.under(&place(k, pitches)?, k.solution.mesh_force);
+    Some((teeth, place))
 }
 
-fn teeth_ahead(k: &Context) -> Option<[f64; 2]> {
-    let elasticity = k.inputs.elasticity();
-    let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
-    let place = teeth.under(&place(k, 1)?, k.solution.mesh_force);
-    let teeth = teeth.at(&place).ok()?;
-    Some([teeth.driver, teeth.driven])
+/// Compliance of the pair `pitches` base pitches after E, under the mesh force.
+fn ahead(k: &Context, pitches: u32) -> Option<f64> {
+    let (teeth, place) = loaded(k, pitches)?;
+    teeth.pair_at_load(&place, k.solution.mesh_force).ok()
+}
+
+fn teeth_ahead(k: &Context) -> Option<TeethCompliance> {
+    let (teeth, place) = loaded(k, 1)?;
+    teeth.at(&place).ok()
 }
 
 fn contact_ahead(k: &Context) -> Option<f64> {
-    let elasticity = k.inputs.elasticity();
-    let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
-    let place = teeth.under(&place(k, 1)?, k.solution.mesh_force);
-    let spring = teeth.spring(&place).ok()?;
-    spring.compliance(k.solution.mesh_force).ok()
+    let (teeth, place) = loaded(k, 1)?;
+    teeth.spring(&place).ok()?.compliance(k.solution.mesh_force).ok()
+}
+
+/// The tolerance and the deviation of a gear: its number, its member of the inputs, its name, and the
+/// conditions and the key of its own deviation.
+macro_rules! pitches {
+    ($n:literal, $gear:ident, $of:literal, $name:literal, $given:ident, $graded:ident, $key:literal) => {
+        [
+            step(
+                concat!("f_pT", $n),
+                concat!(
+                    "single pitch deviation of the ",
+                    $of,
+                    " flank tolerance class, rounded by ISO 1328-1"
+                ),
+                "um",
+                Words(concat!("(0.001 d + 0.4 m + 5) 2^((A", $n, " - 5)/2) um, d and m in mm")),
+                |k| k.inputs.graded_pitch(&k.inputs.$gear),
+            ),
+            step(
+                concat!("f_pb", $n),
+                concat!("base pitch deviation of the ", $name),
+                "um",
+                Cases(&[
+                    ($given, Given($key)),
+                    ($graded, Text(concat!("f_pT", $n, " cos α"))),
+                    (always, Text("f_pb")),
+                ]),
+                |k| Some(k.inputs.base_pitch_of(&k.inputs.$gear).0),
+            ),
+        ]
+    };
+}
+
+const DRIVER: [Step; 2] = pitches!(
+    "1",
+    driver,
+    "driver's",
+    "driver",
+    driver_pitch_given,
+    driver_graded,
+    "driver.base_pitch"
+);
+const DRIVEN: [Step; 2] = pitches!(
+    "2",
+    driven,
+    "driven gear's",
+    "driven gear",
+    driven_pitch_given,
+    driven_graded,
+    "driven.base_pitch"
+);
+
+/// The compliance of a pair farther ahead.
+macro_rules! ahead {
+    ($symbol:literal, $word:literal, $pitches:literal) => {
+        step(
+            $symbol,
+            concat!("compliance of the pair ", $word, " base pitches after E"),
+            "um mm/N",
+            Words("computed as for the pair at F"),
+            |k| ahead(k, $pitches),
+        )
+    };
 }
 
 pub(super) const STEPS: &[Step] = &[
-    step(
-        "f_pT1",
-        "single pitch deviation of the driver's flank tolerance class, rounded by ISO 1328-1",
-        "um",
-        Words("(0.001 d + 0.4 m + 5) 2^((A1 - 5)/2) um, d and m in mm"),
-        |k| k.inputs.graded_pitch(&k.inputs.driver),
-    ),
-    step(
-        "f_pT2",
-        "single pitch deviation of the driven gear's flank tolerance class, rounded by ISO 1328-1",
-        "um",
-        Words("(0.001 d + 0.4 m + 5) 2^((A2 - 5)/2) um, d and m in mm"),
-        |k| k.inputs.graded_pitch(&k.inputs.driven),
-    ),
-    step(
-        "f_pb1",
-        "base pitch deviation of the driver",
-        "um",
-        Cases(&[
-            (driver_pitch_given, Given("driver.base_pitch")),
-            (driver_graded, Text("f_pT1 cos α")),
-            (always, Text("f_pb")),
-        ]),
-        |k| Some(k.inputs.base_pitches()[0]),
-    ),
-    step(
-        "f_pb2",
-        "base pitch deviation of the driven gear",
-        "um",
-        Cases(&[
-            (driven_pitch_given, Given("driven.base_pitch")),
-            (driven_graded, Text("f_pT2 cos α")),
-            (always, Text("f_pb")),
-        ]),
-        |k| Some(k.inputs.base_pitches()[1]),
-    ),
+    DRIVER[0],
+    DRIVEN[0],
+    DRIVER[1],
+    DRIVEN[1],
     step("δ_F", "deflection of the pairs ahead under F_0", "um", Made(ahead_alone), |k| {
         is_coupled(k).then(|| k.solution.deviation.loaded_deflection())
     }),
@@ -390,14 +404,14 @@ pub(super) const STEPS: &[Step] = &[
         "driver's tooth of that pair, loaded at O1F",
         "um mm/N",
         Words("the tooth compliance at that radius"),
-        |k| Some(teeth_ahead(k)?[0]),
+        |k| Some(teeth_ahead(k)?.driver),
     ),
     step(
         "q_2F",
         "driven tooth of that pair, loaded at O2F",
         "um mm/N",
         Words("the tooth compliance at that radius"),
-        |k| Some(teeth_ahead(k)?[1]),
+        |k| Some(teeth_ahead(k)?.driven),
     ),
     step(
         "q_HF",
@@ -406,25 +420,7 @@ pub(super) const STEPS: &[Step] = &[
         Words("the contact compliance at that load"),
         contact_ahead,
     ),
-    step(
-        "q_F,2",
-        "compliance of the pair two base pitches after E",
-        "um mm/N",
-        Words("computed as for the pair at F"),
-        |k| ahead(k, 2),
-    ),
-    step(
-        "q_F,3",
-        "compliance of the pair three base pitches after E",
-        "um mm/N",
-        Words("computed as for the pair at F"),
-        |k| ahead(k, 3),
-    ),
-    step(
-        "q_F,4",
-        "compliance of the pair four base pitches after E",
-        "um mm/N",
-        Words("computed as for the pair at F"),
-        |k| ahead(k, 4),
-    ),
+    ahead!("q_F,2", "two", 2),
+    ahead!("q_F,3", "three", 3),
+    ahead!("q_F,4", "four", 4),
 ];

@@ -20,7 +20,7 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| s.friction?.ratio,
         meaning: "The averaged impact friction coefficient of the paper: the change of the \
             sliding velocity over the change of the approach velocity from D to D', the end of \
-            the impact. D' is the position of the same tip at u', after the time T_S,32.",
+            the impact. D' is ",
         formula: Difference("|ΔV_τ' - ΔV_τ|/|ΔV_n' - ΔV_n|"),
         source: "Zhou & Chen 2014, Eqs. 29-45 and 61-64.",
         corrections: &[
@@ -36,13 +36,13 @@ pub(super) const TABLE: &[Quantity] = &[
             by friction. The ratio is not a material property, and the Coulomb coefficient does \
             not limit the ratio.",
         checks: &[checks::coulomb, checks::before_start],
-        variants: &[Variant::meaning(
-            paper,
-            "The averaged impact friction coefficient of the paper: the change of the sliding \
-                velocity over the change of the approach velocity from D to D', the end of the \
-                impact. D' is the point at which the triangle of Eq. 34 closes, after the time \
-                T_S,32.",
-        )],
+        variants: &[
+            Variant::meaning(
+                paper,
+                "the point at which the triangle of Eq. 34 closes, after the time T_S,32.",
+            ),
+            Variant::meaning(always, "the position of the same tip at u', after the time T_S,32."),
+        ],
         ..RATIO
     },
     Quantity {
@@ -69,7 +69,7 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "impulse ratio",
         equation: "(2/π)F_S·T_S/(M·ΔV_n)",
         stage: Impact,
-        value: |s| Some(s.impact?.impulse_ratio()),
+        value: |s| Some(s.impact?.impulse_ratio),
         meaning: "The ratio of the impulse of a half-sine force, with peak F_S and duration T_S, \
             to the approach momentum M ΔV_n. An elastic impact gives 2, an impact without rebound \
             gives 1. Outside 1 to 2, force and duration contradict each other.",
@@ -100,7 +100,7 @@ struct End {
 impl End {
     fn of(k: &Context) -> Option<End> {
         let (geometry, impact) = (&k.solution.geometry, k.solution.impact?);
-        let (position, time) = (k.solution.position?, impact.duration_printed());
+        let (position, time) = (k.solution.position?, impact.duration_printed);
         let edge = geometry.driven.edge;
         let (tip, distance) = (geometry.driven.tip - edge, geometry.centre_distance);
         let turn = k.inputs.speed * time;

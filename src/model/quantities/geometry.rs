@@ -1,9 +1,10 @@
 //! Rows of the geometry and the load, with their steps.
 
 use super::checks;
-use super::conditions::{always, distance_given, driven_rounded, driver_rounded, power_given};
+use super::conditions::{
+    always, deflection_used, distance_given, driven_rounded, driver_rounded, power_given,
+};
 use super::{PLAIN, Quantity, Variant};
-use crate::model::Context;
 use crate::model::Stage::{Geometry, Load};
 use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
 use crate::model::explanation::{Equation, Step, step};
@@ -90,18 +91,22 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "T1/rb1",
         stage: Load,
         value: |s| Some(s.mesh_force),
-        meaning: "The steady force along the line of action. It deflects the teeth, and the \
-            dynamic factor compares the impact force with it.",
+        meaning: "The steady force along the line of action. ",
         formula: Text("T1/r_b1"),
         source: "Static balance of the driver, torque over base radius, T1/rb1.",
         corrections: &["section 6"],
         assumptions: "Constant torque and speed, no losses in the mesh.",
-        variants: &[Variant::meaning(
-            super::conditions::deflection_used,
-            "The steady force along the line of action. The dynamic factor compares the impact \
-                force with it. The case gives the deflection, so the load changes neither the \
-                place nor the force of the impact.",
-        )],
+        variants: &[
+            Variant::meaning(
+                deflection_used,
+                "The dynamic factor compares the impact force with it. The case gives the \
+                    deflection, so the load changes neither the place nor the force of the impact.",
+            ),
+            Variant::meaning(
+                always,
+                "It deflects the teeth, and the dynamic factor compares the impact force with it.",
+            ),
+        ],
         ..PLAIN
     },
 ];
@@ -121,61 +126,65 @@ const INVOLUTE: Equation = Equation {
     },
 };
 
-fn masses(k: &Context) -> [f64; 2] {
-    let masses = k.solution.kept.masses;
-    [masses.driver, masses.driven]
+/// The radii and the mass of a gear: its number, its member of the geometry, its name, and that of
+/// its tip.
+macro_rules! gear {
+    ($n:literal, $gear:ident, $name:literal, $tip:literal) => {
+        [
+            step(
+                concat!("r_", $n),
+                concat!("reference radius of the ", $name),
+                "mm",
+                Text(concat!("m z", $n, "/2")),
+                |k| Some(k.solution.geometry.$gear.reference),
+            ),
+            step(
+                concat!("r_b", $n),
+                concat!("base radius of the ", $name),
+                "mm",
+                Text(concat!("r_", $n, " cos α")),
+                |k| Some(k.solution.geometry.$gear.base),
+            ),
+            step(
+                concat!("r_a", $n),
+                concat!("tip radius of the ", $name, " without the chamfer"),
+                "mm",
+                Text(concat!("m (z", $n, "/2 + ha*", $n, " + x", $n, ") - hk", $n)),
+                |k| Some(k.solution.geometry.$gear.tip),
+            ),
+            step(
+                concat!("r_C", $n),
+                concat!("radius of the centre of the rounding of the ", $tip),
+                "mm",
+                Text(concat!("r_a", $n, " - re", $n)),
+                |k| Some(k.solution.geometry.$gear.tip - k.solution.geometry.$gear.edge),
+            ),
+            step(
+                concat!("m_", $n),
+                concat!("mass of the ", $name, " at its base circle, Eq. 46 in kg"),
+                "kg",
+                Text(concat!("J_", $n, "/r_b", $n, "²")),
+                |k| Some(k.solution.kept.masses.$gear),
+            ),
+        ]
+    };
 }
+
+const DRIVER: [Step; 5] = gear!("1", driver, "driver", "driver's tip");
+const DRIVEN: [Step; 5] = gear!("2", driven, "driven gear", "driven tip");
 
 pub(super) const STEPS: &[Step] = &[
     step("i", "ratio of the tooth numbers, ω_1/ω_2", "1", Text("z2/z1"), |k| {
         Some(k.inputs.ratio())
     }),
-    step("r_1", "reference radius of the driver", "mm", Text("m z1/2"), |k| {
-        Some(k.solution.geometry.driver.reference)
-    }),
-    step("r_2", "reference radius of the driven gear", "mm", Text("m z2/2"), |k| {
-        Some(k.solution.geometry.driven.reference)
-    }),
-    step("r_b1", "base radius of the driver", "mm", Text("r_1 cos α"), |k| {
-        Some(k.solution.geometry.driver.base)
-    }),
-    step("r_b2", "base radius of the driven gear", "mm", Text("r_2 cos α"), |k| {
-        Some(k.solution.geometry.driven.base)
-    }),
-    step(
-        "r_a1",
-        "tip radius of the driver without the chamfer",
-        "mm",
-        Text("m (z1/2 + ha*1 + x1) - hk1"),
-        |k| Some(k.solution.geometry.driver.tip),
-    ),
-    step(
-        "r_a2",
-        "tip radius of the driven gear without the chamfer",
-        "mm",
-        Text("m (z2/2 + ha*2 + x2) - hk2"),
-        |k| Some(k.solution.geometry.driven.tip),
-    ),
-    step(
-        "r_C1",
-        "radius of the centre of the rounding of the driver's tip",
-        "mm",
-        Text("r_a1 - re1"),
-        |k| {
-            let circles = &k.solution.geometry.driver;
-            Some(circles.tip - circles.edge)
-        },
-    ),
-    step(
-        "r_C2",
-        "radius of the centre of the rounding of the driven tip",
-        "mm",
-        Text("r_a2 - re2"),
-        |k| {
-            let circles = &k.solution.geometry.driven;
-            Some(circles.tip - circles.edge)
-        },
-    ),
+    DRIVER[0],
+    DRIVEN[0],
+    DRIVER[1],
+    DRIVEN[1],
+    DRIVER[2],
+    DRIVEN[2],
+    DRIVER[3],
+    DRIVEN[3],
     step(
         "N2E",
         "from the driven gear's tangent point to E",
@@ -232,18 +241,6 @@ pub(super) const STEPS: &[Step] = &[
         |k| Some(k.inputs.torque()),
     ),
     step("b", "common face width", "mm", Text("min(b1, b2)"), |k| Some(k.inputs.common_width())),
-    step(
-        "m_1",
-        "mass of the driver at its base circle, Eq. 46 in kg",
-        "kg",
-        Text("J_1/r_b1²"),
-        |k| Some(masses(k)[0]),
-    ),
-    step(
-        "m_2",
-        "mass of the driven gear at its base circle, Eq. 46 in kg",
-        "kg",
-        Text("J_2/r_b2²"),
-        |k| Some(masses(k)[1]),
-    ),
+    DRIVER[4],
+    DRIVEN[4],
 ];

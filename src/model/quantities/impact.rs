@@ -2,12 +2,10 @@
 
 use super::conditions::{
     always, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline, paper,
-    shared_load,
 };
 use super::{PLAIN, Quantity, Variant, checks};
 use crate::model;
 use crate::model::Stage::{Band, Impact, Masses};
-use crate::model::compliance::contact::plane_strain_compliance;
 use crate::model::explanation::Formula::{Cases, Given, Made, Text, Words};
 use crate::model::explanation::{Context, Step, step};
 use crate::model::impact::{HERTZ_PREFACTOR, StiffnessModels};
@@ -19,9 +17,6 @@ const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes
 const BAND: &str = "Every tooth compliance that covers the pair is combined with every contact \
     compliance. Each combination uses the given deflection, or else its own deflection. The mass \
     is the same for all models. No measurement shows which model is correct.";
-const BAND_SHARED: &str = "Every tooth compliance that covers the pair is combined with every \
-    contact compliance, each with its own deflection. The models share the mass, and \
-    no measurement shows which model is right.";
 const SPHERES: &str = "Two spheres collide. The bending of the teeth is neglected.";
 const BODY: &str = "Each gear is a solid body of its own width from the bore to its outline, or to \
     the base circle with model.inertia = \"base-circle\", without web, shaft or coupling. The field \
@@ -106,15 +101,6 @@ macro_rules! spread {
                 " of the stiffness models that cover the pair."
             ),
             formula: Made(|k| over_models(k, $choice)),
-            variants: &[Variant::words(
-                shared_load,
-                concat!(
-                    "The force of the free impact by the ",
-                    $word,
-                    " of the stiffness models that cover the pair."
-                ),
-                BAND_SHARED,
-            )],
             ..FORCE
         }
     };
@@ -185,18 +171,21 @@ pub(super) const TABLE: &[Quantity] = &[
         symbol: "T_S",
         label: "impact duration",
         equation: "by the method",
-        value: |s| Some(s.impact?.duration()),
-        meaning: "The duration of the impact by the method of the case.",
+        value: |s| Some(s.impact?.duration),
+        meaning: "The duration of the impact by ",
         formula: Cases(&[(paper, Text("T_S,32")), (always, Text("T_S,q"))]),
         source: "Method paper: Zhou & Chen 2014, Eq. 32. Method exact: half a period of the \
             spring and mass that give F_S.",
         checks: &[checks::within_approach, checks::possible],
-        variants: &[Variant::words(
-            paper,
-            "The duration of the impact by Eq. 32 as printed.",
-            "Two spheres collide. The bending of the teeth, which determines the force, is \
-                neglected.",
-        )],
+        variants: &[
+            Variant::words(
+                paper,
+                "Eq. 32 as printed.",
+                "Two spheres collide. The bending of the teeth, which determines the force, is \
+                    neglected.",
+            ),
+            Variant::meaning(always, "the method of the case."),
+        ],
         ..DURATION
     },
     Quantity {
@@ -204,7 +193,7 @@ pub(super) const TABLE: &[Quantity] = &[
         symbol: "T_S,32",
         label: "  by Eq. 32 as printed",
         equation: "Eq. 32",
-        value: |s| Some(s.impact?.duration_printed()),
+        value: |s| Some(s.impact?.duration_printed),
         meaning: "The duration of Eq. 32 as printed. Methods paper and exact compute the friction \
             ratio with it, as published.",
         formula: Text("(m_red²/(π² ΔV_n ρ_S E'²))^(1/5)"),
@@ -233,7 +222,7 @@ pub(super) const TABLE: &[Quantity] = &[
         symbol: "T_S,q",
         label: "  by pair compliance",
         equation: "π√(Mq/b)",
-        value: |s| Some(s.impact?.duration_spring()),
+        value: |s| Some(s.impact?.duration_spring),
         meaning: "Half a period of the effective mass on the pair compliance. The impact force \
             uses the same mass and compliance.",
         formula: Text("π √(M q_s/b)"),
@@ -315,7 +304,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 5,
         equation: "Eq. 55",
         stage: Impact,
-        value: |s| Some(s.impact?.hertz_half_width()),
+        value: |s| Some(s.impact?.hertz_half_width),
         meaning: "Half the width of the contact area of tip and flank under the impact force.",
         formula: Text("√(4 F_S ρ_S/(π b E'))"),
         source: "Hertz 1882, two cylinders. Zhou & Chen 2014 do not define a in Eq. 55.",
@@ -364,7 +353,6 @@ fn over_models(k: &Context, choice: &str) -> String {
 }
 
 /// The impact force by other stiffness models, in N.
-#[must_use]
 pub fn spread_force(inputs: &Inputs, models: &StiffnessModels) -> Option<f64> {
     let solution = model::solve(&models.in_place_of(inputs), Stages::of(Impact)).ok()?;
     Some(solution.impact?.force)
@@ -408,7 +396,7 @@ pub(super) const STEPS: &[Step] = &[
         "modulus of both materials in plane strain",
         "GPa",
         Text("1/((1 - ν1²)/E1 + (1 - ν2²)/E2)"),
-        |k| Some(1.0 / plane_strain_compliance(&k.inputs.elasticity())),
+        |k| Some(1.0 / k.inputs.elasticity().give()),
     ),
     step("C_H", "ratio of Hertz's duration to Eq. 32", "1", Text("2.868265699 π^(2/5)"), |_| {
         Some(HERTZ_PREFACTOR)

@@ -116,8 +116,7 @@ pub(super) const TABLE: &[Quantity] = &[
         corrections: &["Eq. 54"],
         variants: &[Variant::meaning(
             conditions::driven_rounded,
-            "The peak force on the incoming tooth from its first contact to its last: the load on \
-                its root and its flank. At E the contact passes from the tip radius to the flank, and \
+            " At E the contact passes from the tip radius to the flank, and \
                 the stiffness of the pair rises in one step, but the displacement does not: the force \
                 rises by the same ratio at any speed, and the peak can stay above F_st,max as the \
                 speed falls. In a real pair the stiffness rises while the contact moves by its own \

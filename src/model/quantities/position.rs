@@ -11,6 +11,9 @@ use crate::model::position::{gap, printed_turns};
 const TIP: &str = "The tip of the driven gear meets the involute of the driver: a sharp edge, or the \
     arc of its tip radius. Both gears turn at their steady speeds up to D.";
 
+const PRINTED: &str = " by the printed equations, which are linear in Δ. They place D so close to E \
+    that the tip has closed only a small part of its gap: see closed_gap.";
+
 /// A length at D.
 const LENGTH: Quantity = Quantity {
     unit: "m",
@@ -44,18 +47,15 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "driver angle before E",
         equation: "Eq. 12",
         value: |s| Some(s.position?.approach_angle_driver),
-        meaning: "The angle through which the driver turns from the first contact D to E, where \
-            contact should begin.",
+        meaning: "The angle through which the driver turns from the first contact D to E",
         formula: Cases(&[(paper, Text("ε_e + ε_d")), (always, Text("i u"))]),
         source: "Zhou & Chen 2014, Eqs. 11-20. Method exact: the contact condition S(u) = Δ of \
             the two involutes (see approach_angle_driven), and Eq. 11.",
         checks: &[checks::gap_closed, checks::on_flank],
-        variants: &[Variant::meaning(
-            paper,
-            "The angle through which the driver turns from D to E by the printed equations, which \
-                are linear in Δ. They place D so close to E that the tip has closed only a small \
-                part of its gap: see closed_gap.",
-        )],
+        variants: &[
+            Variant::meaning(paper, PRINTED),
+            Variant::meaning(always, ", where contact should begin."),
+        ],
         by_static: Some("static_first_contact_angle_driver"),
         by_dynamic: Some("dynamic_first_contact_angle_driver"),
         ..ANGLE
@@ -66,20 +66,20 @@ pub(super) const TABLE: &[Quantity] = &[
         label: "driven angle before E",
         equation: "Eq. 11",
         value: |s| Some(s.position?.approach_angle_driven),
-        meaning: "The angle through which the driven gear turns from the first contact D to E. \
-            S(u) is the gap between its tip and the driver's flank along the contact normal. At D \
-            the total deviation Δ has closed this gap.",
+        meaning: "The angle through which the driven gear turns from the first contact D to E",
         formula: Cases(&[(paper, Text("θ_1/i")), (always, Solved(&CONTACT))]),
         source: "Zhou & Chen 2014, Eq. 11. Method exact: the contact condition of the path of the \
             tip and the involute of the driver, solved by Newton's method; dS/du = r_b2 - r_b2', \
             so u grows with √Δ.",
         checks: &[checks::start, checks::gap_closed, checks::on_flank],
-        variants: &[Variant::meaning(
-            paper,
-            "The angle through which the driven gear turns from D to E by the printed equations, \
-                which are linear in Δ. They place D so close to E that the tip has closed only a \
-                small part of its gap: see closed_gap.",
-        )],
+        variants: &[
+            Variant::meaning(paper, PRINTED),
+            Variant::meaning(
+                always,
+                ". S(u) is the gap between its tip and the driver's flank along the contact normal. \
+                    At D the total deviation Δ has closed this gap.",
+            ),
+        ],
         by_static: Some("static_first_contact_angle"),
         by_dynamic: Some("dynamic_first_contact_angle"),
         ..ANGLE

@@ -8,7 +8,7 @@ use crate::model::Stage::{StaticSpectrum, SteadyMotion};
 use crate::model::dynamic::steady::Steady;
 use crate::model::explanation::Formula::{self, Found};
 use crate::model::explanation::{Check, Context, Finding};
-use crate::model::static_spectrum;
+use crate::model::static_load;
 
 const AT_REST: &str = "All pairs share the mesh force at rest. No pair has a deviation, so the \
     transmission error repeats with every base pitch; the reliefs of all pairs count.";
@@ -232,7 +232,7 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
-fn at_rest(solution: &Solution) -> Option<&static_spectrum::StaticSpectrum> {
+fn at_rest(solution: &Solution) -> Option<&static_load::StaticSpectrum> {
     solution.static_spectrum.as_ref()?.as_ref().ok()
 }
 

@@ -195,3 +195,34 @@ fn the_first_contact_follows_the_torque_over_a_jump_of_friction() {
         assert!((0.0..1e-4).contains(&rise), "{pair:?}");
     }
 }
+
+#[test]
+fn a_sawtooth_has_the_harmonics_of_its_series() {
+    let mut fourier = Fourier::new();
+    for ends in [(0.0, 0.3), (0.3, 1.0)] {
+        fourier.add(ends, |part| ends.0 + part * (ends.1 - ends.0));
+    }
+    for (order, amplitude) in (1..).zip(fourier.spectrum(1).amplitudes) {
+        let expected = 1.0 / (std::f64::consts::PI * f64::from(order));
+        assert!((amplitude / expected - 1.0).abs() < 1e-12, "{order}: {amplitude}");
+    }
+}
+
+#[test]
+fn two_periods_have_the_same_harmonics_as_one() {
+    let mut fourier = Fourier::new();
+    for _ in 0..2 {
+        fourier.add((0.0, 1.0), |part| {
+            5.0 + 0.3 * (TAU * part).sin() + 0.02 * (9.0 * TAU * part).cos()
+        });
+    }
+    let found = fourier.spectrum(2).amplitudes;
+    for (order, amplitude) in (1..).zip(found) {
+        let expected = match order {
+            1 => 0.3,
+            9 => 0.02,
+            _ => 0.0,
+        };
+        assert!((amplitude - expected).abs() < 1e-14, "{order}: {amplitude:e}");
+    }
+}

@@ -467,7 +467,7 @@ impl Known<'_> {
             let (value, origin) = (value(&self.context), Origin::Step(formula));
             Source { symbol, meaning, value, unit, origin }
         } else if let Some(force) = FORCES.iter().find(|force| force.symbol == symbol) {
-            let covers = (force.models.tooth.covers)(inputs);
+            let covers = (force.models.tooth.model().covers)(inputs);
             Source {
                 symbol: &force.symbol,
                 meaning: &force.meaning,

@@ -95,7 +95,7 @@ fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
     lines.extend(block(Kind::Title, &value, "", "  ", width));
     lines.extend(block(Kind::Text, &of, "", "", width));
     lines.push(Line::new(Kind::Text, ""));
-    lines.extend(paragraph(page.meaning, 0, width));
+    lines.extend(paragraph(&page.meaning, 0, width));
     lines.extend(page.beside.iter().flat_map(|beside| paragraph(beside, 0, width)));
     lines
 }

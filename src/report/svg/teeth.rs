@@ -6,7 +6,7 @@ use nalgebra::Point2;
 
 use super::{escaped, opening};
 use crate::model::contact_state::{first_contact, first_contact_point};
-use crate::model::gear_pose::{GearPose, Placed, on_line_of_action};
+use crate::model::outline::{GearPose, Placed, on_line_of_action};
 use crate::model::{Inputs, Solution};
 
 const WIDTH: f64 = 760.0;

@@ -9,8 +9,8 @@ use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
 use crate::model::mesh::Mesh;
 use crate::model::pair_forces::PairSet;
+use crate::model::position::tip_at;
 use crate::model::relief::{Relief, Reliefs};
-use crate::model::tip_gap::tip_at;
 use crate::model::{Inputs, Refusal, Solution};
 
 /// A relief in whole steps: amounts on driver and driven gear, then lengths.
@@ -570,7 +570,7 @@ impl<'a> Survey<'a> {
         let mut inputs = self.inputs.mesh();
         // The places apply the root reliefs together with the tip reliefs.
         (inputs.reliefs.driver.root, inputs.reliefs.driven.root) = (0.0, 0.0);
-        Mesh::new(&inputs, &self.solution.geometry, (force, error), self.reach)
+        Mesh::new(&inputs, &self.solution.geometry, (force, error), self.reach, None)
     }
 
     fn over_pitch(&self, force: f64) -> Result<Pitch, Refusal> {

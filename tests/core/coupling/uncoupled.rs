@@ -14,7 +14,7 @@ fn mesh(inputs: &Inputs, solution: &Solution, relief: f64) -> Option<Mesh> {
     let driven = Gear { tip_relief: inputs.driven.tip_relief + relief, ..inputs.driven.clone() };
     let inputs = Inputs { driven, ..inputs.clone() };
     let (force, error) = (solution.mesh_force, solution.deviation.equivalent_error);
-    let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, (force, error), REACH);
+    let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, (force, error), REACH, None);
     Some(mesh.ok()?.uncoupled())
 }
 

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use tipstrike::model::compliance::{ContactPlace, Teeth};
 use tipstrike::model::geometry::{Circles, Geometry, geometry};
 use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
-use tipstrike::model::spacing::Spacing;
+use tipstrike::model::position::tip_at;
 use tipstrike::model::static_load::{StaticLoad, static_load};
-use tipstrike::model::tip_gap::tip_at;
+use tipstrike::model::stations::Spacing;
 use tipstrike::model::{Inputs, MeshStation, Quantity, Solution, Stages, solve};
 
 use super::{Figure, Source};

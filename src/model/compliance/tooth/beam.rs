@@ -2,12 +2,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Compliance, ToothModel};
+use super::{Kind, ToothModel};
 use crate::model::compliance::ElasticGear;
 use crate::model::explanation::Formula::Words;
-use crate::model::explanation::{Context, Finding, Step, four};
+use crate::model::explanation::{Context, Finding, Step, four, step};
 use crate::model::geometry::{Circles, Geometry};
-use crate::model::inputs::{Gear, Inputs, ToothCompliance};
+use crate::model::inputs::{Gear, GearSide, Inputs, ToothCompliance};
 use crate::model::profile::{Profile, Rack, Section};
 use crate::model::{Refusal, field, geometry};
 use crate::numeric::{quadrature, root};
@@ -16,7 +16,6 @@ use crate::numeric::{quadrature, root};
 pub const MODEL: ToothModel = ToothModel {
     name: "beam",
     index: "beam",
-    help: "potential energy on the true profile, in plane strain",
     range: "any tooth number, profile shift and pressure angle that leave a tooth",
     covers,
     why_outside: |_| "the beam finds no tooth at the load point".to_owned(),
@@ -27,7 +26,7 @@ pub const MODEL: ToothModel = ToothModel {
     has_contact: false,
     has_coupling: false,
     steps: STEPS,
-    compliance: Compliance::AtRadius(tooth),
+    tooth: |_, circles| Ok(Kind::Beam(*circles)),
 };
 
 impl ToothCompliance {
@@ -40,20 +39,12 @@ const FORMULA: &str = "quadrature of bending, shear and compression over the too
     Duverger 2004) less the twist of the body about its bore";
 
 const STEPS: &[Step] = &[
-    Step {
-        symbol: "q_1",
-        meaning: "driver's tooth loaded at O1D",
-        unit: "um mm/N",
-        formula: Words(FORMULA),
-        value: |k| Some(k.solution.compliance?.driver),
-    },
-    Step {
-        symbol: "q_2",
-        meaning: "driven tooth loaded at its tip",
-        unit: "um mm/N",
-        formula: Words(FORMULA),
-        value: |k| Some(k.solution.compliance?.driven),
-    },
+    step("q_1", "driver's tooth loaded at O1D", "um mm/N", Words(FORMULA), |k| {
+        Some(k.solution.compliance?.driver)
+    }),
+    step("q_2", "driven tooth loaded at its tip", "um mm/N", Words(FORMULA), |k| {
+        Some(k.solution.compliance?.driven)
+    }),
 ];
 
 /// Relative tolerance of the quadrature.
@@ -102,7 +93,7 @@ fn tooth_within(
     let roll = profile.roll_at(radius);
     if roll <= profile.junction.roll {
         return Err(Refusal::BelowFormCircle {
-            field: "driven.addendum",
+            gear: GearSide::Driver,
             radius,
             form: profile.form_radius(),
         });
@@ -110,7 +101,7 @@ fn tooth_within(
     let load = profile.involute_at(roll);
     if load.half_thickness <= 0.0 {
         return Err(Refusal::PointedTip {
-            field: "driver.addendum",
+            gear: GearSide::Driver,
             thickness: 2.0 * load.half_thickness,
         });
     }
@@ -133,7 +124,7 @@ fn tooth_within(
     if has_neck {
         Ok(compliance)
     } else {
-        Err(Refusal::CutThrough { field: "driver.profile_shift", shift: gear.rack.profile_shift })
+        Err(Refusal::CutThrough { gear: GearSide::Driver, shift: gear.rack.profile_shift })
     }
 }
 
@@ -195,15 +186,15 @@ fn covers(inputs: &Inputs) -> bool {
 }
 
 fn check(context: &Context) -> Option<Finding> {
-    let geometry = &context.solution.geometry;
-    let gears =
-        [(&context.inputs.driver, &geometry.driver), (&context.inputs.driven, &geometry.driven)];
-    let [driver, driven] =
-        gears.map(|(gear, circles)| Foundation::of(context.inputs, gear, circles));
+    let [driver, driven] = foundations(context.inputs, &context.solution.geometry);
+    let body = |of: &Foundation| {
+        let no_bore = "none (no bore: computed with h = 3, without shift)";
+        if of.body.is_finite() { four(of.body) } else { no_bore.to_owned() }
+    };
     let here = format!(
         "h {} and {}, θ {} and {} rad",
-        driver.body_text(),
-        driven.body_text(),
+        body(&driver),
+        body(&driven),
         four(driver.angle),
         four(driven.angle)
     );
@@ -216,28 +207,19 @@ fn check(context: &Context) -> Option<Finding> {
 }
 
 fn outside(inputs: &Inputs, geometry: &Geometry) -> Option<(&'static str, String)> {
-    let gears = [
-        ("driver", &inputs.driver, &geometry.driver),
-        ("driven gear", &inputs.driven, &geometry.driven),
-    ];
-    let found = gears.into_iter().find_map(|(name, gear, circles)| {
-        let foundation = Foundation::of(inputs, gear, circles);
-        let bore = if foundation.body.is_finite() {
-            format!("r_f/r_bore is {:.3}", foundation.body)
-        } else {
-            "body has no bore".to_owned()
-        };
-        (!foundation.is_inside()).then(|| {
-            format!(
-                "the {name}'s {bore} and its half angle at the root {} rad",
-                four(foundation.angle)
-            )
-        })
-    })?;
+    let gears = ["driver", "driven gear"].into_iter().zip(foundations(inputs, geometry));
+    let (name, Foundation { body, angle }) = gears.into_iter().find(|(_, of)| !of.is_inside())?;
+    let bore = if body.is_finite() {
+        format!("r_f/r_bore is {body:.3}")
+    } else {
+        "body has no bore".to_owned()
+    };
     let ((body_from, body_to), (angle_from, angle_to)) = (FOUNDATION_BODY, FOUNDATION_ANGLE);
     let message = format!(
-        "{found}, outside the range {body_from}..{body_to} and {angle_from}..{angle_to} of the \
-            foundation: the nearest end of the range is used"
+        "the {name}'s {bore} and its half angle at the root {} rad, outside the range \
+            {body_from}..{body_to} and {angle_from}..{angle_to} of the foundation: the nearest end of \
+            the range is used",
+        four(angle)
     );
     Some(("foundation-outside-range", message))
 }
@@ -248,26 +230,20 @@ struct Foundation {
     angle: f64,
 }
 
-impl Foundation {
-    fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Foundation {
-        Foundation {
-            body: circles.root / gear.bore_radius,
-            angle: Profile::of(&Rack::of(inputs, gear), circles).root_half_angle(),
-        }
-    }
+/// The positions of driver and driven gear.
+fn foundations(inputs: &Inputs, geometry: &Geometry) -> [Foundation; 2] {
+    let gears = [(&inputs.driver, &geometry.driver), (&inputs.driven, &geometry.driven)];
+    gears.map(|(gear, circles)| Foundation {
+        body: circles.root / gear.bore_radius,
+        angle: Profile::of(&Rack::of(inputs, gear), circles).root_half_angle(),
+    })
+}
 
+impl Foundation {
     fn is_inside(&self) -> bool {
         let within = |value: f64, (from, to): (f64, f64)| (from..=to).contains(&value);
         (!self.body.is_finite() || within(self.body, FOUNDATION_BODY))
             && within(self.angle, FOUNDATION_ANGLE)
-    }
-
-    fn body_text(&self) -> String {
-        if self.body.is_finite() {
-            four(self.body)
-        } else {
-            "none (no bore: computed with h = 3, without shift)".to_owned()
-        }
     }
 }
 

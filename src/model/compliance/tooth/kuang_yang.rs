@@ -2,11 +2,11 @@
 
 use std::ops::RangeInclusive;
 
-use super::{Compliance, NEWTON_PER_MICRON_MILLIMETRE, StiffnessLine, ToothModel};
+use super::{Kind, NEWTON_PER_MICRON_MILLIMETRE, StiffnessLine, ToothModel};
 use crate::model::Refusal;
 use crate::model::compliance::ElasticGear;
 use crate::model::explanation::Formula::Text;
-use crate::model::explanation::{Context, Finding, Step, four};
+use crate::model::explanation::{Context, Finding, Step, four, step};
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Gear, Inputs, ToothCompliance};
 
@@ -14,7 +14,6 @@ use crate::model::inputs::{Gear, Inputs, ToothCompliance};
 pub const MODEL: ToothModel = ToothModel {
     name: "kuang-yang",
     index: "fit",
-    help: "Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel",
     range: RANGE,
     covers,
     why_outside: |_| format!("the pair is outside the range of `kuang-yang`, {RANGE}"),
@@ -25,63 +24,90 @@ pub const MODEL: ToothModel = ToothModel {
     has_contact: false,
     has_coupling: false,
     steps: STEPS,
-    compliance: Compliance::Line(tooth),
+    tooth: |gear, circles| Ok(Kind::Line(tooth(gear, circles)?)),
 };
+
+/// The steps q, c and d of a gear by its number, its name, the load and its member of the inputs.
+macro_rules! steps {
+    ($n:literal, $name:literal, $load:literal, $gear:ident) => {
+        [
+            step(
+                concat!("q_", $n),
+                concat!($load, ", Kuang & Yang 1992"),
+                "um mm/N",
+                Text(concat!(
+                    "1/(c_",
+                    $n,
+                    " + d_",
+                    $n,
+                    " (O",
+                    $n,
+                    "D - r_",
+                    $n,
+                    ")/((1 + x",
+                    $n,
+                    ") m))"
+                )),
+                |k| Some(k.solution.compliance?.$gear),
+            ),
+            step(
+                concat!("c_", $n),
+                concat!("A_0 + A_1 x of the ", $name),
+                "N/(um mm)",
+                Text(concat!(
+                    "(3.867 + 1.612 z",
+                    $n,
+                    " - 0.02916 z",
+                    $n,
+                    "² + 0.0001553 z",
+                    $n,
+                    "³ + (17.060 + 0.7289 z",
+                    $n,
+                    " - 0.01728 z",
+                    $n,
+                    "² + 0.0000999 z",
+                    $n,
+                    "³) x",
+                    $n,
+                    ") [N/(um mm)]"
+                )),
+                |k| Some(fit(&k.inputs.$gear)[0]),
+            ),
+            step(
+                concat!("d_", $n),
+                concat!("A_2 + A_3 x of the ", $name),
+                "N/(um mm)",
+                Text(concat!(
+                    "(2.637 - 1.222 z",
+                    $n,
+                    " + 0.02217 z",
+                    $n,
+                    "² - 0.0001179 z",
+                    $n,
+                    "³ + (-6.330 - 1.033 z",
+                    $n,
+                    " + 0.02068 z",
+                    $n,
+                    "² - 0.0001130 z",
+                    $n,
+                    "³) x",
+                    $n,
+                    ") [N/(um mm)]"
+                )),
+                |k| Some(fit(&k.inputs.$gear)[1]),
+            ),
+        ]
+    };
+}
 
 impl ToothCompliance {
     /// Kuang & Yang 1992, Eq. 56.
     pub const KUANG_YANG: ToothCompliance = ToothCompliance::named(MODEL.name);
 }
 
-#[rustfmt::skip]
-const STEPS: &[Step] = &[
-    Step {
-        symbol: "q_1",
-        meaning: "driver's tooth loaded at O1D, Kuang & Yang 1992",
-        unit: "um mm/N",
-        formula: Text("1/(c_1 + d_1 (O1D - r_1)/((1 + x1) m))"),
-        value: |k| Some(k.solution.compliance?.driver),
-    },
-    Step {
-        symbol: "q_2",
-        meaning: "driven tooth loaded at its tip, Kuang & Yang 1992",
-        unit: "um mm/N",
-        formula: Text("1/(c_2 + d_2 (O2D - r_2)/((1 + x2) m))"),
-        value: |k| Some(k.solution.compliance?.driven),
-    },
-    Step {
-        symbol: "c_1",
-        meaning: "A_0 + A_1 x of the driver",
-        unit: "N/(um mm)",
-        formula: Text("(3.867 + 1.612 z1 - 0.02916 z1² + 0.0001553 z1³ + (17.060 + 0.7289 z1 - \
-            0.01728 z1² + 0.0000999 z1³) x1) [N/(um mm)]"),
-        value: |k| Some(fit(&k.inputs.driver)[0]),
-    },
-    Step {
-        symbol: "d_1",
-        meaning: "A_2 + A_3 x of the driver",
-        unit: "N/(um mm)",
-        formula: Text("(2.637 - 1.222 z1 + 0.02217 z1² - 0.0001179 z1³ + (-6.330 - 1.033 z1 + \
-            0.02068 z1² - 0.0001130 z1³) x1) [N/(um mm)]"),
-        value: |k| Some(fit(&k.inputs.driver)[1]),
-    },
-    Step {
-        symbol: "c_2",
-        meaning: "A_0 + A_1 x of the driven gear",
-        unit: "N/(um mm)",
-        formula: Text("(3.867 + 1.612 z2 - 0.02916 z2² + 0.0001553 z2³ + (17.060 + 0.7289 z2 - \
-            0.01728 z2² + 0.0000999 z2³) x2) [N/(um mm)]"),
-        value: |k| Some(fit(&k.inputs.driven)[0]),
-    },
-    Step {
-        symbol: "d_2",
-        meaning: "A_2 + A_3 x of the driven gear",
-        unit: "N/(um mm)",
-        formula: Text("(2.637 - 1.222 z2 + 0.02217 z2² - 0.0001179 z2³ + (-6.330 - 1.033 z2 + \
-            0.02068 z2² - 0.0001130 z2³) x2) [N/(um mm)]"),
-        value: |k| Some(fit(&k.inputs.driven)[1]),
-    },
-];
+const DRIVER: [Step; 3] = steps!("1", "driver", "driver's tooth loaded at O1D", driver);
+const DRIVEN: [Step; 3] = steps!("2", "driven gear", "driven tooth loaded at its tip", driven);
+const STEPS: &[Step] = &[DRIVER[0], DRIVEN[0], DRIVER[1], DRIVER[2], DRIVEN[1], DRIVEN[2]];
 
 /// Tooth numbers that the fit of Eq. 56 covers.
 const TEETH: (u32, u32) = (12, 100);

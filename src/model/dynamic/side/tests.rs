@@ -1,6 +1,7 @@
 //! Tests of the motion across the backlash against steps without events on an independent mesh, and
 //! by the balance of energy.
 
+use crate::model::compliance::Teeth;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::dynamic::motion::{Motion, State};
 use crate::model::dynamic::steady::steady;
@@ -8,7 +9,7 @@ use crate::model::dynamic::tests::{at_rest, ran, settings};
 use crate::model::dynamic::*;
 use crate::model::inputs::{Drive, Inputs};
 use crate::model::mesh::MeshInputs;
-use crate::model::mesh::couplings::ByRadii;
+use crate::model::mesh::sharing::with_neighbours;
 use crate::model::pair_forces::PairSet;
 use crate::model::static_load;
 use crate::model::{Stage, Stages, solve};
@@ -69,20 +70,23 @@ fn of_case(couples: bool, backlash: f64, adjust: Adjust<'_>) -> Rattling {
     };
     let swapped_geometry = solve(&swapped, Stages::of(Stage::Geometry)).unwrap().geometry;
     let of = |inputs: &MeshInputs, geometry, error, turned: bool| {
-        let flanks = Flanks::new(&inputs.elasticity, geometry).unwrap();
-        let neighbours = ByRadii(|rear: [f64; 2], front: [f64; 2], pitches| {
+        let flanks = Flanks::new(&Teeth::of(&inputs.elasticity, geometry).unwrap()).unwrap();
+        let by_radii = |rear: [f64; 2], front: [f64; 2], pitches| {
             // In the mirror the rear pair is the front pair, and the gears are swapped.
             let radii = if turned { [front[1], rear[0]] } else { [rear[0], front[1]] };
             let share = if pitches == 1 { 8e-10 } else { 3e-10 };
             let place = 40.0 * (radii[0] + 2.0 * radii[1] - 0.2);
             share * inputs.elasticity.width * (1.0 + 0.4 * place.sin())
-        });
+        };
         let load = (solution.mesh_force, error);
         let flanks = flanks.into();
         if couples {
-            Mesh::of_parts(inputs, geometry, (&flanks, &neighbours), None, load, 1e-3).unwrap()
+            with_neighbours(by_radii, |neighbours| {
+                let parts = (&flanks, Some(neighbours), None);
+                Mesh::of_parts(inputs, geometry, parts, load, 1e-3).unwrap()
+            })
         } else {
-            Mesh::new(inputs, geometry, load, 1e-3).unwrap()
+            Mesh::new(inputs, geometry, load, 1e-3, None).unwrap()
         }
     };
     Rattling {

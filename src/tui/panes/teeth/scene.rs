@@ -15,7 +15,7 @@ use super::window::{Window, unit_of_length};
 use crate::case::units::System;
 use crate::model::ContactState;
 use crate::model::contact_state::{first_contact, shares_load};
-use crate::model::gear_pose::{
+use crate::model::outline::{
     GearPose, Placed, driven_tangent_point, driver_tangent_point, on_line_of_action, tip_point,
 };
 use crate::model::position::tip_at;
@@ -363,7 +363,7 @@ fn points(picture: &Picture) -> Vec<Named> {
     let on_way = |angle: f64| tip_point(geometry, &tip_at(geometry, angle));
     let turn = solution
         .impact
-        .map(|impact| inputs.driven_speed() * impact.duration())
+        .map(|impact| inputs.driven_speed() * impact.duration)
         .filter(|_| !shares_load(solution));
     if let Some(contact) = contact {
         add("D", on_way(contact));

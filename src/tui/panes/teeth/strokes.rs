@@ -9,7 +9,7 @@ use ratatui::style::{Color, Modifier, Style};
 
 use super::window::{Window, round_down, unit_of_length};
 use crate::case::units::System;
-use crate::model::gear_pose::Placed;
+use crate::model::outline::Placed;
 use crate::tui::theme::Theme;
 
 /// The least pitch, in dots, at which teeth are drawn rather than circles.

@@ -7,7 +7,7 @@ use ratatui::symbols::Marker;
 
 use crate::case::units::System;
 use crate::model::contact_state::{Phase, first_contact_point};
-use crate::model::gear_pose::on_line_of_action;
+use crate::model::outline::on_line_of_action;
 use crate::model::{ContactState, Geometry, Inputs, Solution};
 use crate::tui::panes::plot::bounds;
 
