@@ -62,7 +62,8 @@ pub fn clearing(
     solution: &Solution,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Clearing, Refusal> {
-    let (search, given) = (Search::new(), inputs.driven.tip_relief);
+    let search = Search { meter: Meter::new(SEARCH_WORK), tries: RefCell::default() };
+    let given = inputs.driven.tip_relief;
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
         (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),
@@ -94,10 +95,6 @@ struct Search {
 }
 
 impl Search {
-    fn new() -> Search {
-        Search { meter: Meter::new(SEARCH_WORK), tries: RefCell::new(Vec::new()) }
-    }
-
     /// The least additional relief, in m, by the static balance or by a motion.
     fn least(
         &self,
@@ -107,17 +104,19 @@ impl Search {
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<f64, Refusal> {
         let tried = |relief: f64| {
-            let tried = self
-                .may_go_on()
-                .then(|| relieved(relief, (mesh, motion), solution, &self.meter, go_on))
-                .transpose();
-            match tried {
-                Ok(Some(tried)) => Ok(self.noted(tried)),
-                Ok(None) | Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. }) => {
-                    Err(self.ended(motion.is_some()))
-                }
-                Err(refusal) => Err(refusal),
+            if self.runs() >= SEARCH_TRIES || !self.meter.spend(0) {
+                return Err(self.ended(motion.is_some()));
             }
+            let tried = relieved(relief, (mesh, motion), solution, &self.meter, go_on);
+            if let Ok(tried) = tried {
+                self.tries.borrow_mut().push(tried);
+            }
+            tried.map_err(|refusal| match refusal {
+                Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. } => {
+                    self.ended(motion.is_some())
+                }
+                other => other,
+            })
         };
         let deviation = &solution.deviation;
         let size = deviation.loaded_deflection()
@@ -128,15 +127,6 @@ impl Search {
 
     fn runs(&self) -> u32 {
         self.tries.borrow().len() as u32
-    }
-
-    fn may_go_on(&self) -> bool {
-        self.runs() < SEARCH_TRIES && self.meter.spend(0)
-    }
-
-    fn noted(&self, tried: Tried) -> Tried {
-        self.tries.borrow_mut().push(tried);
-        tried
     }
 
     /// The refusal of a search beyond its budget, with the bracket found so far.

@@ -698,24 +698,13 @@ impl Refusal {
 /// Words of the bracket of the additional tip relief, in m: the greatest value with contact and the
 /// least value without.
 fn bracket(touching: Option<f64>, clear: Option<f64>) -> String {
-    /// Digits that distinguish any two numbers.
-    const MOST_DIGITS: usize = 17;
-    let Some(touching) = touching else {
-        return "no additional tip relief was tried to its end".to_owned();
+    let micrometres = |relief: f64| significant(relief / MICROMETRE, 8);
+    let with = match touching {
+        None => return "no additional tip relief was tried to its end".to_owned(),
+        Some(0.0) => "the given tip relief of the driven gear".to_owned(),
+        Some(more) => format!("{} um more tip relief of the driven gear", micrometres(more)),
     };
-    let shown = |digits| {
-        let shown = |relief: f64| significant(relief / MICROMETRE, digits);
-        (shown(touching), clear.map(shown))
-    };
-    // Uses enough digits to distinguish the ends of a narrow bracket.
-    let distinct = (4..MOST_DIGITS).map(shown).find(|(low, high)| high.as_ref() != Some(low));
-    let (low, high) = distinct.unwrap_or_else(|| shown(MOST_DIGITS));
-    let with = if touching > 0.0 {
-        format!("{low} um more tip relief of the driven gear")
-    } else {
-        "the given tip relief of the driven gear".to_owned()
-    };
-    let without = high.map(|high| format!(", and not with {high} um more"));
+    let without = clear.map(|more| format!(", and not with {} um more", micrometres(more)));
     format!("the tooth touches before E with {with}{}", without.unwrap_or_default())
 }
 

@@ -359,18 +359,22 @@ fn put(
     }
 }
 
-/// Displacement of a pair by a unit force on another, as a function of the place of the rear pair.
+/// Displacement of a pair by a unit force on another, as a function of the place of the rear pair,
+/// for each number of pitches between the pairs.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Couplings {
-    /// One list for each number of pitches between the pairs, in order.
-    stretches: [Vec<Stretch>; PITCHES],
-}
+pub(crate) struct Couplings([Stretches<1>; PITCHES]);
 
-/// A part of the path in which the load points of both pairs move smoothly.
-#[derive(Debug, Clone, PartialEq)]
-struct Stretch {
-    to: f64,
-    series: Series<1>,
+/// Functions on the parts of the path in which the load points of pairs move smoothly, with the end
+/// of each part.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Stretches<const N: usize>(Vec<(f64, Series<N>)>);
+
+impl<const N: usize> Stretches<N> {
+    /// The functions of the part that includes `inside`.
+    fn at(&self, inside: f64) -> Option<&Series<N>> {
+        let index = self.0.partition_point(|(to, _)| *to < inside);
+        self.0.get(index).or_else(|| self.0.last()).map(|(_, series)| series)
+    }
 }
 
 /// The range in which pairs may touch, in m.
@@ -393,30 +397,26 @@ pub(crate) struct Neighbours<'a> {
     pub(crate) displacements: &'a dyn Fn([Lanes<TERMS>; 2], [Lanes<TERMS>; 2], i32) -> Lanes<TERMS>,
 }
 
-/// Where a pair touches both gears, over its place.
-struct Abscissas {
-    stretches: Vec<(f64, Series<2>)>,
-}
-
-impl Abscissas {
-    fn of(way: &Way, at: impl Fn(f64) -> Result<[f64; 2], Refusal>) -> Result<Abscissas, Refusal> {
+impl Stretches<2> {
+    /// Where a pair touches both gears, over its place.
+    fn of(
+        way: &Way,
+        at: impl Fn(f64) -> Result<[f64; 2], Refusal>,
+    ) -> Result<Stretches<2>, Refusal> {
         /// Of the size of an abscissa, which changes a coupling by a twentieth of the compliance of
         /// a pair; rounding of a large gear's radii is half of it.
         const REST: f64 = 2e-12;
         let borders = way.borders(0);
         let stretches = borders.windows(2).map(|ends| {
             let rest = at(f64::midpoint(ends[0], ends[1]))?.map(|size| REST * size.abs().max(1e-3));
-            let series = Series::of(ends[0], ends[1], &|_, _| rest, &at)?;
-            Ok((ends[1], series))
+            Ok((ends[1], Series::of(ends[0], ends[1], &|_, _| rest, &at)?))
         });
-        Ok(Abscissas { stretches: stretches.collect::<Result<_, Refusal>>()? })
+        Ok(Stretches(stretches.collect::<Result<_, Refusal>>()?))
     }
 
     /// At several places, smoothly on from `inside`.
     fn many(&self, places: &Places, inside: f64) -> [Lanes<TERMS>; 2] {
-        let index = self.stretches.partition_point(|(to, _)| *to < inside);
-        let stretch = self.stretches.get(index).or_else(|| self.stretches.last());
-        stretch.map_or([Lanes::all(f64::NAN); 2], |(_, series)| series.many(0, places))
+        self.at(inside).map_or([Lanes::all(f64::NAN); 2], |series| series.many(0, places))
     }
 }
 
@@ -434,9 +434,9 @@ impl Couplings {
     ) -> Result<Option<Arc<Couplings>>, Refusal> {
         /// Of the compliance of one pair.
         const REST: f64 = 1e-13;
-        let abscissas = Abscissas::of(way, |s| (neighbours.abscissas)(&place(s)))?;
-        let mut stretches = [const { Vec::new() }; PITCHES];
-        for (pitches, stretches) in (1..).zip(&mut stretches) {
+        let abscissas = Stretches::of(way, |s| (neighbours.abscissas)(&place(s)))?;
+        let mut all = [const { Stretches(Vec::new()) }; PITCHES];
+        for (pitches, stretches) in (1..).zip(&mut all) {
             let apart = f64::from(pitches) * way.base_pitch;
             for ends in way.borders(pitches).windows(2) {
                 let inside = f64::midpoint(ends[0], ends[1]);
@@ -448,53 +448,44 @@ impl Couplings {
                     values[0] = found.0.map(|found| [found / width]);
                 };
                 let series = Series::groups(ends[0], ends[1], &[[REST * own]], &fill);
-                stretches.extend(series.into_iter().map(|series| Stretch { to: ends[1], series }));
+                stretches.0.extend(series.into_iter().map(|series| (ends[1], series)));
             }
         }
-        let is_empty = stretches.iter().all(Vec::is_empty);
-        Ok((!is_empty).then(|| Arc::new(Couplings { stretches })))
+        let is_empty = all.iter().all(|stretches| stretches.0.is_empty());
+        Ok((!is_empty).then(|| Arc::new(Couplings(all))))
     }
 
     /// The displacement in m/N of two pairs with `between` pairs between them and the rear pair at
     /// `s`. On a border, `inside` selects the side.
     pub(super) fn at(&self, between: usize, s: f64, inside: f64) -> f64 {
-        self.stretch(between, inside).map_or(0.0, |stretch| stretch.series.one(0, s))
+        self.0[between].at(inside).map_or(0.0, |series| series.one(0, s))
     }
 
     /// The same at several places of the rear pair.
     pub(super) fn many(&self, between: usize, places: &Places, inside: f64) -> Lanes<TERMS> {
-        self.stretch(between, inside).map_or(Lanes::all(0.0), |stretch| {
-            let [found] = stretch.series.many(0, places);
-            found
-        })
-    }
-
-    fn stretch(&self, between: usize, inside: f64) -> Option<&Stretch> {
-        let stretches = &self.stretches[between];
-        let index = stretches.partition_point(|stretch| stretch.to < inside);
-        stretches.get(index).or_else(|| stretches.last())
+        let series = self.0[between].at(inside);
+        let [found] = series.map_or([Lanes::all(0.0)], |series| series.many(0, places));
+        found
     }
 
     /// The couplings of the back flanks, whose places run backwards from `length`, in m. The rear
     /// and the front pair are then exchanged.
     pub(super) fn reversed(&self, length: f64, base_pitch: f64) -> Couplings {
         let mut pitches = 0.0;
-        let stretches = self.stretches.each_ref().map(|stretches| {
+        Couplings(self.0.each_ref().map(|Stretches(stretches)| {
             pitches += 1.0;
             let about = length - pitches * base_pitch;
-            let reversed = stretches.iter().rev().map(|stretch| Stretch {
-                to: about - stretch.series.start(),
-                series: stretch.series.reversed(about, [1.0]),
+            let reversed = stretches.iter().rev().map(|(_, series)| {
+                (about - series.start(), series.reversed(about, [1.0]))
             });
-            reversed.collect()
-        });
-        Couplings { stretches }
+            Stretches(reversed.collect())
+        }))
     }
 
     /// Number of evaluations of the coupling.
     pub(super) fn evaluations(&self) -> usize {
-        let all = self.stretches.iter().flatten();
-        all.map(|stretch| stretch.series.evaluations()).sum()
+        let all = self.0.iter().flat_map(|stretches| &stretches.0);
+        all.map(|(_, series)| series.evaluations()).sum()
     }
 }
 
