@@ -71,6 +71,20 @@ impl Start {
         })
     }
 
+    /// A state with the touching pairs in order.
+    fn of(state: State, touching: &[PairName]) -> Start {
+        let mut touching = touching.to_vec();
+        touching.sort_unstable();
+        Start { state, touching }
+    }
+
+    /// Change since another state, relative to the scale of the motion; infinite if other pairs
+    /// touch.
+    fn moved_since(&self, then: &Start, motion: &Motion<'_>) -> f64 {
+        let moved = (self.state - then.state).component_div(&motion.scale()).amax();
+        if then.touching == self.touching { moved } else { f64::INFINITY }
+    }
+
     /// Whether back flanks touch.
     fn is_at_back(&self) -> bool {
         self.touching.iter().any(|pair| pair.flank == Flank::Back)
@@ -154,12 +168,7 @@ fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32>
     /// With a repetition after several base pitches, a nearly equal state after fewer counts as the
     /// period.
     const NEARLY: f64 = 1e-6;
-    let scale = motion.scale();
-    let moved = |then: &Start| {
-        let by = (now.state - then.state).component_div(&scale);
-        if then.touching == now.touching { by.amax() } else { f64::INFINITY }
-    };
-    let moved: Vec<f64> = before.iter().map(moved).collect();
+    let moved: Vec<f64> = before.iter().map(|then| now.moved_since(then, motion)).collect();
     moved.iter().position(|&moved| moved <= NONE)?;
     let first = moved.iter().position(|&moved| moved <= NEARLY)?;
     Some(first as u32 + 1)
@@ -231,9 +240,7 @@ impl<'a> Round<'a> {
     }
 
     fn start(&self) -> Start {
-        let mut touching = self.run.touching.clone();
-        touching.sort_unstable();
-        Start { state: self.run.y, touching }
+        Start::of(self.run.y, &self.run.touching)
     }
 
     /// Runs one base pitch and shows every step.
@@ -348,16 +355,10 @@ pub(super) struct RepeatDetector {
     /// Start of the next base pitch, in base pitches.
     next: f64,
     start: f64,
-    last: Option<Lap>,
+    /// The last state, with the names that its pairs have now, and its change since the one before.
+    last: Option<(Start, f64)>,
     /// Relative change of the state that counts as none.
     allowed: f64,
-}
-
-struct Lap {
-    y: State,
-    touching: Vec<PairName>,
-    /// Relative change since the lap before.
-    moved: f64,
 }
 
 impl RepeatDetector {
@@ -388,17 +389,13 @@ impl RepeatDetector {
             return false;
         }
         self.next += 1.0;
-        let mut touching = touching.to_vec();
-        touching.sort_unstable();
+        let mut now = Start::of(*y, touching);
         let before = self.last.take();
-        let alike = before.as_ref().filter(|lap| {
-            let later = lap.touching.iter().map(|pair| pair.moved(-1));
-            later.eq(touching.iter().copied())
-        });
         let moved =
-            alike.map_or(f64::INFINITY, |lap| (y - lap.y).component_div(&motion.scale()).amax());
-        let draws_near = before.is_some_and(|lap| moved <= 0.5 * lap.moved);
-        self.last = Some(Lap { y: *y, touching, moved });
+            before.as_ref().map_or(f64::INFINITY, |(then, _)| now.moved_since(then, motion));
+        let draws_near = before.is_some_and(|(_, last)| moved <= 0.5 * last);
+        now.touching.iter_mut().for_each(|pair| *pair = pair.moved(-1));
+        self.last = Some((now, moved));
         moved <= if draws_near { self.allowed } else { ROUNDING }
     }
 }

@@ -366,7 +366,7 @@ pub(crate) struct Couplings([Stretches<1>; PITCHES]);
 
 /// Functions on the parts of the path in which the load points of pairs move smoothly, with the end
 /// of each part.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 struct Stretches<const N: usize>(Vec<(f64, Series<N>)>);
 
 impl<const N: usize> Stretches<N> {
@@ -475,9 +475,10 @@ impl Couplings {
         Couplings(self.0.each_ref().map(|Stretches(stretches)| {
             pitches += 1.0;
             let about = length - pitches * base_pitch;
-            let reversed = stretches.iter().rev().map(|(_, series)| {
-                (about - series.start(), series.reversed(about, [1.0]))
-            });
+            let reversed = stretches
+                .iter()
+                .rev()
+                .map(|(_, series)| (about - series.start(), series.reversed(about, [1.0])));
             Stretches(reversed.collect())
         }))
     }
