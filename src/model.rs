@@ -56,7 +56,7 @@ pub use solve::{Earlier, solve, solve_after, solve_while};
 pub use stage::{Stage, Stages};
 pub use static_load::StaticLoad;
 pub use static_load::{Resonance, StaticSpectrum};
-pub use stations::{MeshStation, Station};
+pub use stations::Station;
 
 use std::sync::Arc;
 
@@ -200,6 +200,18 @@ impl Solution {
     pub fn all_stages(&self) -> Stages {
         let beside = self.beside.as_ref().and_then(|beside| beside.as_ref().ok());
         beside.map_or(self.stages, |beside| self.stages.and(beside.stages))
+    }
+
+    /// The stations of its method.
+    pub fn own_stations(&self) -> &[Station] {
+        let load = self.static_load.as_ref().map(|load| &load.stations);
+        let motion = self.dynamic.as_ref().map(|motion| &motion.stations);
+        let own = match self.method {
+            Method::Paper | Method::Exact | Method::Auto => Some(&self.stations),
+            Method::Static => load,
+            Method::Dynamic => motion,
+        };
+        own.map_or(&[], Vec::as_slice)
     }
 
     /// The solve that computes a stage: this one, or that by a slower method beside it.

@@ -12,7 +12,7 @@ use super::mesh::Mesh;
 use super::outline::{on_line_of_action, tip_point};
 use super::position::{TipContact, gap_without, tip_at, velocity};
 use super::static_load::balance;
-use super::{Geometry, MeshStation, Solution, Station, stations};
+use super::{Geometry, Solution, Station, stations};
 use nalgebra::Point2;
 
 /// Greatest angle of a tip beyond its end of the path of contact, in rad of its gear.
@@ -146,12 +146,9 @@ impl ContactState {
 
     /// Whether the pair touches.
     pub fn touches(&self) -> bool {
-        self.opening <= 0.0
-            && self
-                .interpolated
-                .as_ref()
-                .and_then(Interpolated::load)
-                .is_none_or(|load| load.force > 0.0)
+        let carries =
+            |one: &Interpolated| one.station.load_share.is_none() || one.station.force > 0.0;
+        self.opening <= 0.0 && self.interpolated.as_ref().is_none_or(carries)
     }
 
     fn is_sound(&self) -> bool {
@@ -239,14 +236,12 @@ fn opening(solution: &Solution, gap: f64) -> f64 {
 
 /// The results for the incoming tooth at a roll angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Interpolated {
-    /// From D to E: an impact at this angle.
-    Impact(Station),
-    /// From the first to the last contact: the shared load.
-    Load(MeshStation),
-    /// The shared load between two stations of a motion, with [`DIGITS_BETWEEN`] correct digits of
+pub struct Interpolated {
+    /// The results as at a station.
+    pub station: Station,
+    /// Whether they are between two stations of a motion, with [`DIGITS_BETWEEN`] correct digits of
     /// force and displacement.
-    Between(MeshStation),
+    pub is_between: bool,
 }
 
 /// Correct digits of the force between two stations of a motion, relative to the greatest force,
@@ -269,25 +264,13 @@ impl Interpolated {
     /// Full precision for the closed form, for `static`, and at the stations of `dynamic`. Between
     /// 64 stations of `dynamic` the error of the force is at most 5e-3 of the peak.
     pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Interpolated> {
+        let exact = |station| Interpolated { station, is_between: false };
         match (&solution.dynamic, &solution.static_load) {
             (Some(dynamic), _) => moving(solution.mesh.as_deref()?, &dynamic.stations, roll_angle),
-            (None, Some(load)) => at_rest(solution.mesh.as_deref()?, &load.stations, roll_angle)
-                .map(Interpolated::Load),
-            (None, None) => struck(inputs, solution, roll_angle).map(Interpolated::Impact),
-        }
-    }
-
-    /// The impact of the methods `paper` and `exact`.
-    pub fn impact(&self) -> Option<&Station> {
-        if let Interpolated::Impact(station) = self { Some(station) } else { None }
-    }
-
-    /// The load, in the methods `static` and `dynamic`.
-    pub fn load(&self) -> Option<&MeshStation> {
-        if let Interpolated::Load(station) | Interpolated::Between(station) = self {
-            Some(station)
-        } else {
-            None
+            (None, Some(load)) => {
+                at_rest(solution.mesh.as_deref()?, &load.stations, roll_angle).map(exact)
+            }
+            (None, None) => struck(inputs, solution, roll_angle).map(exact),
         }
     }
 }
@@ -301,23 +284,23 @@ fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Stati
     let geometry = &solution.geometry;
     let teeth = Teeth::of(&inputs.elasticity(), geometry).ok()?;
     let station = stations::station(inputs, &teeth, &masses, angle).ok()?;
-    station.impact_force.is_finite().then_some(station)
+    station.force.is_finite().then_some(station)
 }
 
 /// The balance from the first contact to the last.
-fn at_rest(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<MeshStation> {
+fn at_rest(mesh: &Mesh, stations: &[Station], roll_angle: f64) -> Option<Station> {
     let (first, last) = (stations.first()?.roll_angle_driver, stations.last()?.roll_angle_driver);
     let s = (last..=first).contains(&roll_angle).then_some(0.0 - roll_angle * mesh.base_radii.0)?;
     let balance = balance(mesh, s, s);
-    Some(MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None))
+    Some(Station::at(mesh, s, balance.force, balance.total, balance.displacement, None))
 }
 
 /// The motion from the first contact to the last.
-fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Interpolated> {
+fn moving(mesh: &Mesh, stations: &[Station], roll_angle: f64) -> Option<Interpolated> {
     let next = stations.partition_point(|station| station.roll_angle_driver > roll_angle);
     let to = stations.get(next)?;
     if (to.roll_angle_driver..=to.roll_angle_driver).contains(&roll_angle) {
-        return Some(Interpolated::Load(*to));
+        return Some(Interpolated { station: *to, is_between: false });
     }
     let from = stations.get(next.checked_sub(1)?)?;
     let part =
@@ -329,16 +312,17 @@ fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Inte
     let total = forces.iter().sum();
     let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
     let force = incoming.map_or(0.0, |incoming| forces[incoming]);
-    Some(Interpolated::Between(MeshStation::at(mesh, s, force, total, displacement, Some(time))))
+    let station = Station::at(mesh, s, force, total, displacement, Some(time));
+    Some(Interpolated { station, is_between: true })
 }
 
 /// Displacement and time between two stations, by the cubic through value and slope at both
 /// stations.
-fn cubic(from: &MeshStation, to: &MeshStation, part: f64) -> Option<(f64, f64)> {
+fn cubic(from: &Station, to: &Station, part: f64) -> Option<(f64, f64)> {
     let (begin, end) = (from.time?, to.time?);
     let rest = 1.0 - part;
-    let values = from.transmission_error * (1.0 + 2.0 * part) * rest * rest
-        + to.transmission_error * (3.0 - 2.0 * part) * part * part;
+    let values = from.transmission_error? * (1.0 + 2.0 * part) * rest * rest
+        + to.transmission_error? * (3.0 - 2.0 * part) * part * part;
     let rates = part * rest * (end - begin) * (from.rate? * rest - to.rate? * part);
     Some((values + rates, begin + part * (end - begin)))
 }

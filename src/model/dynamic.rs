@@ -14,8 +14,8 @@ use super::budget::{EVENT_WORK, MOTION_BYTES, MOTION_WORK, Meter};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::pair_forces::Touching;
-use super::stations::MeshStation;
 use super::stations::Spacing;
+use super::stations::Station;
 use motion::{ALIKE, Motion, State, Window};
 use motion::{Course, Event, Step};
 use side::{PairName, TERMS};
@@ -57,7 +57,7 @@ pub struct Dynamic {
     /// [`Settings::approach_samples`].
     pub approach: Vec<(f64, f64)>,
     /// Stations from the first contact through E to the last contact, including peaks and valleys.
-    pub stations: Vec<MeshStation>,
+    pub stations: Vec<Station>,
     /// The reason why the stations are less dense than the curve needs.
     pub rough: Option<Refusal>,
     /// Coefficients of the power series of the motion, and evaluations of series.

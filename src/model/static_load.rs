@@ -8,7 +8,7 @@ use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
 use super::mesh::Mesh;
 use super::pair_forces::Balance;
-use super::stations::{MeshStation, Spacing};
+use super::stations::{Spacing, Station};
 use crate::numeric::root::greatest;
 use crate::numeric::{quadrature, root};
 use std::f64::consts::TAU;
@@ -36,7 +36,7 @@ pub struct StaticLoad {
     /// without friction.
     pub pitch_jump: Option<f64>,
     /// From the first contact through E to the last contact.
-    pub stations: Vec<MeshStation>,
+    pub stations: Vec<Station>,
     /// The reason why the stations are less dense than the curve needs.
     pub rough: Option<Refusal>,
 }
@@ -329,15 +329,15 @@ fn stations(
     contact: Contact,
     peak: f64,
     spacing: Spacing,
-) -> (Vec<MeshStation>, Option<Refusal>) {
+) -> (Vec<Station>, Option<Refusal>) {
     let most = STATIONS.min(CURVE_WORK / mesh.standing(0.0).count().max(1));
-    MeshStation::through_start(contact.first.0, contact.last.0, |from, to| {
+    Station::through_start(contact.first.0, contact.last.0, |from, to| {
         spacing.stations(&[from, to], peak, most, |s| {
             let (s, inside) = between(s, contact.first, contact.last);
             let balance = balance(mesh, s, inside);
             (
                 balance.force,
-                MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None),
+                Station::at(mesh, s, balance.force, balance.total, balance.displacement, None),
             )
         })
     })

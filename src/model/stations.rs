@@ -17,65 +17,47 @@ const LOSS: f64 = 1e4;
 /// A force below this part of the sum of all forces is rounding and counts as 0.
 const ROUNDING: f64 = 1e-12;
 
-/// A station between D and E. The impact is computed as if D were at this place.
+/// A station of the incoming tooth: in `paper` and `exact` between D and E, where the impact is
+/// computed as if D were at this place; with load sharing between its first and its last contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
-    /// Driver's angle before E, in rad.
-    pub roll_angle_driver: f64,
-    /// Driven gear's angle before E, in rad.
-    pub roll_angle_driven: f64,
-    /// O₁J, in m.
-    pub radius_driver: f64,
-    /// Approach velocity, in m/s.
-    pub normal_velocity: f64,
-    /// Sliding velocity, in m/s.
-    pub sliding_velocity: f64,
-    /// Impact force, in N.
-    pub impact_force: f64,
-    /// Gap S(u) between tip and flank without deviation, in m; Δ at D, 0 at E.
-    pub gap: f64,
-    /// Pair compliance q_s at the impact force, in m²/N. `None` at E, where the force is 0.
-    pub pair_compliance: Option<f64>,
-    /// Normal kinetic energy E_k of the whole width, in J.
-    pub impact_energy: f64,
-}
-
-/// A station of the incoming tooth between its first contact and its last contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshStation {
     /// Driver's angle before E, in rad; below 0 after E.
     pub roll_angle_driver: f64,
     /// Driven gear's angle before E, in rad; below 0 after E.
     pub roll_angle_driven: f64,
-    /// Force of the incoming tooth, in N.
+    /// Force of the impact, or of the incoming tooth, in N.
     pub force: f64,
-    /// Part of the sum of all forces.
-    pub load_share: f64,
-    /// Displacement of the driver ahead along the line of action, in m.
-    pub transmission_error: f64,
-    /// Approach velocity of the incoming pair without load, −dS/dt, in m/s; below 0 when tip and
-    /// flank separate.
+    /// Approach velocity without load, −dS/dt, in m/s; below 0 when tip and flank separate.
     pub normal_velocity: f64,
-    /// Sliding velocity of the incoming pair, in m/s.
+    /// Sliding velocity, in m/s.
     pub sliding_velocity: f64,
-    /// Gap S of the incoming pair without deviation and load, with reliefs, in m.
+    /// Gap S without deviation and load, in m; with load sharing it includes the reliefs.
     pub gap: f64,
-    /// Compliance q_s of the pair at the force along the line of action, in m²/N.
-    pub pair_compliance: f64,
-    /// Time since E, in s; only in the method `dynamic`.
+    /// Pair compliance q_s at the force, or with load sharing at the force along the line of action,
+    /// in m²/N. `None` at E without load sharing, where the force is 0.
+    pub pair_compliance: Option<f64>,
+    /// O₁J, in m; only without load sharing, as the energy.
+    pub radius_driver: Option<f64>,
+    /// Normal kinetic energy E_k of the whole width, in J.
+    pub impact_energy: Option<f64>,
+    /// Part of the sum of all forces; only with load sharing, as the displacement.
+    pub load_share: Option<f64>,
+    /// Displacement of the driver ahead along the line of action, in m.
+    pub transmission_error: Option<f64>,
+    /// Time since E, in s; only in the method `dynamic`, as the rate.
     pub time: Option<f64>,
-    /// Rate of the displacement, in m/s; only in the method `dynamic`.
+    /// Rate of the displacement, in m/s.
     pub rate: Option<f64>,
 }
 
-impl MeshStation {
+impl Station {
     /// Stations from `first` to E, which is at 0, and from E to `last`. Without contact before E,
     /// only from `first` to `last`.
     pub(super) fn through_start(
         first: f64,
         last: f64,
-        mut stations: impl FnMut(f64, f64) -> (Vec<MeshStation>, Option<Refusal>),
-    ) -> (Vec<MeshStation>, Option<Refusal>) {
+        mut stations: impl FnMut(f64, f64) -> (Vec<Station>, Option<Refusal>),
+    ) -> (Vec<Station>, Option<Refusal>) {
         if first >= 0.0 {
             return stations(first, last);
         }
@@ -92,20 +74,22 @@ impl MeshStation {
         total: f64,
         displacement: f64,
         time: Option<f64>,
-    ) -> MeshStation {
+    ) -> Station {
         let (own, slope) = mesh.incoming(s);
         let least = ROUNDING * total.max(mesh.force);
         let force = if force > least { force } else { 0.0 };
-        MeshStation {
+        Station {
             roll_angle_driver: 0.0 - s / mesh.base_radii.0,
             roll_angle_driven: 0.0 - s / mesh.base_radii.1,
             force,
-            load_share: if total > 0.0 { force / total } else { 0.0 },
-            transmission_error: displacement,
+            load_share: Some(if total > 0.0 { force / total } else { 0.0 }),
+            transmission_error: Some(displacement),
+            radius_driver: None,
+            impact_energy: None,
             normal_velocity: 0.0 - slope * mesh.speed,
             sliding_velocity: own.sliding,
             gap: own.gap,
-            pair_compliance: mesh.width / own.stiffness,
+            pair_compliance: Some(mesh.width / own.stiffness),
             time,
             rate: None,
         }
@@ -134,7 +118,7 @@ pub fn stations(
     };
     let at = |angle: f64| {
         let station = station(inputs, &teeth, masses, angle);
-        (station.as_ref().map_or(f64::NAN, |station| station.impact_force), station)
+        (station.as_ref().map_or(f64::NAN, |station| station.force), station)
     };
     let rough = spacing.walk(
         &[position.approach_angle_driven, 0.0],
@@ -171,13 +155,17 @@ pub fn station(
     Ok(Station {
         roll_angle_driver: angle * geometry.ratio,
         roll_angle_driven: angle,
-        radius_driver: tip.radius_driver,
+        radius_driver: Some(tip.radius_driver),
         normal_velocity: velocity.normal,
         sliding_velocity: velocity.sliding,
-        impact_force: struck.map_or(0.0, |impact| impact.force),
+        force: struck.map_or(0.0, |impact| impact.force),
         gap: gap_without(LOSS, geometry, &tip),
         pair_compliance: struck.map(|impact| impact.pair_compliance),
-        impact_energy: struck.map_or(0.0, |impact| impact.energy),
+        impact_energy: Some(struck.map_or(0.0, |impact| impact.energy)),
+        load_share: None,
+        transmission_error: None,
+        time: None,
+        rate: None,
     })
 }
 

@@ -6,7 +6,7 @@ use super::Report;
 use super::chart::{Axis, Chart, Kind, Point, Series};
 use super::digest::rounded;
 use super::graphs::Graph;
-use super::stations::{Column, Row, rows};
+use super::stations::Column;
 use super::stiffness::no_field;
 use crate::case::units;
 use crate::model::compliance::model_of;
@@ -14,7 +14,7 @@ use crate::model::dynamic::speeds::{AtSpeed, SpeedCurve};
 use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::static_load::Spectrum;
 use crate::model::stations::Spacing;
-use crate::model::{Inputs, Outcome, Refusal, Solution, contact_state};
+use crate::model::{Inputs, Outcome, Refusal, Solution, Station, contact_state};
 use crate::numeric::decimal::significant;
 use crate::study::stiffness::{FIELD, Flanks, GearComparison, PathComparison, Point as FlankPoint};
 
@@ -199,7 +199,7 @@ fn bound(graph: &Graph, column: &Column, report: &Report) -> Option<Series> {
 fn lines(
     report: &Report,
     unit: &'static str,
-    value: impl Fn(Row) -> Option<f64>,
+    value: impl Fn(&Station) -> Option<f64>,
 ) -> Option<Vec<Vec<Point>>> {
     let mut lines = curve_of(&report.inputs, &report.solution, unit, value);
     lines.retain(|piece| piece.len() > 1);
@@ -211,11 +211,12 @@ pub fn curve_of(
     inputs: &Inputs,
     solution: &Solution,
     unit: &str,
-    value: impl Fn(Row) -> Option<f64>,
+    value: impl Fn(&Station) -> Option<f64>,
 ) -> Vec<Vec<Point>> {
     let factor = units::factor(unit).unwrap_or(1.0);
-    let points = rows(solution)
-        .into_iter()
+    let points = solution
+        .own_stations()
+        .iter()
         .map(|row| (row.angle_after_e(), value(row).map(|value| value / factor)));
     pieces(points, longest_interval(inputs, solution))
 }

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::json::{Json, measured, object};
-use super::stations::{columns, rows};
+use super::stations::columns;
 use super::table::{Cell, Column, Table};
 use super::{Report, value};
 use crate::case::file::FORMAT;
@@ -57,7 +57,7 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 pub(super) fn stations(report: &Report) -> Table {
     let columns: Vec<_> = columns(report.solution.method).collect();
     let row = |row| columns.iter().map(|column| Cell::number(column.of(row), "-")).collect();
-    let cells = rows(&report.solution).into_iter().map(row);
+    let cells = report.solution.own_stations().iter().map(row);
     let column = |known: &&super::stations::Column| {
         let title = format!("{} {}", known.symbol, known.shown);
         Column::number(known.key, title, known.unit, (known.shown, known.digits)).wide(0, 12)
@@ -103,7 +103,7 @@ mod tests {
         let inputs = case.inputs().unwrap();
         let mut solution = solve(&inputs, Stages::ALL).unwrap();
         solution.mesh_force = f64::NAN;
-        solution.stations[0].impact_force = f64::INFINITY;
+        solution.stations[0].force = f64::INFINITY;
         let selection = Selection { stations: true, ..Selection::default() };
         let mut out = Vec::new();
         write_json(&Report::of("case".to_owned(), case, inputs, solution, selection), &mut out)

@@ -1,8 +1,8 @@
 //! The table of charts: the name of each chart and its columns of the stations.
 
-use super::stations::{self, COLUMNS, Column, MESH_STIFFNESS, Row};
-use crate::model::Solution;
+use super::stations::{self, COLUMNS, Column, MESH_STIFFNESS};
 use crate::model::inputs::Method;
+use crate::model::{Solution, Station};
 
 /// A chart over the roll angle, with a curve for each method or for each compliance model. Columns
 /// of different methods that mean the same value share a chart.
@@ -39,7 +39,7 @@ pub struct Bound {
     /// The symbol in `paper` and `exact`, and in `static` and `dynamic`.
     pub symbols: [&'static str; 2],
     /// The value at a station, in SI.
-    pub value: fn(&Solution, Row) -> Option<f64>,
+    pub value: fn(&Solution, &Station) -> Option<f64>,
 }
 
 macro_rules! graph {
@@ -59,9 +59,9 @@ macro_rules! graph {
 /// gap.
 const CLOSED: Bound = Bound {
     symbols: ["Δ", "x+Δf_0"],
-    value: |solution, row| match row {
-        Row::Impact(_) => Some(solution.deviation.total),
-        Row::Load(station) => Some(station.transmission_error + solution.mesh.as_ref()?.error),
+    value: |solution, station| match station.transmission_error {
+        None => Some(solution.deviation.total),
+        Some(displacement) => Some(displacement + solution.mesh.as_ref()?.error),
     },
 };
 

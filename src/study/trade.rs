@@ -742,19 +742,8 @@ impl Answer {
 
 /// The force from the first contact to E.
 fn curve(solution: &Solution) -> Vec<(f64, f64)> {
-    let shared = match solution.method {
-        Method::Paper | Method::Exact | Method::Auto => {
-            return solution
-                .stations
-                .iter()
-                .map(|station| (station.roll_angle_driver, station.impact_force))
-                .collect();
-        }
-        Method::Static => solution.static_load.as_ref().map(|load| &load.stations),
-        Method::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
-    };
-    let before_end =
-        shared.into_iter().flatten().filter(|station| station.roll_angle_driver >= 0.0);
+    let stations = solution.own_stations().iter();
+    let before_end = stations.filter(|station| station.roll_angle_driver >= 0.0);
     before_end.map(|station| (station.roll_angle_driver, station.force)).collect()
 }
 

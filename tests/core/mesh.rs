@@ -7,7 +7,7 @@ use tipstrike::case::file::Document;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
-use tipstrike::model::{Inputs, MeshStation, Outcome, Quantity, Solution, Stages, solve};
+use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, Station, solve};
 
 /// A pair of the reference with its answers.
 struct Row {
@@ -139,7 +139,7 @@ fn dynamic_quantities_and_curves_of_every_row() {
 
 /// The force at a time by the cubic through the four stations around it, with the spread of their
 /// forces; 0 outside the contact.
-fn between(stations: &[MeshStation], time: f64) -> (f64, f64) {
+fn between(stations: &[Station], time: f64) -> (f64, f64) {
     let after = stations.partition_point(|station| station.time.unwrap() < time);
     if after == 0 || after == stations.len() {
         return (0.0, 0.0);

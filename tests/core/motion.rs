@@ -43,7 +43,7 @@ fn slow_gears_carry_the_static_load() {
         };
         let (solution, dynamic) = dynamic(&inputs);
         let mesh = mesh(&inputs, &solution);
-        let off = |station: &tipstrike::model::MeshStation| {
+        let off = |station: &tipstrike::model::Station| {
             let s = -station.roll_angle_driven * mesh.base_radii.1;
             (station.force - balance(&mesh, s, s).force).abs() / solution.mesh_force
         };

@@ -165,7 +165,7 @@ fn hold(name: &str, solution: &Solution, key: &str, expected: &Value) {
                 expected.as_array().expect("forces").iter().filter_map(Value::as_f64).collect();
             assert_eq!(expected.len(), solution.stations.len());
             for (station, expected) in solution.stations.iter().rev().zip(expected) {
-                let off = off(station.impact_force, expected);
+                let off = off(station.force, expected);
                 assert!(off < 1e-12, "{name}: station force {expected} off by {off:e}");
             }
         }
@@ -317,7 +317,7 @@ fn table_1_force_over_roll_angle() {
         .stations
         .iter()
         .rev()
-        .map(|station| format!("{:.3}", station.impact_force))
+        .map(|station| format!("{:.3}", station.force))
         .collect();
     let expected = [
         "0.000", "219.977", "438.944", "657.011", "874.677", "1092.364", "1310.415", "1529.104",

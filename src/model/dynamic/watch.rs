@@ -9,8 +9,8 @@ use super::{Dynamic, Settings};
 use crate::model::Refusal;
 use crate::model::budget::{CURVE_WORK, STATIONS, TURNS};
 use crate::model::pair_forces::Touching;
-use crate::model::stations::MeshStation;
 use crate::model::stations::Spacing;
+use crate::model::stations::Station;
 use crate::numeric::polynomial::{extremes, sign_changes};
 
 /// Memory of a growing list, relative to its contents: twice the contents in the new place and once
@@ -243,10 +243,10 @@ impl Watch {
         swings: &Swings,
         (first, last): (f64, f64),
         spacing: Spacing,
-    ) -> (Vec<MeshStation>, Option<Refusal>) {
+    ) -> (Vec<Station>, Option<Refusal>) {
         let (peak, turns) = (swings.peak, &*swings.turns);
         let is_given = spacing.count().is_some();
-        let (stations, rough) = MeshStation::through_start(first, last, |from, to| {
+        let (stations, rough) = Station::through_start(first, last, |from, to| {
             let ends = if is_given { vec![from, to] } else { self.ends(motion, turns, (from, to)) };
             let (times, rough) = spacing.stations(&ends, peak, CURVE_WORK, |t| {
                 self.looks.set(self.looks.get() + 1);
@@ -297,17 +297,17 @@ impl Watch {
         &self,
         motion: &Motion<'_>,
         turns: &[f64],
-        stations: Vec<MeshStation>,
-    ) -> Vec<MeshStation> {
+        stations: Vec<Station>,
+    ) -> Vec<Station> {
         const BESIDE: f64 = 0.02;
         let mut all = Vec::with_capacity(stations.len());
         let mut rest = stations.into_iter().peekable();
         for &turn in turns {
-            let is_before = |station: &MeshStation| station.time.is_some_and(|time| time < turn);
+            let is_before = |station: &Station| station.time.is_some_and(|time| time < turn);
             while let Some(station) = rest.next_if(is_before) {
                 all.push(station);
             }
-            let time = |station: Option<&MeshStation>| station.and_then(|station| station.time);
+            let time = |station: Option<&Station>| station.and_then(|station| station.time);
             let ends = time(all.last()).zip(time(rest.peek()));
             let is_apart =
                 |(from, to): (f64, f64)| (turn - from).min(to - turn) > BESIDE * (to - from);
@@ -321,11 +321,11 @@ impl Watch {
         all
     }
 
-    fn station(&self, motion: &Motion<'_>, t: f64) -> Option<MeshStation> {
+    fn station(&self, motion: &Motion<'_>, t: f64) -> Option<Station> {
         let (course, state, force) = self.moment(motion, t)?;
         let (s, total) = (motion.place(t), course.total(t, state[0]));
-        let station = MeshStation::at(motion.mesh, s, force, total, state[0], Some(t));
-        Some(MeshStation { rate: Some(state[1]), ..station })
+        let station = Station::at(motion.mesh, s, force, total, state[0], Some(t));
+        Some(Station { rate: Some(state[1]), ..station })
     }
 
     /// The motion at a time from the stored steps, and the force of the incoming tooth, in N.

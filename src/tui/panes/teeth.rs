@@ -16,7 +16,7 @@ use crate::case::units::System;
 use crate::case::units::system::{shown, widest_beside};
 use crate::model::{ContactState, Inputs, Solution, contact_state};
 use crate::report::graphs::{GRAPHS, Place};
-use crate::report::stations::{COLUMNS, Column, Row};
+use crate::report::stations::{COLUMNS, Column};
 use crate::tui::ascii::symbol;
 use crate::tui::theme::Look;
 
@@ -243,7 +243,7 @@ fn reading(
     system: System,
 ) -> Option<Reading> {
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
-    let interpolated = moment.interpolated.as_ref().map(Row::from).and_then(|row| column.of(row));
+    let interpolated = moment.interpolated.as_ref().and_then(|one| column.of(&one.station));
     let value = interpolated.or_else(|| without_contact(moment, key));
     if value.is_none() && !column.methods.contains(&solution.method) {
         return None;

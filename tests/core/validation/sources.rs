@@ -9,7 +9,7 @@ use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothComp
 use tipstrike::model::position::tip_at;
 use tipstrike::model::static_load::{StaticLoad, static_load};
 use tipstrike::model::stations::Spacing;
-use tipstrike::model::{Inputs, MeshStation, Quantity, Solution, Stages, solve};
+use tipstrike::model::{Inputs, Quantity, Solution, Stages, Station, solve};
 
 use super::{Figure, Source};
 use crate::stiffness::{ISO_PAIRS, at_pitch, iso_single_stiffness, pairs, stiffness};
@@ -40,10 +40,10 @@ fn dense(inputs: &Inputs) -> Inputs {
 fn mesh_stiffness(inputs: &Inputs) -> Option<Vec<(f64, f64)>> {
     let solution = solved(&dense(inputs), Method::Static)?;
     let geometry = solution.geometry;
-    let of = |station: &MeshStation| {
+    let of = |station: &Station| {
         (
             -station.roll_angle_driver * geometry.driver.base / geometry.base_pitch,
-            PER_MICROMETRE * solution.mesh_force / station.transmission_error,
+            PER_MICROMETRE * solution.mesh_force / station.transmission_error.expect("a load"),
         )
     };
     Some(solution.static_load?.stations.iter().map(of).collect())
@@ -151,9 +151,8 @@ fn loaded_pairs(inputs: &Inputs, is_coupled: bool) -> Option<f64> {
 fn force_before_path(inputs: &Inputs, radius: f64, is_coupled: bool) -> Option<f64> {
     let (geometry, load) = at_rest(&dense(inputs), is_coupled)?;
     let before = load.stations.iter().filter(|one| one.roll_angle_driven > 0.0);
-    let near = |one: &&MeshStation| {
-        (tip_at(&geometry, one.roll_angle_driven).radius_driver - radius).abs()
-    };
+    let near =
+        |one: &&Station| (tip_at(&geometry, one.roll_angle_driven).radius_driver - radius).abs();
     let best = before.min_by(|a, b| near(a).total_cmp(&near(b)))?;
     Some(1e-3 * best.force / inputs.common_width())
 }

@@ -234,7 +234,7 @@ fn compared<'a>(pair: &'a Rattling, found: &Dynamic, part: f64) -> (f64, Plain<'
     let mut worst = 0.0f64;
     for station in &found.stations {
         plain.go_to(station.time.unwrap(), length);
-        worst = worst.max((station.transmission_error - plain.y[0]).abs() / scale);
+        worst = worst.max((station.transmission_error.unwrap() - plain.y[0]).abs() / scale);
     }
     (worst, plain)
 }

@@ -13,7 +13,7 @@ use crate::numeric::decimal::significant;
 use crate::report::chart::{Kind, Point, Series, Span};
 use crate::report::charts::{curve_of, pieces};
 use crate::report::graphs::{GRAPHS, Graph};
-use crate::report::stations::{Column, Row};
+use crate::report::stations::Column;
 use crate::tui::ascii::symbol;
 use crate::tui::panes::plot::Look;
 use crate::tui::solver::Answer;
@@ -272,15 +272,15 @@ fn reading(graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
         None => (curve.at(0.0 - cursor.to_degrees())? * factor, column.digits),
         Some((inputs, solution)) => {
             let interpolated = Interpolated::at(inputs, solution, cursor)?;
-            let row = Row::from(&interpolated);
-            let is_between = matches!(interpolated, Interpolated::Between(_));
+            let station = &interpolated.station;
             match curve.source {
                 CurveSource::Bound(_) => {
+                    let is_between = interpolated.is_between;
                     let digits = if is_between { DIGITS_BETWEEN } else { column.digits };
-                    ((graph.bound?.value)(solution, row)?, digits)
+                    ((graph.bound?.value)(solution, station)?, digits)
                 }
                 _ => {
-                    let value = column.resolved(column.of(row)?, inputs, solution);
+                    let value = column.resolved(column.of(station)?, inputs, solution);
                     (value, column.digits_of(&interpolated))
                 }
             }

@@ -5,7 +5,6 @@ use crate::model::Solution;
 use crate::model::inputs::Method;
 use crate::report::chart::Span;
 use crate::report::graphs::GRAPHS;
-use crate::report::stations::{Row, rows};
 use crate::tui::solver::Answer;
 
 /// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.
@@ -133,10 +132,8 @@ pub(crate) struct Occasion {
 /// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
 /// `dynamic` have a last contact.
 pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
-    match rows(solution).last() {
-        Some(Row::Load(station)) => Some(station.roll_angle_driver),
-        _ => None,
-    }
+    let last = solution.own_stations().last().filter(|station| station.load_share.is_some());
+    last.map(|station| station.roll_angle_driver)
 }
 
 /// The range from the first to the last station of all methods, in deg after E.
@@ -164,7 +161,7 @@ pub(crate) fn angle_range_of(answer: &Answer, method: Method) -> Span {
 }
 
 fn way_of(solution: &Solution) -> Span {
-    let rows = rows(solution);
+    let rows = solution.own_stations();
     [rows.first(), rows.last()]
         .into_iter()
         .flatten()
