@@ -198,17 +198,13 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
         if difference == 0.0 { 0.0 } else { (difference / force).abs() }
     };
     let peaks = over(still.peak_force - moved.peak_force, moved.peak_force);
-    let approach =
-        over(still.force_at_start - moved.peak_approach_force, moved.peak_approach_force);
+    let approach = moved.first_contact_angle.map_or(0.0, |_| {
+        over(still.force_at_start - moved.peak_approach_force, moved.peak_approach_force)
+    });
     let off = |&(place, force): &(f64, f64)| {
         over(force - balance(mesh, place, place).force, moved.peak_force)
     };
-    let before = moved.approach.iter();
-    before.map(off).fold(angles.max(peaks), f64::max).max(if moved.first_contact_angle.is_some() {
-        approach
-    } else {
-        0.0
-    })
+    moved.approach.iter().map(off).fold(angles.max(peaks).max(approach), f64::max)
 }
 
 impl fmt::Display for Choice {

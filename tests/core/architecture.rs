@@ -227,30 +227,20 @@ fn update_names_no_view_and_a_component_does_not_name_the_workbench() {
 
 #[test]
 fn a_compliance_model_is_named_in_its_file_and_in_the_list_only() {
-    for list in ["tooth", "contact"] {
-        let folder = format!("src/model/compliance/{list}");
-        for model in sources(&folder) {
-            let name = model.modules().pop().unwrap();
-            let constant = format!("{}Compliance::{}", capitalized(list), name.to_uppercase());
-            let module = format!("{name}::");
-            for source in sources("src") {
-                let code = source.code.split("mod tests {").next().unwrap_or_default();
-                let path = source.path.display().to_string();
-                let is_test = path.ends_with("tests.rs");
-                let is_home = path.ends_with(&format!("compliance/{list}.rs"))
-                    || path == model.path.display().to_string();
-                let is_named = code.contains(&constant) || after(code, &module).next().is_some();
-                assert!(
-                    is_test || is_home || !is_named,
-                    "{path} names the compliance model {name}"
-                );
-            }
+    for model in sources("src/model/compliance/tooth") {
+        let name = model.modules().pop().unwrap();
+        let constant = format!("ToothCompliance::{}", name.to_uppercase());
+        let module = format!("{name}::");
+        for source in sources("src") {
+            let code = source.code.split("mod tests {").next().unwrap_or_default();
+            let path = source.path.display().to_string();
+            let is_test = path.ends_with("tests.rs");
+            let is_home =
+                path.ends_with("compliance/tooth.rs") || path == model.path.display().to_string();
+            let is_named = code.contains(&constant) || after(code, &module).next().is_some();
+            assert!(is_test || is_home || !is_named, "{path} names the compliance model {name}");
         }
     }
-}
-
-fn capitalized(word: &str) -> String {
-    word[..1].to_uppercase() + &word[1..]
 }
 
 #[test]
