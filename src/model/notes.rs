@@ -208,7 +208,7 @@ const ROWS: &[fn(&Context) -> Found] = &[
         Some((code, format!("the friction coefficient is {friction}, {does}")))
     },
     |k| {
-        let given = k.inputs.given_deflection()?;
+        let given = k.inputs.deflection.filter(|_| !k.solution.method.shares_load())?;
         let message = format!(
             "the deflection of {} um is given: power and torque change only F_0, not D or the impact",
             micro(given)
@@ -455,7 +455,8 @@ fn barely_clear(k: &Context) -> Found {
     let clear = k.solution.margin()?;
     let [now, enough] = [0.0, clear].map(|more| k.inputs.common_base_pitch(more));
     let part = clear / k.solution.deviation.combined_deflection;
-    let has_more_load = k.inputs.given_deflection().is_none() && part < CLOSE;
+    let is_of_load = k.solution.method.shares_load() || k.inputs.deflection.is_none();
+    let has_more_load = is_of_load && part < CLOSE;
     let load = if has_more_load {
         format!(" or the load rises by about {} %", significant(100.0 * part, 2))
     } else {
