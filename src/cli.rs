@@ -18,7 +18,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser, ValueHint};
 pub use commands::Command;
 pub use output::Exit;
-use output::Failure;
+use output::{Done, Failure};
 
 /// The streams of a command.
 pub struct Streams<'a> {
@@ -40,6 +40,10 @@ impl Streams<'_> {
     /// Writes one message line. Ignores a closed error stream.
     fn say(&mut self, message: &str) {
         let _ = writeln!(self.errors, "{}", sanitize(message));
+    }
+
+    fn say_all<T: AsRef<str>>(&mut self, messages: impl IntoIterator<Item = T>) {
+        messages.into_iter().for_each(|message| self.say(message.as_ref()));
     }
 }
 
@@ -102,19 +106,14 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
     finish(done, streams)
 }
 
-/// The exit code; reports a failure that is not reported yet. A reader that closes the output (`|
-/// head -1`) is not a failure.
-fn finish(done: Result<Exit, Failure>, streams: &mut Streams) -> Exit {
+/// The exit code; reports a failure. A reader that closes the output (`| head -1`) is not a failure.
+fn finish(done: Done, streams: &mut Streams) -> Exit {
     let flushed = done.and_then(|exit| Ok(streams.output.flush().map(|()| exit)?));
     match flushed {
-        Ok(exit) | Err(Failure::Reported(exit)) => exit,
-        Err(Failure::Usage(line)) => {
-            streams.say(&line);
-            Exit::Usage
-        }
-        Err(Failure::File(error)) => {
-            streams.say(&error.to_string());
-            Exit::Unreadable
+        Ok(exit) => exit,
+        Err(Failure::Reported(exit, lines)) => {
+            streams.say_all(lines);
+            exit
         }
         Err(Failure::Stream(error)) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Done,
         Err(Failure::Stream(error)) => {

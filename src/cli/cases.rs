@@ -1,14 +1,13 @@
-//! Opens cases for a command and reports their problems.
+//! Opens cases for a command and places their problems.
 
 use super::Streams;
-use super::options::{Edits, Setting};
-use super::output::{Exit, Failure};
+use super::options::{CaseFile, Edits, Setting};
+use super::output::{Done, Exit, Failure};
 use crate::case::fields::FIELDS;
 use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::rexs::{self, Imported};
 use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance};
 use crate::model::{Inputs, Quantity, Refusal};
-use crate::report::compare::Refused;
 use crate::report::pictures::Unsolved;
 use std::path::{Path, PathBuf};
 
@@ -47,44 +46,61 @@ impl Opened {
         Unsolved { name: &self.name, case: &self.document.case, inputs: &self.inputs }
     }
 
-    /// Reports a refusal of the model at the field that its fix names first.
-    pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
-        let problem = Problem::from(refusal).at_given(&self.document.case);
-        self.report_problem(problem, streams);
-        Exit::BadCase
+    /// A refusal of the model at the field that its fix names first.
+    pub(super) fn refused(&self, refusal: &Refusal) -> Failure {
+        self.faulty(Problem::from(refusal).at_given(&self.document.case))
     }
 
-    /// Reports a problem of the case at its place.
-    pub(super) fn report_problem(&self, problem: Problem, streams: &mut Streams) {
-        streams.say(&placed(&self.document, problem, &self.edits));
+    /// Why a study of the case has no result.
+    pub(super) fn failed(&self, reason: &impl std::fmt::Display) -> Failure {
+        Failure::new(Exit::BadCase, format!("{}: {reason}", self.name))
+    }
+
+    /// A problem of the case at its place.
+    pub(super) fn faulty(&self, problem: Problem) -> Failure {
+        Failure::new(Exit::BadCase, placed(&self.document, problem, &self.edits))
     }
 }
 
-/// Runs a command on each case. The exit code is the greatest of all.
+impl CaseFile {
+    /// Opens the case. `varied` has the index of each field that a study varies, with one of its
+    /// values.
+    pub(super) fn open(
+        &self,
+        varied: &[(usize, String)],
+        streams: &mut Streams,
+    ) -> Result<Opened, Failure> {
+        open(&self.case, &self.changes.edits(), varied, streams)
+    }
+}
+
+/// Runs a command on each case and reports its failures. The exit code is the greatest of all.
 pub(super) fn each(
     paths: &[PathBuf],
-    mut run: impl FnMut(&Path) -> Result<Exit, Failure>,
-) -> Result<Exit, Failure> {
-    paths.iter().try_fold(Exit::Done, |worst, path| match run(path) {
-        Ok(exit) | Err(Failure::Reported(exit)) => Ok(worst.max(exit)),
+    streams: &mut Streams,
+    mut run: impl FnMut(&Path, &mut Streams) -> Done,
+) -> Done {
+    paths.iter().try_fold(Exit::Done, |worst, path| match run(path, streams) {
+        Ok(exit) => Ok(worst.max(exit)),
+        Err(Failure::Reported(exit, lines)) => {
+            streams.say_all(&lines);
+            Ok(worst.max(exit))
+        }
         Err(failure) => Err(failure),
     })
 }
 
-/// Reads a case and applies the changes of the command line.
-pub(super) fn open(path: &Path, edits: &Edits, streams: &mut Streams) -> Result<Opened, Exit> {
-    let document = read(path, streams)?;
-    changed(path.display().to_string(), document, edits, streams)
-}
-
-/// Reads a case whose missing values may be among the varied fields. `varied` has the index of each
-/// field with one of its values.
-pub(super) fn open_varied(
+/// Reads a case and applies the changes of the command line. `varied` has the index of each field
+/// that a study varies, with one of its values for a case that lacks them.
+pub(super) fn open(
     path: &Path,
     edits: &Edits,
     varied: &[(usize, String)],
     streams: &mut Streams,
-) -> Result<Opened, Exit> {
+) -> Result<Opened, Failure> {
+    for (field, _) in varied {
+        keep_varied(&edits.settings, FIELDS[*field].key)?;
+    }
     let mut document = read(path, streams)?;
     for (field, value) in varied {
         if document.case.effective(*field).is_none() {
@@ -92,29 +108,24 @@ pub(super) fn open_varied(
             drop(document.case.set(FIELDS[*field].key, value));
         }
     }
-    changed(path.display().to_string(), document, edits, streams)
+    changed(path.display().to_string(), document, edits)
 }
 
 /// Refuses to set a field that a study varies.
-pub(super) fn keep_varied(settings: &[Setting], varied: &[&str]) -> Result<(), Failure> {
-    let is_varied = |setting: &&Setting| {
-        varied.iter().any(|key| *key == setting.key || Case::are_exclusive(key, &setting.key))
-    };
-    match settings.iter().find(is_varied) {
-        Some(setting) => Err(Failure::Usage(format!(
-            "{}: --vary replaces this value: leave one of them out",
-            setting.written()
-        ))),
-        None => Ok(()),
-    }
+fn keep_varied(settings: &[Setting], key: &str) -> Result<(), Failure> {
+    let is_varied =
+        |setting: &&Setting| key == setting.key || Case::are_exclusive(key, &setting.key);
+    let Some(setting) = settings.iter().find(is_varied) else { return Ok(()) };
+    let written = setting.written();
+    Err(Failure::usage(format!("{written}: --vary replaces this value: leave one of them out")))
 }
 
 /// Reads a case that may lack values, or the only spur stage of a model.
-pub(super) fn read(path: &Path, streams: &mut Streams) -> Result<Document, Exit> {
+pub(super) fn read(path: &Path, streams: &mut Streams) -> Result<Document, Failure> {
     if rexs::is_model(path) {
         return Ok(read_model(path, None, streams)?.document);
     }
-    Document::read_draft(path).map_err(|error| unread(&error, streams))
+    Ok(Document::read_draft(path)?)
 }
 
 /// Reads a stage of a model, and reports the stages and the empty fields.
@@ -122,12 +133,10 @@ pub(super) fn read_model(
     path: &Path,
     stage: Option<&str>,
     streams: &mut Streams,
-) -> Result<Imported, Exit> {
-    let bytes = read_bytes(path, MOST_MODEL_BYTES).map_err(|error| unread(&error, streams))?;
-    let imported = rexs::import(path, &bytes, stage).map_err(|refusal| {
-        streams.say(&refusal);
-        Exit::BadCase
-    })?;
+) -> Result<Imported, Failure> {
+    let bytes = read_bytes(path, MOST_MODEL_BYTES)?;
+    let imported = rexs::import(path, &bytes, stage)
+        .map_err(|refusal| Failure::new(Exit::BadCase, refusal))?;
     let name = path.display();
     for stage in &imported.stages {
         let mark = if stage.id == imported.stage { ", imported" } else { "" };
@@ -147,21 +156,16 @@ pub(super) fn changed(
     name: String,
     mut document: Document,
     edits: &Edits,
-    streams: &mut Streams,
-) -> Result<Opened, Exit> {
-    edit(&mut document, edits).map_err(|line| {
-        streams.say(&line);
-        Exit::Usage
-    })?;
+) -> Result<Opened, Failure> {
+    edit(&mut document, edits)?;
     match document.case.inputs() {
         Ok(inputs) => {
             Ok(Opened { name: named(name, edits), document, inputs, edits: edits.clone() })
         }
-        Err(problems) => {
-            for refused in refused(&document, problems, edits) {
-                streams.say(&refused.line);
-            }
-            Err(Exit::BadCase)
+        Err(mut problems) => {
+            problems.sort_by_key(|problem| document.place(&problem.field));
+            let lines = problems.into_iter().map(|problem| placed(&document, problem, edits));
+            Err(Failure::Reported(Exit::BadCase, lines.collect()))
         }
     }
 }
@@ -174,25 +178,12 @@ pub(super) fn named(name: String, edits: &Edits) -> String {
     }
 }
 
-/// The problems of a case in the order of the file, each with its line.
-pub(super) fn refused(
-    document: &Document,
-    mut problems: Vec<Problem>,
-    edits: &Edits,
-) -> Vec<Refused> {
-    problems.sort_by_key(|problem| document.place(&problem.field));
-    let placed =
-        |problem: Problem| Refused { line: placed(document, problem.clone(), edits), problem };
-    problems.into_iter().map(placed).collect()
-}
-
-/// Applies the variant and the settings to the case. Returns the problem of an invalid one.
-pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), String> {
+/// Applies the variant and the settings to the case.
+pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), Failure> {
     if let Some(name) = &edits.variant {
-        let found = document.case.variant(name).cloned();
-        let variant = found.map_err(|problem| {
-            let (file, Problem { cause, fix, .. }) = (document.name(), problem);
-            format!("{file}, --variant {name}: {cause}: {fix}")
+        let variant = document.case.variant(name).cloned().map_err(|problem| {
+            let option = format!("{}, --variant", document.name());
+            Failure::of_option(&option, name, &problem)
         })?;
         document.case = document.case.with(&variant);
     }
@@ -201,37 +192,22 @@ pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), String>
         let is_partner = |other: &&Setting| Case::are_exclusive(&other.key, &setting.key);
         if let Some(other) = settings[..index].iter().find(is_partner) {
             let (written, key) = (setting.written(), &other.key);
-            return Err(format!(
+            return Err(Failure::usage(format!(
                 "{written}: --set {key} excludes this field: remove one of the two --set options"
-            ));
+            )));
         }
         let set = document.case.set(&setting.key, &setting.value);
-        set.map_err(|problem| on_command_line(setting, &problem))?;
+        set.map_err(|problem| Failure::usage(on_command_line(setting, &problem)))?;
     }
     Ok(())
 }
 
-fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
-    if let ReadError::Bad(faults) = error {
-        for fault in faults {
-            streams.say(&fault.to_string());
-        }
-        return Exit::BadCase;
-    }
-    streams.say(&error.to_string());
-    match error {
-        ReadError::NewerFormat(_) => Exit::NewerFormat,
-        _ => Exit::Unreadable,
-    }
-}
-
 /// A problem at its place: on the command line for a changed field, otherwise in the file; a
 /// changed field may also contradict another field.
-fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
+pub(super) fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
     let settings = &edits.settings;
     if let Some(setting) = settings.iter().rev().find(|setting| setting.key == problem.field) {
-        let worded = on_command_line(setting, &problem);
-        return format!("{}, {worded}", document.name());
+        return format!("{}, {}", document.name(), on_command_line(setting, &problem));
     }
     let variant = edits.variant.as_deref();
     // The key of the variant's override, if there is one.
@@ -251,4 +227,16 @@ fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
 
 fn on_command_line(setting: &Setting, problem: &Problem) -> String {
     format!("{}: {}: {}", setting.written(), problem.cause, problem.fix)
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Failure {
+        match error {
+            ReadError::Bad(faults) => {
+                Failure::Reported(Exit::BadCase, faults.iter().map(ToString::to_string).collect())
+            }
+            ReadError::NewerFormat(_) => Failure::new(Exit::NewerFormat, error),
+            _ => Failure::new(Exit::Unreadable, error),
+        }
+    }
 }

@@ -10,81 +10,75 @@ mod searches;
 mod studies;
 
 use super::Streams;
-use super::output::{Exit, Failure};
+use super::output::Done;
 use clap::Subcommand;
 
 /// A headless command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve cases and print the results
-    Solve(results::SolveOptions),
+    Solve(results::Solve),
     /// Check each case's [limits] against its results, one verdict per line
-    Check(results::CheckOptions),
+    Check(results::Check),
     /// Explain a quantity of a case: formula, numbers, source, validity and sensitivity
-    Explain(results::ExplainOptions),
+    Explain(results::Explain),
     /// Measure accuracy against run time of every method on a case, on this machine
-    Trade(searches::TradeOptions),
+    Trade(searches::Trade),
     /// Compare the tooth compliance of every model over the flank with finite elements
-    Stiffness(searches::StiffnessOptions),
+    Stiffness(searches::Stiffness),
     /// Solve a case over a range of one or more fields, as a table
-    Sweep(studies::SweepOptions),
+    Sweep(studies::Sweep),
     /// Sample the distributions of [spread]: percentiles, probabilities, ranking of the fields
-    Tolerance(studies::ToleranceOptions),
+    Tolerance(studies::Tolerance),
     /// Merge the shards of a sweep or a tolerance study
-    Gather(studies::GatherOptions),
+    Gather(studies::Gather),
     /// Compare the variants of a case, or several cases, side by side with their differences
-    Compare(results::CompareOptions),
+    Compare(results::Compare),
     /// Find the values of a field at which a condition on the results changes
-    Seek(searches::SeekOptions),
+    Seek(searches::Seek),
     /// Find the tip relief to specify on both gears: no corner contact, least transmission error
-    Relief(searches::ReliefOptions),
+    Relief(searches::Relief),
     /// Write a chart of a case, or its teeth, as a picture (SVG)
-    Plot(results::PlotOptions),
+    Plot(results::Plot),
     /// Write cases side by side as one page or as data: .html, .md, .csv or .json
-    Report(results::ReportOptions),
+    Report(results::Report),
     /// List every field of a case with its unit, range, default and meaning
-    Fields(documents::FieldsOptions),
+    Fields(documents::Fields),
     /// Write the JSON Schema of a case file, with which editors complete keys
-    Schema(documents::SchemaOptions),
+    Schema(documents::Schema),
     /// Write a commented case to start from
-    New(documents::NewOptions),
+    New(documents::New),
     /// Import a spur stage of a REXS model as a commented case
-    Import(documents::ImportOptions),
+    Import(documents::Import),
     /// Write a shell's completions to standard output
-    Completions(documents::CompletionsOptions),
+    Completions(documents::Completions),
     /// Write the manual page (roff) to standard output
-    Man(documents::ManOptions),
+    Man(documents::Man),
 }
 
 impl Command {
     /// Runs the command. Completions and manual use the definition of the whole program.
-    pub(super) fn run(
-        &self,
-        program: fn() -> clap::Command,
-        streams: &mut Streams,
-    ) -> Result<Exit, Failure> {
+    pub(super) fn run(&self, program: fn() -> clap::Command, streams: &mut Streams) -> Done {
         match self {
-            Command::Solve(options) => results::run_solve(options, streams),
-            Command::Check(options) => results::run_check(options, streams),
-            Command::Explain(options) => results::run_explain(options, streams),
-            Command::Trade(options) => searches::run_trade(options, streams),
-            Command::Stiffness(options) => searches::run_stiffness(options, streams),
-            Command::Sweep(options) => studies::run_sweep(options, streams),
-            Command::Tolerance(options) => studies::run_tolerance(options, streams),
-            Command::Gather(options) => studies::run_gather(options, streams),
-            Command::Compare(options) => results::run_compare(options, streams),
-            Command::Seek(options) => searches::run_seek(options, streams),
-            Command::Relief(options) => searches::run_relief(options, streams),
-            Command::Plot(options) => results::run_plot(options, streams),
-            Command::Report(options) => results::run_report(options, streams),
-            Command::Fields(options) => documents::run_fields(options, streams),
-            Command::Schema(options) => documents::run_schema(options, streams),
-            Command::New(options) => documents::run_new(options, streams),
-            Command::Import(options) => documents::run_import(options, streams),
-            Command::Completions(options) => {
-                documents::run_completions(options, program(), streams)
-            }
-            Command::Man(options) => documents::run_man(options, program(), streams),
+            Command::Solve(command) => command.run(streams),
+            Command::Check(command) => command.run(streams),
+            Command::Explain(command) => command.run(streams),
+            Command::Trade(command) => command.run(streams),
+            Command::Stiffness(command) => command.run(streams),
+            Command::Sweep(command) => command.run(streams),
+            Command::Tolerance(command) => command.run(streams),
+            Command::Gather(command) => command.run(streams),
+            Command::Compare(command) => command.run(streams),
+            Command::Seek(command) => command.run(streams),
+            Command::Relief(command) => command.run(streams),
+            Command::Plot(command) => command.run(streams),
+            Command::Report(command) => command.run(streams),
+            Command::Fields(command) => command.run(streams),
+            Command::Schema(command) => command.run(streams),
+            Command::New(command) => command.run(streams),
+            Command::Import(command) => command.run(streams),
+            Command::Completions(command) => command.run(program(), streams),
+            Command::Man(command) => command.run(program(), streams),
         }
     }
 }

@@ -1,89 +1,43 @@
 //! Options that several commands share: changes of the case, quantities, formats, files, threads.
 
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
+use super::Streams;
+use super::output::{Done, Failure, Sink, check_out, write_to};
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
-use crate::study::shard::{self, Shard};
+use crate::study::condition::distinct;
+use crate::study::shard::{Format, Shard};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
 use clap::{Arg, Args, ValueEnum, ValueHint};
 
-/// The format of a solve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum OutputFormat {
-    /// Text in usual units
-    Text,
-    /// One JSON object per line
-    Json,
-    /// Comma-separated values
-    Csv,
+/// Parser of the formats of a command.
+pub(super) fn formats<const N: usize>(
+    formats: [Format; N],
+) -> impl TypedValueParser<Value = Format> {
+    let values = formats.iter().filter_map(ValueEnum::to_possible_value);
+    PossibleValuesParser::new(values).try_map(|name| Format::from_str(&name, false))
 }
 
-/// The format of a list or a page.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Listing {
-    /// Text
-    Text,
-    /// One JSON object per line
-    Json,
-}
-
-/// The format of a table with one row per point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum RowFormat {
-    /// A header and one row per point
-    Csv,
-    /// One object per line and point
-    Json,
-}
-
-impl From<RowFormat> for shard::Format {
-    fn from(format: RowFormat) -> shard::Format {
-        match format {
-            RowFormat::Csv => shard::Format::Csv,
-            RowFormat::Json => shard::Format::Json,
-        }
-    }
-}
-
-impl From<OutputFormat> for shard::Format {
-    fn from(format: OutputFormat) -> shard::Format {
-        match format {
-            OutputFormat::Text => shard::Format::Text,
-            OutputFormat::Json => shard::Format::Json,
-            OutputFormat::Csv => shard::Format::Csv,
-        }
-    }
-}
-
-/// The formats of one command, for `--format`.
-pub trait FormatChoice: ValueEnum + Send + Sync + 'static {
-    /// The default format.
-    const DEFAULT: &str;
-}
-
-impl FormatChoice for OutputFormat {
-    const DEFAULT: &str = "text";
-}
-
-impl FormatChoice for Listing {
-    const DEFAULT: &str = "text";
-}
-
-impl FormatChoice for RowFormat {
-    const DEFAULT: &str = "csv";
-}
-
-/// The format of the output.
-// clap stores a `default_value_t` in a static, which all instances of a generic struct share.
+/// The selected quantities.
 #[derive(Debug, Args)]
-pub struct FormatOption<Choice: FormatChoice> {
-    /// Format of the output
-    #[arg(long, value_enum, default_value = Choice::DEFAULT)]
-    pub format: Choice,
+pub struct Only {
+    /// Compute only these quantities, by name or symbol, and run only the stages that they need;
+    /// `tipstrike fields --results` lists them
+    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
+    pub only: Vec<Vec<&'static Quantity>>,
+}
+
+impl Only {
+    /// The quantities without duplicates; empty if the user names none.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<&'static Quantity> {
+        distinct(self.only.iter().flatten().copied())
+    }
 }
 
 /// The number of threads.
@@ -315,6 +269,9 @@ pub struct CaseFile {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
+    /// The changes of the case
+    #[command(flatten)]
+    pub changes: Changes,
 }
 
 /// The file for the output.
@@ -323,6 +280,22 @@ pub struct Destination {
     /// File to write (default: standard output); replaces an existing file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
+}
+
+impl Destination {
+    /// Refuses a file that the command reads or that cannot be written, before long work starts.
+    pub(super) fn check(&self, input: &Path) -> Result<(), Failure> {
+        check_out(self.out.as_deref(), &[input])
+    }
+
+    /// Writes results with `write` to the file or to standard output.
+    pub(super) fn write(
+        &self,
+        streams: &mut Streams,
+        write: impl FnOnce(&mut Sink) -> io::Result<()>,
+    ) -> Done {
+        write_to(self.out.as_deref(), streams, write)
+    }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use super::Streams;
 use crate::case::Problem;
 use crate::case::file::{Draft, SaveError};
 use crate::study::batch::{Control, Stopped};
@@ -39,16 +40,14 @@ impl<'a> Sink<'a> {
     }
 
     /// Replaces the target by the complete file.
-    pub(super) fn finish(self) -> Result<(), Failure> {
-        match self {
-            Sink::Stream(_) => Ok(()),
-            Sink::File(mut writer, _interrupt) => {
-                let flushed = writer.flush();
-                let (draft, _) = writer.into_parts();
-                flushed.map_err(|error| draft.unwritable(error))?;
-                Ok(draft.finish()?)
-            }
+    pub(super) fn finish(self) -> Done {
+        if let Sink::File(mut writer, _interrupt) = self {
+            let flushed = writer.flush();
+            let (draft, _) = writer.into_parts();
+            flushed.map_err(|error| draft.unwritable(error))?;
+            draft.finish()?;
         }
+        Ok(Exit::Done)
     }
 
     /// Converts an error of a write.
@@ -56,7 +55,7 @@ impl<'a> Sink<'a> {
         match self {
             Sink::Stream(_) => Failure::Stream(error),
             Sink::File(_, interrupt) if !interrupt.go_on() => Failure::Interrupted,
-            Sink::File(writer, _) => Failure::File(writer.get_ref().unwritable(error)),
+            Sink::File(writer, _) => writer.get_ref().unwritable(error).into(),
         }
     }
 }
@@ -89,7 +88,7 @@ fn named(out: Option<&Path>) -> Option<&Path> {
 pub(super) fn check_out(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
     let Some(out) = named(out) else { return Ok(()) };
     if inputs.iter().any(|input| is_same(input, out)) {
-        return Err(Failure::Usage(format!(
+        return Err(Failure::usage(format!(
             "--out {}: this file is read by the command: choose another name",
             out.display()
         )));
@@ -102,10 +101,10 @@ pub(super) fn check_out(out: Option<&Path>, inputs: &[&Path]) -> Result<(), Fail
 /// Writes results with `write` to a file, which appears when it is complete, or to the stream.
 pub(super) fn write_to(
     out: Option<&Path>,
-    stream: &mut dyn Write,
+    streams: &mut Streams,
     write: impl FnOnce(&mut Sink) -> io::Result<()>,
-) -> Result<(), Failure> {
-    let mut sink = Sink::open(out, stream)?;
+) -> Done {
+    let mut sink = Sink::open(out, streams.output.as_mut())?;
     write(&mut sink).map_err(|error| sink.failure(error))?;
     sink.finish()
 }
@@ -233,14 +232,13 @@ impl From<Exit> for ExitCode {
     }
 }
 
+/// The end of a command.
+pub(super) type Done = Result<Exit, Failure>;
+
 /// Why a command stopped early.
 pub(super) enum Failure {
-    /// Wrong usage, with the reason.
-    Usage(String),
-    /// The reason is already reported.
-    Reported(Exit),
-    /// A file cannot be written.
-    File(SaveError),
+    /// The lines to report.
+    Reported(Exit, Vec<String>),
     /// The standard output cannot be written.
     Stream(io::Error),
     /// Ctrl-C stopped the work.
@@ -248,10 +246,20 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// Reports an invalid value of an option.
+    /// A failure with one line.
+    pub(super) fn new(exit: Exit, line: impl fmt::Display) -> Failure {
+        Failure::Reported(exit, vec![line.to_string()])
+    }
+
+    /// Wrong usage, with the reason.
+    pub(super) fn usage(line: String) -> Failure {
+        Failure::new(Exit::Usage, line)
+    }
+
+    /// An invalid value of an option.
     pub(super) fn of_option(option: &str, value: &str, problem: &Problem) -> Failure {
         let Problem { cause, fix, .. } = problem;
-        Failure::Usage(format!("{option} {value}: {cause}: {fix}"))
+        Failure::usage(format!("{option} {value}: {cause}: {fix}"))
     }
 }
 
@@ -261,15 +269,9 @@ impl From<Stopped> for Failure {
     }
 }
 
-impl From<Exit> for Failure {
-    fn from(exit: Exit) -> Failure {
-        Failure::Reported(exit)
-    }
-}
-
 impl From<SaveError> for Failure {
     fn from(error: SaveError) -> Failure {
-        Failure::File(error)
+        Failure::new(Exit::Unreadable, error)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::io::{self, Write};
 
-use super::json::{Json, measured, object, reason, write_line};
+use super::json::{Json, json, measured, object, reason, write_line};
 use super::layout::{WIDTH, item, plain_markdown};
 use super::table::{Cell, Column, Table, text, widths};
 use super::{Report, Selection, common_unit, digest, groups, shown_with, value, value_as_in};
@@ -35,16 +35,7 @@ pub struct ComparedCase {
     /// The case with the overrides of the variant.
     pub case: Case,
     /// The results, or the problems that prevent them.
-    pub found: Result<Report, Vec<Refused>>,
-}
-
-/// A problem because of which a case has no results.
-#[derive(Debug)]
-pub struct Refused {
-    /// The problem.
-    pub problem: Problem,
-    /// The problem at its place in the file or on the command line, as one line.
-    pub line: String,
+    pub found: Result<Report, Vec<Problem>>,
 }
 
 /// Cases to compare; the differences refer to the first one.
@@ -83,18 +74,13 @@ impl Row {
 type Group = (String, Vec<Row>);
 
 impl ComparedCase {
-    /// Solves a case; `refused` gives each problem its place.
-    pub fn solve(
-        name: String,
-        case: Case,
-        selection: &Selection,
-        refused: impl FnOnce(Vec<Problem>) -> Vec<Refused>,
-    ) -> ComparedCase {
-        let solved = case.inputs().and_then(|inputs| {
+    /// Solves a case.
+    #[must_use]
+    pub fn solve(name: String, case: Case, selection: &Selection) -> ComparedCase {
+        let found = case.inputs().and_then(|inputs| {
             Report::solve(name.clone(), case.clone(), inputs, selection.clone())
                 .map_err(|refusal| vec![Problem::from(&refusal).at_given(&case)])
         });
-        let found = solved.map_err(refused);
         ComparedCase { name, file: String::new(), variant: None, case, found }
     }
 
@@ -125,27 +111,15 @@ impl ComparedCase {
     fn described(&self) -> String {
         sanitize(&match &self.found {
             Ok(report) => digest::sentence(&report.solution, System::Metric),
-            Err(refused) => {
-                let problems = refused.iter().map(|refused| refused.problem.to_string());
-                format!("Refused: {}.", problems.collect::<Vec<_>>().join("; "))
+            Err(problems) => {
+                let problems: Vec<String> = problems.iter().map(ToString::to_string).collect();
+                format!("Refused: {}.", problems.join("; "))
             }
         })
     }
 }
 
 impl Comparison {
-    /// Whether no case has results.
-    #[must_use]
-    pub fn is_all_refused(&self) -> bool {
-        self.cases.iter().all(|case| case.found.is_err())
-    }
-
-    /// The refused cases as error lines.
-    pub fn refusals(&self) -> impl Iterator<Item = String> {
-        let refused = self.cases.iter().filter_map(|case| case.found.as_ref().err());
-        refused.flatten().map(|refused| refused.line.clone())
-    }
-
     /// The inputs that differ, and the quantities in the order of the first method, in groups unless
     /// the user names some.
     pub(super) fn groups(&self) -> Vec<Group> {
@@ -336,7 +310,7 @@ impl Comparison {
             };
             let columns = names.into_iter().chain(letters).collect();
             let table = Table::new("", columns).with(rows.into_iter().map(row));
-            writeln!(out, "\n{}", table.markdown().join("\n"))?;
+            writeln!(out, "\n{}", table.markdown())?;
         }
         Ok(())
     }
@@ -391,12 +365,13 @@ impl Comparison {
     /// # Errors
     /// Errors of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        let all = object([
-            ("format", FORMAT.into()),
-            ("version", env!("CARGO_PKG_VERSION").into()),
-            ("columns", (0..self.cases.len()).map(|at| self.json_case(at)).collect()),
-        ]);
-        write_line(&serde_json::to_value(all)?, out)
+        let mut all = json!({
+            "format": FORMAT,
+            "version": env!("CARGO_PKG_VERSION"),
+            "columns": (0..self.cases.len()).map(|at| self.json_case(at)).collect::<Vec<_>>(),
+        });
+        all.sort_all_objects();
+        write_line(&all, out)
     }
 
     fn json_case(&self, at: usize) -> Json {
@@ -409,27 +384,27 @@ impl Comparison {
             let method = report.solution.method;
             let members = self.quantities().filter_map(|quantity| {
                 let now = self.cases[at].value(quantity)?;
-                let base = self.base(quantity, at);
-                let percent = base.and_then(|base| percent(quantity, now, base));
-                let value = measured(quantity, now, subject(quantity, method)).with([
-                    ("difference", base.map(|base| now - base + 0.0).into()),
-                    ("percent", percent.map(|percent| percent + 0.0).into()),
-                ]);
-                Some((quantity.key, value))
+                let mut member = measured(quantity, now, subject(quantity, method));
+                if let Some(base) = self.base(quantity, at) {
+                    member["difference"] = json!(now - base + 0.0);
+                    member["percent"] =
+                        json!(percent(quantity, now, base).map(|percent| percent + 0.0));
+                }
+                Some((quantity.key, member))
             });
             object(members)
         });
-        let refused = found.as_ref().err().and_then(|refused| refused.first());
-        object([
-            ("name", name.into()),
-            ("case", file.into()),
-            ("variant", variant.as_ref().into()),
-            ("method", self.cases[at].method().into()),
-            ("outcome", self.cases[at].outcome().into()),
-            ("inputs", object(inputs)),
-            ("quantities", quantities.into()),
-            ("refusal", refused.map(|refused| reason(&refused.problem)).into()),
-        ])
+        let refused = found.as_ref().err().and_then(|problems| problems.first());
+        json!({
+            "name": name,
+            "case": file,
+            "variant": variant,
+            "method": self.cases[at].method(),
+            "outcome": self.cases[at].outcome(),
+            "inputs": object(inputs),
+            "quantities": quantities,
+            "refusal": refused.map(reason),
+        })
     }
 }
 

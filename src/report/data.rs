@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::json::{Json, measured, object};
+use super::json::{json, measured, object};
 use super::stations::columns;
 use super::table::{Cell, Column, Table};
 use super::{Report, value};
@@ -33,23 +33,21 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let quantities = report.values().map(|(quantity, value)| {
         (quantity.key, measured(quantity, value, subject(quantity, solution.method)))
     });
-    let has_stations = report.selection.stations;
-    let notes = report
-        .notes
-        .iter()
-        .map(|note| object([("code", note.code.into()), ("message", Json::from(&note.message))]));
-    let line = object([
-        ("case", Json::from(&report.name)),
-        ("title", report.title().into()),
-        ("format", FORMAT.into()),
-        ("version", env!("CARGO_PKG_VERSION").into()),
-        ("method", solution.method.name().into()),
-        ("outcome", solution.outcome.name().into()),
-        ("quantities", object(quantities)),
-        ("stations", has_stations.then(|| stations(report).objects().collect::<Json>()).into()),
-        ("stages", solution.all_stages().iter().map(Stage::name).collect()),
-        ("notes", notes.collect()),
-    ]);
+    let stations = report.selection.stations.then(|| stations(report).objects());
+    let notes = report.notes.iter().map(|note| json!({"code": note.code, "message": note.message}));
+    let stages = solution.all_stages();
+    let line = json!({
+        "case": report.name,
+        "title": report.title(),
+        "format": FORMAT,
+        "version": env!("CARGO_PKG_VERSION"),
+        "method": solution.method.name(),
+        "outcome": solution.outcome.name(),
+        "quantities": object(quantities),
+        "stations": stations,
+        "stages": stages.iter().map(Stage::name).collect::<Vec<_>>(),
+        "notes": notes.collect::<Vec<_>>(),
+    });
     write_line(&line, out)
 }
 

@@ -16,12 +16,13 @@ use crate::model::explanation::{Context, Finding};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Solution, auto};
 use crate::report::absence::Absence;
-use crate::report::json::{object, write_line};
+use crate::report::json::{json, write_line};
 use crate::report::verdict::Beside;
 use crate::report::{Shown, shown, value};
 use derivation::Known;
 pub use derivation::{How, Leaf, STEP_UNITS, Token, Work, tokens};
 pub use effects::Effect;
+use serde::Serialize;
 pub use text::{Kind, Line, lines, render};
 
 /// An explained quantity.
@@ -109,40 +110,36 @@ pub fn explain(
 /// Errors of the writer.
 pub fn write_json(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()> {
     let quantity = page.quantity;
-    let corrections = page.corrections.iter().map(|Correction { equation, error, used }| {
-        let parts = [("equation", equation), ("error", error), ("used", used)];
-        object(parts.map(|(key, &text)| (key, text.into())))
+    let validity = page.validity.iter().map(
+        |Finding { range, here, inside }| json!({"range": range, "here": here, "inside": inside}),
+    );
+    let line = json!({
+        "case": name,
+        "method": page.method,
+        "key": quantity.key,
+        "symbol": page.symbol,
+        "label": page.label,
+        "equation": quantity.equation,
+        "unit": quantity.unit,
+        "value": page.value,
+        "shown": page.shown.as_ref().map(Shown::to_string),
+        "missing": page.missing,
+        "meaning": page.meaning,
+        "beside": page.beside,
+        "derivation": page.derivation.iter().map(Work::json).collect::<Vec<_>>(),
+        "with": page.leaves.iter().map(Leaf::json).collect::<Vec<_>>(),
+        "source": page.source,
+        "corrections": page.corrections,
+        "assumptions": page.assumptions,
+        "validity": validity.collect::<Vec<_>>(),
+        "accuracy": page.accuracy,
+        "sensitivity": page.effects.iter().map(Effect::json).collect::<Vec<_>>(),
     });
-    let validity = page.validity.iter().map(|Finding { range, here, inside }| {
-        object([("range", range.into()), ("here", here.into()), ("inside", (*inside).into())])
-    });
-    let line = object([
-        ("case", name.into()),
-        ("method", page.method.into()),
-        ("key", quantity.key.into()),
-        ("symbol", page.symbol.into()),
-        ("label", page.label.into()),
-        ("equation", quantity.equation.into()),
-        ("unit", quantity.unit.into()),
-        ("value", page.value.into()),
-        ("shown", page.shown.as_ref().map(Shown::to_string).into()),
-        ("missing", page.missing.as_ref().into()),
-        ("meaning", page.meaning.as_str().into()),
-        ("beside", page.beside.as_ref().into()),
-        ("derivation", page.derivation.iter().map(Work::json).collect()),
-        ("with", page.leaves.iter().map(Leaf::json).collect()),
-        ("source", page.source.into()),
-        ("corrections", corrections.collect()),
-        ("assumptions", page.assumptions.into()),
-        ("validity", validity.collect()),
-        ("accuracy", page.accuracy.iter().collect()),
-        ("sensitivity", page.effects.iter().map(Effect::json).collect()),
-    ]);
     write_line(&line, out)
 }
 
 /// A misprint and its correction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Correction {
     /// The equation, or another place in the paper.
     pub equation: &'static str,

@@ -66,7 +66,9 @@ impl ReportFormat {
         let mut bytes = Vec::new();
         match self {
             ReportFormat::Html => return Page::of(subjects).html().map_err(io::Error::other),
-            ReportFormat::Markdown => return Ok(Page::of(subjects).markdown()),
+            ReportFormat::Markdown => {
+                return Page::of(subjects).markdown().map_err(io::Error::other);
+            }
             ReportFormat::Csv => {
                 for (at, report) in reports().enumerate() {
                     data::write_csv(report, at == 0, &mut bytes)?;

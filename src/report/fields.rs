@@ -1,6 +1,6 @@
 //! The lists of the fields of a case and of the quantities of a result, for readers and scripts.
 
-use super::json::{Json, object, write_line};
+use super::json::{json, write_line};
 use super::table::{Cell, Column, Table};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{FIELDS, Field};
@@ -70,18 +70,18 @@ pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
         let (from, to) = range(field).unzip();
         let choices = Some(choices(field)).filter(|choices| !choices.is_empty());
         let default = if let Absent::Default(text) = field.absent { Some(text) } else { None };
-        let line = object([
-            ("key", field.key.into()),
-            ("symbol", field.symbol.into()),
-            ("label", field.label.into()),
-            ("unit", unit(field).into()),
-            ("from", from.into()),
-            ("to", to.into()),
-            ("choices", choices.map(|choices| choices.iter().copied().collect::<Json>()).into()),
-            ("required", (field.absent == Absent::Refused).into()),
-            ("default", default.into()),
-            ("help", field.help.into()),
-        ]);
+        let line = json!({
+            "key": field.key,
+            "symbol": field.symbol,
+            "label": field.label,
+            "unit": unit(field),
+            "from": from,
+            "to": to,
+            "choices": choices,
+            "required": field.absent == Absent::Refused,
+            "default": default,
+            "help": field.help,
+        });
         write_line(&line, out)
     })
 }
@@ -91,7 +91,7 @@ pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// Errors of the writer.
 pub fn write_quantities_json(out: &mut dyn Write) -> io::Result<()> {
-    quantity_table().objects().try_for_each(|line| write_line(&line, out))
+    quantity_table().objects().iter().try_for_each(|line| write_line(line, out))
 }
 
 fn unit(field: &Field) -> &'static str {

@@ -1,5 +1,7 @@
 //! Line layout of text reports.
 
+use std::fmt;
+
 /// Greatest width of a line of a text report.
 pub(super) const WIDTH: usize = 80;
 
@@ -28,6 +30,16 @@ pub(super) fn plain_markdown(text: &str) -> String {
         plain.push(letter);
     }
     plain
+}
+
+/// Escapes the values of templates of Markdown.
+#[derive(Clone, Copy)]
+pub(super) struct Markdown;
+
+impl askama::filters::Escaper for Markdown {
+    fn write_escaped_str<W: fmt::Write>(&self, mut out: W, text: &str) -> fmt::Result {
+        out.write_str(&plain_markdown(text))
+    }
 }
 
 /// Wraps a sentence behind a mark; further lines are indented by the width of the mark.

@@ -4,8 +4,7 @@ use std::fmt::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::charts::{NamedCase, Solved};
-use super::compare::{ComparedCase, Comparison, Refused, Row};
-use super::layout::plain_markdown as plain;
+use super::compare::{ComparedCase, Comparison, Row};
 use super::pictures::{Picture, pictures};
 use super::table::{Cell, Column, Table};
 use super::verdict::verdicts;
@@ -48,6 +47,8 @@ struct PageCase {
     studies: Vec<Table>,
     /// The file without its comments.
     lines: String,
+    /// More backticks than the file contains.
+    fence: String,
     /// The whole file as a data URL.
     link: String,
     /// The file's name without folders.
@@ -64,6 +65,8 @@ struct Html<'a> {
 }
 
 /// The content of a page, without its pictures.
+#[derive(Template)]
+#[template(path = "report.md", config = "assets/askama.toml")]
 pub struct Page<'a> {
     subjects: &'a [Subject],
     title: String,
@@ -109,62 +112,18 @@ impl<'a> Page<'a> {
     }
 
     /// Renders Markdown, without charts.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        let mut parts = vec![
-            format!("# {}", plain(&self.title)),
-            format!("Corner contact of spur gear pairs, computed by tipstrike {}.", self.version),
-            "## Verdict".to_owned(),
-        ];
-        for case in &self.cases {
-            parts.extend((!self.is_single()).then(|| format!("### {}", plain(&case.title))));
-            parts.extend(case.verdict.iter().map(|sentence| plain(sentence)));
-            let notes = Some(&case.notes_of_case).filter(|notes| !notes.is_empty());
-            let notes = notes.map_or_else(String::new, |notes| format!(". {}", plain(notes)));
-            parts.push(format!("{}, method {}{notes}", plain(&case.name), case.method));
-        }
-        parts.extend(self.list("## Limits", |case| {
-            let limits = case.limits.iter();
-            limits.map(|(_, word, sentence)| format!("{word}: {sentence}")).collect()
-        }));
-        parts.push("## Inputs that differ from their defaults".to_owned());
-        parts.push(self.inputs.markdown().join("\n"));
-        parts.push("## Results".to_owned());
-        let rows = self.results.iter().flat_map(|table| table.rows.iter().cloned());
-        let columns = self.results.first().map(|table| table.columns.clone());
-        let results = Table::new("", columns.unwrap_or_default()).with(rows);
-        parts.push(results.markdown().join("\n"));
-        parts.extend(self.has_studies().then(|| "## Studies".to_owned()));
-        for case in &self.cases {
-            let whose = format!(" of {}", plain(&case.title));
-            let whose = if self.is_single() { "" } else { &whose };
-            for study in &case.studies {
-                parts.push(format!("### {}{whose}", plain(&study.title)));
-                parts.push(study.markdown().join("\n"));
-                parts.extend(study.notes.iter().map(|note| plain(note)));
-            }
-        }
-        parts.extend(self.list("## Notes", |case| case.notes.clone()));
-        parts.push("## Case files".to_owned());
-        for PageCase { name, lines, .. } in &self.cases {
-            // More backticks than the text contains.
-            let longest = lines.split(|c| c != '`').map(str::len).max().unwrap_or(0);
-            let fence = "`".repeat(longest.max(2) + 1);
-            parts.push(format!("{}, without comments:", plain(name)));
-            parts.push(format!("{fence}toml\n{lines}\n{fence}"));
-        }
-        parts.join("\n\n") + "\n"
+    ///
+    /// # Errors
+    /// Errors of the template.
+    pub fn markdown(&self) -> Result<String, askama::Error> {
+        self.render()
     }
 
-    /// A heading and a list of the lines of every case; nothing without lines.
-    fn list(&self, heading: &str, of: impl Fn(&PageCase) -> Vec<String>) -> Vec<String> {
-        let lines = self.cases.iter().flat_map(|case| {
-            let whose = format!("{}: ", plain(&case.title));
-            let whose = if self.is_single() { String::new() } else { whose };
-            of(case).into_iter().map(move |line| format!("- {whose}{}", plain(&line)))
-        });
-        let lines: Vec<String> = lines.collect();
-        if lines.is_empty() { lines } else { vec![heading.to_owned(), lines.join("\n")] }
+    /// The results without headings.
+    fn all_results(&self) -> Table {
+        let rows = self.results.iter().flat_map(|table| table.rows.iter().cloned());
+        let columns = self.results.first().map(|table| table.columns.clone());
+        Table::new("", columns.unwrap_or_default()).with(rows)
     }
 
     fn is_single(&self) -> bool {
@@ -192,6 +151,8 @@ impl PageCase {
             (verdict.standing.holds(), verdict.standing.word(), verdict.to_string())
         });
         let title = if report.title().is_empty() { &report.name } else { report.title() };
+        let lines = without_comments(&subject.file);
+        let longest = lines.split(|c| c != '`').map(str::len).max().unwrap_or(0);
         Some(PageCase {
             name: sanitize(&report.name),
             title: sanitize(title),
@@ -201,7 +162,8 @@ impl PageCase {
             limits: limits.collect(),
             notes: report.notes.iter().map(|note| sanitize(&note.message)).collect(),
             studies: subject.studies.tables(&report.case),
-            lines: without_comments(&subject.file),
+            lines,
+            fence: "`".repeat(longest.max(2) + 1),
             link: address(&subject.file),
             file_name: sanitize(report.name.rsplit('/').next().unwrap_or_default()),
         })
@@ -354,10 +316,7 @@ fn variants(
         if !go_on(at, count) {
             return Err(Stopped);
         }
-        Ok(ComparedCase::solve(name.to_owned(), case, &selection, |problems| {
-            let line = |problem| Refused { line: format!("{name}: {problem}"), problem };
-            problems.into_iter().map(line).collect()
-        }))
+        Ok(ComparedCase::solve(name.to_owned(), case, &selection))
     });
     Ok(Some(Comparison { cases: solved.collect::<Result<_, _>>()?, selection }))
 }
@@ -376,8 +335,12 @@ fn of_variants(comparison: &Comparison) -> Table {
         cells.map(Cell::from).collect()
     };
     let rows = comparison.groups().into_iter().flat_map(|(_, rows)| rows).map(row);
+    let notes = comparison.cases.iter().flat_map(|ComparedCase { name, found, .. }| {
+        let problems = found.as_ref().err().into_iter().flatten();
+        problems.map(move |problem| sanitize(&format!("{name}: {problem}")))
+    });
     Table {
-        notes: comparison.refusals().map(|line| sanitize(&line)).collect(),
+        notes: notes.collect(),
         ..Table::new("Variants, with the differences from the case", columns).with(rows)
     }
 }

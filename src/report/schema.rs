@@ -44,7 +44,7 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
     let mut schema = object("A case of tipstrike: a gear pair in operation.", tables);
     schema["$schema"] = DRAFT.into();
     schema["required"] = json!(["format"]);
-    print(&schema, out)
+    print(schema, out)
 }
 
 /// Writes the schema of a line of `solve --format json`.
@@ -84,11 +84,12 @@ pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
         },
         "required": ["case", "format", "version", "method", "outcome", "quantities", "stages", "notes"],
     });
-    print(&schema, out)
+    print(schema, out)
 }
 
-fn print(schema: &Value, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, schema)?;
+fn print(mut schema: Value, out: &mut dyn Write) -> io::Result<()> {
+    schema.sort_all_objects();
+    serde_json::to_writer_pretty(&mut *out, &schema)?;
     writeln!(out)
 }
 

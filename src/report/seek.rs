@@ -148,7 +148,7 @@ impl SeekReport<'_> {
             ("unit", if unit.is_empty() { "1" } else { unit }.into()),
             ("from", self.range.from.into()),
             ("to", self.range.to.into()),
-            ("until", (&self.condition.text).into()),
+            ("until", self.condition.text.as_str().into()),
             ("answer", self.answer().into()),
             ("crossings", crossings.collect()),
             ("segments", segments.collect()),

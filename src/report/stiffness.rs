@@ -254,7 +254,7 @@ pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Resu
 }
 
 fn gear_line(flanks: &Flanks, gear: &GearComparison) -> Json {
-    let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), (&gap.reason).into()));
+    let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), gap.reason.as_str().into()));
     let point = |point: &Point| {
         let models = flanks.models.iter().map(|model| model.name()).zip(&point.models);
         let models = models.map(|(name, value)| (key(name), (*value).into()));

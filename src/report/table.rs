@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use csv::{ErrorKind, Writer};
 
-use super::json::{Json, object};
+use super::json::{Json, json};
 use super::layout::{count, flow, plain_markdown};
 use super::number;
 
@@ -129,9 +129,9 @@ impl Cell {
 
     fn json(&self) -> Json {
         match self {
-            Cell::Number(value) | Cell::Shown(value, _) => (*value).into(),
-            Cell::Text(text) | Cell::Default(text) => text.into(),
-            Cell::None(_) => Json::Absent,
+            Cell::Number(value) | Cell::Shown(value, _) => json!(value),
+            Cell::Text(text) | Cell::Default(text) => json!(text),
+            Cell::None(_) => Json::Null,
         }
     }
 }
@@ -283,68 +283,55 @@ impl Table {
         self.write_csv_rows(out)
     }
 
-    /// The rows as objects in SI units without absent values.
-    pub fn objects(&self) -> impl Iterator<Item = Json> {
-        self.rows.iter().map(|row| {
-            let cells = self.columns.iter().zip(row);
-            object(cells.map(|(column, cell)| (column.key.clone(), cell.json())))
-        })
+    /// The rows as objects in SI units.
+    #[must_use]
+    pub fn objects(&self) -> Vec<Json> {
+        let cells = |row| {
+            let row: &Vec<Cell> = row;
+            self.columns.iter().zip(row).map(|(column, cell)| (column.key.clone(), cell.json()))
+        };
+        self.rows.iter().map(|row| cells(row).collect()).collect()
     }
 
-    /// The table as lines of Markdown, without its title and notes.
+    /// The table in Markdown, without its title and notes.
     #[must_use]
-    pub fn markdown(&self) -> Vec<String> {
-        let line = |cells: &mut dyn Iterator<Item = String>| {
-            cells.fold("|".to_owned(), |line, cell| line + &cell + " |")
+    pub fn markdown(&self) -> String {
+        let title = |column: &Column| match &*column.title {
+            "" => " |".to_owned(),
+            title => format!(" {} |", plain_markdown(title)),
         };
         let rule = |column: &Column| if column.is_right { "--:|" } else { "---|" };
-        let cells = |row: &Vec<Cell>| {
-            let cells = self.columns.iter().zip(row);
-            line(
-                &mut cells
-                    .map(|(column, cell)| format!(" {}", plain_markdown(&column.shown(cell)))),
-            )
+        let cell = |(column, cell): (&Column, &Cell)| {
+            format!(" {} |", plain_markdown(&column.shown(cell)))
         };
-        let title = |column: &Column| match &*column.title {
-            "" => String::new(),
-            title => format!(" {}", plain_markdown(title)),
-        };
-        let head = [
-            line(&mut self.columns.iter().map(title)),
-            self.columns.iter().fold("|".to_owned(), |line, column| line + rule(column)),
-        ];
-        head.into_iter().chain(self.rows.iter().map(cells)).collect()
+        let head: String = self.columns.iter().map(title).collect();
+        let rules: String = self.columns.iter().map(rule).collect();
+        let rows = self.rows.iter().map(|row| self.columns.iter().zip(row).map(cell).collect());
+        let lines: Vec<String> = [head, rules].into_iter().chain(rows).collect();
+        format!("|{}", lines.join("\n|"))
     }
 
     /// The table as HTML, with headers if `has_head`: the class of a cell is `number`, or the key
     /// of its column.
     #[must_use]
     pub fn html(&self, has_head: bool) -> String {
-        let line = |tag: &str, cells: &mut dyn Iterator<Item = (Cow<'_, str>, &str)>| {
-            let cells = self.columns.iter().zip(cells).map(|(column, (text, faint))| {
-                let class = if column.is_right { "number" } else { &column.key };
-                format!("<{tag} class=\"{class}{faint}\">{}</{tag}>", escaped(&text))
-            });
-            format!("<tr>{}</tr>\n", cells.collect::<String>())
+        let cell = |tag: &str, column: &Column, faint: &str, text: &str| {
+            let class = if column.is_right { "number" } else { &column.key };
+            format!("<{tag} class=\"{class}{faint}\">{}</{tag}>", escaped(text))
         };
-        let head = has_head.then(|| {
-            line("th", &mut self.columns.iter().map(|column| (column.title.as_ref().into(), "")))
-        });
-        let rows = self.rows.iter().map(|row| {
-            line(
-                "td",
-                &mut self.columns.iter().zip(row).map(|(column, cell)| {
-                    let faint = if matches!(cell, Cell::Default(_)) { " soft" } else { "" };
-                    (column.shown(cell), faint)
-                }),
-            )
-        });
+        let title = |column| cell("th", column, "", &column.title);
+        let value = |(column, value): (&Column, &Cell)| {
+            let faint = if matches!(value, Cell::Default(_)) { " soft" } else { "" };
+            cell("td", column, faint, &column.shown(value))
+        };
+        let head = has_head.then(|| self.columns.iter().map(title).collect());
+        let rows = self.rows.iter().map(|row| self.columns.iter().zip(row).map(value).collect());
+        let rows = head.into_iter().chain(rows).map(|cells: String| format!("<tr>{cells}</tr>\n"));
         let caption = match self.title.as_str() {
             "" => String::new(),
             title => format!("<caption>{}</caption>\n", escaped(title)),
         };
-        let rows: String = head.into_iter().chain(rows).collect();
-        format!("<table>\n{caption}{rows}</table>\n")
+        format!("<table>\n{caption}{}</table>\n", rows.collect::<String>())
     }
 }
 
@@ -392,9 +379,9 @@ mod tests {
         let mut csv = Vec::new();
         table.write_csv(&mut csv).unwrap();
         assert_eq!(String::from_utf8(csv).unwrap(), "name,force [N]\ntip|,1500.0\nroot,\n");
-        let rows = serde_json::to_string(&table.objects().collect::<Json>()).unwrap();
-        assert_eq!(rows, r#"[{"name":"tip|","force":1500.0},{"name":"root"}]"#);
-        assert_eq!(table.markdown(), ["| | A |", "|---|--:|", "| tip\\| | 1.50 |", "| root | – |"]);
+        let rows = serde_json::to_string(&table.objects()).unwrap();
+        assert_eq!(rows, r#"[{"name":"tip|","force":1500.0},{"name":"root","force":null}]"#);
+        assert_eq!(table.markdown(), "| | A |\n|---|--:|\n| tip\\| | 1.50 |\n| root | – |");
         assert!(table.html(false).contains("<td class=\"number\">1.50</td>"));
     }
 

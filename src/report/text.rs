@@ -13,7 +13,6 @@ use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
-use std::io::{self, Write};
 
 /// The inputs that identify the pair. Missing inputs, zeros and defaults are omitted.
 const SHOWN_INPUTS: &[&str] = &[
@@ -51,14 +50,6 @@ const SHOWN_INPUTS: &[&str] = &[
     "operation.speed",
     "model.deflection",
 ];
-
-/// Writes the page.
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    out.write_all(render(report).as_bytes())
-}
 
 /// The page; empty sections are omitted.
 #[must_use]

@@ -230,8 +230,8 @@ impl ToleranceReport<'_> {
             object([
                 ("count", refused.count.into()),
                 ("of", design.count().into()),
-                ("field", field.into()),
-                ("cause", cause.into()),
+                ("field", field.as_str().into()),
+                ("cause", cause.as_str().into()),
                 ("fix", fix.to_string().into()),
             ])
         });
@@ -240,7 +240,7 @@ impl ToleranceReport<'_> {
             object([
                 ("field", spread.field.into()),
                 ("shape", spread.shape.name().into()),
-                ("width", (&spread.text).into()),
+                ("width", spread.text.as_str().into()),
                 ("centre", distribution.centre.into()),
                 ("unit", unit(distribution).into()),
             ])
@@ -248,7 +248,7 @@ impl ToleranceReport<'_> {
         let limits = summary.limits.iter().map(|limit| {
             object([
                 ("quantity", limit.quantity.key.into()),
-                ("limit", (&limit.limit.text).into()),
+                ("limit", limit.limit.text.as_str().into()),
                 ("samples", limit.known.into()),
                 ("exceeded", limit.probability.as_ref().map(chance).into()),
             ])

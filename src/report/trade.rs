@@ -271,9 +271,9 @@ pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<(
             Some((key, reference.values[subject as usize].into()))
         };
         let quantities = sorted(Subject::ALL.into_iter().filter_map(quantity));
-        object([("method", setting.method.name().into())])
-            .with(fineness(setting, setting.models))
-            .with([("quantities", quantities)])
+        let method = [("method", setting.method.name().into())].into_iter();
+        let members = method.chain(fineness(setting, setting.models));
+        object(members.chain([("quantities", quantities)]))
     });
     let build = trade.build.ok().map(|build| [build.driver, build.driven]);
     let setting = |measured| setting(trade, measured);
@@ -316,23 +316,21 @@ fn setting(trade: &Trade, measured: &MeasuredSetting) -> Json {
         let parts = [("model", model), ("numerical", numerical), ("total", total)];
         Some((subject.key(), object(parts.map(|(name, error)| (name, error.into())))))
     };
-    object([("method", setting.method.name().into())])
-        // The method that `auto` chose.
-        .with([("took", (taken.method != setting.method).then(|| taken.method.name()).into())])
-        .with(fineness(setting, taken.models))
-        .with([
-            ("accurate", setting.accurate.into()),
-            ("current", measured.is_current.into()),
-            ("seconds", time.map(|time| time.seconds).into()),
-            ("spread", time.map(|time| time.spread).into()),
-            ("runs", time.map(|time| time.runs).into()),
-            ("evaluations", figures.and_then(|figures| figures.evaluations).into()),
-            ("errors", sorted(Subject::ALL.into_iter().filter_map(errors))),
-            ("total", measured.total().into()),
-            ("pareto", measured.is_on_front.into()),
-            ("qualifies", measured.qualifies.into()),
-            ("refusal", measured.found.as_ref().err().map(ToString::to_string).into()),
-        ])
+    let chosen = (taken.method != setting.method).then(|| taken.method.name());
+    let methods = [("method", setting.method.name().into()), ("took", chosen.into())].into_iter();
+    object(methods.chain(fineness(setting, taken.models)).chain([
+        ("accurate", setting.accurate.into()),
+        ("current", measured.is_current.into()),
+        ("seconds", time.map(|time| time.seconds).into()),
+        ("spread", time.map(|time| time.spread).into()),
+        ("runs", time.map(|time| time.runs).into()),
+        ("evaluations", figures.and_then(|figures| figures.evaluations).into()),
+        ("errors", sorted(Subject::ALL.into_iter().filter_map(errors))),
+        ("total", measured.total().into()),
+        ("pareto", measured.is_on_front.into()),
+        ("qualifies", measured.qualifies.into()),
+        ("refusal", measured.found.as_ref().err().map(ToString::to_string).into()),
+    ]))
 }
 
 #[cfg(test)]

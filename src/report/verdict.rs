@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Write};
 
 use super::absence::Absence;
-use super::json::{object, write_line};
+use super::json::{json, write_line};
 use super::{shown_in, value};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
@@ -235,32 +235,32 @@ pub fn write_json(
     method: Method,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let start = |standing: Standing| {
-        object([
-            ("case", case.into()),
-            ("method", method.name().into()),
-            ("standing", standing.name().into()),
-        ])
-    };
+    let method = method.name();
     if verdicts.is_empty() {
-        return write_line(&start(Standing::Within).with([("message", "no limits".into())]), out);
+        let standing = Standing::Within.name();
+        let line =
+            json!({"case": case, "method": method, "standing": standing, "message": "no limits"});
+        return write_line(&line, out);
     }
     verdicts.iter().try_for_each(|verdict| {
         let Verdict { limit, value, standing, beside, .. } = verdict;
         let unit = |key| Quantity::find(key).map(|quantity| quantity.unit);
         // The counterpart in the method, if the method resolves the impact itself.
-        let own = beside.and_then(|beside| beside.own).map(|(key, value)| {
-            object([("quantity", key.into()), ("value", value.into()), ("unit", unit(key).into())])
+        let own = beside.and_then(|beside| beside.own);
+        let own =
+            own.map(|(key, value)| json!({"quantity": key, "value": value, "unit": unit(key)}));
+        let line = json!({
+            "case": case,
+            "method": method,
+            "standing": standing.name(),
+            "quantity": limit.quantity,
+            "value": value,
+            "limit": limit.value,
+            "unit": unit(limit.quantity),
+            "of": beside.map(|_| "free-impact"),
+            "own": own,
+            "message": verdict.to_string(),
         });
-        let line = start(*standing).with([
-            ("quantity", limit.quantity.into()),
-            ("value", (*value).into()),
-            ("limit", limit.value.into()),
-            ("unit", unit(limit.quantity).into()),
-            ("of", beside.map(|_| "free-impact").into()),
-            ("own", own.into()),
-            ("message", verdict.to_string().into()),
-        ]);
         write_line(&line, out)
     })
 }

@@ -16,16 +16,19 @@ use crate::model::{Inputs, Quantity};
 use serde::{Deserialize, Serialize};
 use siphasher::sip::SipHasher24;
 
-/// The format of the output of a study.
+/// The format of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Format {
-    /// Text in usual units.
+    /// Text in usual units
     Text,
-    /// JSON.
+    /// JSON in SI units, one object per line
     Json,
-    /// A header and one row per point.
+    /// Comma-separated values in SI units
     Csv,
+    /// Tables in Markdown
+    Md,
 }
 
 /// A case and the study of that case.

@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 use crate::case::file::{self, SaveError};
 use crate::case::units::System;
 use crate::case::{Case, Document, EXAMPLES, Example};
-use crate::cli::options::{FormatOption, Listing};
-use crate::cli::output::{Exit, Failure};
+use crate::cli::options::formats;
+use crate::cli::output::{Done, Exit, Failure};
 use crate::cli::{Streams, cases};
 use crate::report::digest::Digest;
 use crate::report::{fields, schema};
+use crate::study::shard::Format;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{Args, ValueHint};
 use clap_complete::Shell;
-use clap_mangen::Man;
 
 /// The options of the command.
 #[derive(Debug, Args)]
-pub struct NewOptions {
+pub struct New {
     /// Start from this example instead of an empty case
     #[arg(long, value_name = "EXAMPLE", value_parser = examples())]
     pub from: Option<&'static Example>,
@@ -31,27 +31,30 @@ pub struct NewOptions {
     pub file: Option<PathBuf>,
 }
 
-pub(super) fn run_new(options: &NewOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    if options.list {
-        list(streams.output.as_mut())?;
-        return Ok(Exit::Done);
+impl New {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        if self.list {
+            list(streams.output.as_mut())?;
+            return Ok(Exit::Done);
+        }
+        let text = self.from.map_or_else(
+            || Document::new(Case::fresh()).render(),
+            |example| example.text.to_owned(),
+        );
+        write_case(self.file.as_deref(), &text, streams)
     }
-    let text = options
-        .from
-        .map_or_else(|| Document::new(Case::fresh()).render(), |example| example.text.to_owned());
-    write_case(options.file.as_deref(), &text, streams)
 }
 
 /// Writes a case to a file that must not exist yet, or to standard output.
-fn write_case(file: Option<&Path>, text: &str, streams: &mut Streams) -> Result<Exit, Failure> {
+fn write_case(file: Option<&Path>, text: &str, streams: &mut Streams) -> Done {
     match file.filter(|file| file.as_os_str() != "-") {
         None => streams.output.write_all(text.as_bytes())?,
         Some(path) => file::write(path, text.as_bytes(), false).map_err(|error| match error {
             SaveError::AlreadyThere(name) => {
-                streams.say(&format!("{name}: the file exists: choose another name"));
-                Failure::Reported(Exit::Unreadable)
+                let line = format!("{name}: the file exists: choose another name");
+                Failure::new(Exit::Unreadable, line)
             }
-            other => Failure::File(other),
+            other => other.into(),
         })?,
     }
     Ok(Exit::Done)
@@ -89,7 +92,7 @@ const IMPORT_HELP: &str = "REXS is the exchange format of gear programs such as 
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = IMPORT_HELP)]
-pub struct ImportOptions {
+pub struct Import {
     /// REXS model (.rexs, .rexsj or .rexsz); - is standard input
     #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]
     pub model: PathBuf,
@@ -101,92 +104,94 @@ pub struct ImportOptions {
     pub out: Option<PathBuf>,
 }
 
-pub(super) fn run_import(options: &ImportOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let imported = cases::read_model(&options.model, options.stage.as_deref(), streams)?;
-    write_case(options.out.as_deref(), &imported.document.render(), streams)
+impl Import {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let imported = cases::read_model(&self.model, self.stage.as_deref(), streams)?;
+        write_case(self.out.as_deref(), &imported.document.render(), streams)
+    }
 }
 
 /// The options of the command.
 #[derive(Debug, Args)]
-pub struct FieldsOptions {
+pub struct Fields {
     /// List the quantities instead: the names for --only and [limits]
     #[arg(long)]
     pub results: bool,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<Listing>,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    pub format: Format,
 }
 
-pub(super) fn run_fields(options: &FieldsOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let out = streams.output.as_mut();
-    match (options.results, options.output.format) {
-        (false, Listing::Text) => fields::write_fields(out),
-        (false, Listing::Json) => fields::write_fields_json(out),
-        (true, Listing::Text) => fields::write_quantities(out),
-        (true, Listing::Json) => fields::write_quantities_json(out),
-    }?;
-    Ok(Exit::Done)
+impl Fields {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let out = streams.output.as_mut();
+        match (self.results, self.format) {
+            (false, Format::Json) => fields::write_fields_json(out),
+            (false, _) => fields::write_fields(out),
+            (true, Format::Json) => fields::write_quantities_json(out),
+            (true, _) => fields::write_quantities(out),
+        }?;
+        Ok(Exit::Done)
+    }
 }
 
 /// The options of the command.
 #[derive(Debug, Args)]
-pub struct SchemaOptions {
+pub struct Schema {
     /// Write the schema of `solve --format json` instead
     #[arg(long)]
     pub results: bool,
 }
 
-pub(super) fn run_schema(options: &SchemaOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let out = streams.output.as_mut();
-    if options.results {
-        schema::write_results(out)?;
-    } else {
-        schema::write_case(out)?;
+impl Schema {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let out = streams.output.as_mut();
+        if self.results {
+            schema::write_results(out)?;
+        } else {
+            schema::write_case(out)?;
+        }
+        Ok(Exit::Done)
     }
-    Ok(Exit::Done)
 }
 
 /// The options of the command.
 #[derive(Debug, Args)]
-pub struct CompletionsOptions {
+pub struct Completions {
     /// The shell
     pub shell: Shell,
 }
 
-pub(super) fn run_completions(
-    options: &CompletionsOptions,
-    mut program: clap::Command,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    // The generator panics if its writer fails, and therefore writes to memory.
-    let mut script = Vec::new();
-    clap_complete::generate(options.shell, &mut program, "tipstrike", &mut script);
-    streams.output.write_all(&script)?;
-    Ok(Exit::Done)
+impl Completions {
+    pub(super) fn run(&self, mut program: clap::Command, streams: &mut Streams) -> Done {
+        // The generator panics if its writer fails, and therefore writes to memory.
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut program, "tipstrike", &mut script);
+        streams.output.write_all(&script)?;
+        Ok(Exit::Done)
+    }
 }
 
 /// The options of the command.
 #[derive(Debug, Args)]
-pub struct ManOptions {
+pub struct Man {
     /// The page of this command
     pub command: Option<String>,
 }
 
-pub(super) fn run_man(
-    options: &ManOptions,
-    program: clap::Command,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    let page = page(options.command.as_deref(), program).ok_or_else(|| {
-        Failure::Usage(format!(
-            "man: there is no command {}: `tipstrike help` lists them",
-            options.command.as_deref().unwrap_or_default()
-        ))
-    })?;
-    let source = format!("tipstrike {}", env!("CARGO_PKG_VERSION"));
-    Man::new(page).source(source).render(&mut streams.output)?;
-    exit_status(streams.output.as_mut())?;
-    Ok(Exit::Done)
+impl Man {
+    pub(super) fn run(&self, program: clap::Command, streams: &mut Streams) -> Done {
+        let page = page(self.command.as_deref(), program).ok_or_else(|| {
+            Failure::usage(format!(
+                "man: there is no command {}: `tipstrike help` lists them",
+                self.command.as_deref().unwrap_or_default()
+            ))
+        })?;
+        let source = format!("tipstrike {}", env!("CARGO_PKG_VERSION"));
+        clap_mangen::Man::new(page).source(source).render(&mut streams.output)?;
+        exit_status(streams.output.as_mut())?;
+        Ok(Exit::Done)
+    }
 }
 
 fn exit_status(out: &mut dyn Write) -> io::Result<()> {

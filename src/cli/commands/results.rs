@@ -9,21 +9,21 @@ use crate::case::{Case, Document};
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::options::{
-    CaseFile, Cases, Changes, Destination, Edits, FormatChoice, FormatOption, Listing,
-    OutputFormat, Quantities, QuantityList, Setting, Settings, by_method, methods, station_count,
+    CaseFile, Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, by_method,
+    formats, methods, station_count,
 };
-use crate::cli::output::{Exit, Failure, check_out, follow, write_to};
+use crate::cli::output::{Done, Exit, Failure, check_out, follow, write_to};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stages};
 use crate::report::compare::{ComparedCase, Comparison};
 use crate::report::explain::{explain, render, write_json};
 use crate::report::export::{ReportFormat, subject};
-use crate::report::pictures::{NoPicture, find, pictures};
+use crate::report::pictures::{NoPicture, Picture, find, pictures};
 use crate::report::verdict::{self, Standing, refused, stages, stages_beside, verdicts};
-use crate::report::{Report, Selection, data, text};
-use crate::study::condition::distinct;
-use clap::builder::PossibleValuesParser;
-use clap::{Args, ValueEnum, ValueHint};
+use crate::report::{self, Selection, data, text};
+use crate::study::shard::Format;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueHint};
 
 const SOLVE_HELP: &str = "CSV: one row per case and one column per quantity in SI units, such as `impact_force [N]`; with --stations \
     one row per station. JSON: one object per case and line, in SI units; missing values are absent.";
@@ -31,46 +31,46 @@ const SOLVE_HELP: &str = "CSV: one row per case and one column per quantity in S
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = SOLVE_HELP)]
-pub struct SolveOptions {
+pub struct Solve {
     /// The cases
     #[command(flatten)]
     pub input: Cases,
-    /// Print only these quantities, by name or symbol, and run only the stages that they need;
-    /// `tipstrike fields --results` lists them
-    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
-    pub only: Vec<Vec<&'static Quantity>>,
+    /// The quantities
+    #[command(flatten)]
+    pub only: Only,
     /// Print the stations as well, in this many intervals between D and E, or auto
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
     pub stations: Option<String>,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<OutputFormat>,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    pub format: Format,
 }
 
-pub(super) fn run_solve(options: &SolveOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let mut edits = options.input.changes.edits();
-    let stations = options.stations.iter();
-    let stations = stations.map(|value| Setting::by("--stations", "model.stations", value));
-    edits.settings.extend(stations);
-    let format = options.output.format;
-    let only = distinct(options.only.iter().flatten().copied());
-    let whole_json = format == OutputFormat::Json && only.is_empty();
-    let selection = Selection { only, stations: options.stations.is_some() || whole_json };
-    let mut is_first = true;
-    cases::each(&options.input.cases, |path| {
-        let opened = cases::open(path, &edits, streams)?;
-        let Opened { name, document, inputs, .. } = &opened;
-        let (case, inputs) = (document.case.clone(), inputs.clone());
-        let solved = Report::solve(name.clone(), case, inputs, selection.clone());
-        let report =
-            solved.and_then(in_full).map_err(|refusal| opened.refused(&refusal, streams))?;
-        print(report, format, std::mem::take(&mut is_first), streams.output.as_mut())?;
-        Ok(Exit::Done)
-    })
+impl Solve {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let mut edits = self.input.changes.edits();
+        let stations = self.stations.iter();
+        let stations = stations.map(|value| Setting::by("--stations", "model.stations", value));
+        edits.settings.extend(stations);
+        let (format, only) = (self.format, self.only.quantities());
+        let whole_json = format == Format::Json && only.is_empty();
+        let selection = Selection { only, stations: self.stations.is_some() || whole_json };
+        let mut is_first = true;
+        cases::each(&self.input.cases, streams, |path, streams| {
+            let opened = cases::open(path, &edits, &[], streams)?;
+            let Opened { name, document, inputs, .. } = &opened;
+            let (case, inputs) = (document.case.clone(), inputs.clone());
+            let report = report::Report::solve(name.clone(), case, inputs, selection.clone())
+                .and_then(in_full)
+                .map_err(|refusal| opened.refused(&refusal))?;
+            print(report, format, std::mem::take(&mut is_first), streams.output.as_mut())?;
+            Ok(Exit::Done)
+        })
+    }
 }
 
 /// Refuses a report that lacks a requested quantity if the model withheld results.
-fn in_full(report: Report) -> Result<Report, Refusal> {
+fn in_full(report: report::Report) -> Result<report::Report, Refusal> {
     let missing = report.values().count() < report.selection.only.len();
     match report.solution.withheld {
         Some(refusal) if missing => Err(refusal),
@@ -78,15 +78,19 @@ fn in_full(report: Report) -> Result<Report, Refusal> {
     }
 }
 
-fn print(report: Report, format: OutputFormat, first: bool, out: &mut dyn Write) -> io::Result<()> {
+fn print(
+    report: report::Report,
+    format: Format,
+    first: bool,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     match format {
-        OutputFormat::Text => {
+        Format::Json => data::write_json(&report, out),
+        Format::Csv => data::write_csv(&report, first, out),
+        Format::Text | Format::Md => {
             let blank = if first { "" } else { "\n" };
-            out.write_all(blank.as_bytes())?;
-            text::write(&report.with_others(), out)
+            write!(out, "{blank}{}", text::render(&report.with_others()))
         }
-        OutputFormat::Json => data::write_json(&report, out),
-        OutputFormat::Csv => data::write_csv(&report, first, out),
     }
 }
 
@@ -99,24 +103,27 @@ const CHECK_HELP: &str = "A limit on impact_force applies to the free impact in 
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = CHECK_HELP)]
-pub struct CheckOptions {
+pub struct Check {
     /// The cases
     #[command(flatten)]
     pub input: Cases,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<Listing>,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    pub format: Format,
 }
 
-pub(super) fn run_check(options: &CheckOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let edits = options.input.changes.edits();
-    cases::each(&options.input.cases, |path| {
-        check(&cases::open(path, &edits, streams)?, options.output.format, streams)
-    })
+impl Check {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let edits = self.input.changes.edits();
+        cases::each(&self.input.cases, streams, |path, streams| {
+            let opened = cases::open(path, &edits, &[], streams)?;
+            check(&opened, self.format, streams.output.as_mut())
+        })
+    }
 }
 
-fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit, Failure> {
-    let case = &opened.document.case;
+fn check(opened: &Opened, format: Format, out: &mut dyn Write) -> Done {
+    let (case, name) = (&opened.document.case, &opened.name);
     let (verdicts, refusal, method) = match solve_limited(case, &opened.inputs) {
         Ok(solution) => (verdicts(case, &solution), solution.withheld, solution.method),
         Err(refusal) => (refused(case, &refusal), Some(refusal), opened.inputs.method),
@@ -125,19 +132,18 @@ fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> Result<Exit
         && !verdicts.is_empty();
     let refusal = refusal.filter(|_| !is_settled);
     if refusal.is_none() || !verdicts.is_empty() {
-        let (name, out) = (&opened.name, streams.output.as_mut());
-        match format {
-            Listing::Json => verdict::write_json(&verdicts, name, method, out)?,
-            Listing::Text if verdicts.is_empty() => {
-                writeln!(out, "ok {}: no limits", sanitize(name))?;
+        if format == Format::Json {
+            verdict::write_json(&verdicts, name, method, out)?;
+        } else if verdicts.is_empty() {
+            writeln!(out, "ok {}: no limits", sanitize(name))?;
+        } else {
+            for verdict in &verdicts {
+                writeln!(out, "{} {}: {verdict}", verdict.standing.word(), sanitize(name))?;
             }
-            Listing::Text => verdicts.iter().try_for_each(|verdict| {
-                writeln!(out, "{} {}: {verdict}", verdict.standing.word(), sanitize(name))
-            })?,
         }
     }
     if let Some(refusal) = refusal {
-        return Ok(opened.refused(&refusal, streams));
+        return Err(opened.refused(&refusal));
     }
     let holds = verdicts.iter().all(|verdict| verdict.standing.holds());
     Ok(if holds { Exit::Done } else { Exit::Exceeded })
@@ -156,7 +162,7 @@ const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
 
 /// The options of the command.
 #[derive(Debug, Args)]
-pub struct ExplainOptions {
+pub struct Explain {
     /// Name or symbol of the quantity; `tipstrike fields --results` lists all quantities
     #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = Quantities)]
     pub quantity: &'static Quantity,
@@ -166,30 +172,29 @@ pub struct ExplainOptions {
     /// The changes of the case
     #[command(flatten)]
     pub changes: Changes,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<Listing>,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    pub format: Format,
 }
 
-pub(super) fn run_explain(
-    options: &ExplainOptions,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    let edits = options.changes.edits();
-    let opened = match &options.case {
-        Some(path) => cases::open(path, &edits, streams),
-        None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &edits, streams),
-    }?;
-    let Opened { name, document, inputs, .. } = &opened;
-    let inputs = &inputs.clone().needing([options.quantity.stage]);
-    let solution = model::solve(inputs, Stages::of(options.quantity.stage))
-        .map_err(|refusal| opened.refused(&refusal, streams))?;
-    let page = explain(options.quantity, &document.case, inputs, &solution);
-    match options.output.format {
-        Listing::Text => streams.output.write_all(render(&page, name).as_bytes())?,
-        Listing::Json => write_json(&page, name, &mut streams.output)?,
+impl Explain {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let edits = self.changes.edits();
+        let mut opened = match &self.case {
+            Some(path) => cases::open(path, &edits, &[], streams),
+            None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &edits),
+        }?;
+        opened.need([self.quantity]);
+        let Opened { name, document, inputs, .. } = &opened;
+        let solution = model::solve(inputs, Stages::of(self.quantity.stage))
+            .map_err(|refusal| opened.refused(&refusal))?;
+        let page = explain(self.quantity, &document.case, inputs, &solution);
+        match self.format {
+            Format::Json => write_json(&page, name, &mut streams.output)?,
+            _ => streams.output.write_all(render(&page, name).as_bytes())?,
+        }
+        Ok(Exit::Done)
     }
-    Ok(Exit::Done)
 }
 
 const COMPARE_HELP: &str = "A variant is a table [variants.NAME] of the case file with the keys \
@@ -202,7 +207,7 @@ const COMPARE_HELP: &str = "A variant is a table [variants.NAME] of the case fil
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = COMPARE_HELP)]
-pub struct CompareOptions {
+pub struct Compare {
     /// Case files, each with its variants; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
@@ -215,100 +220,76 @@ pub struct CompareOptions {
     /// Change a field of every case and variant, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     settings: Vec<Setting>,
-    /// Compare only these quantities, by name or symbol; `tipstrike fields --results` lists them
-    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
-    pub only: Vec<Vec<&'static Quantity>>,
-    /// The format
+    /// The quantities
     #[command(flatten)]
-    pub output: FormatOption<CompareFormat>,
-}
-
-/// Format of a comparison.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum CompareFormat {
-    /// Tables for a person
-    Text,
-    /// One row per quantity
-    Csv,
-    /// One object
-    Json,
-    /// Tables in Markdown
-    Md,
-}
-
-impl FormatChoice for CompareFormat {
-    const DEFAULT: &str = "text";
+    pub only: Only,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Csv, Format::Json, Format::Md]))]
+    pub format: Format,
 }
 
 /// A file, and a case of it with the changes of the command line.
 type Edited = (String, Edits, Document);
 
-pub(super) fn run_compare(
-    options: &CompareOptions,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    let selection =
-        Selection { only: distinct(options.only.iter().flatten().copied()), stations: false };
-    let mut found = Vec::new();
-    let worst = cases::each(&options.cases, |path| {
-        let document = cases::read(path, streams)?;
-        found.extend(edited(options, path, &document).map_err(|line| {
-            streams.say(&line);
-            Exit::Usage
-        })?);
-        Ok(Exit::Done)
-    })?;
-    let cases = follow("cases", |report| {
-        let count = found.len();
-        let wanted = found.into_iter().enumerate().take_while(|(at, _)| report(*at, count));
-        wanted.map(|(_, edited)| solve(edited, &selection)).collect::<Vec<_>>()
-    });
-    if cases.len() < 2 && worst == Exit::Done {
-        let name = cases.first().map_or("", |case| case.name.as_str());
-        return Err(Failure::Usage(format!(
-            "{name}: the case has no variants: name a second case, or add a table [variants.NAME]"
-        )));
+impl Compare {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let selection = Selection { only: self.only.quantities(), stations: false };
+        let mut edited: Vec<Edited> = Vec::new();
+        let worst = cases::each(&self.cases, streams, |path, streams| {
+            let document = cases::read(path, streams)?;
+            let all = document.case.variants.iter().map(|variant| &variant.name);
+            let named = self.variants.iter();
+            let variants: Vec<&String> =
+                if named.len() == 0 { all.collect() } else { named.collect() };
+            let names = std::iter::once(None).chain(variants.into_iter().map(Some));
+            let of_file = names.map(|variant| {
+                let settings = self.settings.iter().cloned().chain(by_method(self.method));
+                let edits = Edits { variant: variant.cloned(), settings: settings.collect() };
+                let mut document = document.clone();
+                cases::edit(&mut document, &edits)?;
+                Ok((path.display().to_string(), edits, document))
+            });
+            edited.extend(of_file.collect::<Result<Vec<_>, Failure>>()?);
+            Ok(Exit::Done)
+        })?;
+        let cases: Vec<ComparedCase> = follow("cases", |go_on| {
+            let wanted = edited.iter().enumerate().take_while(|(at, _)| go_on(*at, edited.len()));
+            wanted.map(|(_, edited)| solve(edited, &selection)).collect()
+        });
+        if cases.len() < 2 && worst == Exit::Done {
+            let name = cases.first().map_or("", |case| case.name.as_str());
+            return Err(Failure::usage(format!(
+                "{name}: the case has no variants: name a second case, or add a table [variants.NAME]"
+            )));
+        }
+        if cases.is_empty() {
+            return Ok(worst);
+        }
+        let comparison = Comparison { cases, selection };
+        let out = streams.output.as_mut();
+        match self.format {
+            Format::Text => comparison.write(out)?,
+            Format::Csv => comparison.write_csv(out)?,
+            Format::Json => comparison.write_json(out)?,
+            Format::Md => comparison.write_markdown(out)?,
+        }
+        for (case, (_, edits, document)) in comparison.cases.iter().zip(&edited) {
+            for problem in case.found.as_ref().err().into_iter().flatten() {
+                streams.say(&cases::placed(document, problem.clone(), edits));
+            }
+        }
+        let is_all_refused = comparison.cases.iter().all(|case| case.found.is_err());
+        Ok(if is_all_refused { worst.max(Exit::BadCase) } else { worst })
     }
-    if cases.is_empty() {
-        return Ok(worst);
-    }
-    let comparison = Comparison { cases, selection };
-    let out = streams.output.as_mut();
-    match options.output.format {
-        CompareFormat::Text => comparison.write(out)?,
-        CompareFormat::Csv => comparison.write_csv(out)?,
-        CompareFormat::Json => comparison.write_json(out)?,
-        CompareFormat::Md => comparison.write_markdown(out)?,
-    }
-    comparison.refusals().for_each(|line| streams.say(&line));
-    Ok(if comparison.is_all_refused() { worst.max(Exit::BadCase) } else { worst })
 }
 
-/// The case itself, then its variants.
-fn edited(
-    options: &CompareOptions,
-    path: &Path,
-    document: &Document,
-) -> Result<Vec<Edited>, String> {
-    let all = document.case.variants.iter().map(|variant| &variant.name);
-    let variants: Vec<&String> =
-        if options.variants.is_empty() { all.collect() } else { options.variants.iter().collect() };
-    let names = std::iter::once(None).chain(variants.into_iter().map(Some));
-    let edited = names.map(|variant| {
-        let settings = options.settings.iter().cloned().chain(by_method(options.method));
-        let edits = Edits { variant: variant.cloned(), settings: settings.collect() };
-        let mut document = document.clone();
-        cases::edit(&mut document, &edits)?;
-        Ok((path.display().to_string(), edits, document))
-    });
-    edited.collect()
-}
-
-fn solve((file, edits, document): Edited, selection: &Selection) -> ComparedCase {
-    let (case, name) = (document.case.clone(), cases::named(file.clone(), &edits));
-    let place = |problems| cases::refused(&document, problems, &edits);
-    let solved = ComparedCase::solve(name, case, selection, place);
-    ComparedCase { file, variant: edits.variant.clone(), ..solved }
+fn solve((file, edits, document): &Edited, selection: &Selection) -> ComparedCase {
+    let name = cases::named(file.clone(), edits);
+    let mut solved = ComparedCase::solve(name, document.case.clone(), selection);
+    if let Err(problems) = &mut solved.found {
+        problems.sort_by_key(|problem| document.place(&problem.field));
+    }
+    ComparedCase { file: file.clone(), variant: edits.variant.clone(), ..solved }
 }
 
 const PLOT_HELP: &str = "The chart shows the method of the case. If the method has no \
@@ -320,59 +301,47 @@ const PLOT_HELP: &str = "The chart shows the method of the case. If the method h
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = PLOT_HELP)]
-pub struct PlotOptions {
+pub struct Plot {
     /// The case
     #[command(flatten)]
     pub input: CaseFile,
-    /// The changes of the case
-    #[command(flatten)]
-    pub changes: Changes,
     /// The chart to draw
     #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
-    pub chart: String,
+    pub chart: Picture,
     /// The file
     #[command(flatten)]
     pub destination: Destination,
 }
 
-pub(super) fn run_plot(options: &PlotOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let out = options.destination.out.as_deref();
-    if let (Some(out), Some(ending)) = (out, out.and_then(Path::extension))
-        && !ending.eq_ignore_ascii_case("svg")
-    {
-        let out = out.display();
-        return Err(Failure::Usage(format!(
-            "--out {out}: a picture is SVG: use the extension .svg"
-        )));
-    }
-    check_out(out, &[&options.input.case])?;
-    let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
-    let text = draw(&opened, options, streams)?;
-    write_to(out, streams.output.as_mut(), |sink| sink.write_all(text.as_bytes()))?;
-    Ok(Exit::Done)
-}
-
-fn draw(opened: &Opened, options: &PlotOptions, streams: &mut Streams) -> Result<String, Exit> {
-    let Some(picture) = find(&options.chart) else {
-        return Err(Exit::Usage);
-    };
-    let source = opened.unsolved();
-    let drawn = if picture.needs_speeds() {
-        follow("speeds", |go_on| picture.of_case(source, go_on))
-    } else {
-        picture.of_case(source, &|_, _| true)
-    };
-    drawn.map_err(|reason| match reason {
-        NoPicture::Refused(refusal) => opened.refused(&refusal, streams),
-        NoPicture::Absent(reason) => {
-            streams.say(&format!("{}: {reason}", opened.name));
-            Exit::BadCase
-        }
-    })
-}
-
-fn charts() -> PossibleValuesParser {
+fn charts() -> impl TypedValueParser<Value = Picture> {
     PossibleValuesParser::new(pictures().map(|picture| picture.key))
+        .try_map(|key| find(&key).ok_or("no such chart"))
+}
+
+impl Plot {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Plot { input, chart, destination } = self;
+        let ending = destination.out.as_deref().and_then(Path::extension);
+        if ending.is_some_and(|ending| !ending.eq_ignore_ascii_case("svg")) {
+            let out = destination.out.as_deref().unwrap_or(Path::new("")).display();
+            return Err(Failure::usage(format!(
+                "--out {out}: a picture is SVG: use the extension .svg"
+            )));
+        }
+        destination.check(&input.case)?;
+        let opened = input.open(&[], streams)?;
+        let source = opened.unsolved();
+        let drawn = if chart.needs_speeds() {
+            follow("speeds", |go_on| chart.of_case(source, go_on))
+        } else {
+            chart.of_case(source, &|_, _| true)
+        };
+        let text = drawn.map_err(|reason| match reason {
+            NoPicture::Refused(refusal) => opened.refused(&refusal),
+            NoPicture::Absent(reason) => opened.failed(&reason),
+        })?;
+        destination.write(streams, |sink| sink.write_all(text.as_bytes()))
+    }
 }
 
 const REPORT_HELP: &str = "The HTML page needs no other file: verdict, inputs, results, charts, \
@@ -382,7 +351,7 @@ const REPORT_HELP: &str = "The HTML page needs no other file: verdict, inputs, r
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = REPORT_HELP)]
-pub struct ReportOptions {
+pub struct Report {
     /// The cases
     #[command(flatten)]
     pub input: Cases,
@@ -391,34 +360,33 @@ pub struct ReportOptions {
     pub out: PathBuf,
 }
 
-pub(super) fn run_report(options: &ReportOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let Some(format) = ReportFormat::of(&options.out) else {
-        return Err(Failure::Usage(format!(
-            "--out {}: the file extension selects the format: use {}",
-            options.out.display(),
-            ReportFormat::ENDINGS
-        )));
-    };
-    let paths: Vec<&Path> = options.input.cases.iter().map(AsRef::as_ref).collect();
-    check_out(Some(&options.out), &paths)?;
-    let edits = options.input.changes.edits();
-    let mut subjects = Vec::new();
-    let worst = cases::each(&options.input.cases, |path| {
-        let opened = cases::open(path, &edits, streams)?;
-        let solved = opened.unsolved().solve(format.has_stations());
-        // Ctrl-C ends the program.
-        let found = solved.and_then(|report| {
-            let file = opened.document.render();
-            follow("parts", |go_on| subject(report, file, format, go_on))
-        });
-        subjects.push(found.map_err(|refusal| opened.refused(&refusal, streams))?);
-        Ok(Exit::Done)
-    })?;
-    if !subjects.is_empty() {
-        let text = format.render(&subjects)?;
-        write_to(Some(&options.out), streams.output.as_mut(), |sink| {
-            sink.write_all(text.as_bytes())
+impl Report {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Report { input: Cases { cases, changes }, out } = self;
+        let Some(format) = ReportFormat::of(out) else {
+            return Err(Failure::usage(format!(
+                "--out {}: the file extension selects the format: use {}",
+                out.display(),
+                ReportFormat::ENDINGS
+            )));
+        };
+        check_out(Some(out), &cases.iter().map(AsRef::as_ref).collect::<Vec<_>>())?;
+        let edits = changes.edits();
+        let mut subjects = Vec::new();
+        let worst = cases::each(cases, streams, |path, streams| {
+            let opened = cases::open(path, &edits, &[], streams)?;
+            // Ctrl-C ends the program.
+            let solved = opened.unsolved().solve(format.has_stations()).and_then(|report| {
+                let file = opened.document.render();
+                follow("parts", |go_on| subject(report, file, format, go_on))
+            });
+            subjects.push(solved.map_err(|refusal| opened.refused(&refusal))?);
+            Ok(Exit::Done)
         })?;
+        if !subjects.is_empty() {
+            let text = format.render(&subjects)?;
+            write_to(Some(out), streams, |sink| sink.write_all(text.as_bytes()))?;
+        }
+        Ok(worst)
     }
-    Ok(worst)
 }

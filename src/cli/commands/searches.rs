@@ -2,13 +2,10 @@
 
 use std::cell::Cell;
 
-use crate::case::fields::FIELDS;
 use crate::cli::Streams;
-use crate::cli::cases::{self, Opened};
-use crate::cli::options::{
-    CaseFile, Changes, Destination, Edits, FormatOption, Listing, OutputFormat, Threads, count,
-};
-use crate::cli::output::{Exit, Failure, Running, check_out, follow, write_to};
+use crate::cli::cases;
+use crate::cli::options::{CaseFile, Destination, Edits, Threads, count, formats};
+use crate::cli::output::{Done, Exit, Failure, Running, follow};
 use crate::numeric::decimal::shortest;
 use crate::report::seek::SeekReport;
 use crate::report::specification::ReliefReport;
@@ -18,9 +15,11 @@ use crate::study::axis::{AxisRange, with_unit};
 use crate::study::condition::Condition;
 use crate::study::relief::{self, Demand, NoRelief, specify};
 use crate::study::seek::{SeekError, USUAL_SCAN, seek};
+use crate::study::shard::Format;
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare};
-use crate::study::trade::{STEADY, Trade, TradeParameters, trade};
-use clap::Args;
+use crate::study::trade::{self as study, STEADY, TradeParameters};
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
 
 const SEEK_HELP: &str = "A crossing is a value at which the condition changes, with a bracket of 1e-9 of the value. `always` and `never` \
     are answers for the whole range. Without corner contact a quantity of the impact is below every limit. JSON is one object; its \
@@ -29,10 +28,7 @@ const SEEK_HELP: &str = "A crossing is a value at which the condition changes, w
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = SEEK_HELP)]
-pub struct SeekOptions {
-    /// The case
-    #[command(flatten)]
-    pub input: CaseFile,
+pub struct Seek {
     /// The field and its range, such as 'deviations.base_pitch=0..40 um'
     #[arg(long, value_name = "KEY=FROM..TO")]
     pub vary: String,
@@ -43,12 +39,12 @@ pub struct SeekOptions {
     /// Number of points of the first scan; a finer scan finds narrower regions
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SCAN, value_parser = count)]
     pub points: usize,
-    /// The changes of the case
+    /// The case
     #[command(flatten)]
-    pub changes: Changes,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<Listing>,
+    pub input: CaseFile,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    pub format: Format,
     /// The threads
     #[command(flatten)]
     pub threads: Threads,
@@ -57,51 +53,39 @@ pub struct SeekOptions {
     pub destination: Destination,
 }
 
-pub(super) fn run_seek(options: &SeekOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let (range, condition) = question(options)?;
-    let edits = options.changes.edits();
-    let key = FIELDS[range.field].key;
-    let out = options.destination.out.as_deref();
-    cases::keep_varied(&edits.settings, &[key])?;
-    check_out(out, &[&options.input.case])?;
-    let first = (range.field, with_unit(&shortest(range.from), &range.unit));
-    let mut opened = cases::open_varied(&options.input.case, &edits, &[first], streams)?;
-    opened.need(condition.quantity());
-    if let Some(sentence) = opened.without_effect(range.field, &opened.inputs) {
-        streams.say(&sentence);
-    }
-    condition
-        .check(opened.inputs.method)
-        .map_err(|problem| Failure::of_option("--until", &options.until, &problem))?;
-    let running = Running::new("points", options.threads.jobs);
-    let found = running
-        .run(|control| seek(&opened.inputs, &range, &condition, options.points, control))
-        .map_err(|unfound| match unfound {
+impl Seek {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Seek { input, vary, until, points, destination, .. } = self;
+        let bad_range = |problem| Failure::of_option("--vary", vary, &problem);
+        let bad_condition = |problem| Failure::of_option("--until", until, &problem);
+        let range = AxisRange::parse(vary).map_err(bad_range)?;
+        let condition = Condition::parse(until).map_err(bad_condition)?;
+        destination.check(&input.case)?;
+        let first = (range.field, with_unit(&shortest(range.from), &range.unit));
+        let mut opened = input.open(&[first], streams)?;
+        opened.need(condition.quantity());
+        streams.say_all(opened.without_effect(range.field, &opened.inputs));
+        condition.check(opened.inputs.method).map_err(bad_condition)?;
+        let running = Running::new("points", self.threads.jobs);
+        let found =
+            running.run(|control| seek(&opened.inputs, &range, &condition, *points, control));
+        let found = found.map_err(|unfound| match unfound {
             SeekError::Stopped => Failure::Interrupted,
-            SeekError::Bad(problem) => Failure::of_option("--vary", &options.vary, &problem),
+            SeekError::Bad(problem) => bad_range(problem),
         })?;
-    let report = SeekReport {
-        name: &opened.name,
-        title: opened.document.case.title(),
-        method: opened.inputs.method.name(),
-        range: &range,
-        condition: &condition,
-        found: &found,
-    };
-    write_to(out, streams.output.as_mut(), |sink| match options.output.format {
-        Listing::Text => report.write(sink),
-        Listing::Json => report.write_json(sink),
-    })?;
-    Ok(Exit::Done)
-}
-
-/// The range and the condition.
-fn question(options: &SeekOptions) -> Result<(AxisRange, Condition), Failure> {
-    let range = AxisRange::parse(&options.vary)
-        .map_err(|problem| Failure::of_option("--vary", &options.vary, &problem))?;
-    let condition = Condition::parse(&options.until)
-        .map_err(|problem| Failure::of_option("--until", &options.until, &problem))?;
-    Ok((range, condition))
+        let report = SeekReport {
+            name: &opened.name,
+            title: opened.document.case.title(),
+            method: opened.inputs.method.name(),
+            range: &range,
+            condition: &condition,
+            found: &found,
+        };
+        destination.write(streams, |sink| match self.format {
+            Format::Json => report.write_json(sink),
+            _ => report.write(sink),
+        })
+    }
 }
 
 const RELIEF_HELP: &str = "Corner contact counts before the start and after the end of the path of contact, at the greatest load, with \
@@ -113,10 +97,7 @@ const RELIEF_HELP: &str = "Corner contact counts before the start and after the 
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = RELIEF_HELP)]
-pub struct ReliefOptions {
-    /// The case
-    #[command(flatten)]
-    pub input: CaseFile,
+pub struct Relief {
     /// Loads that the relief must serve, in percent of the load of the case
     #[arg(
         long,
@@ -135,44 +116,42 @@ pub struct ReliefOptions {
         allow_hyphen_values = true
     )]
     pub tolerance: f64,
-    /// The changes of the case
+    /// The case
     #[command(flatten)]
-    pub changes: Changes,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<OutputFormat>,
+    pub input: CaseFile,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    pub format: Format,
     /// The file
     #[command(flatten)]
     pub destination: Destination,
 }
 
-pub(super) fn run_relief(options: &ReliefOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let out = options.destination.out.as_deref();
-    check_out(out, &[&options.input.case])?;
-    let opened = cases::open(&options.input.case, &options.changes.edits(), streams)?;
-    let demand = Demand { loads: options.load, tolerance: options.tolerance };
-    let found = follow("% of the budget", |report| {
-        specify(&opened.inputs, &demand, &|part| report((100.0 * part) as usize, 100))
-    });
-    let found = found.map_err(|none| match none {
-        NoRelief::Refused(refusal) => opened.refused(&refusal, streams),
-        none => {
-            streams.say(&format!("{}: {none}", opened.name));
-            Exit::BadCase
-        }
-    })?;
-    let report = ReliefReport {
-        name: &opened.name,
-        title: opened.document.case.title(),
-        method: opened.inputs.method,
-        found: &found,
-    };
-    write_to(out, streams.output.as_mut(), |sink| match options.output.format {
-        OutputFormat::Text => report.write(sink),
-        OutputFormat::Json => report.write_json(sink),
-        OutputFormat::Csv => report.write_csv(sink),
-    })?;
-    Ok(Exit::Done)
+impl Relief {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Relief { input, load: loads, tolerance, destination, .. } = self;
+        destination.check(&input.case)?;
+        let opened = input.open(&[], streams)?;
+        let demand = Demand { loads: *loads, tolerance: *tolerance };
+        let found = follow("% of the budget", |go_on| {
+            specify(&opened.inputs, &demand, &|part| go_on((100.0 * part) as usize, 100))
+        });
+        let found = found.map_err(|none| match none {
+            NoRelief::Refused(refusal) => opened.refused(&refusal),
+            none => opened.failed(&none),
+        })?;
+        let report = ReliefReport {
+            name: &opened.name,
+            title: opened.document.case.title(),
+            method: opened.inputs.method,
+            found: &found,
+        };
+        destination.write(streams, |sink| match self.format {
+            Format::Json => report.write_json(sink),
+            Format::Csv => report.write_csv(sink),
+            _ => report.write(sink),
+        })
+    }
 }
 
 const STIFFNESS_HELP: &str = "The finite elements are plane strain on the whole gear, as in tooth_compliance = \"finite-element\". CSV: one row \
@@ -182,43 +161,42 @@ const STIFFNESS_HELP: &str = "The finite elements are plane strain on the whole 
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = STIFFNESS_HELP)]
-pub struct StiffnessOptions {
-    /// The case
-    #[command(flatten)]
-    pub input: CaseFile,
+pub struct Stiffness {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
     /// The changes of the case
     #[command(flatten)]
     pub edits: Edits,
     /// Number of radii on each flank, from the form circle to the tip
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
     pub points: usize,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<OutputFormat>,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    pub format: Format,
 }
 
-pub(super) fn run_stiffness(
-    options: &StiffnessOptions,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    let opened = cases::open(&options.input.case, &options.edits, streams)?;
-    let comparison = compare(&opened.inputs, options.points)
-        .map_err(|refusal| opened.refused(&refusal, streams))?;
-    let Opened { name, document, .. } = &opened;
-    let report = StiffnessReport { name, title: document.case.title(), comparison: &comparison };
-    match options.output.format {
-        OutputFormat::Text => write(&report, streams.output.as_mut())?,
-        OutputFormat::Json => write_json(&report, streams.output.as_mut())?,
-        OutputFormat::Csv => {
-            write_csv(&comparison.flanks, streams.output.as_mut())?;
-            for gear in &comparison.flanks.gears {
-                if let Some(sentence) = no_field(gear) {
-                    streams.say(&format!("{name}: {}: {sentence}", gear.gear));
-                }
+impl Stiffness {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let opened = cases::open(&self.case, &self.edits, &[], streams)?;
+        let comparison =
+            compare(&opened.inputs, self.points).map_err(|refusal| opened.refused(&refusal))?;
+        let (name, title) = (&opened.name, opened.document.case.title());
+        let report = StiffnessReport { name, title, comparison: &comparison };
+        let out = streams.output.as_mut();
+        match self.format {
+            Format::Json => write_json(&report, out)?,
+            Format::Csv => {
+                write_csv(&comparison.flanks, out)?;
+                let absent = comparison.flanks.gears.iter();
+                let absent = absent
+                    .filter_map(|gear| Some(format!("{name}: {}: {}", gear.gear, no_field(gear)?)));
+                streams.say_all(absent);
             }
+            _ => write(&report, out)?,
         }
+        Ok(Exit::Done)
     }
-    Ok(Exit::Done)
 }
 
 /// Parses a number of radii on a flank.
@@ -236,10 +214,10 @@ const TRADE_HELP: &str = "Each setting is timed on this machine. Its total error
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = TRADE_HELP)]
-pub struct TradeOptions {
-    /// The case
-    #[command(flatten)]
-    pub input: CaseFile,
+pub struct Trade {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
     /// The changes of the case
     #[command(flatten)]
     pub edits: Edits,
@@ -247,34 +225,35 @@ pub struct TradeOptions {
     /// the case)
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
     pub within: Option<f64>,
-    /// The format
-    #[command(flatten)]
-    pub output: FormatOption<Listing>,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]
+    pub format: Format,
 }
 
-pub(super) fn run_trade(options: &TradeOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let opened = cases::open(&options.input.case, &options.edits, streams)?;
-    let parameters = TradeParameters {
-        within: options.within.unwrap_or(opened.inputs.within),
-        patience: STEADY,
-    };
-    let found = follow("settings", |report| {
-        let (done, planned) = (Cell::new(0), Cell::new(1));
-        let mut show = |sofar: &Trade| {
-            done.set(sofar.settings.len());
-            planned.set(sofar.planned);
-        };
-        let go_on = || report(done.get(), planned.get());
-        trade(&opened.inputs, &parameters, &go_on, &mut show)
-    });
-    let trade = found.map_err(|refusal| opened.refused(&refusal, streams))?;
-    let report =
-        TradeReport { name: &opened.name, title: opened.document.case.title(), trade: &trade };
-    match options.output.format {
-        Listing::Text => trade::write(&report, streams.output.as_mut())?,
-        Listing::Json => trade::write_json(&report, streams.output.as_mut())?,
+impl Trade {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let opened = cases::open(&self.case, &self.edits, &[], streams)?;
+        let within = self.within.unwrap_or(opened.inputs.within);
+        let parameters = TradeParameters { within, patience: STEADY };
+        let found = follow("settings", |report| {
+            let (done, planned) = (Cell::new(0), Cell::new(1));
+            let mut show = |sofar: &study::Trade| {
+                done.set(sofar.settings.len());
+                planned.set(sofar.planned);
+            };
+            let go_on = || report(done.get(), planned.get());
+            study::trade(&opened.inputs, &parameters, &go_on, &mut show)
+        });
+        let trade = found.map_err(|refusal| opened.refused(&refusal))?;
+        let (name, title) = (&opened.name, opened.document.case.title());
+        let report = TradeReport { name, title, trade: &trade };
+        let out = streams.output.as_mut();
+        match self.format {
+            Format::Json => trade::write_json(&report, out)?,
+            _ => trade::write(&report, out)?,
+        }
+        Ok(Exit::Done)
     }
-    Ok(Exit::Done)
 }
 
 /// Parses a fraction: "5%" or 0.05.

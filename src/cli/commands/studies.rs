@@ -4,24 +4,21 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::cli::Streams;
-use crate::cli::cases::{self, Opened};
-use crate::cli::options::{
-    CaseFile, Changes, Destination, FormatOption, OutputFormat, QuantityList, RowFormat,
-    StudyOptions, count,
-};
-use crate::cli::output::{Exit, Failure, Running, Sink, check_out, write_to};
+use crate::cli::cases::Opened;
+use crate::cli::options::{CaseFile, Destination, Only, StudyOptions, count, formats};
+use crate::cli::output::{Done, Exit, Failure, Running, Sink, check_out, write_to};
 use crate::model::Quantity;
 use crate::report::absence::Absence;
 use crate::report::sweep::SweepTable;
 use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::Axis;
 use crate::study::batch::{Refusals, Rows, Stopped, solve_all};
-use crate::study::condition::{distinct, headline};
+use crate::study::condition::headline;
 use crate::study::shard::{
     Complete, Format, Header, Kind, PointsRequest, ShardError, ShardWriter, Study, in_order,
 };
 use crate::study::sweep::Grid;
-use crate::study::tolerance::{MOST_SAMPLES, Samples, Size, Tolerance, USUAL_SAMPLES};
+use crate::study::tolerance::{self, MOST_SAMPLES, Samples, Size, USUAL_SAMPLES};
 use clap::{Args, ValueHint};
 
 const SWEEP_HELP: &str = "CSV has one row per point: the varied fields in the units of --vary, then the quantities in SI units, then the \
@@ -32,10 +29,7 @@ const SWEEP_HELP: &str = "CSV has one row per point: the varied fields in the un
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = SWEEP_HELP)]
-pub struct SweepOptions {
-    /// The case
-    #[command(flatten)]
-    pub input: CaseFile,
+pub struct Sweep {
     /// Vary a field over a range, such as 'operation.speed=500..3000 rpm', or over a list, such as
     /// 'driven.teeth=20,30,40'; of several fields the first varies slowest
     #[arg(long, required = true, value_name = "KEY=FROM..TO")]
@@ -47,47 +41,40 @@ pub struct SweepOptions {
     /// Use equal ratios between the points of a range instead of equal steps
     #[arg(long)]
     pub log: bool,
-    /// The changes of the case
+    /// The case
     #[command(flatten)]
-    pub changes: Changes,
-    /// Compute only these quantities, by name or symbol; `tipstrike fields --results` lists them
-    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
-    pub only: Vec<Vec<&'static Quantity>>,
-    /// The format
+    pub input: CaseFile,
+    /// The quantities
     #[command(flatten)]
-    pub output: FormatOption<RowFormat>,
+    pub only: Only,
+    /// Format of the output
+    #[arg(long, default_value = "csv", value_parser = formats([Format::Csv, Format::Json]))]
+    pub format: Format,
     /// How the study runs
     #[command(flatten)]
     pub running: StudyOptions,
 }
 
-pub(super) fn run_sweep(options: &SweepOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let SweepOptions { vary, points, log, .. } = options;
-    let grid = Grid::parse(vary, points, *log)
-        .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
-    check_out(options.running.destination.out.as_deref(), &[&options.input.case])?;
-    let edits = options.changes.edits();
-    let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
-    cases::keep_varied(&edits.settings, &keys)?;
-    let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
-    let first: Vec<(usize, String)> = first.collect();
-    let mut opened = cases::open_varied(&options.input.case, &edits, &first, streams)?;
-    opened.need(options.only.iter().flatten().copied());
-    for sentence in idle(&grid, &opened) {
-        streams.say(&sentence);
+impl Sweep {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Sweep { vary, points, log, .. } = self;
+        let grid = Grid::parse(vary, points, *log)
+            .map_err(|(text, problem)| Failure::of_option("--vary", text, &problem))?;
+        self.running.destination.check(&self.input.case)?;
+        let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
+        let mut opened = self.input.open(&first.collect::<Vec<_>>(), streams)?;
+        let mut quantities = self.only.quantities();
+        opened.need(quantities.iter().copied());
+        streams.say_all(idle(&grid, &opened));
+        if quantities.is_empty() {
+            quantities = headline(&opened.document.case, &grid.methods(&opened.inputs));
+        }
+        streams.say_all(absent(&quantities, &grid, &opened));
+        let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };
+        let format = self.format;
+        let study = of_case(opened, quantities, format, Kind::Sweep(grid));
+        run_study(&study, points, &self.running, streams)
     }
-    let quantities = if options.only.is_empty() {
-        headline(&opened.document.case, &grid.methods(&opened.inputs))
-    } else {
-        distinct(options.only.iter().flatten().copied())
-    };
-    for sentence in absent(&quantities, &grid, &opened) {
-        streams.say(&sentence);
-    }
-    let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };
-    let format = options.output.format.into();
-    let study = of_case(opened, quantities, format, Kind::Sweep(grid));
-    run_study(&study, points, &options.running, streams)
 }
 
 /// The quantities that no method of the sweep computes.
@@ -113,7 +100,7 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     grid.axes.iter().filter_map(warning).collect()
 }
 
-const TOLERANCE_HELP: &str = "A distribution is a line of [spread]: the field in quotes, then { \
+const TOLERANCE_HELP: &str = "The quantities of [limits] are always computed. A distribution is a line of [spread]: the field in quotes, then { \
     normal = WIDTH } with the standard deviation, or { uniform = WIDTH }, { triangular = WIDTH } \
     or { truncated = WIDTH } (a normal distribution cut off at three standard deviations) with \
     half the span, or { grade = CLASS } with a flank tolerance class of ISO 1328-1, for a base \
@@ -124,10 +111,7 @@ const TOLERANCE_HELP: &str = "A distribution is a line of [spread]: the field in
 /// The options of the command.
 #[derive(Debug, Args)]
 #[command(after_help = TOLERANCE_HELP)]
-pub struct ToleranceOptions {
-    /// Case file with [spread]; - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub case: PathBuf,
+pub struct Tolerance {
     /// Number of samples
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = USUAL_SAMPLES, value_parser = count)]
     pub samples: usize,
@@ -138,53 +122,47 @@ pub struct ToleranceOptions {
     /// ranking). Each sample needs one solve per field, plus one
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub ranking: Option<usize>,
-    /// The changes of the case
+    /// The case
     #[command(flatten)]
-    pub changes: Changes,
-    /// Compute only these quantities and those of [limits], by name or symbol
-    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
-    pub only: Vec<Vec<&'static Quantity>>,
-    /// The format
+    pub input: CaseFile,
+    /// The quantities
     #[command(flatten)]
-    pub output: FormatOption<OutputFormat>,
+    pub only: Only,
+    /// Format of the output
+    #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json, Format::Csv]))]
+    pub format: Format,
     /// How the study runs
     #[command(flatten)]
     pub running: StudyOptions,
 }
 
-pub(super) fn run_tolerance(
-    options: &ToleranceOptions,
-    streams: &mut Streams,
-) -> Result<Exit, Failure> {
-    let ToleranceOptions { samples, seed, ranking, .. } = *options;
-    if !(2..=MOST_SAMPLES).contains(&samples) {
-        let fix = format!("--samples {samples}: write a number from 2 to {MOST_SAMPLES}");
-        return Err(Failure::Usage(fix));
-    }
-    check_out(options.running.destination.out.as_deref(), &[&options.case])?;
-    let mut opened = cases::open(&options.case, &options.changes.edits(), streams)?;
-    let only: Vec<_> = options.only.iter().flatten().copied().collect();
-    opened.need(only.iter().copied());
-    let size = Size { samples, seed, ranked: ranking };
-    let study = Tolerance::of(&opened.document.case, &opened.inputs, &only, size);
-    let study = study.map_err(|problem| {
-        opened.report_problem(problem, streams);
-        Exit::BadCase
-    })?;
-    for spread in &study.design.distributions {
-        if let Some(sentence) = opened.without_effect(spread.field, &opened.inputs) {
-            streams.say(&sentence);
+impl Tolerance {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let Tolerance { samples, seed, ranking, .. } = *self;
+        if !(2..=MOST_SAMPLES).contains(&samples) {
+            let fix = format!("--samples {samples}: write a number from 2 to {MOST_SAMPLES}");
+            return Err(Failure::usage(fix));
         }
+        self.running.destination.check(&self.input.case)?;
+        let mut opened = self.input.open(&[], streams)?;
+        let only = self.only.quantities();
+        opened.need(only.iter().copied());
+        let size = Size { samples, seed, ranked: ranking };
+        let study = tolerance::Tolerance::of(&opened.document.case, &opened.inputs, &only, size);
+        let study = study.map_err(|problem| opened.faulty(problem))?;
+        for spread in &study.design.distributions {
+            streams.say_all(opened.without_effect(spread.field, &opened.inputs));
+        }
+        let points = PointsRequest::Tolerance { samples, seed, ranked: study.design.ranked };
+        let (format, quantities) = (self.format, study.quantities.clone());
+        let study = of_case(opened, quantities, format, Kind::Tolerance(study));
+        run_study(&study, points, &self.running, streams)
     }
-    let points = PointsRequest::Tolerance { samples, seed, ranked: study.design.ranked };
-    let (format, quantities) = (options.output.format.into(), study.quantities.clone());
-    let study = of_case(opened, quantities, format, Kind::Tolerance(study));
-    run_study(&study, points, &options.running, streams)
 }
 
 /// The options of the command.
 #[derive(Debug, Args)]
-pub struct GatherOptions {
+pub struct Gather {
     /// Files that --shard wrote, in any order
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub files: Vec<PathBuf>,
@@ -193,31 +171,29 @@ pub struct GatherOptions {
     pub destination: Destination,
 }
 
-pub(super) fn run_gather(options: &GatherOptions, streams: &mut Streams) -> Result<Exit, Failure> {
-    let files: Vec<&Path> = options.files.iter().map(AsRef::as_ref).collect();
-    let out = options.destination.out.as_deref();
-    check_out(out, &files)?;
-    let gathered = files.iter().map(|file| Complete::read(file)).collect::<Result<Vec<_>, _>>();
-    let gathered = gathered.and_then(in_order).and_then(|shards| {
-        let Header { shard, request, .. } = &shards[0].header;
-        let study = Study::restore(request)
-            .map_err(|problem| ShardError::Wrong(format!("shard {shard}: {problem}")))?;
-        Ok((shards, study))
-    });
-    let (shards, study) = gathered.map_err(|unfit| {
-        let (line, exit) = match unfit {
-            ShardError::Unreadable(line) => (line, Exit::Unreadable),
-            ShardError::Wrong(line) => (line, Exit::BadCase),
-        };
-        streams.say(&line);
-        exit
-    })?;
-    let count = study.points().count();
-    write_study(&study, out, streams, |take| {
-        shards.iter().try_for_each(|shard| {
-            shard.rows(shard.header.shard.range(count).start, take).map_err(Ended::Unwritten)
+impl Gather {
+    pub(super) fn run(&self, streams: &mut Streams) -> Done {
+        let files: Vec<&Path> = self.files.iter().map(AsRef::as_ref).collect();
+        let out = self.destination.out.as_deref();
+        check_out(out, &files)?;
+        let gathered = files.iter().map(|file| Complete::read(file)).collect::<Result<Vec<_>, _>>();
+        let gathered = gathered.and_then(in_order).and_then(|shards| {
+            let Header { shard, request, .. } = &shards[0].header;
+            let study = Study::restore(request)
+                .map_err(|problem| ShardError::Wrong(format!("shard {shard}: {problem}")))?;
+            Ok((shards, study))
+        });
+        let (shards, study) = gathered.map_err(|unfit| match unfit {
+            ShardError::Unreadable(line) => Failure::new(Exit::Unreadable, line),
+            ShardError::Wrong(line) => Failure::new(Exit::BadCase, line),
+        })?;
+        let count = study.points().count();
+        write_study(&study, out, streams, |take| {
+            shards.iter().try_for_each(|shard| {
+                shard.rows(shard.header.shard.range(count).start, take).map_err(Ended::Unwritten)
+            })
         })
-    })
+    }
 }
 
 fn of_case(
@@ -257,7 +233,7 @@ fn run_study(
     points: PointsRequest,
     options: &StudyOptions,
     streams: &mut Streams,
-) -> Result<Exit, Failure> {
+) -> Done {
     let out = options.destination.out.as_deref();
     let what = match (&study.kind, options.shard) {
         (Kind::Tolerance(_), None) => "solves",
@@ -287,8 +263,7 @@ fn run_study(
         writer.finish().map_err(Ended::Unwritten)
     };
     write(&mut sink).map_err(|ended| ended.failure(&sink))?;
-    sink.finish()?;
-    Ok(Exit::Done)
+    sink.finish()
 }
 
 /// Writes the results of a study and reports its refused points. Rows of a sweep are written as
@@ -298,7 +273,7 @@ fn write_study(
     out: Option<&Path>,
     streams: &mut Streams,
     rows: impl FnOnce(Take) -> Result<(), Ended>,
-) -> Result<Exit, Failure> {
+) -> Done {
     let refusals = match &study.kind {
         Kind::Sweep(grid) => {
             let (quantities, format) = (&study.quantities, study.format);
@@ -337,10 +312,10 @@ fn write_study(
             match study.format {
                 Format::Text => report.write(&mut figures),
                 Format::Json => report.write_json(&mut figures),
-                Format::Csv => Ok(()),
+                Format::Csv | Format::Md => Ok(()),
             }
             .map_err(Failure::Stream)?;
-            write_to(out, streams.output.as_mut(), |sink| match study.format {
+            write_to(out, streams, |sink| match study.format {
                 Format::Csv => report.write_csv(sink),
                 _ => sink.write_all(&figures),
             })?;

@@ -10,7 +10,7 @@ use crate::model::impact::StiffnessModels;
 use crate::model::quantities::{spread_force, steps};
 use crate::model::{QUANTITIES, Quantity};
 use crate::numeric::decimal::significant;
-use crate::report::json::{Json, object, unless_empty};
+use crate::report::json::{Json, json};
 use crate::report::{Shown, shown, value};
 
 /// Significant digits of a step.
@@ -83,15 +83,15 @@ impl Work {
             How::Solves => "solves",
             How::Described => "described",
         };
-        object([
-            ("symbol", self.symbol.into()),
-            ("meaning", unless_empty(self.meaning)),
-            ("how", how.into()),
-            ("formula", (&self.formula).into()),
-            ("numbers", self.numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")).into()),
-            ("shown", self.shown.as_ref().map(Shown::to_string).into()),
-            ("residual", self.residual.as_ref().into()),
-        ])
+        json!({
+            "symbol": self.symbol,
+            "meaning": (!self.meaning.is_empty()).then_some(self.meaning),
+            "how": how,
+            "formula": self.formula,
+            "numbers": self.numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")),
+            "shown": self.shown.as_ref().map(Shown::to_string),
+            "residual": self.residual,
+        })
     }
 
     /// A step before it has a formula.
@@ -120,12 +120,8 @@ impl Work {
 
 impl Leaf {
     pub(super) fn json(&self) -> Json {
-        object([
-            ("symbol", self.symbol.into()),
-            ("key", self.key.into()),
-            ("shown", (&self.shown).into()),
-            ("meaning", self.meaning.into()),
-        ])
+        let Leaf { symbol, key, shown, meaning, .. } = self;
+        json!({"symbol": symbol, "key": key, "shown": shown, "meaning": meaning})
     }
 }
 

@@ -11,7 +11,7 @@ use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::numeric::decimal::significant;
-use crate::report::json::{Json, object, unless_empty};
+use crate::report::json::{Json, json};
 use crate::report::{shown, value, value_as_in};
 
 /// The tolerance of the motion at which a small step is distinguishable.
@@ -34,12 +34,9 @@ pub struct Effect {
 
 impl Effect {
     pub(super) fn json(&self) -> Json {
-        object([
-            ("key", self.key.into()),
-            ("text", (&self.text).into()),
-            ("step", unless_empty(&self.step)),
-            ("change", unless_empty(&self.change)),
-        ])
+        let given = |text: &'_ String| Some(text.clone()).filter(|text| !text.is_empty());
+        let (step, change) = (given(&self.step), given(&self.change));
+        json!({"key": self.key, "text": self.text, "step": step, "change": change})
     }
 }
 

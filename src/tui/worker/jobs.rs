@@ -83,7 +83,7 @@ fn markdown(reporting: Reporting) -> String {
         studies: Studies::default(),
         file: reporting.file,
     };
-    Page::of(&[subject]).markdown()
+    Page::of(&[subject]).markdown().unwrap_or_else(|error| error.to_string())
 }
 
 fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> {
