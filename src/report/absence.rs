@@ -90,12 +90,6 @@ impl Absence {
         let stage = quantity.stage;
         (!method.stages().has(stage)).then_some(Absence::OtherMethod(method, stage))
     }
-
-    /// Whether no tooth strikes, so that no limit can be exceeded.
-    #[must_use]
-    pub fn is_for_want_of_contact(&self) -> bool {
-        matches!(self, Absence::NoContact(..))
-    }
 }
 
 /// Why the tooth does not strike, as a short phrase.

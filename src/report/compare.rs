@@ -199,11 +199,9 @@ impl Comparison {
 
     /// The headers of the cases, and of their differences.
     fn letters(&self) -> impl Iterator<Item = String> {
-        let all = (0..self.cases.len()).map(|at| (at, letter(at)));
-        all.flat_map(|(at, letter)| {
-            let difference = (at > 0).then(|| format!("{letter} - A"));
-            [letter].into_iter().chain(difference)
-        })
+        let others = (1..self.cases.len()).map(letter);
+        let others = others.flat_map(|letter| [letter.clone(), letter + " - A"]);
+        std::iter::once(letter(0)).chain(others)
     }
 
     /// Writes the comparison as text, at most 80 columns wide unless one difference needs more.
@@ -217,7 +215,9 @@ impl Comparison {
                 writeln!(out, "{line}")?;
             }
         }
-        let (tables, start, in_a_line) = self.text_tables();
+        let (tables, in_a_line) = self.text_tables();
+        let start =
+            tables.first().map_or(0, |table| table.columns.len() + 1 - 2 * self.cases.len());
         let others: Vec<usize> = (1..self.cases.len()).collect();
         for others in others.chunks(in_a_line) {
             let is_refused = others.iter().all(|&at| self.cases[at].found.is_err());
@@ -232,17 +232,17 @@ impl Comparison {
         Ok(())
     }
 
-    /// A table for each group, the column of the first case, and the number of further cases that
-    /// fit a line. The tables have labels if that fits, or if it takes no more lines.
-    fn text_tables(&self) -> (Vec<Table>, usize, usize) {
-        let letters = self.letters().enumerate().map(|(at, letter)| {
-            let gap = if at == 0 { 3 } else { 2 };
+    /// A table for each group, and the number of further cases that fit a line. The tables have
+    /// labels if that fits, or if it takes no more lines.
+    fn text_tables(&self) -> (Vec<Table>, usize) {
+        const NAMES: usize = 3;
+        let names = ["symbol", "label", "unit"].map(|key| Column::text(key, ""));
+        let letters = self.letters().map(|letter| {
             let least = if letter.contains('-') { 5 } else { 6 };
-            Column::text("", letter).to_the_right().wide(gap, least)
+            Column::text("", letter).to_the_right().wide(2, least)
         });
-        let names = [Column::text("symbol", "").wide(2, 0), Column::text("label", "")];
-        let columns = names.into_iter().chain([Column::text("unit", "")]).chain(letters);
-        let columns: Vec<Column> = columns.collect();
+        let mut columns: Vec<Column> = names.into_iter().chain(letters).collect();
+        (columns[0].gap, columns[NAMES].gap) = (2, 3);
         let row = |row: Row| {
             let names = [row.symbol.as_str(), &row.label, row.unit].map(Cell::from);
             names.into_iter().chain(row.into_cells(false)).collect()
@@ -251,30 +251,36 @@ impl Comparison {
             Table::new(title, columns.clone()).with(rows.into_iter().map(row))
         };
         let mut tables: Vec<Table> = self.groups().into_iter().map(table).collect();
-        let widths = widths(&tables);
-        let most = |parity: usize| widths.iter().skip(4).skip(parity).step_by(2).copied().max();
-        let value = most(0).max(widths.get(3).copied()).unwrap_or(0);
-        let difference = most(1).unwrap_or(0);
-        for column in tables.iter_mut().flat_map(|table| table.columns.iter_mut().enumerate()) {
-            column.1.least = match column.0 {
-                at if at < 3 => widths[at],
-                at if at > 3 && at % 2 == 1 => difference,
-                _ => value,
-            };
+        let mut widths = widths(&tables);
+        if widths.is_empty() {
+            return (tables, 1);
         }
-        let others = self.cases.len().saturating_sub(1);
+        // Every value is as wide as the widest, and every difference.
+        let is_difference = |at: usize| at > NAMES && at % 2 == 1;
+        let widest = |of_differences: bool| {
+            let columns = (NAMES..widths.len()).filter(|&at| is_difference(at) == of_differences);
+            columns.map(|at| widths[at]).max().unwrap_or(0)
+        };
+        let (value, difference) = (widest(false), widest(true));
+        for (at, width) in widths.iter_mut().enumerate().skip(NAMES) {
+            *width = if is_difference(at) { difference } else { value };
+        }
+        let others = self.cases.len() - 1;
         let fitting = |label: usize| {
-            let names = widths.iter().take(1).chain(widths.get(2)).map(|width| width + 1);
-            let before = 2 + names.sum::<usize>() + label + value + 2;
+            let before = widths[0] + label + widths[2] + value + 6;
             WIDTH.saturating_sub(before) / (value + difference + 4)
         };
-        let with_labels = fitting(widths.get(1).map_or(0, |width| width + 1));
-        let without = fitting(0).max(1);
-        let lines = |in_a_line: usize| others.div_ceil(in_a_line.max(1));
-        if with_labels >= others || with_labels > 0 && lines(without) >= lines(with_labels) {
-            return (tables, 3, with_labels.max(1));
-        }
+        let (with_labels, without) = (fitting(widths[1] + 1), fitting(0).max(1));
+        let is_as_short =
+            with_labels > 0 && others.div_ceil(with_labels) <= others.div_ceil(without);
+        let has_labels = with_labels >= others || is_as_short;
         for table in &mut tables {
+            for (column, &width) in table.columns.iter_mut().zip(&widths) {
+                column.least = width;
+            }
+            if has_labels {
+                continue;
+            }
             for row in &mut table.rows {
                 let label = row.remove(1);
                 if row[0] == Cell::from("") {
@@ -284,11 +290,11 @@ impl Comparison {
             table.columns.remove(1);
             table.columns[0].least = 0;
         }
-        let least = super::table::widths(&tables).first().copied().unwrap_or(0);
-        for table in &mut tables {
-            table.columns[0].least = least;
+        if !has_labels {
+            let least = super::table::widths(&tables)[0];
+            tables.iter_mut().for_each(|table| table.columns[0].least = least);
         }
-        (tables, 2, without)
+        (tables, if has_labels { with_labels.max(1) } else { without })
     }
 
     /// Writes the comparison as Markdown.

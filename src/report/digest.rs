@@ -116,46 +116,38 @@ pub fn sentence(solution: &Solution, system: System) -> String {
     let overall = peak(solution, system);
     if solution.outcome == Outcome::NoCornerContact {
         let why = without_contact_in_full(solution, system);
-        let peak = overall.map(|peak| format!("; peak force {peak}"));
-        return format!("No corner contact: {why}{}.", peak.unwrap_or_default());
+        let peak = overall.map_or_else(String::new, |peak| format!("; peak force {peak}"));
+        return format!("No corner contact: {why}{peak}.");
     }
     let angle = own("approach_angle_driver", solution, system)
         .map(|(quantity, angle)| format!("{} = {angle} before E", quantity.symbol));
-    let force = own("impact_force", solution, system).map(|(_, force)| force);
-    let force = match (solution.method, force, overall) {
-        (Method::Static, Some(force), Some(overall)) => {
-            Some(format!("force {force} at E, {overall} overall"))
-        }
-        (Method::Dynamic, Some(force), Some(overall)) => {
-            Some(format!("peak force {force} before E, {overall} overall"))
-        }
-        (Method::Static | Method::Dynamic, ..) => None,
-        (_, force, _) => force.map(|force| format!("impact force {force}")),
-    };
+    let force = own("impact_force", solution, system).and_then(|(_, force)| {
+        Some(match solution.method {
+            Method::Static => format!("force {force} at E, {} overall", overall?),
+            Method::Dynamic => format!("peak force {force} before E, {} overall", overall?),
+            _ => format!("impact force {force}"),
+        })
+    });
     let found: Vec<String> = angle.into_iter().chain(force).collect();
-    let colon = if found.is_empty() { "" } else { ": " };
-    format!("Corner contact{colon}{}.", found.join("; "))
+    format!("{}.", with_parts("Corner contact", &found.join("; ")))
 }
 
 /// The outcome as a short phrase with the forces of [`sentence`].
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
     let overall = peak(solution, system).map(|overall| format!("{overall} overall"));
-    let (outcome, force) = match solution.outcome {
-        Outcome::NoCornerContact => ("no corner contact", None),
-        Outcome::CornerContact => {
-            let force = own("impact_force", solution, system).map(|(_, force)| force);
-            ("corner contact", Some(force))
-        }
-    };
-    let parts: Vec<String> = match force {
-        None => overall.into_iter().collect(),
-        // Without its own force the overall force is not shown.
-        Some(None) => Vec::new(),
-        Some(Some(force)) => [force].into_iter().chain(overall).collect(),
-    };
+    if solution.outcome == Outcome::NoCornerContact {
+        return with_parts("no corner contact", &overall.unwrap_or_default());
+    }
+    // Without its own force the overall force is not shown.
+    let forces = own("impact_force", solution, system)
+        .map(|(_, force)| [force].into_iter().chain(overall).collect::<Vec<_>>().join(", "));
+    with_parts("corner contact", &forces.unwrap_or_default())
+}
+
+fn with_parts(outcome: &str, parts: &str) -> String {
     let colon = if parts.is_empty() { "" } else { ": " };
-    format!("{outcome}{colon}{}", parts.join(", "))
+    format!("{outcome}{colon}{parts}")
 }
 
 /// The greatest force of a tooth, with or without contact before E; the closed forms have none.
@@ -255,20 +247,16 @@ pub fn closed_forms(
     is_deflection_given: bool,
     system: System,
 ) -> Option<String> {
-    let is_free = governing.method.shares_load();
-    let found: Vec<String> = others
-        .iter()
-        .filter(|other| !other.method.shares_load())
-        .filter_map(|other| closed_form(other, system))
-        .collect();
-    let what = match (is_free, found.len()) {
+    let found = others.iter().filter(|other| !other.method.shares_load());
+    let found: Vec<String> = found.filter_map(|other| closed_form(other, system)).collect();
+    let what = match (governing.method.shares_load(), found.len()) {
         (_, 0) => return None,
+        (true, _) if is_deflection_given => "Free impact with the given deflection",
         (true, _) => "Free impact",
         (false, 1) => "Other method",
         (false, _) => "Other methods",
     };
-    let given = if is_free && is_deflection_given { " with the given deflection" } else { "" };
-    Some(format!("{what}{given}: {}", found.join("; ")))
+    Some(format!("{what}: {}", found.join("; ")))
 }
 
 fn closed_form(solution: &Solution, system: System) -> Option<String> {
@@ -287,66 +275,55 @@ fn closed_form(solution: &Solution, system: System) -> Option<String> {
 
 /// Significant digits of the additional relief.
 const RELIEF_DIGITS: i32 = 3;
+/// Its unit.
+const RELIEF_UNIT: &str = "um";
 
-/// The required tip relief of the driven gear by the governing method and by the others; `None` without corner contact, or if the relief is unknown.
+/// The required tip relief of the driven gear by the governing method and by the others; `None`
+/// without corner contact, or if the relief is unknown.
 #[must_use]
 pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Option<String> {
-    let unit = unit(system)?;
-    let (given, figures) = figures(governing, unit, system)?;
-    Some(phrases(governing.method, given > 0.0, &figures, others, unit, system))
+    let (given, [more, all]) = figures(governing, system)?;
+    let others = others.iter().filter_map(|other| {
+        let (_, [more, _]) = figures(other, system)?;
+        Some(format!(", {} {more}", other.method.name()))
+    });
+    let more = more + &others.collect::<String>();
+    Some(required(governing.method, given, [&more, &all], system))
 }
 
-/// The same text while the relief of the governing method is not known yet; `given` is the present
-/// relief of the gear, in m.
+/// The same text while the relief of the method is not known yet; `given` is the present relief of
+/// the gear, in m.
 #[must_use]
-pub fn pending(method: Method, given: f64, others: &[&Solution], system: System) -> Option<String> {
-    let figures = ["...", "..."].map(str::to_owned);
-    Some(phrases(method, given > 0.0, &figures, others, unit(system)?, system))
+pub fn pending(method: Method, given: f64, system: System) -> String {
+    required(method, given, ["...", "..."], system)
 }
 
-fn unit(system: System) -> Option<&'static str> {
-    Some(system.unit(Quantity::find("clearing_relief")?.shown))
+fn required(method: Method, given: f64, [more, all]: [&str; 2], system: System) -> String {
+    let (method, unit) = (method.name(), system.unit(RELIEF_UNIT));
+    if given > 0.0 {
+        format!(
+            "Required additional tip relief, driven gear: {method} {more} {unit}; total {all} {unit}"
+        )
+    } else {
+        format!("Required tip relief of the driven gear: {method} {more} {unit}")
+    }
 }
 
 /// The present relief of the gear, in m, with the additional and the total relief as text.
-fn figures(solution: &Solution, unit: &str, system: System) -> Option<(f64, [String; 2])> {
+fn figures(solution: &Solution, system: System) -> Option<(f64, [String; 2])> {
     let least = value(Quantity::find("clearing_relief")?, solution)?;
     let given = solution.clearing?.given;
-    Some((given, rounded_up(least, given, unit, system)))
-}
-
-fn phrases(
-    method: Method,
-    has_relief: bool,
-    [more, all]: &[String; 2],
-    others: &[&Solution],
-    unit: &str,
-    system: System,
-) -> String {
-    let own = method.name();
-    let others = others.iter().filter_map(|other| {
-        let (_, [more, _]) = figures(other, unit, system)?;
-        Some(format!(", {} {more}", other.method.name()))
-    });
-    let others: String = others.collect();
-    if has_relief {
-        format!(
-            "Required additional tip relief, driven gear: {own} {more}{others} {unit}; total \
-             {all} {unit}"
-        )
-    } else {
-        format!("Required tip relief of the driven gear: {own} {more}{others} {unit}")
-    }
+    Some((given, rounded_up(least, given, system)))
 }
 
 /// The additional and the total relief, rounded up to the same digit, so that the given and the
 /// additional relief add up to at least the total.
-fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2] {
+fn rounded_up(least: f64, given: f64, system: System) -> [String; 2] {
     /// Rounding error of the factor of the unit and of the sum.
     const ROUNDING: f64 = 1.0 + 4.0 * f64::EPSILON;
     /// The fraction of a digit that is rounding error.
     const NONE: f64 = 1e-9;
-    let factor = units::factor(unit).unwrap_or(1.0);
+    let factor = units::factor(system.unit(RELIEF_UNIT)).unwrap_or(1.0);
     // Decimal places of um and of thou.
     let last = if system == System::Inch { 4 } else { 3 };
     let before_point = (least / factor).log10().floor() as i32 + 1;
@@ -366,26 +343,23 @@ const FREQUENCY_DIGITS: usize = 3;
 #[must_use]
 pub fn whine(solution: &Solution) -> Option<String> {
     let of = |key| value(Quantity::find(key)?, solution);
-    let (frequency, ratio) = (of("mesh_frequency")?, of("resonance_ratio")?);
     let rpm = |speed: f64| rounded(speed * 30.0 / std::f64::consts::PI);
-    let (frequency, speed) = (rounded(frequency), rpm(of("resonance_speed")?));
-    let now = format!("now N = {}", significant(ratio, 2));
+    let (frequency, ratio) =
+        (rounded(of("mesh_frequency")?), significant(of("resonance_ratio")?, 2));
+    let speed = rpm(of("resonance_speed")?);
+    let resonance = format!("N = 1 of the mean stiffness at {speed} rpm (now N = {ratio})");
     let at =
         |speed, factor| Some(format!("{} at {} rpm", significant(of(factor)?, 3), rpm(of(speed)?)));
     let rising = at("resonance_peak_speed", "resonance_peak_factor");
     let falling = at("resonance_peak_speed_falling", "resonance_peak_factor_falling");
-    let resonance = format!("N = 1 of the mean stiffness at {speed} rpm ({now})");
-    Some(match rising.zip(falling) {
-        None => format!("Mesh frequency {frequency} Hz; {resonance}"),
-        Some((rising, falling)) => {
-            let both = if rising == falling {
-                rising
-            } else {
-                format!("{rising} rising, {falling} falling")
-            };
-            format!("Greatest dynamic factor {both}; mesh frequency {frequency} Hz, {resonance}")
-        }
-    })
+    let Some((rising, falling)) = rising.zip(falling) else {
+        return Some(format!("Mesh frequency {frequency} Hz; {resonance}"));
+    };
+    let falling =
+        if rising == falling { String::new() } else { format!(" rising, {falling} falling") };
+    Some(format!(
+        "Greatest dynamic factor {rising}{falling}; mesh frequency {frequency} Hz, {resonance}"
+    ))
 }
 
 /// A number with three significant digits, followed by zeros.
@@ -519,7 +493,7 @@ mod tests {
     #[test]
     fn a_relief_is_rounded_up_and_adds_up() {
         let sums = |least: f64, given: f64| {
-            rounded_up(least * 1e-6, given * 1e-6, "um", System::Metric).join(" ")
+            rounded_up(least * 1e-6, given * 1e-6, System::Metric).join(" ")
         };
         assert_eq!(sums(23.01, 25.0), "23.1 48.1");
         assert_eq!(sums(23.01, 25.03), "23.1 48.1");
@@ -527,7 +501,7 @@ mod tests {
         assert_eq!(sums(0.672_57, 48.0), "0.673 48.673");
         assert_eq!(sums(1e-9, 25.0), "0.001 25.001");
         assert_eq!(sums(1234.1, 0.0), "1235 1235");
-        assert_eq!(rounded_up(22.328e-6, 25e-6, "thou", System::Inch).join(" "), "0.880 1.864");
+        assert_eq!(rounded_up(22.328e-6, 25e-6, System::Inch).join(" "), "0.880 1.864");
     }
 
     #[test]

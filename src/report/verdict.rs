@@ -55,10 +55,12 @@ impl Standing {
 }
 
 /// A limit of a case with its result.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Verdict<'a> {
     /// The limit.
     pub limit: &'a Limit,
+    /// The limited quantity.
+    pub quantity: &'static Quantity,
     /// The value of the quantity in SI.
     pub value: Option<f64>,
     /// The comparison.
@@ -70,12 +72,12 @@ pub struct Verdict<'a> {
 }
 
 /// The counterpart of a quantity of the free impact in a method that resolves the impact.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Beside {
     /// The method.
     pub method: Method,
     /// The quantity of the method and its value in SI, if it has them.
-    pub own: Option<(&'static str, Option<f64>)>,
+    pub own: Option<(&'static Quantity, Option<f64>)>,
     /// Whether the case also limits that quantity.
     pub is_limited: bool,
 }
@@ -85,26 +87,24 @@ impl Beside {
     #[must_use]
     pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
         let method = solution.method;
-        let own = || quantity.by(method).map(|own| (own.key, value(own, solution)));
-        (method.shares_load() && quantity.is_of_free_impact()).then(|| Beside {
-            method,
-            own: own(),
-            is_limited: false,
-        })
+        if !method.shares_load() || !quantity.is_of_free_impact() {
+            return None;
+        }
+        let own = quantity.by(method).map(|own| (own, value(own, solution)));
+        Some(Beside { method, own, is_limited: false })
     }
 
     /// The counterpart as a sentence, with the value in metric or inch units.
     #[must_use]
     pub fn sentence(&self, system: System) -> String {
         let method = self.method.name();
-        let quantity = self.own.and_then(|(key, _)| Quantity::find(key));
-        match (self.own, quantity) {
-            (Some((key, Some(value))), Some(quantity)) => {
-                let value = shown_in(quantity, value, system);
-                format!("the free impact. Method {method}: {key} {value}")
+        match self.own {
+            Some((own, Some(value))) => {
+                let value = shown_in(own, value, system);
+                format!("the free impact. Method {method}: {} {value}", own.key)
             }
-            (Some((key, _)), _) => format!("the free impact; {method} has {key} instead"),
-            (None, _) => format!("the free impact; {method} has no such quantity"),
+            Some((own, None)) => format!("the free impact; {method} has {} instead", own.key),
+            None => format!("the free impact; {method} has no such quantity"),
         }
     }
 }
@@ -112,61 +112,62 @@ impl Beside {
 /// The verdict on every limit, in the order of the case.
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
-    let mut verdicts: Vec<_> = case.limits.iter().map(|limit| verdict(limit, solution)).collect();
+    let limits = case.limits.iter();
+    let mut verdicts: Vec<_> = limits.filter_map(|limit| verdict(limit, solution)).collect();
     for beside in verdicts.iter_mut().filter_map(|verdict| verdict.beside.as_mut()) {
-        beside.is_limited = beside
-            .own
-            .is_some_and(|(own, _)| case.limits.iter().any(|limit| own == limit.quantity));
+        beside.is_limited =
+            beside.own.is_some_and(|(own, _)| limited(case).any(|other| other.key == own.key));
     }
     verdicts
+}
+
+/// The verdict on one limit; a case limits only known quantities.
+#[must_use]
+pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Option<Verdict<'a>> {
+    let quantity = Quantity::find(limit.quantity)?;
+    let value = value(quantity, solution);
+    let absence = value.is_none().then(|| Absence::of(quantity, solution));
+    let standing = match (value, absence) {
+        (Some(value), _) if value <= limit.value => Standing::Within,
+        (Some(_), _) => Standing::Exceeded,
+        (None, Some(Absence::NoContact(..))) => Standing::NotApplicable,
+        (None, _) => Standing::Unknown,
+    };
+    // Without corner contact there is no counterpart to compare.
+    let beside = value.and_then(|_| Beside::of(quantity, solution));
+    Some(Verdict { limit, quantity, value, standing, absence, beside })
 }
 
 /// The stages for every limit of a case.
 #[must_use]
 pub fn stages(case: &Case) -> Stages {
-    limited(case).fold(Stages::of(Stage::Geometry), |stages, quantity| {
-        stages.and(Stages::of(quantity.stage))
-    })
+    all_stages(limited(case))
 }
 
 /// The stages of the counterparts of the limited quantities in a method.
 #[must_use]
 pub fn stages_beside(case: &Case, method: Method) -> Stages {
     let beside = limited(case).filter(|quantity| quantity.is_of_free_impact());
-    let beside = beside.filter_map(|quantity| quantity.by(method));
-    beside.fold(Stages::of(Stage::Geometry), |stages, own| stages.and(Stages::of(own.stage)))
+    all_stages(beside.filter_map(|quantity| quantity.by(method)))
+}
+
+fn all_stages(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
+    quantities.fold(Stages::of(Stage::Geometry), |stages, own| stages.and(Stages::of(own.stage)))
 }
 
 fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
     case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity))
 }
 
-/// The verdict on one limit.
-#[must_use]
-pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
-    let quantity = Quantity::find(limit.quantity);
-    let value = quantity.and_then(|quantity| value(quantity, solution));
-    let absence =
-        quantity.filter(|_| value.is_none()).map(|quantity| Absence::of(quantity, solution));
-    let standing = match (value, absence) {
-        (Some(value), _) if value <= limit.value => Standing::Within,
-        (Some(_), _) => Standing::Exceeded,
-        (None, Some(absence)) if absence.is_for_want_of_contact() => Standing::NotApplicable,
-        (None, _) => Standing::Unknown,
-    };
-    // Without corner contact there is no counterpart to compare.
-    let beside =
-        quantity.filter(|_| value.is_some()).and_then(|quantity| Beside::of(quantity, solution));
-    Verdict { limit, value, standing, absence, beside }
-}
-
 /// Every limit of a case that the model refuses: no quantity has a value.
 #[must_use]
 pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
     let absence = Some(Absence::Withheld(*refusal));
-    let verdict =
-        |limit| Verdict { limit, value: None, standing: Standing::Unknown, absence, beside: None };
-    case.limits.iter().map(verdict).collect()
+    let verdict = |limit: &'a Limit| {
+        let (quantity, standing) = (Quantity::find(limit.quantity)?, Standing::Unknown);
+        Some(Verdict { limit, quantity, value: None, standing, absence, beside: None })
+    };
+    case.limits.iter().filter_map(verdict).collect()
 }
 
 impl Verdict<'_> {
@@ -192,30 +193,27 @@ impl Verdict<'_> {
     /// Whether the counterpart in the method exceeds the limit on the free impact.
     #[must_use]
     pub fn is_exceeded_beside(&self) -> bool {
-        let own = self.beside.and_then(|beside| beside.own);
-        own.and_then(|(_, own)| own).is_some_and(|own| own > self.limit.value)
+        let own = self.beside.and_then(|beside| beside.own?.1);
+        own.is_some_and(|own| own > self.limit.value)
     }
 
     fn statement(&self, system: System) -> String {
-        let (key, limit) = (self.limit.quantity, sanitize(&self.limit.text));
-        let (Some(value), Some(quantity)) = (self.value, Quantity::find(key)) else {
-            return match self.absence {
-                Some(Absence::Withheld(refusal)) => {
-                    format!("{key} cannot be computed: {refusal} (limit {limit})")
-                }
-                Some(absence) if self.standing == Standing::Unknown => {
-                    format!("{key} has no value (limit {limit}): {absence}")
-                }
-                _ => format!("{key} does not occur: no corner contact (limit {limit})"),
-            };
-        };
-        let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
-        let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
-        format!(
-            "{key} {} {sign} {limit}{}",
-            shown_in(quantity, value, system),
-            part.unwrap_or_default()
-        )
+        let (key, limit) = (self.quantity.key, sanitize(&self.limit.text));
+        match (self.value, self.absence) {
+            (Some(value), _) => {
+                let value = shown_in(self.quantity, value, system);
+                let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
+                let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
+                format!("{key} {value} {sign} {limit}{}", part.unwrap_or_default())
+            }
+            (None, Some(Absence::Withheld(refusal))) => {
+                format!("{key} cannot be computed: {refusal} (limit {limit})")
+            }
+            (None, Some(absence)) if self.standing == Standing::Unknown => {
+                format!("{key} has no value (limit {limit}): {absence}")
+            }
+            _ => format!("{key} does not occur: no corner contact (limit {limit})"),
+        }
     }
 }
 
@@ -243,20 +241,19 @@ pub fn write_json(
         return write_line(&line, out);
     }
     verdicts.iter().try_for_each(|verdict| {
-        let Verdict { limit, value, standing, beside, .. } = verdict;
-        let unit = |key| Quantity::find(key).map(|quantity| quantity.unit);
+        let Verdict { limit, quantity, value, standing, beside, .. } = verdict;
         // The counterpart in the method, if the method resolves the impact itself.
         let own = beside.and_then(|beside| beside.own);
         let own =
-            own.map(|(key, value)| json!({"quantity": key, "value": value, "unit": unit(key)}));
+            own.map(|(own, value)| json!({"quantity": own.key, "value": value, "unit": own.unit}));
         let line = json!({
             "case": case,
             "method": method,
             "standing": standing.name(),
-            "quantity": limit.quantity,
+            "quantity": quantity.key,
             "value": value,
             "limit": limit.value,
-            "unit": unit(limit.quantity),
+            "unit": quantity.unit,
             "of": beside.map(|_| "free-impact"),
             "own": own,
             "message": verdict.to_string(),

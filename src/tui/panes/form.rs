@@ -465,7 +465,7 @@ fn standing(pane: &Form<'_>, limit: &Limit) -> (Vec<String>, Style) {
     let theme = pane.look.theme;
     let is_known = !pane.is_stale && !limit.text.is_empty();
     let solution = pane.answer.and_then(|answer| answer.of(answer.active)).filter(|_| is_known);
-    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {
+    let Some(verdict) = solution.and_then(|solution| verdict(limit, solution)) else {
         return (Vec::new(), Style::new());
     };
     let is_above_beside = verdict.is_exceeded_beside();

@@ -343,7 +343,8 @@ fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static st
     let limit = pane.case.limits.iter().find(|limit| limit.quantity == quantity.key);
     let is_exceeded = limit
         .zip(solution)
-        .is_some_and(|(limit, solution)| verdict(limit, solution).standing == Standing::Exceeded);
+        .and_then(|(limit, solution)| verdict(limit, solution))
+        .is_some_and(|verdict| verdict.standing == Standing::Exceeded);
     match is_exceeded {
         true => EXCEEDED,
         false if is_changed(pane, answer, quantity) => CHANGED,

@@ -62,7 +62,7 @@ pub(super) fn shown_in(pane: &Results<'_>, quantity: &Quantity, value: f64) -> S
 pub(super) fn limit_warning(pane: &Results<'_>, solution: &Solution) -> Option<String> {
     let unmet: Vec<Verdict<'_>> =
         written_verdicts(pane, solution).into_iter().filter(|verdict| !is_met(verdict)).collect();
-    let words = verdict_words(pane, unmet.first()?)?;
+    let words = verdict_words(pane, unmet.first()?);
     let more = match unmet.len() {
         1 => String::new(),
         count => format!("; {} more", count - 1),
@@ -150,29 +150,29 @@ fn is_met(verdict: &Verdict<'_>) -> bool {
     verdict.standing.holds() && (is_own_limited || !verdict.is_exceeded_beside())
 }
 
-fn verdict_words(pane: &Results<'_>, verdict: &Verdict<'_>) -> Option<String> {
+fn verdict_words(pane: &Results<'_>, verdict: &Verdict<'_>) -> String {
     let limit = &verdict.limit.text;
-    let limited = Quantity::find(verdict.limit.quantity)?;
+    let limited = verdict.quantity;
     let above = |quantity: &Quantity, value| {
         format!("{} {} > {limit}", quantity.symbol, shown_in(pane, quantity, value))
     };
     let beside = verdict.beside.and_then(|beside| beside.own);
-    Some(match (verdict.standing.holds(), verdict.value, beside) {
-        (true, _, Some((key, Some(value)))) => {
-            format!("{}, the limit of {}", above(Quantity::find(key)?, value), limited.symbol)
+    match (verdict.standing.holds(), verdict.value, beside) {
+        (true, _, Some((own, Some(value)))) => {
+            format!("{}, the limit of {}", above(own, value), limited.symbol)
         }
         (_, Some(value), _) => format!("{}, its limit", above(limited, value)),
         _ => format!("{} has no value; its limit is {limit}", limited.symbol),
-    })
+    }
 }
 
 // The required relief, or a placeholder while the worker computes it.
 fn relief(pane: &Results<'_>, answer: &Answer, solution: &Solution) -> Option<String> {
     let (units, given) = (pane.units, answer.inputs.driven.tip_relief);
     let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
-    let pending = || digest::pending(solution.method, given, &[], units);
+    let pending = || digest::pending(solution.method, given, units);
     // The table has the relief by the other methods.
-    digest::relief(solution, &[], units).or_else(|| is_to_come.then(pending).flatten())
+    digest::relief(solution, &[], units).or_else(|| is_to_come.then(pending))
 }
 
 // The spread of the force over the stiffness models.
