@@ -16,6 +16,7 @@ pub mod page;
 pub mod pictures;
 pub mod schema;
 pub mod seek;
+pub mod solve;
 pub mod specification;
 pub mod stations;
 pub mod stiffness;
@@ -31,7 +32,7 @@ use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
+use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
 #[cfg(all(unix, feature = "tui"))]
 pub(crate) use layout::with_units;
@@ -105,22 +106,6 @@ pub struct Report {
 }
 
 impl Report {
-    /// Solves the case as far as the selection and the outcome of the method need it.
-    ///
-    /// # Errors
-    /// The refusal of the model.
-    pub fn solve(
-        name: String,
-        case: Case,
-        inputs: Inputs,
-        selection: Selection,
-    ) -> Result<Report, Refusal> {
-        let inputs = inputs.needing(selection.only.iter().map(|quantity| quantity.stage));
-        let solution =
-            model::solve(&inputs, selection.stages().and(inputs.method.deciding_stages()))?;
-        Ok(Report::of(name, case, inputs, solution, selection))
-    }
-
     /// A report of an existing solution.
     #[must_use]
     pub fn of(
@@ -133,25 +118,6 @@ impl Report {
         let mut notes = model::notes(&inputs, &solution);
         notes.extend(selection.quantities().filter_map(|quantity| not_finite(quantity, &solution)));
         Report { name, case, inputs, solution, notes, selection, others: Vec::new() }
-    }
-
-    /// The report with the load at rest, if `dynamic` governs, and the closed forms. A method that
-    /// refuses the case is left out.
-    #[must_use]
-    pub fn with_others(mut self) -> Report {
-        let governing = self.solution.method;
-        let stages = Stages::of(Stage::Clearing).and(Stages::of(Stage::Impact));
-        let at_rest = (governing == Method::Dynamic).then_some(Method::Static);
-        let methods = at_rest.into_iter().chain([Method::Exact, Method::Paper]);
-        let methods = methods.filter(|&method| method != governing);
-        if self.selection.is_whole() {
-            self.others = methods
-                .filter_map(|method| {
-                    model::solve(&Inputs { method, ..self.inputs.clone() }, stages).ok()
-                })
-                .collect();
-        }
-        self
     }
 
     /// The title of the case, empty without one; not sanitized for a terminal.

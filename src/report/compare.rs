@@ -74,16 +74,6 @@ impl Row {
 type Group = (String, Vec<Row>);
 
 impl ComparedCase {
-    /// Solves a case.
-    #[must_use]
-    pub fn solve(name: String, case: Case, selection: &Selection) -> ComparedCase {
-        let found = case.inputs().and_then(|inputs| {
-            Report::solve(name.clone(), case.clone(), inputs, selection.clone())
-                .map_err(|refusal| vec![Problem::from(&refusal).at_given(&case)])
-        });
-        ComparedCase { name, file: String::new(), variant: None, case, found }
-    }
-
     fn solution(&self) -> Option<&Solution> {
         Some(&self.found.as_ref().ok()?.solution)
     }

@@ -3,12 +3,12 @@
 use super::absence::{listed, without_contact_in_full};
 use super::verdict::{self, Standing};
 use super::{shown_in, value};
+use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, System};
-use crate::case::{Case, Evaluator};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
+use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution};
 use crate::numeric::decimal::significant;
 
 /// A summary of a case, sanitized for a terminal.
@@ -33,22 +33,6 @@ pub struct Digest {
 }
 
 impl Digest {
-    /// Solves a case as far as its digest needs it; returns `None` if `go_on` returns false.
-    #[must_use]
-    pub fn solve(
-        case: &Case,
-        inputs: &Inputs,
-        system: System,
-        go_on: &dyn Fn(f64) -> bool,
-    ) -> Option<Digest> {
-        let found =
-            Evaluator::default().solve(inputs, inputs.method, stages(case, inputs.method), go_on);
-        match found {
-            Err(Refusal::Stopped) => None,
-            found => Some(Digest::of(case, inputs, found.as_ref(), system)),
-        }
-    }
-
     /// The digest of a case from its solution or refusal.
     #[must_use]
     pub fn of(
@@ -168,16 +152,6 @@ fn own(key: &str, solution: &Solution, system: System) -> Option<(&'static Quant
 
 fn printed(quantity: &Quantity, solution: &Solution, system: System) -> Option<String> {
     Some(shown_in(quantity, value(quantity, solution)?, system).to_string())
-}
-
-/// The stages of the outcome, the notes and the limits of a case.
-fn stages(case: &Case, method: Method) -> Stages {
-    let shared = match method {
-        Method::Static => Stages::of(Stage::Static),
-        Method::Dynamic | Method::Auto => Stages::of(Stage::Dynamic),
-        Method::Paper | Method::Exact => Stages::NONE,
-    };
-    verdict::stages(case).and(Stages::CLOSED_FORM).and(shared)
 }
 
 fn method(asked: Method, solution: &Solution) -> String {
@@ -375,15 +349,17 @@ pub(super) fn rounded(number: f64) -> String {
 mod tests {
     use super::*;
     use crate::case::EXAMPLES;
+    use crate::model::Stage;
+    use crate::model::Stages;
     use crate::model::sample::standard_pair;
-    use crate::model::solve;
+    use crate::report::solve;
 
     fn digest(text: &[(&str, &str)]) -> Digest {
         let mut case = Case::table_1();
         for (key, value) in text {
             case.set(key, value).unwrap();
         }
-        Digest::solve(&case, &case.inputs().unwrap(), System::Metric, &|_| true).unwrap()
+        solve::digest(&case, &case.inputs().unwrap(), System::Metric, &|_| true).unwrap()
     }
 
     #[test]
@@ -472,7 +448,7 @@ mod tests {
         for example in EXAMPLES {
             let case = example.document().case;
             let inputs = case.inputs().unwrap();
-            let digest = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
+            let digest = solve::digest(&case, &inputs, System::Metric, &|_| true).unwrap();
             assert!(
                 ["corner contact:", "no corner contact"]
                     .iter()
@@ -482,7 +458,7 @@ mod tests {
             );
             let slow = Inputs { method: Method::Dynamic, ..inputs };
             assert_eq!(
-                Digest::solve(&case, &slow, System::Metric, &|_| false),
+                solve::digest(&case, &slow, System::Metric, &|_| false),
                 None,
                 "{}",
                 example.name
@@ -524,7 +500,7 @@ mod tests {
         let mut inputs = standard_pair(20, 30, 5e-3);
         let mut sentence = |method| {
             inputs.method = method;
-            whine(&solve(&inputs, wanted).unwrap()).unwrap()
+            whine(&model::solve(&inputs, wanted).unwrap()).unwrap()
         };
         let at_rest = sentence(Method::Static);
         assert!(at_rest.starts_with("Mesh frequency ") && at_rest.contains("N = 1 of the mean"));

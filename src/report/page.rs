@@ -8,7 +8,7 @@ use super::compare::{ComparedCase, Comparison, Row};
 use super::pictures::{Picture, pictures};
 use super::table::{Cell, Column, Table};
 use super::verdict::verdicts;
-use super::{Report, Selection, common_unit, groups, shown_with, text, value};
+use super::{Report, Selection, common_unit, groups, shown_with, solve, text, value};
 use crate::case::changes::label;
 use crate::case::fields::index_of;
 use crate::case::file::without_comments;
@@ -316,7 +316,7 @@ fn variants(
         if !go_on(at, count) {
             return Err(Stopped);
         }
-        Ok(ComparedCase::solve(name.to_owned(), case, &selection))
+        Ok(solve::compared(name.to_owned(), case, &selection))
     });
     Ok(Some(Comparison { cases: solved.collect::<Result<_, _>>()?, selection }))
 }

@@ -520,15 +520,6 @@ fn a_bad_case_outranks_an_exceeded_limit() {
 }
 
 #[test]
-fn a_limit_is_met_where_no_tooth_strikes() {
-    let (_folder, path) = changed("base_pitch = \"16 um\"", "base_pitch = \"-50 um\"");
-    assert_eq!(
-        stdout_of(&["check", &path]),
-        format!("ok {path}: impact_force does not occur: no corner contact (limit 2500 N)\n")
-    );
-}
-
-#[test]
 fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
     let (folder, _) = changed("format", "format");
     let text = fs::read_to_string(TABLE_1).unwrap();

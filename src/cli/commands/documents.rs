@@ -11,7 +11,7 @@ use crate::cli::options::formats;
 use crate::cli::output::{Done, Exit, Failure};
 use crate::cli::{Streams, cases};
 use crate::report::digest::Digest;
-use crate::report::{fields, schema};
+use crate::report::{fields, schema, solve};
 use crate::study::shard::Format;
 use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
 use clap::{Args, ValueHint};
@@ -76,7 +76,7 @@ fn digest(example: &Example) -> Digest {
     let case = example.document().case;
     let inputs = case.inputs().ok();
     inputs
-        .and_then(|inputs| Digest::solve(&case, &inputs, System::Metric, &|_| true))
+        .and_then(|inputs| solve::digest(&case, &inputs, System::Metric, &|_| true))
         .unwrap_or_default()
 }
 

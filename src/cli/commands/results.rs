@@ -19,6 +19,7 @@ use crate::report::compare::{ComparedCase, Comparison};
 use crate::report::explain::{explain, render, write_json};
 use crate::report::export::{ReportFormat, subject};
 use crate::report::pictures::{NoPicture, Picture, find, pictures};
+use crate::report::solve::compared;
 use crate::report::verdict::{self, Standing, refused, stages, stages_beside, verdicts};
 use crate::report::{self, Selection, data, text};
 use crate::study::shard::Format;
@@ -285,7 +286,7 @@ impl Compare {
 
 fn solve((file, edits, document): &Edited, selection: &Selection) -> ComparedCase {
     let name = cases::named(file.clone(), edits);
-    let mut solved = ComparedCase::solve(name, document.case.clone(), selection);
+    let mut solved = compared(name, document.case.clone(), selection);
     if let Err(problems) = &mut solved.found {
         problems.sort_by_key(|problem| document.place(&problem.field));
     }

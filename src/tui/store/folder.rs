@@ -11,6 +11,7 @@ use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::case::{Document, Example, rexs};
 use crate::report::digest::Digest;
+use crate::report::solve;
 
 /// Greatest number of listed entries.
 const MOST: usize = 50_000;
@@ -266,7 +267,7 @@ fn of_document(
 ) -> Option<Preview> {
     match document.case.inputs() {
         Ok(inputs) => {
-            let digest = Digest::solve(&document.case, &inputs, system, go_on)?;
+            let digest = solve::digest(&document.case, &inputs, system, go_on)?;
             Some(Preview::Case(digest, document.is_newer()))
         }
         Err(problems) if !document.is_newer() => {

@@ -14,6 +14,7 @@ use crate::report::explain;
 use crate::report::export::{self, ReportFormat};
 use crate::report::page::{Page, Studies, Subject};
 use crate::report::pictures::{NoPicture, Picture, Unsolved};
+use crate::report::solve;
 use crate::study::relief::{NoRelief, specify};
 use crate::tui::actions::Action;
 use crate::tui::jobs::{
@@ -88,7 +89,7 @@ fn markdown(reporting: Reporting) -> String {
 
 fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> {
     let digest = |case: &Case| match case.inputs() {
-        Ok(inputs) => Digest::solve(case, &inputs, system, go_on),
+        Ok(inputs) => solve::digest(case, &inputs, system, go_on),
         Err(_) => Some(Digest::default()),
     };
     EXAMPLES.iter().map(|example| digest(&example.document().case)).collect()
