@@ -28,7 +28,7 @@ pub(super) fn formats<const N: usize>(
 pub struct Only {
     /// Compute only these quantities, by name or symbol, and run only the stages that they need;
     /// `tipstrike fields --results` lists them
-    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
+    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = Quantities)]
     pub only: Vec<Vec<&'static Quantity>>,
 }
 
@@ -180,12 +180,13 @@ pub(in crate::cli) fn methods() -> impl TypedValueParser<Value = Method> {
     })
 }
 
-/// Parser of a quantity by its name or its symbol.
+/// Parser of a comma-separated list of quantities by name or symbol; a comma may be part of a
+/// symbol, as in `F_d,max`.
 #[derive(Clone)]
 pub(in crate::cli) struct Quantities;
 
 impl TypedValueParser for Quantities {
-    type Value = &'static Quantity;
+    type Value = Vec<&'static Quantity>;
 
     fn parse_ref(
         &self,
@@ -193,14 +194,15 @@ impl TypedValueParser for Quantities {
         argument: Option<&Arg>,
         value: &OsStr,
     ) -> Result<Self::Value, Error> {
-        let text = value.to_string_lossy();
-        let name = argument
-            .and_then(Arg::get_long)
-            .map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
-        Quantity::named(text.trim()).ok_or_else(|| {
-            let Problem { cause, fix, .. } = unknown_quantity("", &text);
-            misused(format!("{name}: {cause}: {fix}"))
-        })
+        let option = argument.and_then(Arg::get_long);
+        let option = option.map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
+        let known = |name: String| {
+            Quantity::named(&name).ok_or_else(|| {
+                let Problem { cause, fix, .. } = unknown_quantity("", &name);
+                misused(format!("{option}: {cause}: {fix}"))
+            })
+        };
+        names(&value.to_string_lossy()).into_iter().map(known).collect()
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
@@ -208,28 +210,12 @@ impl TypedValueParser for Quantities {
     }
 }
 
-/// Parser of a comma-separated list of quantities; a comma may be part of a symbol, as in
-/// `F_d,max`.
-#[derive(Clone)]
-pub(in crate::cli) struct QuantityList;
-
-impl TypedValueParser for QuantityList {
-    type Value = Vec<&'static Quantity>;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&Arg>,
-        value: &OsStr,
-    ) -> Result<Self::Value, Error> {
-        let text = value.to_string_lossy();
-        let one = |name: &String| Quantities.parse_ref(command, argument, OsStr::new(name));
-        names(&text).iter().map(one).collect()
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Quantities.possible_values()
-    }
+/// Parser of one quantity.
+pub(in crate::cli) fn one_quantity() -> impl TypedValueParser<Value = &'static Quantity> {
+    Quantities.try_map(|found| match found[..] {
+        [quantity] => Ok(quantity),
+        _ => Err("name one quantity"),
+    })
 }
 
 /// The names in a list: a part that continues a symbol is joined with the previous part.

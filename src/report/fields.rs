@@ -36,36 +36,14 @@ fn quantity_table() -> Table {
     Table::new("", columns.map(|key| Column::text(key, key)).to_vec()).with(rows)
 }
 
-/// Writes every field as a table.
+/// Writes every field as a table, or as JSON with one object per line.
 ///
 /// # Errors
 /// Errors of the writer.
-pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
-    write_list(&field_table(), out)
-}
-
-/// Writes every quantity as a table.
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
-    let mut table = quantity_table().of(&[0, 1, 3, 4, 2]);
-    table.columns[4].title = "meaning".into();
-    write_list(&table, out)?;
-    writeln!(out, "\n{TO_EXPLAIN}")
-}
-
-fn write_list(table: &Table, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = table.clone();
-    table.columns[0].gap = 0;
-    table.wrapped(WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
-}
-
-/// Writes every field as JSON, one object per line.
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
+pub fn write_fields(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
+    if !is_json {
+        return write_list(field_table(), out);
+    }
     FIELDS.iter().try_for_each(|field| {
         let (from, to) = range(field).unzip();
         let choices = Some(choices(field)).filter(|choices| !choices.is_empty());
@@ -86,12 +64,23 @@ pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
     })
 }
 
-/// Writes every quantity as JSON, one object per line.
+/// Writes every quantity as a table, or as JSON with one object per line.
 ///
 /// # Errors
 /// Errors of the writer.
-pub fn write_quantities_json(out: &mut dyn Write) -> io::Result<()> {
-    quantity_table().objects().iter().try_for_each(|line| write_line(line, out))
+pub fn write_quantities(is_json: bool, out: &mut dyn Write) -> io::Result<()> {
+    if is_json {
+        return quantity_table().objects().iter().try_for_each(|line| write_line(line, out));
+    }
+    let mut table = quantity_table().of(&[0, 1, 3, 4, 2]);
+    table.columns[4].title = "meaning".into();
+    write_list(table, out)?;
+    writeln!(out, "\n{TO_EXPLAIN}")
+}
+
+fn write_list(mut table: Table, out: &mut dyn Write) -> io::Result<()> {
+    table.columns[0].gap = 0;
+    table.wrapped(WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
 fn unit(field: &Field) -> &'static str {
@@ -145,7 +134,7 @@ mod tests {
     #[test]
     fn every_field_is_listed_within_the_width() {
         let mut out = Vec::new();
-        write_fields(&mut out).unwrap();
+        write_fields(false, &mut out).unwrap();
         let table = String::from_utf8(out).unwrap();
         assert!(
             FIELDS.iter().all(|field| {

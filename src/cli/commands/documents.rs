@@ -125,12 +125,12 @@ pub struct Fields {
 impl Fields {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let out = streams.output.as_mut();
-        match (self.results, self.format) {
-            (false, Format::Json) => fields::write_fields_json(out),
-            (false, _) => fields::write_fields(out),
-            (true, Format::Json) => fields::write_quantities_json(out),
-            (true, _) => fields::write_quantities(out),
-        }?;
+        let is_json = self.format == Format::Json;
+        if self.results {
+            fields::write_quantities(is_json, out)?;
+        } else {
+            fields::write_fields(is_json, out)?;
+        }
         Ok(Exit::Done)
     }
 }

@@ -9,8 +9,8 @@ use crate::case::{Case, Document};
 use crate::cli::Streams;
 use crate::cli::cases::{self, Opened};
 use crate::cli::options::{
-    CaseFile, Cases, Changes, Destination, Edits, Only, Quantities, Setting, Settings, by_method,
-    formats, methods, station_count,
+    CaseFile, Cases, Changes, Destination, Edits, Only, Setting, Settings, by_method, formats,
+    methods, one_quantity, station_count,
 };
 use crate::cli::output::{Done, Exit, Failure, check_out, follow, write_to};
 use crate::model::inputs::Method;
@@ -165,7 +165,7 @@ const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
 #[derive(Debug, Args)]
 pub struct Explain {
     /// Name or symbol of the quantity; `tipstrike fields --results` lists all quantities
-    #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = Quantities)]
+    #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = one_quantity())]
     pub quantity: &'static Quantity,
     /// The case file, - for standard input (default: Table 1 of Zhou & Chen 2014)
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
