@@ -7,7 +7,6 @@ mod mode;
 #[cfg(test)]
 mod tests;
 
-use std::cell::RefCell;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -351,18 +350,20 @@ impl ElasticGear {
         Refusal::NoField { teeth: self.rack.teeth, reason }
     }
 
-    /// The entry of the gear. Needs no lock for the two gears that this thread used last.
+    /// The entry of the gear.
     fn entry(&self) -> Arc<Entry> {
         let gear = ElasticGear { young: 1.0, ..*self };
-        LAST_READ.with_borrow_mut(|last| {
-            if let Some(known) = last.iter().find(|entry| entry.gear == gear) {
-                return Arc::clone(known);
-            }
-            let entry = Entry::shared(&gear);
-            last.truncate(GEARS_OF_A_PAIR - 1);
-            last.insert(0, Arc::clone(&entry));
-            entry
-        })
+        let mut entries = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = entries.iter().rposition(|entry| entry.gear == gear);
+        let entry = match known {
+            Some(at) => entries.remove(at),
+            None => Arc::new(Entry { gear, check: OnceLock::new(), field: OnceLock::new() }),
+        };
+        if entries.len() == MOST_GEARS {
+            entries.remove(0);
+        }
+        entries.push(Arc::clone(&entry));
+        entry
     }
 }
 
@@ -373,34 +374,9 @@ struct Entry {
     field: OnceLock<Result<Arc<Field>, Refusal>>,
 }
 
-impl Entry {
-    fn shared(gear: &ElasticGear) -> Arc<Entry> {
-        let mut entries = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(at) = entries.iter().rposition(|entry| entry.gear == *gear) {
-            let last = entries.len() - 1;
-            entries[at..=last].rotate_left(1);
-            return Arc::clone(&entries[last]);
-        }
-        if entries.len() == MOST_GEARS {
-            entries.remove(0);
-        }
-        let entry = Arc::new(Entry { gear: *gear, check: OnceLock::new(), field: OnceLock::new() });
-        entries.push(Arc::clone(&entry));
-        entry
-    }
-}
-
 /// Recent gears, the most recently used one last. A field depends only on its gear, and building
 /// takes thousands of times as long as reading.
 static RECENT: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
-
-/// Number of entries cached per thread.
-const GEARS_OF_A_PAIR: usize = 2;
-
-thread_local! {
-    /// The gears that this thread used last, the newest first.
-    static LAST_READ: RefCell<Vec<Arc<Entry>>> = const { RefCell::new(Vec::new()) };
-}
 
 /// Least thickness of the rim, in modules.
 const LEAST_RIM: f64 = 1e-3;
