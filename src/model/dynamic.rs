@@ -53,8 +53,8 @@ pub struct Dynamic {
     /// coefficient.
     pub friction_work: Option<f64>,
     /// The incoming pair's place on the line of action, in m, and its force, in N, at even times
-    /// and at the turning points of the force, from the first contact to E. Empty without contact before E or without
-    /// [`Settings::approach_samples`].
+    /// and at the turning points of the force, from the first contact to E. Empty without contact
+    /// before E or without [`Settings::approach_samples`].
     pub approach: Vec<(f64, f64)>,
     /// Stations from the first contact through E to the last contact, including peaks and valleys.
     pub stations: Vec<Station>,

@@ -192,11 +192,8 @@ impl Mesh {
     /// is on the flank of its tooth.
     pub fn incoming(&self, s: f64) -> (Place, f64) {
         let series = &self.zones[self.zone(self.on_flank(s))].series;
-        let [stiffness, gap, lever, sliding] = series.at(s);
-        (
-            Place { stiffness, gap, lever, sliding: self.driver_speed * sliding },
-            series.slope(GAP, s),
-        )
+        let [stiffness, gap, _, sliding] = series.at(s);
+        (Place { stiffness, gap, sliding: self.driver_speed * sliding }, series.slope(GAP, s))
     }
 
     /// Error of a pair, in m: the incoming one alone deviates.

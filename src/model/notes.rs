@@ -390,7 +390,7 @@ fn form_circle(k: &Context) -> Found {
     Some(("below-form-circle", message))
 }
 
-/// An undercut cuts the teeth of a gear through.
+/// The inertia of a gear whose teeth an undercut cuts through.
 fn inertia_of(name: &str, gear: usize, k: &Context) -> Found {
     let is_fallback = k.solution.kept.masses.inertias[gear].is_fallback
         && k.inputs.inertia_model() == InertiaModel::Outline;

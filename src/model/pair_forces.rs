@@ -17,8 +17,6 @@ pub struct Place {
     pub stiffness: f64,
     /// Normal gap of the unloaded flanks, reliefs included, in m.
     pub gap: f64,
-    /// Arm of the friction force on the driver over its base radius, ρ₁/r_b1.
-    pub lever: f64,
     /// Sliding velocity of the driven flank on the driver's, in m/s.
     pub sliding: f64,
 }

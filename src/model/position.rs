@@ -104,8 +104,8 @@ pub fn reduced_curvature(tip_radius: Option<f64>, geometry: &Geometry, tip: &Tip
     tip.curvature_driver * driven / (tip.curvature_driver + driven)
 }
 
-/// The first contact of the tip by the method. `None` if no tooth strikes. `precise`, the geometry in double-double arithmetic, makes all digits of the exact
-/// position correct.
+/// The first contact of the tip by the method. `None` if no tooth strikes. `precise`, the geometry in
+/// double-double arithmetic, makes all digits of the exact position correct.
 ///
 /// # Errors
 /// A [`Refusal`] if D does not exist or is beyond the driver's tip.

@@ -23,8 +23,6 @@ pub struct ContactModel {
     pub name: &'static str,
     /// The index in a symbol such as F_fit,log.
     pub index: &'static str,
-    /// Whether the compliance depends on the half-width, and so on load and curvature.
-    pub reads_half_width: bool,
     /// Whether the compliance depends on the root of the tooth, and so on the dedendum.
     pub reads_root: bool,
     /// The steps of q_H at the impact force.
@@ -215,7 +213,6 @@ impl ContactCompliance {
 const LOGARITHMIC: ContactModel = ContactModel {
     name: "logarithmic",
     index: "log",
-    reads_half_width: true,
     reads_root: false,
     steps: &[step(
         "q_H",
@@ -258,7 +255,6 @@ fn logarithmic(elasticity: &Elasticity) -> ContactLaw {
 const CONSTANT: ContactModel = ContactModel {
     name: "constant",
     index: "const",
-    reads_half_width: false,
     reads_root: false,
     steps: &[step(
         "q_H",
@@ -298,7 +294,6 @@ macro_rules! depth_step {
 const WEBER: ContactModel = ContactModel {
     name: "weber",
     index: "weber",
-    reads_half_width: true,
     reads_root: true,
     steps: &[
         step(

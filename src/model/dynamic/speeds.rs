@@ -37,8 +37,6 @@ pub struct AtSpeed {
     pub ratio: f64,
     /// Greatest tooth force in motion over that at rest.
     pub tooth_factor: f64,
-    /// Greatest sum of the forces of all pairs over the mesh force.
-    pub mesh_factor: f64,
     /// Peak-to-peak transmission error, in m.
     pub peak_to_peak: f64,
     /// Whether all pairs lose contact at some moment.
@@ -190,7 +188,6 @@ impl Runs<'_> {
             speed,
             ratio: speed / self.resonance,
             tooth_factor: steady.tooth_force / self.tooth_force,
-            mesh_factor: steady.mesh_force / self.mesh.force,
             peak_to_peak: steady.spectrum.peak_to_peak,
             contact_lost: steady.contact_lost,
         }))
@@ -207,7 +204,6 @@ mod tests {
             speed: 0.0,
             ratio: 0.0,
             tooth_factor,
-            mesh_factor: 1.0,
             peak_to_peak: 0.0,
             contact_lost,
         };

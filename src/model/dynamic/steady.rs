@@ -38,10 +38,6 @@ pub struct Steady {
     pub rattle: Option<Rattle>,
     /// Number of base pitches in a period.
     pub periods: u32,
-    /// Number of base pitches before the repetition.
-    pub laps: u32,
-    /// Work in units of the [budget](crate::model::budget).
-    pub work: u64,
     /// State at the beginning of a base pitch.
     pub start: Start,
 }
@@ -138,7 +134,7 @@ fn repeated(
         }
         let start = round.start();
         if let Some(periods) = repetition(motion, &before, &start) {
-            return round.measured(periods, laps).map(Some);
+            return round.measured(periods).map(Some);
         }
         if let Some(state) = fixed_point(motion, &before, &start) {
             round.run.y = state;
@@ -269,7 +265,7 @@ impl<'a> Round<'a> {
     }
 
     /// Runs the periods once more and measures the results.
-    fn measured(mut self, periods: u32, laps: u32) -> Result<Steady, Refusal> {
+    fn measured(mut self, periods: u32) -> Result<Steady, Refusal> {
         let start = self.start();
         let mut seen = Seen::new(self.motion, RattleWatch::from(start.is_at_back()));
         for _ in 0..periods {
@@ -283,8 +279,6 @@ impl<'a> Round<'a> {
             contact_lost: seen.contact_lost,
             rattle: self.motion.has_backlash().then(|| seen.rattle.found()),
             periods,
-            laps,
-            work: self.run.meter.spent(),
             start,
         })
     }

@@ -25,7 +25,7 @@ pub(super) const SLIDING: usize = 3;
 pub(super) struct Zone {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// The four values of [`Place`](super::Place).
+    /// Stiffness, gap, arm of the friction force, and sliding velocity per unit of speed.
     pub(super) series: Series<4>,
     /// What the last terms of the gap may be, in m.
     pub(super) gap_rest: f64,
