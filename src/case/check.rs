@@ -439,38 +439,3 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
         })),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A study does not check points that differ from a checked point only in these fields.
-    #[test]
-    fn no_rule_between_fields_reads_load_or_deviations() {
-        for (key, value) in [
-            ("operation.power", "1 kW"),
-            ("operation.torque", "1 N m"),
-            ("model.deflection", "900 um"),
-            ("deviations.base_pitch", "900 um"),
-            ("driver.base_pitch", "900 um"),
-            ("driven.base_pitch", "900 um"),
-            ("deviations.backlash", "900 um"),
-            ("driven.tip_relief", "900 um"),
-            ("driver.root_relief", "900 um"),
-        ] {
-            let misfits = [false, true].map(|edited| {
-                let mut case = Case::table_1();
-                if edited {
-                    case.set(key, value).unwrap();
-                }
-                [0.02, 0.06].map(|bore_radius| {
-                    let mut inputs = case.inputs().unwrap();
-                    inputs.driver.bore_radius = bore_radius;
-                    violated_rule(&inputs)
-                })
-            });
-            assert_eq!(misfits[0], misfits[1], "{key}");
-            assert!(misfits[0][0].is_none() && misfits[0][1].is_some());
-        }
-    }
-}

@@ -5,9 +5,10 @@ use std::fmt;
 use super::fields::key_of;
 use super::sanitize::sanitize;
 use crate::model::Refusal;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A problem at one place: the cause and the fix.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Problem {
     /// The field's key, or an unknown key as written.
     pub field: String,
@@ -63,6 +64,18 @@ impl From<&Refusal> for Problem {
 impl<T: Into<String>> From<T> for Fix {
     fn from(text: T) -> Fix {
         Fix::Text(text.into())
+    }
+}
+
+impl Serialize for Fix {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Fix {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Fix, D::Error> {
+        String::deserialize(deserializer).map(Fix::Text)
     }
 }
 

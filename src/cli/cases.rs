@@ -9,6 +9,7 @@ use crate::case::rexs::{self, Imported};
 use crate::case::{Acting, Case, Document, Problem, partial_relevance, relevance};
 use crate::model::{Inputs, Quantity, Refusal};
 use crate::report::pictures::Unsolved;
+use crate::report::results::Named;
 use std::path::{Path, PathBuf};
 
 /// A case that is ready to solve.
@@ -39,6 +40,11 @@ impl Opened {
                 Some(format!("{name}: {key} changes no quantity: {why}"))
             }
         }
+    }
+
+    /// The case by its name and title.
+    pub(super) fn named(&self) -> Named<'_> {
+        Named { name: &self.name, title: self.document.case.title() }
     }
 
     /// The case, to solve for a report or a picture.

@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 use std::fmt;
-use std::io::{self, BufWriter, IsTerminal, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -53,7 +53,7 @@ impl<'a> Sink<'a> {
     /// Converts an error of a write.
     pub(super) fn failure(&self, error: io::Error) -> Failure {
         match self {
-            Sink::Stream(_) => Failure::Stream(error),
+            Sink::Stream(_) => error.into(),
             Sink::File(_, interrupt) if !interrupt.go_on() => Failure::Interrupted,
             Sink::File(writer, _) => writer.get_ref().unwritable(error).into(),
         }
@@ -146,8 +146,10 @@ impl Running {
         let interrupt = &self.interrupt;
         let done = study(&Control {
             jobs: self.jobs,
-            go_on: &|| interrupt.go_on(),
-            progress: &|done, of| self.show(done, of),
+            go_on: &|done, of| {
+                self.show(done, of);
+                interrupt.go_on()
+            },
         });
         self.clear(done.is_err() && !self.interrupt.go_on());
         done
@@ -277,6 +279,9 @@ impl From<SaveError> for Failure {
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
-        Failure::Stream(error)
+        match error.kind() {
+            ErrorKind::Interrupted => Failure::Interrupted,
+            _ => Failure::Stream(error),
+        }
     }
 }

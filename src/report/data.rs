@@ -80,7 +80,7 @@ fn quantities(report: &Report) -> Table {
     let solution = &report.solution;
     let words = ["method", "outcome"].map(|key| Column::text(key, ""));
     let known = report.selection.quantities();
-    let computed = known.map(|quantity| Column::number(quantity.key, "", quantity.unit, ("1", 0)));
+    let computed = known.map(|quantity| Column::si(quantity.key, quantity.unit));
     let names = [solution.method.name(), solution.outcome.name()].map(Cell::from);
     let values = report.selection.quantities();
     let values = values.map(|quantity| Cell::number(value(quantity, solution), ""));

@@ -1,7 +1,6 @@
 //! Solved cases side by side as one page: HTML with charts, or Markdown.
 
 use std::fmt::Write;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::charts::{NamedCase, Solved};
 use super::compare::{ComparedCase, Comparison, Row};
@@ -268,12 +267,7 @@ impl Studies {
         go_on: &dyn Fn(usize, usize) -> bool,
     ) -> Result<Studies, Stopped> {
         let variants = variants(case, inputs, go_on)?;
-        let is_stopped = AtomicBool::new(false);
-        let control = Control {
-            jobs: None,
-            go_on: &|| !is_stopped.load(Ordering::Relaxed),
-            progress: &|done, of| is_stopped.store(!go_on(done, of), Ordering::Relaxed),
-        };
+        let control = Control { jobs: None, go_on };
         let is_slow = inputs.method.shares_load() || inputs.method == Method::Auto;
         let samples = if is_slow { FEW_SAMPLES } else { SAMPLES };
         let size = Size { samples, seed: SEED, ranked: Some(0) };

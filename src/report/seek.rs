@@ -1,8 +1,7 @@
 //! The crossings of a condition as text or as JSON.
 
-use std::io::{self, Write};
-
-use super::json::{measured, object, reason, write_line};
+use super::json::{Json, json, measured, reason};
+use super::results::{Named, Results};
 use super::shown;
 use crate::case::fields::FIELDS;
 use crate::case::sanitize::sanitize;
@@ -14,10 +13,6 @@ use crate::study::seek::{Crossing, Found, Sample, Segment};
 /// A search and its result.
 #[derive(Clone, Copy)]
 pub struct SeekReport<'a> {
-    /// The name of the case, as the user gave it.
-    pub name: &'a str,
-    /// The title of the case.
-    pub title: &'a str,
     /// The name of the method.
     pub method: &'a str,
     /// The searched range.
@@ -29,73 +24,18 @@ pub struct SeekReport<'a> {
 }
 
 impl SeekReport<'_> {
-    fn key(&self) -> &'static str {
-        FIELDS[self.range.field].key
-    }
-
     /// The result in one word.
     fn answer(&self) -> &'static str {
         match &self.found.segments[..] {
-            [one] => match one.state {
-                State::Met => "always",
-                State::NotMet => "never",
-                State::Unknown(_) => "unknown",
-            },
+            [Segment { state: State::Met, .. }] => "always",
+            [Segment { state: State::NotMet, .. }] => "never",
+            [Segment { state: State::Unknown(_), .. }] => "unknown",
             _ => "crossings",
         }
     }
 
     fn value(&self, number: f64) -> String {
         with_unit(&shortest(number), &self.range.unit)
-    }
-
-    /// Writes the result as text.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (from, to) = (self.value(self.range.from), self.value(self.range.to));
-        let title = if self.title.is_empty() { self.name } else { self.title };
-        writeln!(out, "{}", sanitize(title))?;
-        writeln!(
-            out,
-            "{} by method {}, {} from {from} to {to}:",
-            sanitize(&self.condition.text),
-            self.method,
-            self.key()
-        )?;
-        let answer = self.answer();
-        match answer {
-            "crossings" => {}
-            "unknown" => {
-                writeln!(out, "  unknown: the condition is unknown at every point of the range")?;
-            }
-            answer => writeln!(out, "  {answer}")?,
-        }
-        for Crossing { lower, upper } in &self.found.crossings {
-            let middle = self.rounded(lower.at + 0.5 * (upper.at - lower.at));
-            let (below, above) = (word(&lower.state), word(&upper.state));
-            writeln!(out, "  crossing at {middle}: {below} below, {above} above")?;
-            let [from, to] = [lower, upper].map(|sample| self.value(sample.at));
-            writeln!(out, "    bracket {from} to {to}{}", self.values(lower, upper))?;
-        }
-        if ["always", "never"].contains(&answer) {
-            return Ok(());
-        }
-        for Segment { from, to, state } in &self.found.segments {
-            let reason = match state {
-                State::Unknown(problem) => format!(": {problem}"),
-                _ => String::new(),
-            };
-            let [from, to] = [*from, *to].map(|end| self.rounded(end));
-            writeln!(out, "  {} from {from} to {to}{reason}", word(state))?;
-        }
-        Ok(())
-    }
-
-    /// A value with the digits that a bracket supports.
-    fn rounded(&self, number: f64) -> String {
-        self.value(format!("{number:.9e}").parse().unwrap_or(number))
     }
 
     /// The values of the quantity of the condition at both ends of a bracket.
@@ -107,54 +47,74 @@ impl SeekReport<'_> {
         });
         format!(", {} {from} to {to}", quantity.key)
     }
+}
 
-    /// Writes the result as one JSON object on one line.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        let unit = self.range.unit.as_str();
-        let end = |sample: &Sample| {
-            let quantity = self.condition.quantity();
-            let value = quantity.and_then(|known| Some(measured(known, sample.value?, None)));
-            object([
-                ("at", sample.at.into()),
-                ("state", name(&sample.state).into()),
-                ("quantity", value.into()),
-            ])
+impl Results for SeekReport<'_> {
+    fn lines(&self, case: Named) -> Vec<String> {
+        let AxisRange { field, from, to, .. } = *self.range;
+        let (key, from, to) = (FIELDS[field].key, self.value(from), self.value(to));
+        let (condition, method) = (sanitize(&self.condition.text), self.method);
+        let first = format!("{condition} by method {method}, {key} from {from} to {to}:");
+        let mut lines = vec![case.heading(), first];
+        match self.answer() {
+            "crossings" => {}
+            "unknown" => {
+                let line = "  unknown: the condition is unknown at every point of the range";
+                lines.push(line.to_owned());
+            }
+            answer => {
+                lines.push(format!("  {answer}"));
+                return lines;
+            }
+        }
+        // A value with the digits that a bracket supports.
+        let rounded = |number: f64| self.value(format!("{number:.9e}").parse().unwrap_or(number));
+        for Crossing { lower, upper } in &self.found.crossings {
+            let middle = rounded(lower.at + 0.5 * (upper.at - lower.at));
+            let (below, above) = (word(&lower.state), word(&upper.state));
+            lines.push(format!("  crossing at {middle}: {below} below, {above} above"));
+            let [from, to] = [lower, upper].map(|sample| self.value(sample.at));
+            lines.push(format!("    bracket {from} to {to}{}", self.values(lower, upper)));
+        }
+        for Segment { from, to, state } in &self.found.segments {
+            let reason = match state {
+                State::Unknown(problem) => format!(": {problem}"),
+                _ => String::new(),
+            };
+            let [from, to] = [*from, *to].map(rounded);
+            lines.push(format!("  {} from {from} to {to}{reason}", word(state)));
+        }
+        lines
+    }
+
+    fn json(&self) -> Json {
+        let AxisRange { field, unit, from, to } = self.range;
+        let quantity = self.condition.quantity();
+        let end = |Sample { at, state, value }: &Sample| {
+            let value = quantity.and_then(|known| Some(measured(known, (*value)?, None)));
+            json!({"at": at, "state": name(state), "quantity": value})
         };
-        let crossings =
-            self.found.crossings.iter().map(|crossing| {
-                object([("from", end(&crossing.lower)), ("to", end(&crossing.upper))])
-            });
-        let segments = self.found.segments.iter().map(|segment| {
-            let refusal = match &segment.state {
+        let crossing =
+            |Crossing { lower, upper }: &Crossing| json!({"from": end(lower), "to": end(upper)});
+        let segment = |Segment { from, to, state }: &Segment| {
+            let refusal = match state {
                 State::Unknown(problem) => Some(reason(problem)),
                 _ => None,
             };
-            object([
-                ("from", segment.from.into()),
-                ("to", segment.to.into()),
-                ("state", name(&segment.state).into()),
-                ("refusal", refusal.into()),
-            ])
-        });
-        let line = object([
-            ("case", self.name.into()),
-            ("title", self.title.into()),
-            ("version", env!("CARGO_PKG_VERSION").into()),
-            ("method", self.method.into()),
-            ("vary", self.key().into()),
-            ("unit", if unit.is_empty() { "1" } else { unit }.into()),
-            ("from", self.range.from.into()),
-            ("to", self.range.to.into()),
-            ("until", self.condition.text.as_str().into()),
-            ("answer", self.answer().into()),
-            ("crossings", crossings.collect()),
-            ("segments", segments.collect()),
-            ("solves", self.found.solves.into()),
-        ]);
-        write_line(&line, out)
+            json!({"from": from, "to": to, "state": name(state), "refusal": refusal})
+        };
+        json!({
+            "method": self.method,
+            "vary": FIELDS[*field].key,
+            "unit": if unit.is_empty() { "1" } else { unit },
+            "from": from,
+            "to": to,
+            "until": self.condition.text,
+            "answer": self.answer(),
+            "crossings": self.found.crossings.iter().map(crossing).collect::<Json>(),
+            "segments": self.found.segments.iter().map(segment).collect::<Json>(),
+            "solves": self.found.solves,
+        })
     }
 }
 
@@ -169,8 +129,5 @@ fn word(state: &State) -> &'static str {
 
 /// A state in JSON.
 fn name(state: &State) -> &'static str {
-    match state {
-        State::NotMet => "not-met",
-        other => word(other),
-    }
+    if *state == State::NotMet { "not-met" } else { word(state) }
 }

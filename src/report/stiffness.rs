@@ -1,154 +1,187 @@
 //! The stiffness models compared with finite elements as text, CSV and JSON.
 
-use std::io::{self, Write};
-
-use super::json::{Json, object, sorted, write_line};
-use super::layout::{WIDTH, flow, item};
+use super::json::{Json, json, sorted};
+use super::layout::item;
+use super::results::{Named, Results};
 use super::table::{Cell, Column, Table};
-use crate::case::sanitize::sanitize;
 use crate::model::Refusal;
 use crate::model::inputs::ToothCompliance;
 use crate::numeric::decimal::significant;
 use crate::study::stiffness::{
-    Comparison, FIELD, FieldPoint, Flanks, GearComparison, PathComparison, PathPoint, Point,
+    FIELD, FieldPoint, Flanks, GearComparison, PathComparison, PathPoint, Point,
 };
 
-/// The factor from um mm/N to m²/N.
+/// The compliance um mm/N in m²/N.
 const MICRON_MILLIMETRE: f64 = 1e-9;
 const MILLIMETRE: f64 = 1e-3;
 
 /// A comparison and its case.
 #[derive(Debug, Clone, Copy)]
 pub struct StiffnessReport<'a> {
-    /// The name of the case, as the user gave it.
-    pub name: &'a str,
-    /// The title of the case, empty without one.
-    pub title: &'a str,
-    /// The compliances.
-    pub comparison: &'a Comparison,
+    /// The compliances over the flanks.
+    pub flanks: &'a Flanks,
+    /// The stiffness over the path of contact.
+    pub path: &'a PathComparison,
 }
 
-/// Writes the comparison as text, 80 columns wide.
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let Comparison { flanks, path } = report.comparison;
-    let mut sections = vec![heading(report), legend(flanks)];
-    sections.extend(flanks.gears.iter().map(|gear| gear_section(flanks, gear)));
-    sections.push(path_section("one pair", path, |point| &point.pair));
-    sections.push(path_section("all pairs in contact", path, |point| &point.mesh));
-    let sections: Vec<_> = sections.iter().map(|lines| lines.join("\n")).collect();
-    writeln!(out, "{}", sections.join("\n\n"))
-}
+impl Results for StiffnessReport<'_> {
+    fn lines(&self, case: Named) -> Vec<String> {
+        let StiffnessReport { flanks, path } = *self;
+        let mut lines = case.headings("stiffness models against finite elements");
+        let gears = flanks.gears.iter().map(|gear| gear_section(flanks, gear));
+        let paths = [("one pair", PAIR), ("all pairs in contact", MESH)].map(|(pairs, of)| {
+            let title = format!("Stiffness of {pairs} over the path of contact, in N/(um mm):");
+            Table { title, ..path_table(path, of) }.lines()
+        });
+        for section in [legend(flanks)].into_iter().chain(gears).chain(paths) {
+            lines.push(String::new());
+            lines.extend(section);
+        }
+        lines
+    }
 
-fn heading(report: &StiffnessReport<'_>) -> Vec<String> {
-    let title = if report.title.is_empty() { "Case without a title" } else { report.title };
-    let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
-    let name = sanitize(report.name);
-    let words = [name.as_str(), "·", "stiffness models against finite elements"];
-    lines.extend(flow(words, WIDTH));
-    lines
+    fn json(&self) -> Json {
+        let StiffnessReport { flanks, path } = *self;
+        let gear = |gear: &GearComparison| {
+            let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), json!(gap.reason)));
+            let points = flank_table(flanks, std::slice::from_ref(gear));
+            json!({
+                "gear": gear.gear,
+                "form_radius": gear.form_radius,
+                "tip_radius": gear.tip_radius,
+                "twist": gear.twist,
+                "refusal": reason(gear),
+                "gaps": (!gear.gaps.is_empty()).then(|| sorted(gaps)),
+                "points": objects(&points, &["gear", "contact_half_width"]),
+            })
+        };
+        let [pairs, meshes] = [PAIR, MESH].map(|of| objects(&path_table(path, of), &["way"]));
+        let place = |(point, (pair, mesh)): (&PathPoint, (Json, Json))| json!({"way": point.way, "pair_stiffness": pair, "mesh_stiffness": mesh});
+        let places = path.points.iter().zip(pairs.into_iter().zip(meshes)).map(place);
+        json!({
+            "contact_half_width": flanks.contact_half_width,
+            "gears": flanks.gears.iter().map(gear).collect::<Json>(),
+            "path": places.collect::<Json>(),
+        })
+    }
+
+    /// One row per gear and radius; an absent value is an empty cell.
+    fn table(&self) -> Table {
+        flank_table(self.flanks, &self.flanks.gears)
+    }
 }
 
 fn legend(flanks: &Flanks) -> Vec<String> {
     let names: Vec<_> = flanks.models.iter().map(|model| model.name()).collect();
+    let names = names.join(", ");
     let half_width = significant(flanks.contact_half_width / MILLIMETRE, 4);
     let notes = [
-        "Compliances in um mm/N, per unit face width.".to_owned(),
-        format!("{}: tooth without contact; in brackets the difference from FE.", names.join(", ")),
+        "Compliances in um mm/N, per unit face width.",
+        &format!("{names}: tooth without contact; in brackets the difference from FE."),
         "FE: finite elements (plane strain, whole gear), without contact. FE, surface, \
-         neighbour and the beam leave out the twist of the body."
-            .to_owned(),
-        format!(
+         neighbour and the beam leave out the twist of the body.",
+        &format!(
             "surface: FE with a contact of half-width {half_width} mm (Hertz, mesh force at the \
              pitch point)."
         ),
         "neighbour: displacement of the next tooth at the same radius; by reciprocity the same \
-         ahead and behind."
-            .to_owned(),
+         ahead and behind.",
     ];
     notes.iter().flat_map(|note| item("", note)).collect()
 }
 
 fn gear_section(flanks: &Flanks, gear: &GearComparison) -> Vec<String> {
-    let radius = |metres: f64| significant(metres / MILLIMETRE, 6);
-    let mut lines = vec![format!(
-        "{}: z {}, form circle {} mm, tip {} mm",
-        gear.gear,
-        gear.teeth,
-        radius(gear.form_radius),
-        radius(gear.tip_radius)
-    )];
+    let [form, tip] =
+        [gear.form_radius, gear.tip_radius].map(|metres| significant(metres / MILLIMETRE, 6));
+    let mut lines =
+        vec![format!("{}: z {}, form circle {form} mm, tip {tip} mm", gear.gear, gear.teeth)];
     if !gear.points.is_empty() {
-        let field = [("FE", 10), ("surface", 10), ("neighbour", 11)];
-        let field = field.map(|(title, width)| right(title, width));
-        let columns = columns("r [mm]", &flanks.models).chain(field).collect();
-        let row = |point: &Point| {
-            let whole = point.field.map(|field| field.depth);
-            let models =
-                point.models.iter().map(|&model| compliance(model) + &difference(model, whole));
-            let field =
-                FIELDS.iter().take(3).map(|(_, of)| compliance(point.field.as_ref().map(of)));
-            let cells = std::iter::once(radius(point.radius)).chain(models).chain(field);
-            cells.map(Cell::Text).collect()
-        };
-        lines.extend(Table::new("", columns).with(gear.points.iter().map(row)).lines());
+        let table = flank_table(flanks, std::slice::from_ref(gear));
+        let has_title = |at: &usize| !table.columns[*at].title.is_empty();
+        let columns: Vec<usize> = (0..table.columns.len()).filter(has_title).collect();
+        lines.extend(table.of(&columns).lines());
     }
     lines.extend(remarks(gear).iter().flat_map(|remark| item("  - ", remark)));
     lines
 }
 
-fn right(title: &str, least: usize) -> Column {
-    Column { is_right: true, ..Column::text("", title.to_owned()).wide(0, least) }
+type Compliance = fn(&FieldPoint) -> f64;
+
+/// The compliances of the finite elements: name, title and width in text, value.
+const FIELDS: [(&str, &str, usize, Compliance); 4] = [
+    (FIELD, "FE", 10, |field| field.depth),
+    ("finite-element-surface", "surface", 10, |field| field.surface),
+    ("neighbour-ahead", "neighbour", 11, |field| field.ahead),
+    ("neighbour-behind", "", 0, |field| field.behind),
+];
+
+fn key(name: &str) -> String {
+    name.replace('-', "_")
 }
 
-/// The columns of a place and of the models.
-fn columns(place: &str, models: &[ToothCompliance]) -> impl Iterator<Item = Column> {
-    let models = models.iter().map(|model| right(model.name(), 16).wide(1, 16));
-    std::iter::once(right(place, 8)).chain(models)
+/// One row per gear and radius. Text shows the columns with a title.
+fn flank_table(flanks: &Flanks, gears: &[GearComparison]) -> Table {
+    let compliance = |name: &str, title: &'static str| Column {
+        title: title.into(),
+        ..Column::si(key(name), "m2/N")
+    };
+    let radius = Column::number("radius", "r [mm]", "m", ("mm", 6)).wide(0, 8);
+    let mut columns = vec![Column::text("gear", ""), radius];
+    let models = flanks.models.iter();
+    columns.extend(models.map(|model| compliance(model.name(), model.name()).wide(1, 16)));
+    let after_depth = columns.len() + 1;
+    columns.extend(FIELDS.map(|(name, title, least, _)| compliance(name, title).wide(0, least)));
+    columns.insert(after_depth, Column::si("contact_half_width", "m"));
+    let row = |gear: &GearComparison, point: &Point| {
+        let shown = |value: Option<f64>, reference| {
+            cell(value, |value| value / MICRON_MILLIMETRE, reference)
+        };
+        let depth = point.field.map(|field| field.depth);
+        let mut cells = vec![gear.gear.into(), Cell::Number(point.radius)];
+        cells.extend(point.models.iter().map(|&value| shown(value, depth)));
+        cells.extend(FIELDS.map(|(.., of)| shown(point.field.as_ref().map(of), None)));
+        cells.insert(after_depth, Cell::Number(flanks.contact_half_width));
+        cells
+    };
+    let rows = gears.iter();
+    let rows = rows.flat_map(|gear| gear.points.iter().map(move |point| row(gear, point)));
+    Table::new("", columns).with(rows)
 }
 
-/// A table of stiffness over the path of contact.
-fn path_section(
-    pairs: &str,
-    path: &PathComparison,
-    of: fn(&PathPoint) -> &Vec<Option<f64>>,
-) -> Vec<String> {
+type Stiffnesses = fn(&PathPoint) -> &[Option<f64>];
+const PAIR: Stiffnesses = |point| &point.pair;
+const MESH: Stiffnesses = |point| &point.mesh;
+
+/// Stiffness over the path of contact.
+fn path_table(path: &PathComparison, of: Stiffnesses) -> Table {
     let field = path.models.iter().position(|model| model.name() == FIELD);
-    let title = format!("Stiffness of {pairs} over the path of contact, in N/(um mm):");
+    let model = |model: &ToothCompliance| {
+        let title = model.name().into();
+        Column { title, ..Column::si(key(model.name()), "N/m2") }.wide(1, 16)
+    };
+    let place = Column::number("way", "s [mm]", "m", ("mm", 4)).wide(0, 8);
     let row = |point: &PathPoint| {
         let reference = field.and_then(|field| of(point)[field]);
-        let cell = |(model, value): (usize, &Option<f64>)| {
+        let cells = of(point).iter().enumerate().map(|(model, &value)| {
             let other = reference.filter(|_| Some(model) != field);
-            stiffness(*value, other)
-        };
-        let cells = of(point).iter().enumerate().map(cell);
-        let place = significant(point.way / MILLIMETRE, 4);
-        std::iter::once(place).chain(cells).map(Cell::Text).collect()
+            cell(value, |value| value * MICRON_MILLIMETRE, other)
+        });
+        std::iter::once(Cell::Number(point.way)).chain(cells).collect()
     };
-    let columns = columns("s [mm]", &path.models).collect();
-    Table::new(title, columns).with(path.points.iter().map(row)).lines()
+    let columns = std::iter::once(place).chain(path.models.iter().map(model));
+    Table::new("", columns.collect()).with(path.points.iter().map(row))
 }
 
-fn stiffness(value: Option<f64>, reference: Option<f64>) -> String {
-    let shown = value.map_or("-".to_owned(), |value| significant(value * MICRON_MILLIMETRE, 4));
-    shown + &difference(value, reference)
-}
-
-/// The difference from a reference in brackets, as a factor if the percentage is too wide; empty if
-/// a value is absent.
-fn difference(value: Option<f64>, reference: Option<f64>) -> String {
+/// A value with its difference from a reference in brackets, as a factor if the percentage is too
+/// wide.
+fn cell(value: Option<f64>, in_unit: fn(f64) -> f64, reference: Option<f64>) -> Cell {
     const LARGEST: f64 = 999.0;
-    let Some((value, reference)) = value.zip(reference) else {
-        return String::new();
-    };
-    let (factor, percent) = (value / reference, 100.0 * (value / reference - 1.0));
-    if percent > LARGEST { format!(" ({factor:.0} x)") } else { format!(" ({percent:+.0} %)") }
-}
-
-fn compliance(value: Option<f64>) -> String {
-    value.map_or("-".to_owned(), |value| significant(value / MICRON_MILLIMETRE, 4))
+    let Some(value) = value else { return Cell::None("-") };
+    let difference = reference.map_or_else(String::new, |reference| {
+        let (factor, percent) = (value / reference, 100.0 * (value / reference - 1.0));
+        if percent > LARGEST { format!(" ({factor:.0} x)") } else { format!(" ({percent:+.0} %)") }
+    });
+    Cell::Shown(value, significant(in_unit(value), 4) + &difference)
 }
 
 /// The twist of the body, and the reasons for missing values.
@@ -167,7 +200,6 @@ fn remarks(gear: &GearComparison) -> Vec<String> {
 }
 
 /// Why a gear has no finite-element values at some radii; `None` if it has them at all radii.
-#[must_use]
 pub fn no_field(gear: &GearComparison) -> Option<String> {
     Some(format!("no finite-element values: {}", reason(gear)?))
 }
@@ -183,91 +215,11 @@ fn reason(gear: &GearComparison) -> Option<String> {
     }
 }
 
-/// Writes CSV in SI units, one row per gear and radius; an absent value is an empty cell.
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write_csv(flanks: &Flanks, out: &mut dyn Write) -> io::Result<()> {
-    let compliance = |name: &str| Column::number(key(name), "", "m2/N", ("1", 0));
-    let [radius, half_width] =
-        ["radius", "contact_half_width"].map(|key| Column::number(key, "", "m", ("1", 0)));
-    let field = FIELDS.map(|(name, _)| compliance(name));
-    let [depth, surface, ahead, behind] = field;
-    let columns = [Column::text("gear", ""), radius]
-        .into_iter()
-        .chain(flanks.models.iter().map(|model| compliance(model.name())))
-        .chain([depth, half_width, surface, ahead, behind]);
-    let row = |gear: &GearComparison, point: &Point| {
-        let [depth, surface, ahead, behind] = FIELDS.map(|(_, of)| point.field.as_ref().map(of));
-        let half_width = Some(flanks.contact_half_width);
-        let numbers = std::iter::once(Some(point.radius))
-            .chain(point.models.iter().copied())
-            .chain([depth, half_width, surface, ahead, behind])
-            .map(|value| Cell::number(value, ""));
-        std::iter::once(gear.gear.into()).chain(numbers).collect()
-    };
-    let rows = flanks.gears.iter();
-    let rows = rows.flat_map(|gear| gear.points.iter().map(move |point| row(gear, point)));
-    Table::new("", columns.collect()).with(rows).write_csv(out)
-}
-
-type Compliance = fn(&FieldPoint) -> f64;
-
-/// The compliances of the finite elements.
-const FIELDS: [(&str, Compliance); 4] = [
-    (FIELD, |field| field.depth),
-    ("finite-element-surface", |field| field.surface),
-    ("neighbour-ahead", |field| field.ahead),
-    ("neighbour-behind", |field| field.behind),
-];
-
-fn key(name: &str) -> String {
-    name.replace('-', "_")
-}
-
-/// Writes one line of JSON in SI units without absent values.
-///
-/// # Errors
-/// Errors of the writer.
-pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let Comparison { flanks, path } = report.comparison;
-    let by_model = |values: &[Option<f64>]| {
-        let pairs = path.models.iter().zip(values);
-        sorted(pairs.map(|(model, value)| (key(model.name()), (*value).into())))
-    };
-    let place = |point: &PathPoint| {
-        object([
-            ("way", point.way.into()),
-            ("pair_stiffness", by_model(&point.pair)),
-            ("mesh_stiffness", by_model(&point.mesh)),
-        ])
-    };
-    let line = object([
-        ("case", report.name.into()),
-        ("title", report.title.into()),
-        ("version", env!("CARGO_PKG_VERSION").into()),
-        ("contact_half_width", flanks.contact_half_width.into()),
-        ("gears", flanks.gears.iter().map(|gear| gear_line(flanks, gear)).collect()),
-        ("path", path.points.iter().map(place).collect()),
-    ]);
-    write_line(&line, out)
-}
-
-fn gear_line(flanks: &Flanks, gear: &GearComparison) -> Json {
-    let gaps = gear.gaps.iter().map(|gap| (key(gap.model.name()), gap.reason.as_str().into()));
-    let point = |point: &Point| {
-        let models = flanks.models.iter().map(|model| model.name()).zip(&point.models);
-        let models = models.map(|(name, value)| (key(name), (*value).into()));
-        let field = FIELDS.map(|(name, of)| (key(name), point.field.as_ref().map(of).into()));
-        sorted([(key("radius"), point.radius.into())].into_iter().chain(models).chain(field))
-    };
-    object([
-        ("gear", gear.gear.into()),
-        ("form_radius", gear.form_radius.into()),
-        ("tip_radius", gear.tip_radius.into()),
-        ("twist", gear.twist.into()),
-        ("refusal", reason(gear).into()),
-        ("gaps", (!gear.gaps.is_empty()).then(|| sorted(gaps)).into()),
-        ("points", gear.points.iter().map(point).collect()),
-    ])
+/// The rows as objects with their members in the order of their names, without some columns.
+fn objects(table: &Table, without: &[&str]) -> Vec<Json> {
+    let key = |at: usize| table.columns[at].key.as_ref();
+    let mut columns: Vec<usize> =
+        (0..table.columns.len()).filter(|&at| !without.contains(&key(at))).collect();
+    columns.sort_by_key(|&at| key(at));
+    table.of(&columns).objects()
 }

@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use super::json::{Json, measured, object, reason, write_line};
+use super::json::{Json, json, measured, object, reason, write_line};
 use super::table::{Cell, Column, Table};
 use crate::model::Quantity;
-use crate::study::batch::{PointOutcome, Rows};
+use crate::study::batch::Row;
 use crate::study::shard::Format;
 use crate::study::sweep::Grid;
 
@@ -36,53 +36,48 @@ impl SweepTable<'_> {
     ///
     /// # Errors
     /// Errors of the writer.
-    pub fn write(&self, rows: &Rows, out: &mut dyn Write) -> io::Result<()> {
-        let mut points = rows.range().enumerate();
+    pub fn write(&self, first: usize, rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
+        let mut rows = (first..).zip(rows);
         if self.format == Format::Json {
-            return points
-                .try_for_each(|(row, index)| write_line(&self.line(rows, row, index), out));
+            return rows.try_for_each(|(index, row)| write_line(&self.line(index, row), out));
         }
-        let cells = points.map(|(row, index)| self.cells(rows, row, index));
+        let cells = rows.map(|(index, row)| {
+            let varied = self.grid.places(index);
+            let varied = varied.map(|(axis, at)| axis.points[at].text.as_str().into());
+            let computed = row.values.iter().map(|&value| Cell::number(value, ""));
+            varied.chain(computed).chain([row.outcome.name().into()]).collect()
+        });
         self.table().with(cells).write_csv_rows(out)
     }
 
     /// The columns: the varied fields in their units, the quantities in SI units, the outcome.
     fn table(&self) -> Table {
-        let varied = self
-            .grid
-            .axes
-            .iter()
+        let varied = self.grid.axes.iter();
+        let varied = varied
             .map(|axis| Column { unit: axis.unit.clone().into(), ..Column::text(axis.key(), "") });
         let computed = self.quantities.iter();
-        let computed = computed.map(|known| Column::number(known.key, "", known.unit, ("1", 0)));
+        let computed = computed.map(|known| Column::si(known.key, known.unit));
         Table::new("", varied.chain(computed).chain([Column::text("outcome", "")]).collect())
     }
 
-    fn cells(&self, rows: &Rows, row: usize, index: usize) -> Vec<Cell> {
-        let varied = self.grid.places(index).map(|(axis, at)| axis.points[at].text.as_str().into());
-        let computed = rows.values(row).map(|value| Cell::number(value, ""));
-        varied.chain(computed).chain([rows.outcomes[row].name().into()]).collect()
-    }
-
-    fn line(&self, rows: &Rows, row: usize, index: usize) -> Json {
+    fn line(&self, index: usize, row: &Row) -> Json {
         let varied = self.grid.places(index).map(|(axis, at)| {
             let (point, unit) = (&axis.points[at], axis.unit.as_str());
             let unit = if unit.is_empty() { "1" } else { unit };
             let value = match point.number {
-                Some(value) => object([("value", value.into()), ("unit", unit.into())]),
-                None => point.text.as_str().into(),
+                Some(value) => json!({"value": value, "unit": unit}),
+                None => json!(point.text),
             };
             (axis.key(), value)
         });
-        let is_solved = rows.outcomes[row] != PointOutcome::Refused;
-        let values = self.quantities.iter().zip(rows.values(row));
+        let values = self.quantities.iter().zip(&row.values);
         let values =
-            values.filter_map(|(known, value)| Some((known.key, measured(known, value?, None))));
-        object([
-            ("varied", object(varied)),
-            ("outcome", rows.outcomes[row].name().into()),
-            ("quantities", is_solved.then(|| object(values)).into()),
-            ("refusal", rows.refusal(row).map(reason).into()),
-        ])
+            values.filter_map(|(known, value)| Some((known.key, measured(known, (*value)?, None))));
+        json!({
+            "varied": object(varied),
+            "outcome": row.outcome.name(),
+            "quantities": row.refusal.is_none().then(|| object(values)),
+            "refusal": row.refusal.as_deref().map(reason),
+        })
     }
 }

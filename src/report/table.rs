@@ -76,6 +76,11 @@ impl Column {
         Column { unit: unit.into(), shown, digits, ..Column::text(key, title) }.to_the_right()
     }
 
+    /// A column of numbers in SI, without a header for readers.
+    pub fn si(key: impl Into<Cow<'static, str>>, unit: &'static str) -> Column {
+        Column::number(key, "", unit, ("1", 0))
+    }
+
     /// The same column, aligned to the right.
     #[must_use]
     pub fn to_the_right(self) -> Column {

@@ -3,20 +3,21 @@
 use std::io::{self, Write};
 
 use super::absence::Absence;
-use super::json::{Json, object, sorted, write_line};
+use super::json::{Json, json, sorted};
 use super::layout::count;
+use super::results::{Named, Results};
 use super::table::{Cell, Column, Table};
 use super::{common_unit, shown_with};
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::{Case, Problem};
+use crate::case::{Case, Problem, Spread};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::study::batch::Points;
 use crate::study::sample::{Distribution, Member};
-use crate::study::statistics::{Estimate, Figure, Figures, Indices, PERCENTILES, least_count};
-use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Summary, Tolerance};
+use crate::study::statistics::{Estimate, Figure, Indices, PERCENTILES, least_count};
+use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Tolerance};
 
 /// Greatest length of a bar of a histogram, in characters.
 const LONGEST_BAR: usize = 40;
@@ -27,8 +28,6 @@ const ROWS: usize = 1024;
 /// A tolerance study and its results.
 #[derive(Clone, Copy)]
 pub struct ToleranceReport<'a> {
-    /// The name of the case, as the user gave it.
-    pub name: &'a str,
     /// The case.
     pub case: &'a Case,
     /// The method of the study.
@@ -40,56 +39,54 @@ pub struct ToleranceReport<'a> {
 }
 
 impl ToleranceReport<'_> {
-    /// Writes the results as text.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let summary = self.study.summary(self.samples);
-        let title = Some(self.case.title()).filter(|title| !title.is_empty());
-        writeln!(out, "{}", sanitize(title.unwrap_or(self.name)))?;
-        self.write_samples(&summary, out)?;
-        self.write_spread(out)?;
-        self.write_figures(&summary, "#", out)
-    }
-
-    /// Writes the results for a screen that already shows the case: the figures come first, and bars
+    /// The results for a screen that already shows the case: the figures come first, and bars
     /// consist of block characters.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write_for_screen(&self, out: &mut dyn Write) -> io::Result<()> {
-        let summary = self.study.summary(self.samples);
-        self.write_samples(&summary, out)?;
-        self.write_figures(&summary, "█", out)?;
-        self.write_spread(out)
+    pub fn lines_for_screen(&self) -> Vec<String> {
+        let [samples, spread, figures] = self.sections("█");
+        [samples, figures, spread].concat()
     }
 
-    fn write_samples(&self, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
-        let design = &self.study.design;
-        let refused = design.samples - summary.solved;
-        let refused = if refused == 0 { String::new() } else { format!(", {refused} refused") };
+    /// The lines about the samples, the distributions and the results.
+    fn sections(&self, bar: &str) -> [Vec<String>; 3] {
+        let (summary, design) = (self.study.summary(self.samples), &self.study.design);
         let (samples, seed, method) = (design.samples, design.seed, self.method.name());
-        writeln!(out, "{samples} samples{refused}, seed {seed}, method {method}")
+        let refused = match samples - summary.solved {
+            0 => String::new(),
+            refused => format!(", {refused} refused"),
+        };
+        let first = format!("{samples} samples{refused}, seed {seed}, method {method}");
+        let contact = ("corner contact".to_owned(), summary.contact);
+        let limits =
+            summary.limits.iter().map(|Exceedance { quantity, limit, probability, .. }| {
+                (format!("{} > {}", quantity.key, sanitize(&limit.text)), *probability)
+            });
+        let rows: Vec<_> = std::iter::once(contact).chain(limits).collect();
+        let width = widest(rows.iter().map(|(name, _)| name.as_str()));
+        let mut figures = vec![String::new(), "Probability (95 % interval)".to_owned()];
+        figures.extend(rows.into_iter().map(|(name, probability)| {
+            let unknown = || "unknown: no sample has a value".to_owned();
+            let probability = probability.as_ref().map_or_else(unknown, in_percent);
+            format!("  {name:width$}  {probability}")
+        }));
+        figures.extend(summary.quantities.iter().flat_map(|of| self.quantity_lines(of, bar)));
+        [vec![first], self.spread(), figures]
     }
 
-    fn write_spread(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "\nSpread")?;
+    fn spread(&self) -> Vec<String> {
         let width = self.key_width();
-        for spread in &self.case.spread {
+        let line = |spread: &Spread| {
             let value = index_of(spread.field).and_then(|field| self.case.effective(field));
-            let (value, words) =
-                (sanitize(value.unwrap_or_default()), sanitize(&spread.in_words()));
-            writeln!(out, "  {:width$}  {value}, {words}", spread.field)?;
-        }
+            let value = sanitize(value.unwrap_or_default());
+            format!("  {:width$}  {value}, {}", spread.field, sanitize(&spread.in_words()))
+        };
+        let mut lines = vec![String::new(), "Spread".to_owned()];
+        lines.extend(self.case.spread.iter().map(line));
         if self.case.spread.iter().any(|spread| spread.field.ends_with(".base_pitch")) {
-            let rule = match self.combination() {
-                "sum" => "with their signs: known",
-                _ => "as squares: independent",
-            };
-            writeln!(out, "  base pitch deviations add {rule}")?;
+            let is_sum = self.combination() == "sum";
+            let rule = if is_sum { "with their signs: known" } else { "as squares: independent" };
+            lines.push(format!("  base pitch deviations add {rule}"));
         }
-        Ok(())
+        lines
     }
 
     fn key_width(&self) -> usize {
@@ -104,75 +101,75 @@ impl ToleranceReport<'_> {
         if is_sum { "sum" } else { "independent" }
     }
 
-    fn write_figures(&self, summary: &Summary, bar: &str, out: &mut dyn Write) -> io::Result<()> {
-        let limit = |of: &Exceedance| {
-            (format!("{} > {}", of.quantity.key, sanitize(&of.limit.text)), of.probability)
-        };
-        let contact = ("corner contact".to_owned(), summary.contact);
-        let limits = summary.limits.iter().map(limit);
-        let rows: Vec<_> = std::iter::once(contact).chain(limits).collect();
-        let width = widest(rows.iter().map(|(name, _)| name.as_str()));
-        writeln!(out, "\nProbability (95 % interval)")?;
-        for (name, probability) in rows {
-            let unknown = || "unknown: no sample has a value".to_owned();
-            let probability = probability.as_ref().map_or_else(unknown, in_percent);
-            writeln!(out, "  {name:width$}  {probability}")?;
-        }
-        summary.quantities.iter().try_for_each(|of| self.write_quantity(of, bar, out))
-    }
-
-    fn write_quantity(&self, of: &OfQuantity, bar: &str, out: &mut dyn Write) -> io::Result<()> {
-        let OfQuantity { quantity, .. } = of;
-        write!(out, "\n{} {} ({})", quantity.label, quantity.symbol, quantity.key)?;
-        let Some(figures) = &of.figures else {
+    fn quantity_lines(&self, of: &OfQuantity, bar: &str) -> Vec<String> {
+        let OfQuantity { quantity, figures, .. } = of;
+        let title = format!("{} {} ({})", quantity.label, quantity.symbol, quantity.key);
+        let Some(figures) = figures else {
             let reason = self.why_absent(quantity);
-            return writeln!(out, "\n  {}", reason.as_deref().unwrap_or("no sample has a value"));
+            let reason = reason.as_deref().unwrap_or("no sample has a value");
+            return vec![String::new(), title, format!("  {reason}")];
         };
-        writeln!(out, ", {} values", figures.count)?;
-        let unit =
-            common_unit(quantity, [figures.range.0, figures.range.1].into_iter(), System::Metric);
+        let (from, to) = figures.range;
+        let unit = common_unit(quantity, [from, to].into_iter(), System::Metric);
         let printed = |value: f64| shown_with(quantity, value, unit).to_string();
-        let percentiles = PERCENTILES.iter().zip(&figures.percentiles);
-        let percentiles = percentiles
-            .map(|(&percent, figure)| (format!("P{percent}"), figure, least_count(percent)));
-        let mean = ("mean".to_owned(), &figures.mean, 2);
-        for (name, Figure { value, interval }, least) in percentiles.chain([mean]) {
+        let line = |name: &str, Figure { value, interval }: &Figure, least: usize| {
             let interval = match interval {
                 Some((from, to)) => format!("{} to {}", printed(*from), printed(*to)),
                 None => format!("no 95 % interval below {least} values"),
             };
-            writeln!(out, "  {name:<20}{:>12} ({interval})", printed(*value))?;
-        }
-        writeln!(out, "  {:<20}{:>12}", "standard deviation", printed(figures.deviation))?;
-        write_histogram(figures, &printed, bar, out)?;
-        self.write_ranking(of, out)
+            format!("  {name:<20}{:>12} ({interval})", printed(*value))
+        };
+        let mut lines = vec![String::new(), format!("{title}, {} values", figures.count)];
+        let percentiles = PERCENTILES.iter().zip(&figures.percentiles);
+        lines.extend(
+            percentiles.map(|(&percent, figure)| {
+                line(&format!("P{percent}"), figure, least_count(percent))
+            }),
+        );
+        lines.push(line("mean", &figures.mean, 2));
+        lines.push(format!("  {:<20}{:>12}", "standard deviation", printed(figures.deviation)));
+        let counts = &figures.histogram;
+        let most = counts.iter().copied().max().unwrap_or(0).max(1);
+        let step = (to - from) / counts.len() as f64;
+        let lower: Vec<String> =
+            (0..counts.len()).map(|bin| printed(from + step * bin as f64)).collect();
+        let width = widest(lower.iter().map(String::as_str));
+        lines.extend(counts.iter().zip(lower).map(|(count, lower)| {
+            let bar = bar.repeat((count * LONGEST_BAR).div_ceil(most));
+            let gap = if bar.is_empty() { "" } else { " " };
+            format!("  {lower:>width$} | {bar}{gap}{count}")
+        }));
+        lines.extend(self.ranking(of));
+        lines
     }
 
-    fn write_ranking(&self, of: &OfQuantity, out: &mut dyn Write) -> io::Result<()> {
+    fn ranking(&self, of: &OfQuantity) -> Vec<String> {
         const HEADING: &str = "part of the variance";
-        let design = &self.study.design;
+        let (ranked, all) = (of.ranked, self.study.design.ranked);
         let Some(indices) = &of.indices else {
-            return match (design.ranked, of.ranked) {
-                (0, _) => Ok(()),
-                (_, 0) => writeln!(out, "  no ranking: no sample of the ranking has every value"),
-                _ => writeln!(out, "  no ranking: the values do not vary"),
+            let reason = match (all, ranked) {
+                (0, _) => return Vec::new(),
+                (_, 0) => "no sample of the ranking has every value",
+                _ => "the values do not vary",
             };
+            return vec![format!("  no ranking: {reason}")];
         };
         let width = self.key_width().max(HEADING.len());
-        writeln!(out, "  {HEADING:width$}  {:>18}{:>18}", "first-order", "total")?;
-        let mut rows: Vec<_> = design.distributions.iter().zip(indices).collect();
+        let mut rows: Vec<_> = self.study.design.distributions.iter().zip(indices).collect();
         rows.sort_by(|(_, one), (_, other)| other.total.value.total_cmp(&one.total.value));
-        for (distribution, Indices { first_order, total }) in rows {
+        let mut lines = vec![format!("  {HEADING:width$}  {:>18}{:>18}", "first-order", "total")];
+        lines.extend(rows.into_iter().map(|(distribution, Indices { first_order, total })| {
             let [first_order, total] = [first_order, total]
                 .map(|index| format!("{:.3} +- {:.3}", index.value, 0.5 * (index.to - index.from)));
-            writeln!(out, "  {:width$}  {first_order:>18}{total:>18}", distribution.key())?;
+            format!("  {:width$}  {first_order:>18}{total:>18}", distribution.key())
+        }));
+        if ranked < all {
+            let left = all - ranked;
+            lines.push(format!(
+                "  {left} of {all} samples of the ranking lack a value, so it is approximate"
+            ));
         }
-        if of.ranked < design.ranked {
-            let (left, all) = (design.ranked - of.ranked, design.ranked);
-            let rest = "samples of the ranking lack a value, so it is approximate";
-            writeln!(out, "  {left} of {all} {rest}")?;
-        }
-        Ok(())
+        lines
     }
 
     /// Why no sample has a value of a quantity, if another method computes it.
@@ -186,7 +183,7 @@ impl ToleranceReport<'_> {
     /// Errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let (design, quantities) = (&self.study.design, &self.study.quantities);
-        let number = |(key, unit)| Column::number(key, "", unit, ("1", 0));
+        let number = |(key, unit)| Column::si(key, unit);
         let spread = design.distributions.iter().map(|one| (one.key(), unit(one)));
         let computed = quantities.iter().map(|quantity| (quantity.key, quantity.unit));
         let [sample, set, outcome] = ["sample", "set", "outcome"].map(|key| Column::text(key, ""));
@@ -218,91 +215,82 @@ impl ToleranceReport<'_> {
         })
     }
 
-    /// Writes the results as one JSON object on one line.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
+    fn quantity(&self, of: &OfQuantity) -> Json {
+        let figures = of.figures.as_ref().map(|figures| {
+            let [p5, p50, p95] = figures.percentiles.map(figure);
+            json!({
+                "greatest": figures.range.1,
+                "histogram": figures.histogram,
+                "least": figures.range.0,
+                "mean": figure(figures.mean),
+                "p5": p5,
+                "p50": p50,
+                "p95": p95,
+                "standard_deviation": figures.deviation,
+            })
+        });
+        let index =
+            |Estimate { value, from, to }| figure(Figure { value, interval: Some((from, to)) });
+        let share = |(field, Indices { first_order, total }): (&Distribution, &Indices)| json!({"field": field.key(), "first_order": index(*first_order), "total": index(*total)});
+        let fields = &self.study.design.distributions;
+        let ranking =
+            of.indices.as_ref().map(|all| fields.iter().zip(all).map(share).collect::<Json>());
+        json!({
+            "count": of.figures.as_ref().map_or(0, |figures| figures.count),
+            "figures": figures,
+            "no_value": self.why_absent(of.quantity),
+            "ranked": of.ranked,
+            "ranking": ranking,
+            "unit": of.quantity.unit,
+        })
+    }
+}
+
+impl Results for ToleranceReport<'_> {
+    fn lines(&self, case: Named) -> Vec<String> {
+        let [samples, spread, figures] = self.sections("#");
+        [vec![case.heading()], samples, spread, figures].concat()
+    }
+
+    fn json(&self) -> Json {
         let design = &self.study.design;
         let summary = self.study.summary(self.samples);
         let refused = self.samples.refusals.0.iter().map(|refused| {
             let Problem { field, cause, fix, .. } = &refused.problem;
-            object([
-                ("count", refused.count.into()),
-                ("of", design.count().into()),
-                ("field", field.as_str().into()),
-                ("cause", cause.as_str().into()),
-                ("fix", fix.to_string().into()),
-            ])
+            let (count, of) = (refused.count, design.count());
+            json!({"count": count, "of": of, "field": field, "cause": cause, "fix": fix})
         });
         let spread = self.case.spread.iter().zip(&design.distributions);
         let spread = spread.map(|(spread, distribution)| {
-            object([
-                ("field", spread.field.into()),
-                ("shape", spread.shape.name().into()),
-                ("width", spread.text.as_str().into()),
-                ("centre", distribution.centre.into()),
-                ("unit", unit(distribution).into()),
-            ])
+            json!({
+                "field": spread.field,
+                "shape": spread.shape.name(),
+                "width": spread.text,
+                "centre": distribution.centre,
+                "unit": unit(distribution),
+            })
         });
         let limits = summary.limits.iter().map(|limit| {
-            object([
-                ("quantity", limit.quantity.key.into()),
-                ("limit", limit.limit.text.as_str().into()),
-                ("samples", limit.known.into()),
-                ("exceeded", limit.probability.as_ref().map(chance).into()),
-            ])
+            json!({
+                "quantity": limit.quantity.key,
+                "limit": limit.limit.text,
+                "samples": limit.known,
+                "exceeded": limit.probability,
+            })
         });
         let quantities = summary.quantities.iter().map(|of| (of.quantity.key, self.quantity(of)));
-        let line = object([
-            ("case", self.name.into()),
-            ("title", self.case.title().into()),
-            ("version", env!("CARGO_PKG_VERSION").into()),
-            ("method", self.method.name().into()),
-            ("samples", design.samples.into()),
-            ("seed", design.seed.into()),
-            ("solved", summary.solved.into()),
-            ("refused", refused.collect()),
-            ("spread", spread.collect()),
-            ("combination", self.combination().into()),
-            ("corner_contact", summary.contact.as_ref().map(chance).into()),
-            ("limits", limits.collect()),
-            ("quantities", sorted(quantities)),
-        ]);
-        write_line(&line, out)
-    }
-
-    fn quantity(&self, of: &OfQuantity) -> Json {
-        let shape = |figures: &Figures| {
-            let [p5, p50, p95] = figures.percentiles.each_ref().map(figure);
-            object([
-                ("greatest", figures.range.1.into()),
-                ("histogram", figures.histogram.iter().copied().collect()),
-                ("least", figures.range.0.into()),
-                ("mean", figure(&figures.mean)),
-                ("p5", p5),
-                ("p50", p50),
-                ("p95", p95),
-                ("standard_deviation", figures.deviation.into()),
-            ])
-        };
-        let fields = self.study.design.distributions.iter().map(Distribution::key);
-        let share = |(field, Indices { first_order, total }): (&str, &Indices)| {
-            object([
-                ("field", field.into()),
-                ("first_order", index(first_order)),
-                ("total", index(total)),
-            ])
-        };
-        let ranking = of.indices.as_ref().map(|all| fields.zip(all).map(share).collect::<Json>());
-        object([
-            ("count", of.figures.as_ref().map_or(0, |figures| figures.count).into()),
-            ("figures", of.figures.as_ref().map(shape).into()),
-            ("no_value", self.why_absent(of.quantity).into()),
-            ("ranked", of.ranked.into()),
-            ("ranking", ranking.into()),
-            ("unit", of.quantity.unit.into()),
-        ])
+        json!({
+            "method": self.method.name(),
+            "samples": design.samples,
+            "seed": design.seed,
+            "solved": summary.solved,
+            "refused": refused.collect::<Json>(),
+            "spread": spread.collect::<Json>(),
+            "combination": self.combination(),
+            "corner_contact": summary.contact,
+            "limits": limits.collect::<Json>(),
+            "quantities": sorted(quantities),
+        })
     }
 }
 
@@ -321,44 +309,14 @@ fn in_percent(estimate: &Estimate) -> String {
     format!("{} ({} to {})", percent(*value), percent(*from), percent(*to))
 }
 
-fn write_histogram(
-    figures: &Figures,
-    printed: &dyn Fn(f64) -> String,
-    bar: &str,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let counts = &figures.histogram;
-    let most = counts.iter().copied().max().unwrap_or(0).max(1);
-    let (from, to) = figures.range;
-    let step = (to - from) / counts.len() as f64;
-    let lower = (0..counts.len()).map(|bin| printed(from + step * bin as f64));
-    let lower: Vec<String> = lower.collect();
-    let width = widest(lower.iter().map(String::as_str));
-    for (count, lower) in counts.iter().zip(lower) {
-        let bar = bar.repeat((count * LONGEST_BAR).div_ceil(most));
-        let gap = if bar.is_empty() { "" } else { " " };
-        writeln!(out, "  {lower:>width$} | {bar}{gap}{count}")?;
-    }
-    Ok(())
-}
-
 /// The greatest length of the texts, in characters.
 fn widest<'a>(texts: impl Iterator<Item = &'a str>) -> usize {
     texts.map(count).max().unwrap_or(0)
 }
 
-/// A probability.
-fn chance(Estimate { value, from, to }: &Estimate) -> Json {
-    object([("value", (*value).into()), ("from", (*from).into()), ("to", (*to).into())])
-}
-
-fn figure(Figure { value, interval }: &Figure) -> Json {
+fn figure(Figure { value, interval }: Figure) -> Json {
     let (from, to) = interval.unzip();
-    object([("from", from.into()), ("to", to.into()), ("value", (*value).into())])
-}
-
-fn index(Estimate { value, from, to }: &Estimate) -> Json {
-    figure(&Figure { value: *value, interval: Some((*from, *to)) })
+    json!({"from": from, "to": to, "value": value})
 }
 
 #[cfg(test)]

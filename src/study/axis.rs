@@ -2,7 +2,7 @@
 
 use crate::case::fields::{AUTO, FIELDS, Field, Kind, Value, index_of};
 use crate::case::units::{self, Dimension};
-use crate::case::{Fix, Problem, field_value, unknown_key};
+use crate::case::{Problem, field_value, unknown_key};
 use crate::model::Inputs;
 use crate::numeric::decimal::shortest;
 
@@ -67,26 +67,36 @@ impl Axis {
     /// reversed or empty, or if the number of points does not suit the range.
     pub fn parse(text: &str, sampling: Sampling) -> Result<Axis, Problem> {
         let (field, values) = assignment(text)?;
-        if is_range(values) {
+        if values.contains(TO) {
             return AxisRange::of(field, values)?.axis(sampling);
         }
-        list(field, values)
+        let known = &FIELDS[field];
+        let is_name = |item: &str| {
+            matches!(known.kind, Kind::Choice(..)) || known.takes_auto() && item == AUTO
+        };
+        let items = || values.split(',').map(str::trim);
+        let unit = unit_of(known, items().filter(|item| !is_name(item)))?;
+        let point = |item: &str| {
+            if is_name(item) {
+                return AxisPoint::named(item, field);
+            }
+            AxisPoint::at(number_in(field, item, &unit)?, &unit, field)
+        };
+        let points = items().map(point).collect::<Result<_, _>>()?;
+        Ok(Axis { field, unit, points })
     }
 
     /// Whether a text is a range, so that a number of points applies.
-    #[must_use]
     pub fn is_range(text: &str) -> bool {
-        text.split_once('=').is_some_and(|(_, values)| is_range(values))
+        text.split_once('=').is_some_and(|(_, values)| values.contains(TO))
     }
 
     /// The key of the field.
-    #[must_use]
     pub fn key(&self) -> &'static str {
         FIELDS[self.field].key
     }
 
     /// The value at an index with its unit, in the syntax of `--set`.
-    #[must_use]
     pub fn with_unit(&self, at: usize) -> String {
         with_unit(&self.points[at].text, &self.unit)
     }
@@ -112,58 +122,41 @@ impl AxisRange {
     /// As [`Axis::parse`]; also if the text is not the range of a number field.
     pub fn parse(text: &str) -> Result<AxisRange, Problem> {
         let (field, values) = assignment(text)?;
-        let known = &FIELDS[field];
-        let uncrossed = match known.kind {
-            Kind::Choice(..) => Some("a choice"),
-            Kind::Count(..) => Some("a whole number"),
-            _ => None,
+        let Field { key, kind, .. } = &FIELDS[field];
+        let uncrossed = match kind {
+            Kind::Choice(..) => "a choice",
+            Kind::Count(..) => "a whole number",
+            _ if values.contains(TO) => return AxisRange::of(field, values),
+            _ => {
+                let fix = format!("write {key}=FROM..TO");
+                return Err(Problem::new(key, "this is not a range", fix));
+            }
         };
-        if let Some(kind) = uncrossed {
-            return Err(problem(
-                known,
-                format!("{kind} has no crossing between its values"),
-                format!("use sweep --vary '{}={values}'", known.key),
-            ));
-        }
-        if !is_range(values) {
-            return Err(problem(
-                known,
-                "this is not a range",
-                format!("write {}=FROM..TO", known.key),
-            ));
-        }
-        AxisRange::of(field, values)
+        let cause = format!("{uncrossed} has no crossing between its values");
+        Err(Problem::new(key, cause, format!("use sweep --vary '{key}={values}'")))
     }
 
     fn of(field: usize, values: &str) -> Result<AxisRange, Problem> {
         let known = &FIELDS[field];
+        let key = known.key;
         if let Kind::Choice(names, _) = known.kind {
-            let list = names.join(",");
-            return Err(problem(
-                known,
-                "a choice has no range",
-                format!("write a list, such as {}={list}", known.key),
-            ));
+            let fix = format!("write a list, such as {key}={}", names.join(","));
+            return Err(Problem::new(key, "a choice has no range", fix));
         }
-        let (from, to) = values.split_once("..").unwrap_or((values, ""));
+        let (from, to) = values.split_once(TO).unwrap_or((values, ""));
         let unit = unit_of(known, [from, to])?;
         let [from, to] = [number_in(field, from, &unit)?, number_in(field, to, &unit)?];
-        if from < to {
-            return Ok(AxisRange { field, unit, from, to });
-        }
         let [first, last] = [from, to].map(|end| with_unit(&shortest(end), &unit));
-        let (cause, fix) = if from > to {
-            (
-                format!("the range is reversed: {first} is above {last}"),
-                format!("write {}={last}..{first}", known.key),
-            )
+        let (cause, fix) = if from < to {
+            return Ok(AxisRange { field, unit, from, to });
+        } else if from > to {
+            let cause = format!("the range is reversed: {first} is above {last}");
+            (cause, format!("write {key}={last}..{first}"))
         } else {
-            (
-                "the range is empty: both ends are equal".to_owned(),
-                format!("write {}={first} for one value", known.key),
-            )
+            let cause = "the range is empty: both ends are equal".to_owned();
+            (cause, format!("write {key}={first} for one value"))
         };
-        Err(problem(known, cause, fix))
+        Err(Problem::new(key, cause, fix))
     }
 
     /// The point at a number in the unit of the range.
@@ -179,72 +172,55 @@ impl AxisRange {
     /// # Errors
     /// Returns an error if there are fewer than 2 points, if the points do not fall on whole
     /// numbers as the field requires, or if a logarithmic range begins at 0 or below.
-    pub fn axis(&self, sampling: Sampling) -> Result<Axis, Problem> {
-        let known = &FIELDS[self.field];
-        let count = match known.kind {
-            Kind::Count(..) => self.whole_numbers(sampling)?,
-            _ => sampling.points.unwrap_or(USUAL_POINTS),
-        };
+    pub fn axis(&self, Sampling { points, is_log }: Sampling) -> Result<Axis, Problem> {
+        let Field { key, kind, .. } = &FIELDS[self.field];
+        let refused = |cause: String, fix: String| Err(Problem::new(key, cause, fix));
+        let mut count = points.unwrap_or(USUAL_POINTS);
+        if matches!(kind, Kind::Count(..)) {
+            let span = (self.to - self.from) as usize;
+            count = points.unwrap_or(span + 1);
+            if is_log {
+                let fix = format!("write a list, such as {key}=20,40,80");
+                return refused("--log gives no whole numbers".to_owned(), fix);
+            }
+            if count >= 2 && !span.is_multiple_of(count - 1) {
+                let all = span + 1;
+                return refused(
+                    format!("{count} points do not fall on whole numbers"),
+                    format!("leave --points out for all {all} values, or write a list"),
+                );
+            }
+        }
         if !(2..=MOST_POINTS).contains(&count) {
-            return Err(problem(
-                known,
+            return refused(
                 format!("a range has 2 to {MOST_POINTS} points, and not {count}"),
                 format!("write --points with a number from 2 to {MOST_POINTS}"),
-            ));
+            );
         }
-        if sampling.is_log && self.from <= 0.0 {
-            return Err(problem(
-                known,
-                format!(
-                    "--log needs a start above 0, and {} is not",
-                    with_unit(&shortest(self.from), &self.unit)
-                ),
-                "start the range above 0, or leave --log out",
-            ));
+        if is_log && self.from <= 0.0 {
+            let from = with_unit(&shortest(self.from), &self.unit);
+            return refused(
+                format!("--log needs a start above 0, and {from} is not"),
+                "start the range above 0, or leave --log out".to_owned(),
+            );
         }
-        let numbers = (0..count).map(|index| self.number(index, count, sampling.is_log));
-        Ok(Axis {
-            field: self.field,
-            unit: self.unit.clone(),
-            points: numbers.map(|number| self.at(number)).collect::<Result<_, _>>()?,
-        })
-    }
-
-    fn number(&self, index: usize, count: usize, is_log: bool) -> f64 {
         let last = count - 1;
-        match index {
-            0 => self.from,
-            _ if index == last => self.to,
-            _ if is_log => {
-                let part = index as f64 / last as f64;
-                rounded(self.from * (self.to / self.from).powf(part))
+        let number = |index: usize| {
+            let (from, to, part) = (self.from, self.to, index as f64 / last as f64);
+            match index {
+                0 => from,
+                _ if index == last => to,
+                _ if is_log => rounded(from * (to / from).powf(part)),
+                _ => rounded(from + (to - from) * index as f64 / last as f64),
             }
-            _ => rounded(self.from + (self.to - self.from) * index as f64 / last as f64),
-        }
-    }
-
-    /// The number of points if each of them is a whole number.
-    fn whole_numbers(&self, sampling: Sampling) -> Result<usize, Problem> {
-        let known = &FIELDS[self.field];
-        if sampling.is_log {
-            return Err(problem(
-                known,
-                "--log gives no whole numbers",
-                format!("write a list, such as {}=20,40,80", known.key),
-            ));
-        }
-        let span = (self.to - self.from) as usize;
-        let count = sampling.points.unwrap_or(span + 1);
-        if count < 2 || span.is_multiple_of(count - 1) {
-            return Ok(count);
-        }
-        Err(problem(
-            known,
-            format!("{count} points do not fall on whole numbers"),
-            format!("leave --points out for all {} values, or write a list", span + 1),
-        ))
+        };
+        let points = (0..count).map(|index| self.at(number(index))).collect::<Result<_, _>>()?;
+        Ok(Axis { field: self.field, unit: self.unit.clone(), points })
     }
 }
+
+/// The sign between the ends of a range.
+const TO: &str = "..";
 
 /// Rounds to 15 digits, so that steps of 0.1 print without rounding errors.
 fn rounded(number: f64) -> f64 {
@@ -252,64 +228,26 @@ fn rounded(number: f64) -> f64 {
 }
 
 /// A number and its unit, in the syntax of a case file.
-#[must_use]
 pub fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
 }
 
-fn problem(field: &Field, cause: impl Into<String>, fix: impl Into<Fix>) -> Problem {
-    Problem::new(field.key, cause, fix)
-}
-
 /// Splits `KEY=VALUES` into the index of the field and the values.
 fn assignment(text: &str) -> Result<(usize, &str), Problem> {
-    let unwritten = |cause: &str| {
-        let fix = "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'";
-        Problem::new(text, cause, fix)
-    };
+    const FIX: &str = "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'";
+    let unwritten = |cause: &str| Problem::new(text, cause, FIX);
     let (key, values) = text.split_once('=').ok_or_else(|| unwritten("no values are given"))?;
-    if key.trim().is_empty() {
+    let key = key.trim();
+    if key.is_empty() {
         return Err(unwritten("the key is missing"));
     }
-    let field = index_of(key.trim()).ok_or_else(|| unknown_key(key.trim()))?;
-    let known = &FIELDS[field];
-    match known.kind {
-        Kind::Text => Err(problem(
-            known,
-            format!("{} is a text and has no values to vary", known.key),
-            "vary a field with a value; `tipstrike fields` lists every key",
-        )),
-        _ => Ok((field, values.trim())),
+    let field = index_of(key).ok_or_else(|| unknown_key(key))?;
+    if let Kind::Text = FIELDS[field].kind {
+        let cause = format!("{key} is a text and has no values to vary");
+        let fix = "vary a field with a value; `tipstrike fields` lists every key";
+        return Err(Problem::new(key, cause, fix));
     }
-}
-
-fn is_range(values: &str) -> bool {
-    values.contains("..")
-}
-
-fn list(field: usize, values: &str) -> Result<Axis, Problem> {
-    let known = &FIELDS[field];
-    let items: Vec<&str> = values.split(',').map(str::trim).collect();
-    if matches!(known.kind, Kind::Choice(..)) {
-        return Ok(Axis {
-            field,
-            unit: String::new(),
-            points: items
-                .iter()
-                .map(|name| AxisPoint::named(name, field))
-                .collect::<Result<_, _>>()?,
-        });
-    }
-    let unit = unit_of(known, items.iter().copied())?;
-    let point = |item: &&str| -> Result<AxisPoint, Problem> {
-        if known.takes_auto() && *item == AUTO {
-            return AxisPoint::named(AUTO, field);
-        }
-        let number = number_in(field, item, &unit)?;
-        AxisPoint::at(number, &unit, field)
-    };
-    let points = items.iter().map(point).collect::<Result<_, _>>()?;
-    Ok(Axis { field, unit, points })
+    Ok((field, values.trim()))
 }
 
 /// The first unit among the values, which applies to values without a unit.
@@ -318,11 +256,8 @@ fn unit_of<'t>(
     values: impl IntoIterator<Item = &'t str>,
 ) -> Result<String, Problem> {
     for value in values {
-        if field.takes_auto() && value.trim() == AUTO {
-            continue;
-        }
-        let (_, unit) =
-            units::split(value, field.usual_unit()).map_err(|error| error.at(field.key))?;
+        let split = units::split(value, field.usual_unit());
+        let (_, unit) = split.map_err(|error| error.at(field.key))?;
         if !unit.is_empty() {
             return Ok(unit.to_owned());
         }
@@ -332,18 +267,16 @@ fn unit_of<'t>(
 
 /// The value in `unit`; a bare number is already in that unit.
 fn number_in(field: usize, value: &str, unit: &str) -> Result<f64, Problem> {
-    let known = &FIELDS[field];
-    let (number, own) = units::split(value, known.usual_unit()).unwrap_or((value, ""));
+    let (number, own) = units::split(value, FIELDS[field].usual_unit()).unwrap_or((value, ""));
     let is_bare = own.is_empty();
     let text = if is_bare { with_unit(number, unit) } else { value.trim().to_owned() };
-    let taken = field_value(field, &text)?;
-    let in_unit = |si: f64| {
-        let converted = units::text(si, unit);
-        units::split(&converted, "").ok().and_then(|(number, _)| number.parse().ok()).unwrap_or(si)
-    };
-    Ok(match taken {
-        Value::Number(si) if !is_bare && own != unit => in_unit(si),
-        Value::Number(_) => units::parse(number, Dimension::Number, "").unwrap_or_default(),
+    let plain = |number| units::parse(number, Dimension::Number, "").unwrap_or_default();
+    Ok(match field_value(field, &text)? {
+        Value::Number(si) if !is_bare && own != unit => {
+            let converted = units::text(si, unit);
+            units::split(&converted, "").map_or(si, |(number, _)| plain(number))
+        }
+        Value::Number(_) => plain(number),
         Value::Count(count) => f64::from(count),
         Value::Text | Value::Choice(_) => 0.0,
     })

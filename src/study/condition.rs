@@ -1,8 +1,8 @@
 //! A condition on a result, such as `impact_force<=2500 N`, and whether a point meets it.
 
-use super::batch::{PointOutcome, Rows};
+use super::batch::{PointOutcome, Row};
 use crate::case::sanitize::quoted;
-use crate::case::{Case, Fix, Limit, Problem, unknown_quantity};
+use crate::case::{Case, Limit, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity};
 
@@ -15,13 +15,6 @@ struct Relation {
     is_strict: bool,
 }
 
-/// Every sign, the longer ones first.
-const SIGNS: [(&str, Relation); 4] = [
-    ("<=", AT_MOST),
-    (">=", AT_LEAST),
-    ("<", Relation { is_upper: true, is_strict: true }),
-    (">", Relation { is_upper: false, is_strict: true }),
-];
 const AT_MOST: Relation = Relation { is_upper: true, is_strict: false };
 const AT_LEAST: Relation = Relation { is_upper: false, is_strict: false };
 
@@ -29,11 +22,6 @@ impl Relation {
     /// The distance of a value from the limit, above 0 where the condition is met.
     fn margin(self, value: f64, limit: f64) -> f64 {
         if self.is_upper { limit - value } else { value - limit }
-    }
-
-    fn is_met(self, value: f64, limit: f64) -> bool {
-        let margin = self.margin(value, limit);
-        margin > 0.0 || margin == 0.0 && !self.is_strict
     }
 }
 
@@ -64,7 +52,6 @@ pub enum State {
 
 impl State {
     /// Whether both states are of the same variant; the reason may differ.
-    #[must_use]
     pub fn is_like(&self, other: &State) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
     }
@@ -76,33 +63,24 @@ impl Condition {
     /// # Errors
     /// Returns an error if the quantity, the sign, the value or the outcome is unknown.
     pub fn parse(text: &str) -> Result<Condition, Problem> {
-        let sign = SIGNS
-            .into_iter()
-            .filter_map(|(sign, relation)| Some((text.find(sign)?, sign, relation)))
-            .min_by_key(|(at, sign, _)| (*at, std::cmp::Reverse(sign.len())));
-        let kind = match (sign, text.split_once('=')) {
-            (Some((at, sign, relation)), _) => {
-                compared(&text[..at], relation, &text[at + sign.len()..])?
-            }
-            (None, Some((name, value))) if name.trim() == "outcome" => {
-                outcome(value.strip_prefix('=').unwrap_or(value).trim())?
-            }
-            (None, Some((name, value))) => flag(name, value)?,
-            (None, None) => {
-                return Err(problem(
-                    text,
-                    "this is not a condition",
-                    "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or \
-                        outcome=no-corner-contact",
-                ));
-            }
+        let text = text.trim();
+        let kind = if let Some(at) = text.find(['<', '>']) {
+            let (is_upper, limit) = (text[at..].starts_with('<'), &text[at + 1..]);
+            let (is_strict, limit) =
+                limit.strip_prefix('=').map_or((true, limit), |limit| (false, limit));
+            compared(&text[..at], Relation { is_upper, is_strict }, limit.trim())?
+        } else if let Some((name, value)) = text.split_once('=') {
+            let value = value.strip_prefix('=').unwrap_or(value).trim();
+            if name.trim() == "outcome" { outcome(value)? } else { flag(name, value)? }
+        } else {
+            let fix = "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or \
+                outcome=no-corner-contact";
+            return Err(Problem::new(text, "this is not a condition", fix));
         };
-        let text = text.trim().to_owned();
-        Ok(Condition { text, kind })
+        Ok(Condition { text: text.to_owned(), kind })
     }
 
     /// The quantity that the condition reads; `None` for the outcome.
-    #[must_use]
     pub fn quantity(&self) -> Option<&'static Quantity> {
         match self.kind {
             Kind::Outcome(_) => None,
@@ -115,49 +93,49 @@ impl Condition {
     /// # Errors
     /// Returns an error if the method does not compute the quantity.
     pub fn check(&self, method: Method) -> Result<(), Problem> {
-        let missing = self.quantity().filter(|quantity| !method.stages().has(quantity.stage));
-        let Some(quantity) = missing else {
-            return Ok(());
-        };
+        let Some(quantity) = self.quantity() else { return Ok(()) };
         let computes = |method: &Method| method.stages().has(quantity.stage);
-        let others = Method::ALL.into_iter().filter(computes).map(Method::name);
-        let others: Vec<&str> = others.collect();
+        if computes(&method) {
+            return Ok(());
+        }
+        let others: Vec<&str> =
+            Method::ALL.into_iter().filter(computes).map(Method::name).collect();
         let cause = format!("method {} does not compute {}", method.name(), quantity.key);
         let fix = format!("use --method with one of {}", others.join(", "));
-        Err(problem(quantity.key, cause, fix))
+        Err(Problem::new(quantity.key, cause, fix))
     }
 
     /// Whether a row meets the condition; the first value of the row must be the quantity.
-    #[must_use]
-    pub fn state(&self, rows: &Rows, row: usize) -> State {
-        let outcome = match rows.outcomes[row] {
-            PointOutcome::Solved(outcome) => outcome,
-            PointOutcome::Refused => {
-                let refused = || problem(&self.text, "the point is refused", "solve it alone");
-                return State::Unknown(rows.refusal(row).cloned().unwrap_or_else(refused));
-            }
+    pub fn state(&self, row: &Row) -> State {
+        let outcome = match (row.outcome, &row.refusal) {
+            (_, Some(refused)) => return State::Unknown((**refused).clone()),
+            (PointOutcome::Solved(outcome), None) => outcome,
+            (PointOutcome::Refused, None) => Outcome::NoCornerContact,
         };
         let is_met = match self.kind {
             Kind::Outcome(wanted) => outcome == wanted,
-            Kind::Compared(key, relation, limit) => {
-                match (rows.values(row).next().flatten(), is_without(key, outcome)) {
-                    (Some(value), _) => relation.is_met(value, limit),
-                    (None, true) => relation.is_upper,
-                    (None, false) => {
-                        return State::Unknown(problem(
-                            key,
-                            format!("{key} has no value here"),
-                            "solve the point alone for the reason",
-                        ));
-                    }
+            Kind::Compared(key, relation, limit) => match row.values.first().copied().flatten() {
+                Some(value) => {
+                    let margin = relation.margin(value, limit);
+                    margin > 0.0 || margin == 0.0 && !relation.is_strict
                 }
-            }
+                // No tooth strikes.
+                None if outcome == Outcome::NoCornerContact
+                    || Quantity::find(key).is_some_and(Quantity::is_of_free_impact) =>
+                {
+                    relation.is_upper
+                }
+                None => {
+                    let fix = "solve the point alone for the reason";
+                    let problem = Problem::new(key, format!("{key} has no value here"), fix);
+                    return State::Unknown(problem);
+                }
+            },
         };
         if is_met { State::Met } else { State::NotMet }
     }
 
     /// The distance of a value from the limit, above 0 where the condition is met.
-    #[must_use]
     pub fn margin(&self, value: f64) -> Option<f64> {
         match self.kind {
             Kind::Outcome(_) => None,
@@ -166,28 +144,18 @@ impl Condition {
     }
 }
 
-/// Whether a quantity is absent because no tooth strikes.
-fn is_without(key: &str, outcome: Outcome) -> bool {
-    outcome == Outcome::NoCornerContact
-        || Quantity::find(key).is_some_and(Quantity::is_of_free_impact)
-}
-
-fn compared(name: &str, relation: Relation, value: &str) -> Result<Kind, Problem> {
-    let quantity = named(name)?;
-    if quantity.is_flag() {
-        let key = quantity.key;
-        return Err(problem(
-            key,
-            format!("{key} is true or false and has no order"),
-            format!("write {key}=true or {key}=false"),
-        ));
-    }
-    let limit = Limit::new(quantity.key, value.trim())?;
-    Ok(Kind::Compared(quantity.key, relation, limit.value))
-}
-
 fn named(name: &str) -> Result<&'static Quantity, Problem> {
     Quantity::named(name.trim()).ok_or_else(|| unknown_quantity(name, name))
+}
+
+fn compared(name: &str, relation: Relation, limit: &str) -> Result<Kind, Problem> {
+    let quantity = named(name)?;
+    let key = quantity.key;
+    if quantity.is_flag() {
+        let cause = format!("{key} is true or false and has no order");
+        return Err(Problem::new(key, cause, format!("write {key}=true or {key}=false")));
+    }
+    Ok(Kind::Compared(key, relation, Limit::new(key, limit)?.value))
 }
 
 fn outcome(name: &str) -> Result<Kind, Problem> {
@@ -195,68 +163,50 @@ fn outcome(name: &str) -> Result<Kind, Problem> {
     let found = outcomes.into_iter().find(|outcome| outcome.name() == name);
     found.map(Kind::Outcome).ok_or_else(|| {
         let names = outcomes.map(Outcome::name).join(" or ");
-        problem("outcome", format!("unknown outcome {}", quoted(name)), format!("write {names}"))
+        let cause = format!("unknown outcome {}", quoted(name));
+        Problem::new("outcome", cause, format!("write {names}"))
     })
 }
 
 fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
     let quantity = named(name)?;
     let key = quantity.key;
-    let value = value.strip_prefix('=').unwrap_or(value);
     if !quantity.is_flag() {
-        return Err(problem(
-            key,
-            format!("= compares only flags and outcomes, and {key} is a number"),
-            format!("write {key}<={}", value.trim()),
-        ));
+        let cause = format!("= compares only flags and outcomes, and {key} is a number");
+        return Err(Problem::new(key, cause, format!("write {key}<={value}")));
     }
-    match value.trim() {
+    match value {
         "true" | "yes" => Ok(Kind::Compared(key, AT_LEAST, 1.0)),
         "false" | "no" => Ok(Kind::Compared(key, AT_MOST, 0.0)),
-        other => Err(problem(
-            key,
-            format!("{} is neither true nor false", quoted(other)),
-            format!("write {key}=true or {key}=false"),
-        )),
+        other => {
+            let cause = format!("{} is neither true nor false", quoted(other));
+            Err(Problem::new(key, cause, format!("write {key}=true or {key}=false")))
+        }
     }
-}
-
-fn problem(field: &str, cause: impl Into<String>, fix: impl Into<Fix>) -> Problem {
-    Problem::new(field, cause, fix)
 }
 
 /// The limited quantities of a case, otherwise the impact force; each with its counterparts in the
 /// methods that resolve the impact.
-#[must_use]
 pub fn headline(case: &Case, methods: &[Method]) -> Vec<&'static Quantity> {
-    let limited: Vec<&Quantity> = case
-        .limits
-        .iter()
-        .filter(|limit| !limit.text.is_empty())
-        .filter_map(|limit| Quantity::find(limit.quantity))
-        .collect();
-    let force = Quantity::find("impact_force").into_iter();
-    if limited.is_empty() {
-        return distinct(force.flat_map(|force| in_methods(force, methods)));
-    }
-    let all = |quantity: &'static Quantity| {
-        std::iter::once(quantity).chain(in_methods(quantity, methods))
-    };
-    distinct(limited.into_iter().flat_map(all))
-}
-
-/// The counterpart of a quantity of the free impact in each method; for `auto`, in each method that
-/// `auto` may choose.
-fn in_methods(quantity: &'static Quantity, methods: &[Method]) -> Vec<&'static Quantity> {
+    // Method `auto` may choose any of these.
     let single = |method: &Method| match method {
         Method::Auto => vec![Method::Exact, Method::Static, Method::Dynamic],
         one => vec![*one],
     };
-    methods.iter().flat_map(single).filter_map(|method| quantity.by(method)).collect()
+    let methods: Vec<Method> = methods.iter().flat_map(single).collect();
+    let counterparts = |quantity: &'static Quantity| {
+        methods.iter().filter_map(|&method| quantity.by(method)).collect::<Vec<_>>()
+    };
+    let limited = case.limits.iter().filter(|limit| !limit.text.is_empty());
+    let limited = limited.filter_map(|limit| Quantity::find(limit.quantity));
+    let found = distinct(limited.flat_map(|known| [vec![known], counterparts(known)].concat()));
+    if found.is_empty() {
+        return distinct(Quantity::find("impact_force").into_iter().flat_map(counterparts));
+    }
+    found
 }
 
 /// Quantities without duplicates, in the order of their first occurrence.
-#[must_use]
 pub fn distinct(quantities: impl IntoIterator<Item = &'static Quantity>) -> Vec<&'static Quantity> {
     let mut found: Vec<&'static Quantity> = Vec::new();
     for quantity in quantities {
@@ -275,9 +225,15 @@ mod tests {
     fn a_condition_compares_a_quantity_or_an_outcome() {
         for (text, kind) in [
             ("impact_force<=2.5 kN", Kind::Compared("impact_force", AT_MOST, 2500.0)),
-            ("F_S < 2500 N", Kind::Compared("impact_force", SIGNS[2].1, 2500.0)),
+            (
+                "F_S < 2500 N",
+                Kind::Compared("impact_force", Relation { is_strict: true, ..AT_MOST }, 2500.0),
+            ),
             ("contact_ratio>=1.4", Kind::Compared("contact_ratio", AT_LEAST, 1.4)),
-            ("contact_ratio>1.4", Kind::Compared("contact_ratio", SIGNS[3].1, 1.4)),
+            (
+                "contact_ratio>1.4",
+                Kind::Compared("contact_ratio", Relation { is_strict: true, ..AT_LEAST }, 1.4),
+            ),
             ("outcome=no-corner-contact", Kind::Outcome(Outcome::NoCornerContact)),
             ("dynamic_contact_lost=false", Kind::Compared("dynamic_contact_lost", AT_MOST, 0.0)),
         ] {

@@ -3,18 +3,18 @@
 
 mod search;
 
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
+use std::collections::HashMap;
 use std::fmt;
 
 use crate::case::units::{self, Dimension};
-use crate::model::budget::Meter;
 use crate::model::geometry::Geometry;
 use crate::model::inputs::{Drive, Gear, Method, ReliefShape};
 use crate::model::profile::{Profile, Rack};
 use crate::model::static_load::{lead_after_end, lead_before_start};
 use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve, solve_while};
 use crate::numeric::decimal::shortest;
-use search::{Grid, PreparedMesh, Search, tolerances};
+use search::{Grid, MOST_TRIES, PreparedMesh, Search, tolerances};
 
 /// Step of an amount, in m: half a micrometre.
 pub const AMOUNT_STEP: f64 = 0.5e-6;
@@ -26,10 +26,6 @@ pub const MOST_LOAD: f64 = 64.0;
 /// Number of loads at which the transmission error is computed.
 const LOADS: usize = 6;
 
-/// Budget of the search, in evaluations of a pair at a place.
-const WORK: u64 = 80_000_000;
-/// Fraction of the budget that a typical search uses.
-const USUAL_WORK: f64 = 0.25;
 /// Fraction of the progress that the search makes up; whole solves make up the rest.
 const SEARCH: f64 = 0.5;
 
@@ -74,13 +70,11 @@ impl Demand {
 
 impl Choice {
     /// The greatest transmission error over the loads, in m.
-    #[must_use]
     pub fn greatest_error(&self) -> f64 {
         self.errors.iter().copied().fold(0.0, f64::max)
     }
 
     /// The mean transmission error over the loads, in m.
-    #[must_use]
     pub fn mean_error(&self) -> f64 {
         self.errors.iter().sum::<f64>() / self.errors.len().max(1) as f64
     }
@@ -129,7 +123,6 @@ pub struct Specification {
 
 impl Specification {
     /// The choice to specify.
-    #[must_use]
     pub fn chosen(&self) -> &Choice {
         &self.choices[self.best]
     }
@@ -161,35 +154,37 @@ pub fn specify(
     let inputs = Inputs { drive: Drive::Torque(torque), ..inputs.clone() };
     let method = governing(&inputs, go_on)?;
     // No figure reads the stations.
-    let by_method = |method| Inputs { method, stations: Some(1), ..inputs.clone() };
-    let at_rest = by_method(Method::Static);
-    let in_motion = (method == Method::Dynamic).then(|| by_method(Method::Dynamic));
+    let at_rest = Inputs { method: Method::Static, stations: Some(1), ..inputs };
     let at_most = loaded(&at_rest, demand.loads.1);
     let solution = solve(&at_most, Stages::of(Stage::Static))?;
     let grid = grid(&at_rest, &solution, demand)?;
     let loads = load_factors(demand.loads);
-    let meter = Meter::new(WORK);
-    let bench = PreparedMesh::new(&at_rest, &solution, demand, &loads, grid.most_relief())?;
-    let searching = |part: f64| go_on(SEARCH * (part / USUAL_WORK).min(1.0));
-    let (known, tries) = (RefCell::default(), Cell::new(0));
-    let search =
-        Search { bench: &bench, grid: &grid, meter: &meter, go_on: &searching, known, tries };
+    let bench = PreparedMesh::new(&at_rest, &solution, demand, &loads, &grid)?;
+    let searching = |part: f64| go_on(SEARCH * part.min(1.0));
+    let mut search =
+        Search { bench: &bench, grid: &grid, go_on: &searching, known: HashMap::new() };
     let found = search.best_of_each_kind()?;
     let figures = Figures {
         inputs: &at_rest,
-        motion: in_motion.as_ref(),
-        at_most: (&at_most, &solution),
+        is_in_motion: method == Method::Dynamic,
+        at_most: &at_most,
         demand,
         loads: &loads,
         grid: &grid,
         go_on,
         part: Cell::new(SEARCH),
     };
-    let (mut choices, mut beyond) = (vec![figures.present()?], None);
-    let solves = found.len() as f64 + 1.0;
-    for (done, (name, reliefs)) in found.into_iter().enumerate() {
-        let part = (done as f64 + 1.0) / solves;
-        figures.part.set(SEARCH + (1.0 - SEARCH) * part);
+    let usual = solution.geometry.shared_length();
+    let gears = [&at_rest.driver, &at_rest.driven];
+    let present = TipReliefs {
+        shape: at_rest.relief_shape,
+        amounts: gears.map(|gear| gear.tip_relief),
+        lengths: gears.map(|gear| gear.tip_relief_length.unwrap_or(usual)),
+    };
+    let (mut choices, mut beyond) = (vec![figures.choice("relief of the case", present)?], None);
+    let kinds = found.len() as f64;
+    for (done, (name, reliefs)) in (1..).zip(found) {
+        figures.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
         match figures.cleared(name, reliefs) {
             Ok(choice) => choices.push(choice),
             // Another kind of relief may still prevent corner contact.
@@ -202,11 +197,9 @@ pub fn specify(
     if let (1, Some(none)) = (choices.len(), beyond) {
         return Err(none);
     }
-    let is_better = |one: &usize, other: &usize| {
-        let error = |at: &usize| choices[*at].greatest_error();
-        error(one).total_cmp(&error(other))
-    };
-    let best = (1..choices.len()).min_by(is_better).unwrap_or(0);
+    let error = |at: &usize| choices[*at].greatest_error();
+    let best = (1..choices.len()).min_by(|one, other| error(one).total_cmp(&error(other)));
+    let best = best.unwrap_or(0);
     let reliefs = choices[best].reliefs;
     Ok(Specification {
         method,
@@ -219,8 +212,8 @@ pub fn specify(
         choices,
         best,
         loads,
-        tries: search.tries.get(),
-        is_cut: !meter.spend(0),
+        tries: search.tries(),
+        is_cut: search.tries() >= MOST_TRIES,
     })
 }
 
@@ -308,16 +301,14 @@ pub fn loads(text: &str) -> Result<(f64, f64), String> {
     const FIX: &str = "write a range above 0 % and up to 1000 %, such as 25..110%";
     let number = |text: &str| {
         let number = text.trim().trim_end_matches('%').trim_end();
-        let percent: f64 = number.parse().map_err(|_| FIX.to_owned())?;
-        let is_possible = percent > 0.0 && percent <= 1000.0;
-        is_possible.then_some(percent / 100.0).ok_or(FIX.to_owned())
+        let percent = number.parse::<f64>().ok().filter(|percent| *percent > 0.0);
+        percent.filter(|percent| *percent <= 1000.0).map(|percent| percent / 100.0)
     };
     let (from, to) = text.split_once("..").unwrap_or((text, text));
-    let (from, to) = (number(from)?, number(to)?);
-    if from > to {
-        return Err(format!("the range is reversed: {FIX}"));
+    match number(from).zip(number(to)) {
+        Some((from, to)) if from > to => Err(format!("the range is reversed: {FIX}")),
+        found => found.ok_or(FIX.to_owned()),
     }
-    Ok((from, to))
 }
 
 /// Parses a length from 0 to 1 mm.
@@ -351,7 +342,6 @@ impl Demand {
     }
 
     /// The text that [`Demand::parse`] reads.
-    #[must_use]
     pub fn text(&self) -> String {
         let percent = |part: f64| shortest((part * 1e4).round() / 100.0);
         let (from, to) = self.loads;
@@ -386,10 +376,10 @@ fn relieved(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 2]) -> Inputs {
 /// Inputs of the results of a relief.
 struct Figures<'a> {
     inputs: &'a Inputs,
-    /// The case with method `dynamic`, if this method decides.
-    motion: Option<&'a Inputs>,
-    /// The case under the greatest load of the demand, and its solution.
-    at_most: (&'a Inputs, &'a Solution),
+    /// Whether the motion decides.
+    is_in_motion: bool,
+    /// The case under the greatest load of the demand.
+    at_most: &'a Inputs,
     demand: &'a Demand,
     loads: &'a [f64],
     grid: &'a Grid,
@@ -399,21 +389,6 @@ struct Figures<'a> {
 }
 
 impl Figures<'_> {
-    /// The reliefs of the case.
-    fn present(&self) -> Result<Choice, NoRelief> {
-        let inputs = self.inputs;
-        let usual = self.at_most.1.geometry.shared_length();
-        let length = |gear: &Gear| gear.tip_relief_length.unwrap_or(usual);
-        self.choice(
-            "relief of the case",
-            TipReliefs {
-                shape: inputs.relief_shape,
-                amounts: [inputs.driver.tip_relief, inputs.driven.tip_relief],
-                lengths: [length(&inputs.driver), length(&inputs.driven)],
-            },
-        )
-    }
-
     /// Increases a relief until no whole solve finds corner contact.
     fn cleared(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
         let (mut greatest, mut overlap) = (reliefs, f64::INFINITY);
@@ -453,7 +428,7 @@ impl Figures<'_> {
     fn overlap(&self, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
         let mut worst = f64::NEG_INFINITY;
         for off in tolerances(self.demand.tolerance) {
-            let solution = self.solve(&relieved(self.at_most.0, reliefs, off), Stage::Static)?;
+            let solution = self.solve(&relieved(self.at_most, reliefs, off), Stage::Static)?;
             if let Some(mesh) = &solution.mesh {
                 let leads = [lead_before_start(mesh)?, lead_after_end(mesh)?];
                 worst = leads.into_iter().fold(worst, f64::max);
@@ -464,16 +439,15 @@ impl Figures<'_> {
 
     /// Whether a tip touches off the path of contact in motion at the greatest load.
     fn strikes_in_motion(&self, reliefs: &TipReliefs) -> Result<bool, NoRelief> {
-        let Some(inputs) = self.motion else {
+        if !self.is_in_motion {
             return Ok(false);
-        };
-        let inputs = loaded(inputs, self.demand.loads.1);
+        }
+        let inputs = Inputs { method: Method::Dynamic, ..self.at_most.clone() };
         for off in tolerances(self.demand.tolerance) {
             let solution = self.solve(&relieved(&inputs, reliefs, off), Stage::Dynamic)?;
-            let strikes = solution.dynamic.is_some_and(|found| {
-                found.first_contact_angle.is_some() || found.last_contact_angle.is_some()
-            });
-            if strikes {
+            if let Some(found) = solution.dynamic
+                && (found.first_contact_angle.is_some() || found.last_contact_angle.is_some())
+            {
                 return Ok(true);
             }
         }
@@ -492,11 +466,7 @@ impl Figures<'_> {
         reliefs: &TipReliefs,
     ) -> Result<Option<f64>, NoRelief> {
         const CLOSE: f64 = 1e-3;
-        let greatest = self.demand.loads.1;
-        let clears = |times: f64| {
-            let overlap = bench.overlap_under(reliefs, self.at_most, times)?;
-            Ok::<bool, NoRelief>(overlap <= 0.0)
-        };
+        let clears = |times: f64| Ok::<bool, NoRelief>(bench.overlap_under(reliefs, times)? <= 0.0);
         let (mut low, mut high) = (1.0, 2.0);
         while clears(high)? {
             if high >= MOST_LOAD {
@@ -515,7 +485,7 @@ impl Figures<'_> {
                 high = middle;
             }
         }
-        Ok(Some(greatest * low))
+        Ok(Some(self.demand.loads.1 * low))
     }
 }
 

@@ -2,7 +2,7 @@
 //! is a pure function of seed and index.
 
 use super::axis::with_unit;
-use super::batch::{Points, Sequence};
+use super::batch::Points;
 use crate::case::fields::{FIELDS, Kind, Value, index_of};
 use crate::case::spread::Shape;
 use crate::case::{Case, Problem, Spread, field_range, units};
@@ -44,7 +44,6 @@ pub enum Member {
 
 impl Design {
     /// The role of the point with an index.
-    #[must_use]
     pub fn member(&self, index: usize) -> Member {
         let Some(rest) = index.checked_sub(self.samples) else {
             return Member::Sample(index);
@@ -57,7 +56,6 @@ impl Design {
     }
 
     /// The index of a point.
-    #[must_use]
     pub fn index(&self, member: Member) -> usize {
         let first = |number| self.samples + number * (self.distributions.len() + 1);
         match member {
@@ -68,22 +66,39 @@ impl Design {
     }
 
     /// The values of a point in SI, in the order of the distributions.
-    #[must_use]
     pub fn values(&self, index: usize) -> Vec<f64> {
-        self.numbers().values(index).to_vec()
+        match self.member(index) {
+            Member::Sample(number) => self.sample(0, number),
+            Member::Second(number) => self.sample(1, number),
+            Member::Swapped(number, field) => {
+                let mut values = self.sample(0, number);
+                values[field] = self.sample(1, number)[field];
+                values
+            }
+        }
+    }
+
+    /// The values of a sample from its own position in a stream of random numbers, so that they do
+    /// not depend on the order of reading. Only the ranking reads the second stream.
+    fn sample(&self, stream: u64, number: usize) -> Vec<f64> {
+        /// Words of 32 bits that a value reads.
+        const WORDS: usize = 2;
+        const STEPS: f64 = (1_u64 << 53) as f64;
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&self.seed.to_le_bytes());
+        let mut random = ChaCha8Rng::from_seed(key);
+        random.set_stream(stream);
+        random.set_word_pos((WORDS * number * self.distributions.len()) as u128);
+        // Above 0 and below 1, from 53 random bits.
+        let mut part = || ((random.next_u64() >> 11) as f64 + 0.5) / STEPS;
+        self.distributions.iter().map(|one| one.quantile(part())).collect()
     }
 
     /// Whether base pitch deviations are drawn gear by gear. A drawn value is known with its sign,
     /// so that the deviations of a sample add.
-    #[must_use]
     pub fn draws_known_deviations(&self) -> bool {
         let of_gear = ["driver.base_pitch", "driven.base_pitch"];
         self.distributions.iter().any(|drawn| of_gear.contains(&drawn.key()))
-    }
-
-    fn numbers(&self) -> Numbers<'_> {
-        let [first, second] = [0, 1].map(|stream| Stream::of(self, stream));
-        Numbers { design: self, first, second, mixed: vec![0.0; self.distributions.len()] }
     }
 }
 
@@ -106,103 +121,22 @@ impl Points for Design {
         settings.join(", ")
     }
 
-    fn sequence(&self) -> Sequence<'_> {
-        let mut numbers = self.numbers();
-        let ranges: Vec<(f64, f64)> =
-            self.distributions.iter().map(|distribution| field_range(distribution.field)).collect();
-        let adds = self.draws_known_deviations();
-        Box::new(move |index, inputs| {
-            if adds {
-                inputs.combination = Combination::Sum;
-            }
-            let values = numbers.values(index);
-            for ((distribution, &(from, to)), &value) in
-                self.distributions.iter().zip(&ranges).zip(values)
-            {
-                if value < from || value > to {
-                    return Err(outside(distribution.field));
-                }
-                distribution.put(value, inputs);
-            }
-            Ok(())
-        })
-    }
-}
-
-fn outside(field: usize) -> Problem {
-    let known = &FIELDS[field];
-    let cause = format!("the sample is outside the range {}", known.range_text());
-    Problem::new(known.key, cause, "use a narrower distribution")
-}
-
-/// The values of a design: from a stream of the samples, and from a stream of the second samples,
-/// which only the ranking reads.
-struct Numbers<'a> {
-    design: &'a Design,
-    first: Stream<'a>,
-    second: Stream<'a>,
-    /// The values of a swapped point.
-    mixed: Vec<f64>,
-}
-
-impl Numbers<'_> {
-    /// The values of a point in SI, in the order of the distributions.
-    fn values(&mut self, index: usize) -> &[f64] {
-        match self.design.member(index) {
-            Member::Sample(number) => self.first.sample(number),
-            Member::Second(number) => self.second.sample(number),
-            Member::Swapped(number, field) => {
-                self.mixed.copy_from_slice(self.first.sample(number));
-                self.mixed[field] = self.second.sample(number)[field];
-                &self.mixed
-            }
+    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
+        if self.draws_known_deviations() {
+            inputs.combination = Combination::Sum;
         }
-    }
-}
-
-/// Samples in which each has its own position in a stream of random numbers, so that its values do
-/// not depend on the order of reading.
-struct Stream<'a> {
-    distributions: &'a [Distribution],
-    generator: ChaCha8Rng,
-    /// The sample at which the generator is.
-    next: usize,
-    /// The values of the sample before.
-    values: Vec<f64>,
-}
-
-impl Stream<'_> {
-    fn of(design: &Design, stream: u64) -> Stream<'_> {
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&design.seed.to_le_bytes());
-        let mut generator = ChaCha8Rng::from_seed(key);
-        generator.set_stream(stream);
-        Stream { distributions: &design.distributions, generator, next: 0, values: Vec::new() }
-    }
-
-    /// The values of a sample in SI, in the order of the distributions.
-    fn sample(&mut self, number: usize) -> &[f64] {
-        /// Words of 32 bits that a value reads.
-        const WORDS: u128 = 2;
-        if self.next != number + 1 {
-            if self.next != number {
-                let values = number as u128 * self.distributions.len() as u128;
-                self.generator.set_word_pos(WORDS * values);
+        for (distribution, value) in self.distributions.iter().zip(self.values(index)) {
+            let (from, to) = field_range(distribution.field);
+            if value < from || value > to {
+                let range = FIELDS[distribution.field].range_text();
+                let cause = format!("the sample is outside the range {range}");
+                let fix = "use a narrower distribution";
+                return Err(Problem::new(distribution.key(), cause, fix));
             }
-            let distributions = self.distributions.iter();
-            let generator = &mut self.generator;
-            self.values.clear();
-            self.values.extend(distributions.map(|one| one.quantile(random_part(generator))));
-            self.next = number + 1;
+            distribution.put(value, inputs);
         }
-        &self.values
+        Ok(())
     }
-}
-
-/// A number above 0 and below 1, from 53 random bits.
-fn random_part(stream: &mut ChaCha8Rng) -> f64 {
-    const STEPS: f64 = (1_u64 << 53) as f64;
-    ((stream.next_u64() >> 11) as f64 + 0.5) / STEPS
 }
 
 /// Standard deviations at which a truncated normal distribution ends.
@@ -232,69 +166,59 @@ impl Distribution {
     /// Returns an error if the field has no value, or if the distribution exceeds the range of the
     /// field.
     pub fn of(spread: &Spread, case: &Case, inputs: &Inputs) -> Result<Distribution, Problem> {
-        let refused = |cause: String, fix: String| {
-            Problem::new(&format!("spread.\"{}\"", spread.field), cause, fix)
-        };
-        let found = index_of(spread.field)
-            .and_then(|field| Some((field, case.value(field)?)))
-            .filter(|_| !is_replaced(spread.field, case));
-        let Some((field, centre)) = found else {
-            let cause = format!("{} has no value to spread around", spread.field);
-            return Err(refused(cause, format!("give {} a value", spread.field)));
+        let key = spread.field;
+        let refused = |cause, fix| Err(Problem::new(&format!("spread.\"{key}\""), cause, fix));
+        // Another field of the case may replace this one.
+        let given = index_of(key).filter(|&field| case.effective(field).is_some());
+        let Some((field, centre)) = given.and_then(|field| Some((field, case.value(field)?)))
+        else {
+            let cause = format!("{key} has no value to spread around");
+            return refused(cause, format!("give {key} a value"));
         };
         let (shape, width) = match spread.shape {
             Shape::Grade => (Shape::Truncated, allowed_deviation(spread, inputs)),
             shape => (shape, spread.width),
         };
         let distribution = Distribution { field, centre, width, shape };
-        match distribution.beyond() {
-            None => Ok(distribution),
-            Some(end) => Err(refused(
-                format!("{} reaches {}, outside the field's range", spread.in_words(), end),
-                format!(
-                    "write a smaller width, or change {} so that the distribution is within {}",
-                    spread.field,
-                    FIELDS[field].range_text()
-                ),
-            )),
-        }
+        let Some(end) = distribution.beyond() else { return Ok(distribution) };
+        let (words, range) = (spread.in_words(), FIELDS[field].range_text());
+        refused(
+            format!("{words} reaches {end}, outside the field's range"),
+            format!(
+                "write a smaller width, or change {key} so that the distribution is within {range}"
+            ),
+        )
     }
 
     /// The end of the distribution that is outside the range of the field.
     fn beyond(&self) -> Option<String> {
-        let reach = match self.shape {
-            Shape::Normal => ALLOWED * self.width,
-            _ => self.width,
+        let (reach, by) = match self.shape {
+            Shape::Normal => (ALLOWED * self.width, format!(" at {ALLOWED} standard deviations")),
+            _ => (self.width, String::new()),
         };
         let (from, to) = field_range(self.field);
         let slack = 1e-12 * from.abs().max(to.abs());
-        let end = [self.centre - reach, self.centre + reach]
-            .into_iter()
-            .find(|&end| end < from - slack || end > to + slack)?;
+        let is_outside = |end: &f64| *end < from - slack || *end > to + slack;
+        let end = [self.centre - reach, self.centre + reach].into_iter().find(is_outside)?;
         let unit = FIELDS[self.field].usual_unit();
-        let value = end / units::factor(unit).unwrap_or(1.0);
-        let rounded = significant(value, 6);
+        let rounded = significant(end / units::factor(unit).unwrap_or(1.0), 6);
         let rounded = rounded.parse().map_or(rounded, shortest);
-        let by = match self.shape {
-            Shape::Normal => format!(" at {ALLOWED} standard deviations"),
-            _ => String::new(),
-        };
         Some(with_unit(&rounded, unit) + &by)
     }
 
     /// The value below which a fraction `part` of all samples are; `part` is above 0 and below 1.
-    #[must_use]
     pub fn quantile(&self, part: f64) -> f64 {
         let Distribution { centre, width, .. } = *self;
+        let normal = Normal::standard();
         match self.shape {
-            Shape::Normal => centre + width * normal_quantile(part),
+            Shape::Normal => centre + width * normal.inverse_cdf(part),
             Shape::Uniform => centre + width * (2.0 * part - 1.0),
             Shape::Triangular if part < 0.5 => centre - width * (1.0 - (2.0 * part).sqrt()),
             Shape::Triangular => centre + width * (1.0 - (2.0 * (1.0 - part)).sqrt()),
             Shape::Truncated | Shape::Grade => {
-                let tail = Normal::standard().cdf(-CUT);
+                let tail = normal.cdf(-CUT);
                 let inside = tail + part * (1.0 - 2.0 * tail);
-                let offset = width / CUT * normal_quantile(inside);
+                let offset = width / CUT * normal.inverse_cdf(inside);
                 centre + offset.clamp(-width, width)
             }
         }
@@ -306,7 +230,6 @@ impl Distribution {
     }
 
     /// The SI unit of the field; empty for a bare number.
-    #[must_use]
     pub fn unit(&self) -> &'static str {
         match FIELDS[self.field].kind {
             Kind::Number(dimension, ..) => dimension.si_unit(),
@@ -315,19 +238,9 @@ impl Distribution {
     }
 
     /// The key of the field.
-    #[must_use]
     pub fn key(&self) -> &'static str {
         FIELDS[self.field].key
     }
-}
-
-fn normal_quantile(part: f64) -> f64 {
-    Normal::standard().inverse_cdf(part)
-}
-
-/// Whether another field of the case replaces this one.
-fn is_replaced(key: &str, case: &Case) -> bool {
-    index_of(key).is_some_and(|field| case.effective(field).is_none())
 }
 
 /// The base pitch deviation that a tolerance class allows: of the gear in the key, otherwise of the
@@ -335,9 +248,9 @@ fn is_replaced(key: &str, case: &Case) -> bool {
 fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
     let diameter = |gear: &Gear| inputs.module * f64::from(gear.teeth);
     let (driver, driven) = (diameter(&inputs.driver), diameter(&inputs.driven));
-    let diameter = match spread.field.split_once('.') {
-        Some(("driver", _)) => driver,
-        Some(("driven", _)) => driven,
+    let diameter = match spread.field {
+        "driver.base_pitch" => driver,
+        "driven.base_pitch" => driven,
         _ => driver.max(driven),
     };
     let class = spread.width as u32;

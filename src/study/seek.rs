@@ -1,10 +1,9 @@
 //! The values of a field at which a condition changes: every crossing in a range.
 
-use super::axis::{Axis, AxisRange, Sampling};
+use super::axis::{Axis, AxisRange};
 use super::batch::{Batch, Control, Points, Stopped, solve_all};
 use super::condition::{Condition, State};
 use super::sweep::Grid;
-use crate::case::Problem;
 use crate::model::Inputs;
 
 /// Default number of points of the first scan.
@@ -64,124 +63,84 @@ pub struct Found {
     pub solves: usize,
 }
 
-/// Why a search fails.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SeekError {
-    /// A field does not accept a value, or the scan has too few points.
-    Bad(Problem),
-    /// The user stopped the search.
-    Stopped,
-}
-
-impl From<Stopped> for SeekError {
-    fn from(_: Stopped) -> SeekError {
-        SeekError::Stopped
-    }
-}
-
-impl From<Problem> for SeekError {
-    fn from(problem: Problem) -> SeekError {
-        SeekError::Bad(problem)
-    }
-}
-
 /// Finds every value of a field at which a condition changes.
 ///
-/// The search first scans the range with `scan` points. It divides each interval with different
+/// `scan` has the points of the range that are solved first. The search divides each interval with different
 /// states at its ends until its width is 1e-9 of the value. It also divides the interval where the
 /// quantity turns back close to its limit, so that it finds two crossings close to each other.
 ///
 /// # Errors
-/// Returns an error if the scan is not possible, or if the user stops the search.
+/// [`Stopped`] if the user stops the search.
 pub fn seek(
     inputs: &Inputs,
     range: &AxisRange,
     condition: &Condition,
-    points: usize,
+    scan: Axis,
     control: &Control,
-) -> Result<Found, SeekError> {
-    let scan = range.axis(Sampling { points: Some(points), is_log: false })?;
-    let search = Search { inputs, range, condition, control };
-    let mut samples = search.solve(scan)?;
+) -> Result<Found, Stopped> {
+    let quantities: Vec<_> = condition.quantity().into_iter().collect();
+    let solve = |axis: Axis| {
+        let grid = Grid { axes: vec![axis] };
+        let batch = Batch { inputs, points: &grid, quantities: &quantities };
+        let mut samples = Vec::with_capacity(grid.count());
+        solve_all(&batch, 0..grid.count(), control, &mut |first, rows| {
+            let points = &grid.axes[0].points[first..];
+            samples.extend(points.iter().zip(rows).map(|(point, row)| Sample {
+                at: point.number.unwrap_or_default(),
+                state: condition.state(row),
+                value: row.values.first().copied().flatten(),
+            }));
+            true
+        })?;
+        Ok(samples)
+    };
+    let mut samples = solve(scan)?;
     for _ in 0..MOST_ROUNDS {
-        let wanted = search.refinement(&samples);
+        let wanted = refinement(range, condition, &samples);
         if wanted.is_empty() {
             break;
         }
-        let axis = Axis {
-            field: range.field,
-            unit: range.unit.clone(),
-            points: wanted.into_iter().map(|number| range.at(number)).collect::<Result<_, _>>()?,
-        };
-        samples.extend(search.solve(axis)?);
+        // The field accepts every number between the ends of the range.
+        let points = wanted.into_iter().filter_map(|number| range.at(number).ok()).collect();
+        samples.extend(solve(Axis { field: range.field, unit: range.unit.clone(), points })?);
         samples.sort_by(|one, other| one.at.total_cmp(&other.at));
     }
     Ok(found(&samples))
 }
 
-struct Search<'a> {
-    inputs: &'a Inputs,
-    range: &'a AxisRange,
-    condition: &'a Condition,
-    control: &'a Control<'a>,
+/// New points in the intervals that need refinement.
+fn refinement(range: &AxisRange, condition: &Condition, samples: &[Sample]) -> Vec<f64> {
+    let is_wide = |lower: &Sample, upper: &Sample| {
+        let size = lower.at.abs().max(upper.at.abs());
+        upper.at - lower.at > (WIDTH * size).max(WIDTH_AT_ZERO * (range.to - range.from))
+    };
+    let mut intervals: Vec<bool> = samples
+        .windows(2)
+        .map(|pair| !pair[0].state.is_like(&pair[1].state) && is_wide(&pair[0], &pair[1]))
+        .collect();
+    for (at, three) in samples.windows(3).enumerate() {
+        if turns_back(condition, three) && is_wide(&three[0], &three[2]) {
+            (intervals[at], intervals[at + 1]) = (true, true);
+        }
+    }
+    let wanted = samples.windows(2).zip(intervals).filter(|(_, is_wanted)| *is_wanted);
+    wanted.flat_map(|(pair, _)| pieces(pair[0].at, pair[1].at)).collect()
 }
 
-impl Search<'_> {
-    fn solve(&self, axis: Axis) -> Result<Vec<Sample>, Stopped> {
-        let quantities: Vec<_> = self.condition.quantity().into_iter().collect();
-        let grid = Grid { axes: vec![axis] };
-        let batch = Batch { inputs: self.inputs, points: &grid, quantities: &quantities };
-        let mut samples = Vec::with_capacity(grid.count());
-        solve_all(&batch, 0..grid.count(), self.control, &mut |rows| {
-            samples.extend(rows.range().enumerate().map(|(row, index)| Sample {
-                at: grid.axes[0].points[index].number.unwrap_or_default(),
-                state: self.condition.state(&rows, row),
-                value: rows.values(row).next().flatten(),
-            }));
-            true
-        })?;
-        Ok(samples)
-    }
-
-    /// New points in the intervals that need refinement.
-    fn refinement(&self, samples: &[Sample]) -> Vec<f64> {
-        let mut intervals = vec![false; samples.len()];
-        for (at, pair) in samples.windows(2).enumerate() {
-            let is_changed = !pair[0].state.is_like(&pair[1].state);
-            intervals[at] |= is_changed && self.is_wide(&pair[0], &pair[1]);
-        }
-        for (at, three) in samples.windows(3).enumerate() {
-            if self.turns_back(three) {
-                intervals[at] = true;
-                intervals[at + 1] = true;
-            }
-        }
-        let wanted = samples.windows(2).zip(intervals).filter(|(_, is)| *is);
-        wanted.flat_map(|(pair, _)| pieces(pair[0].at, pair[1].at)).collect()
-    }
-
-    fn is_wide(&self, lower: &Sample, upper: &Sample) -> bool {
-        let span = self.range.to - self.range.from;
-        let size = lower.at.abs().max(upper.at.abs());
-        upper.at - lower.at > (WIDTH * size).max(WIDTH_AT_ZERO * span)
-    }
-
-    /// Whether the quantity is so close to its limit at the middle of three points with one state
-    /// that it may cross the limit between them.
-    fn turns_back(&self, three: &[Sample]) -> bool {
-        let is_one_answer = three[0].state.is_like(&three[1].state)
-            && three[1].state.is_like(&three[2].state)
-            && !matches!(three[0].state, State::Unknown(_));
-        let margins = three.iter().map(|sample| self.condition.margin(sample.value?));
-        let Some(margins) = margins.collect::<Option<Vec<f64>>>().filter(|_| is_one_answer) else {
-            return false;
-        };
-        let [left, middle, right] = [margins[0].abs(), margins[1].abs(), margins[2].abs()];
-        let is_nearest = middle < left.max(right) && middle <= left.min(right);
-        // Assumes that between the points the margin falls by at most as much as it fell towards
-        // the middle point.
-        is_nearest && 2.0 * middle <= left.max(right) && self.is_wide(&three[0], &three[2])
-    }
+/// Whether the quantity is so close to its limit at the middle of three points with one state that
+/// it may cross the limit between them.
+fn turns_back(condition: &Condition, three: &[Sample]) -> bool {
+    let margin = |sample: &Sample| Some(condition.margin(sample.value?)?.abs());
+    let state = &three[0].state;
+    let is_one_answer =
+        three.iter().all(|one| one.state.is_like(state)) && !matches!(state, State::Unknown(_));
+    let [Some(left), Some(middle), Some(right)] = [0, 1, 2].map(|at| margin(&three[at])) else {
+        return false;
+    };
+    let is_nearest = middle < left.max(right) && middle <= left.min(right);
+    // Assumes that between the points the margin falls by at most as much as it fell towards the
+    // middle point.
+    is_one_answer && is_nearest && 2.0 * middle <= left.max(right)
 }
 
 /// The numbers that divide an interval, without its ends.
@@ -200,11 +159,10 @@ fn found(samples: &[Sample]) -> Found {
     for sample in samples {
         match segments.last_mut() {
             Some(segment) if segment.state.is_like(&sample.state) => segment.to = sample.at,
-            _ => segments.push(Segment {
-                from: sample.at,
-                to: sample.at,
-                state: sample.state.clone(),
-            }),
+            _ => {
+                let state = sample.state.clone();
+                segments.push(Segment { from: sample.at, to: sample.at, state });
+            }
         }
     }
     Found { crossings, segments, solves: samples.len() }

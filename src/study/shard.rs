@@ -1,13 +1,13 @@
-//! Shards: parts of a study in separate files, which `gather` combines.
+//! Studies that can be divided: the request of a study, and its shards, parts in separate files that
+//! `gather` combines.
 
-use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::hash::Hasher;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::batch::{Batch, PointOutcome, Points, Rows};
+use super::batch::{Batch, Points, Row};
 use super::sweep::Grid;
 use super::tolerance::{Size, Tolerance};
 use crate::case::sanitize::quoted;
@@ -72,16 +72,14 @@ pub enum PointsRequest {
 
 /// A study that is ready to be solved, or to be gathered from its shards.
 pub struct Study {
-    /// The name of the case, as the user gave it.
-    pub name: String,
+    /// The request that restores the study.
+    pub request: Request,
     /// The case.
     pub case: Case,
     /// The inputs of the model.
     pub inputs: Inputs,
     /// The quantities.
     pub quantities: Vec<&'static Quantity>,
-    /// The format of the output.
-    pub format: Format,
     /// The points.
     pub kind: Kind,
 }
@@ -96,7 +94,6 @@ pub enum Kind {
 
 impl Study {
     /// The points.
-    #[must_use]
     pub fn points(&self) -> &dyn Points {
         match &self.kind {
             Kind::Sweep(grid) => grid,
@@ -105,16 +102,8 @@ impl Study {
     }
 
     /// The study for the solver.
-    #[must_use]
     pub fn batch(&self) -> Batch<'_> {
         Batch { inputs: &self.inputs, points: self.points(), quantities: &self.quantities }
-    }
-
-    /// The request that restores the study.
-    #[must_use]
-    pub fn request(&self, case: String, points: PointsRequest) -> Request {
-        let quantities = self.quantities.iter().map(|known| known.key.to_owned()).collect();
-        Request { name: self.name.clone(), case, quantities, format: self.format, points }
     }
 
     /// Restores a study.
@@ -140,16 +129,18 @@ impl Study {
                 Kind::Tolerance(Tolerance::of(&case, &inputs, &quantities, size)?)
             }
         };
-        let (name, format) = (request.name.clone(), request.format);
-        Ok(Study { name, case, inputs, quantities, format, kind })
+        Ok(Study { request: request.clone(), case, inputs, quantities, kind })
     }
 }
 
 /// Greatest number of shards of a study.
 const MOST: usize = 100_000;
-
 /// The word in the first line of a shard.
 const KIND: &str = "tipstrike-shard";
+/// The version that writes and reads shards.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Greatest length of a line, in bytes: the first line has the case.
+const LONGEST: u64 = 16 << 20;
 
 /// One of the equal parts of a study, numbered from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -166,10 +157,9 @@ impl Shard {
     /// # Errors
     /// Returns an error if the text is not a valid part.
     pub fn parse(text: &str) -> Result<Shard, String> {
-        let parts = text.trim().split_once('/');
-        let numbers = parts
-            .and_then(|(number, of)| Some((number.trim().parse().ok()?, of.trim().parse().ok()?)));
-        match numbers {
+        let number = |text: &str| text.trim().parse::<usize>().ok();
+        let parts = text.split_once('/').and_then(|(at, of)| Some((number(at)?, number(of)?)));
+        match parts {
             Some((number, of)) if (Shard { number, of }).is_part() => Ok(Shard { number, of }),
             Some((_, of)) if of > MOST => Err(format!("write at most {MOST} shards")),
             Some((_, of)) if of > 0 => {
@@ -185,12 +175,8 @@ impl Shard {
     }
 
     /// The points of the shard.
-    #[must_use]
     pub fn range(self, count: usize) -> Range<usize> {
-        let end = |number: usize| {
-            let end = count as u128 * number as u128 / self.of as u128;
-            usize::try_from(end).unwrap_or(count)
-        };
+        let end = |number: usize| (count as u128 * number as u128 / self.of as u128) as usize;
         end(self.number - 1)..end(self.number)
     }
 }
@@ -205,30 +191,17 @@ impl std::fmt::Display for Shard {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     kind: String,
-    /// The version of the program that wrote the shard.
-    pub version: String,
+    version: String,
     /// The part.
     pub shard: Shard,
     /// The study.
     pub request: Request,
 }
 
-/// The last line of a shard: the number of rows, and the hash of the first line and the rows.
-#[derive(Serialize, Deserialize)]
-struct Footer {
-    rows: usize,
-    hash: String,
-}
-
-/// The reason of a refused row: field, cause and fix.
-#[derive(Serialize, Deserialize)]
-struct Reason(String, String, String, String);
-
-/// Writes a shard row by row.
+/// Writes a shard: a line with the study, one line per row, and the hash of these lines.
 pub struct ShardWriter<'a> {
     out: &'a mut dyn Write,
     hasher: SipHasher24,
-    rows: usize,
 }
 
 impl<'a> ShardWriter<'a> {
@@ -241,14 +214,9 @@ impl<'a> ShardWriter<'a> {
         request: &Request,
         out: &'a mut dyn Write,
     ) -> io::Result<ShardWriter<'a>> {
-        let header = Header {
-            kind: KIND.to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            shard,
-            request: request.clone(),
-        };
-        let mut writer = ShardWriter { out, hasher: SipHasher24::new(), rows: 0 };
-        writer.line(&(serde_json::to_string(&header)? + "\n"))?;
+        let (kind, version) = (KIND.to_owned(), VERSION.to_owned());
+        let mut writer = ShardWriter { out, hasher: SipHasher24::new() };
+        writer.line(&Header { kind, version, shard, request: request.clone() })?;
         Ok(writer)
     }
 
@@ -256,15 +224,12 @@ impl<'a> ShardWriter<'a> {
     ///
     /// # Errors
     /// Errors of the writer.
-    pub fn write(&mut self, rows: &Rows) -> io::Result<()> {
-        for row in 0..rows.outcomes.len() {
-            self.line(&line(rows, row)?)?;
-            self.rows += 1;
-        }
-        Ok(())
+    pub fn write(&mut self, rows: &[Row]) -> io::Result<()> {
+        rows.iter().try_for_each(|row| self.line(row))
     }
 
-    fn line(&mut self, line: &str) -> io::Result<()> {
+    fn line(&mut self, value: &impl Serialize) -> io::Result<()> {
+        let line = serde_json::to_string(value)? + "\n";
         self.hasher.write(line.as_bytes());
         self.out.write_all(line.as_bytes())
     }
@@ -274,39 +239,32 @@ impl<'a> ShardWriter<'a> {
     /// # Errors
     /// Errors of the writer.
     pub fn finish(self) -> io::Result<()> {
-        let footer = Footer { rows: self.rows, hash: format!("{:016x}", self.hasher.finish()) };
-        writeln!(self.out, "{}", serde_json::to_string(&footer)?)
+        self.out.write_all(last_line(&self.hasher).as_bytes())
     }
 }
 
-/// A row as a line: the index of its outcome in [`PointOutcome::ALL`], then its values or the
-/// reason of its refusal.
-fn line(rows: &Rows, row: usize) -> io::Result<String> {
-    let outcome = rows.outcomes[row];
-    let code = PointOutcome::ALL.iter().position(|known| *known == outcome);
-    let mut line = code.unwrap_or_default().to_string();
-    if let Some(Problem { field, code, cause, fix }) = rows.refusal(row) {
-        let reason = Reason(field.clone(), code.to_string(), cause.clone(), fix.to_string());
-        line.push(' ');
-        line.push_str(&serde_json::to_string(&reason)?);
-    } else {
-        for value in rows.values(row) {
-            line.push(' ');
-            match value {
-                Some(value) => drop(write!(line, "{value:?}")),
-                None => line.push('-'),
-            }
-        }
-    }
-    line.push('\n');
-    Ok(line)
+fn last_line(hasher: &SipHasher24) -> String {
+    format!("{:016x}\n", hasher.finish())
 }
 
-/// Number of rows per read.
-const PAGE: usize = 1024;
+/// The lines of a file with their ends.
+fn lines(path: &Path) -> io::Result<impl Iterator<Item = io::Result<String>>> {
+    let mut file = BufReader::new(File::open(path)?);
+    let mut next = move || {
+        let mut line = String::new();
+        let length = (&mut file).take(LONGEST).read_line(&mut line)?;
+        let is_whole = (length as u64) < LONGEST;
+        if is_whole { Ok(line) } else { Err(ErrorKind::InvalidData.into()) }
+    };
+    Ok(std::iter::from_fn(move || {
+        Some(next()).filter(|line| !line.as_ref().is_ok_and(String::is_empty))
+    }))
+}
 
-/// Greatest length of a line, in bytes: the first line has the case.
-const LONGEST: u64 = 16 << 20;
+/// The error of files that are not the shards of one study.
+fn wrong(line: String) -> io::Error {
+    io::Error::new(ErrorKind::InvalidData, line)
+}
 
 /// A complete shard of the requested study.
 #[derive(Debug)]
@@ -317,180 +275,104 @@ pub struct Complete {
     rows: usize,
 }
 
-/// Why files are not the shards of one study.
-#[derive(Debug)]
-pub enum ShardError {
-    /// A file cannot be read.
-    Unreadable(String),
-    /// The files do not belong together, or a file is not a shard.
-    Wrong(String),
-}
-
 impl Complete {
     /// Reads a shard and checks that it is complete.
     ///
     /// # Errors
-    /// Returns an error if the file is not a shard, or if the shard is incomplete or changed.
-    pub fn read(path: &Path) -> Result<Complete, ShardError> {
+    /// Errors of the file; [`ErrorKind::InvalidData`] if the file is not a shard, or if the shard is
+    /// incomplete or changed.
+    pub fn read(path: &Path) -> io::Result<Complete> {
         let name = path.display();
-        let no_shard = || {
-            ShardError::Wrong(format!("{name}: this is not a shard: name files that --shard wrote"))
-        };
+        let no_shard =
+            || wrong(format!("{name}: this is not a shard: name files that --shard wrote"));
         let unreadable = |error: io::Error| match error.kind() {
             ErrorKind::InvalidData => no_shard(),
-            _ => ShardError::Unreadable(format!("{name}: cannot be read: {error}")),
+            kind => io::Error::new(kind, format!("{name}: cannot be read: {error}")),
         };
         // Opening a pipe waits for a writer.
         if !fs::metadata(path).map_err(unreadable)?.is_file() {
             return Err(no_shard());
         }
-        let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
-        let mut first = Vec::new();
-        read_line(&mut file, &mut first).map_err(unreadable)?;
-        let header = serde_json::from_slice::<Header>(&first)
-            .ok()
-            .filter(|header| header.kind == KIND && header.shard.is_part())
-            .ok_or_else(no_shard)?;
-        let version = env!("CARGO_PKG_VERSION");
-        if header.version != version {
-            return Err(ShardError::Wrong(format!(
-                "{name}: version {} wrote this shard, and this is version {version}: run the shard again",
-                header.version
+        let mut lines = lines(path).map_err(unreadable)?;
+        let mut line = lines.next().transpose().map_err(unreadable)?.unwrap_or_default();
+        let header = serde_json::from_str::<Header>(&line).ok();
+        let is_shard = |header: &Header| header.kind == KIND && header.shard.is_part();
+        let header = header.filter(is_shard).ok_or_else(no_shard)?;
+        let Header { version, shard, .. } = &header;
+        if version != VERSION {
+            return Err(wrong(format!(
+                "{name}: version {version} wrote this shard, and this is version {VERSION}: run the shard again"
             )));
         }
-        let rows = body(file, first).map_err(unreadable)?.ok_or_else(|| {
-            ShardError::Wrong(format!(
-                "{name}: shard {} is incomplete or changed: run it again",
-                header.shard
-            ))
-        })?;
-        Ok(Complete { path: path.to_owned(), header, rows })
+        let (mut hasher, mut count) = (SipHasher24::new(), 0);
+        for next in lines {
+            hasher.write(line.as_bytes());
+            line = next.map_err(unreadable)?;
+            count += 1;
+        }
+        if count == 0 || line != last_line(&hasher) {
+            let line = format!("{name}: shard {shard} is incomplete or changed: run it again");
+            return Err(wrong(line));
+        }
+        Ok(Complete { path: path.to_owned(), header, rows: count - 1 })
     }
 
-    /// Passes the rows to `take`; the first row has index `first`.
+    /// Passes the rows to `take`, with the index of the first of them; that of the shard is `first`.
     ///
     /// # Errors
     /// Errors of the file and of `take`.
     pub fn rows(
         &self,
         first: usize,
-        take: &mut dyn FnMut(Rows) -> io::Result<()>,
+        take: &mut dyn FnMut(usize, &[Row]) -> io::Result<()>,
     ) -> io::Result<()> {
-        let mut file = BufReader::new(File::open(&self.path)?);
-        let (mut line, mut page) = (Vec::new(), Rows::starting_at(first));
-        read_line(&mut file, &mut line)?;
-        for _ in 0..self.rows {
-            read_line(&mut file, &mut line)?;
-            let line = String::from_utf8_lossy(&line);
-            add(&line, self.header.request.quantities.len(), &mut page)?;
-            if page.outcomes.len() == PAGE {
-                let next = page.range().end;
-                take(std::mem::replace(&mut page, Rows::starting_at(next)))?;
-            }
-        }
-        take(page)
+        /// Number of rows per read.
+        const PAGE: usize = 1024;
+        let mut lines = lines(&self.path)?.skip(1).take(self.rows);
+        (first..first + self.rows).step_by(PAGE).try_for_each(|next| {
+            let rows = lines.by_ref().take(PAGE).map(|line| Ok(serde_json::from_str(&line?)?));
+            take(next, &rows.collect::<io::Result<Vec<Row>>>()?)
+        })
     }
-}
-
-/// Reads a line with its end into `line`. Returns whether there is one.
-fn read_line(file: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
-    line.clear();
-    let length = file.take(LONGEST).read_until(b'\n', line)?;
-    if length as u64 == LONGEST {
-        return Err(ErrorKind::InvalidData.into());
-    }
-    Ok(length > 0)
-}
-
-/// The number of rows after the first line, if the last line has this number and the hash.
-fn body(mut file: impl BufRead, first: Vec<u8>) -> io::Result<Option<usize>> {
-    let (mut hasher, mut lines) = (SipHasher24::new(), 0_usize);
-    let (mut line, mut next) = (first, Vec::new());
-    while read_line(&mut file, &mut next)? {
-        hasher.write(&line);
-        lines += 1;
-        std::mem::swap(&mut line, &mut next);
-    }
-    let footer = serde_json::from_slice::<Footer>(&line).ok();
-    let is_whole = |footer: &Footer| {
-        Some(footer.rows) == lines.checked_sub(1)
-            && footer.hash == format!("{:016x}", hasher.finish())
-    };
-    Ok(footer.filter(is_whole).map(|footer| footer.rows))
-}
-
-/// Adds the row of a line with `width` values.
-fn add(line: &str, width: usize, rows: &mut Rows) -> io::Result<()> {
-    let line = line.trim_end();
-    let bad = || io::Error::other("a row of the shard cannot be read");
-    let (code, rest) = line.split_once(' ').unwrap_or((line, ""));
-    let code: usize = code.parse().map_err(|_| bad())?;
-    let outcome = *PointOutcome::ALL.get(code).ok_or_else(bad)?;
-    if rest.starts_with('[') {
-        let Reason(field, code, cause, fix) = serde_json::from_str(rest)?;
-        let index = rows.range().end;
-        rows.refusals
-            .push((index, Problem { code: code.into(), ..Problem::new(&field, cause, fix) }));
-        rows.push(outcome, std::iter::repeat_n(None, width));
-        return Ok(());
-    }
-    let value = |text: &str| match text {
-        "-" => Ok(None),
-        number => number.parse().map(Some).map_err(|_| bad()),
-    };
-    let values = rest.split_whitespace().map(value);
-    let values = values.collect::<io::Result<Vec<Option<f64>>>>()?;
-    if values.len() != width {
-        return Err(bad());
-    }
-    rows.push(outcome, values);
-    Ok(())
 }
 
 /// The shards of one study, in order.
 ///
 /// # Errors
-/// Returns an error if the shards belong to several studies, or if one is missing or given twice.
-pub fn in_order(mut shards: Vec<Complete>) -> Result<Vec<Complete>, ShardError> {
-    let wrong = |text| Err(ShardError::Wrong(text));
-    let Some(one) = shards.first() else {
-        return wrong("no shard is given: name every file that --shard wrote".to_owned());
-    };
-    let (request, of) = (one.header.request.clone(), one.header.shard.of);
+/// [`ErrorKind::InvalidData`] if the shards belong to several studies, or if one is missing or given
+/// twice.
+pub fn in_order(mut shards: Vec<Complete>) -> io::Result<Vec<Complete>> {
     let name = |shard: &Complete| shard.path.display().to_string();
-    let first = name(one);
-    for shard in &shards {
-        let (file, own) = (name(shard), shard.header.shard);
-        if shard.header.request != request {
-            return wrong(format!(
-                "{file}: this shard belongs to another study than {first}: gather one study at a time"
-            ));
-        }
-        if own.of != of {
-            return wrong(format!(
-                "{file}: shard {own}, and {first} is one of {of}: use one number of shards"
-            ));
-        }
+    let Some(one) = shards.first() else { return Ok(shards) };
+    let (first, request, of) = (name(one), &one.header.request, one.header.shard.of);
+    let is_foreign =
+        |other: &&Complete| other.header.request != *request || other.header.shard.of != of;
+    if let Some(other) = shards.iter().find(is_foreign) {
+        let (other, shard) = (name(other), other.header.shard);
+        return Err(wrong(format!(
+            "{other}: this shard belongs to another study than {first}, or is not one of {of} \
+             ({shard}): gather one study at a time"
+        )));
     }
-    shards.sort_by_key(|shard| shard.header.shard.number);
-    let same = |pair: &&[Complete]| pair[0].header.shard == pair[1].header.shard;
-    if let Some(twice) = shards.windows(2).find(same) {
-        let (file, other) = (name(&twice[1]), name(&twice[0]));
-        let shard = twice[0].header.shard;
-        return wrong(format!("{file}: shard {shard} is in {other}, too: leave one of them out"));
+    let number = |shard: &Complete| shard.header.shard.number;
+    shards.sort_by_key(number);
+    let twice = shards.windows(2).find(|pair| number(&pair[0]) == number(&pair[1]));
+    if let Some([one, other]) = twice {
+        let (shard, file, one) = (one.header.shard, name(other), name(one));
+        return Err(wrong(format!(
+            "{file}: shard {shard} is in {one}, too: leave one of them out"
+        )));
     }
-    let is_missing = |number: &usize| {
-        shards.binary_search_by_key(number, |shard| shard.header.shard.number).is_err()
-    };
-    let missing = (1..=of).filter(is_missing).map(|number| format!("{number}/{of}"));
-    let missing: Vec<String> = missing.collect();
+    let is_missing = |at: &usize| shards.binary_search_by_key(at, number).is_err();
+    let missing: Vec<_> =
+        (1..=of).filter(is_missing).map(|number| format!("{number}/{of}")).collect();
     if missing.is_empty() {
         return Ok(shards);
     }
     let count = missing.len();
     let shown = missing[..count.min(10)].join(", ");
     let more = if count > 10 { ", ..." } else { "" };
-    wrong(format!("{count} of {of} shards are missing: run --shard {shown}{more}"))
+    Err(wrong(format!("{count} of {of} shards are missing: run --shard {shown}{more}")))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Figures of a sample: percentiles, mean, probabilities with 95 % intervals, a histogram.
 
+use serde::Serialize;
 use statrs::distribution::{Binomial, ContinuousCDF, Discrete, StudentsT};
 
 /// Confidence of every interval.
@@ -9,7 +10,7 @@ const CONFIDENCE: f64 = 0.95;
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// A value and the ends of its 95 % interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Estimate {
     /// The value.
     pub value: f64,
@@ -53,7 +54,6 @@ pub struct Figures {
 /// A percentile is interpolated between two values (type 7 of Hyndman & Fan 1996). The ends of its
 /// interval are the values at two ranks, see [`least_count`]. The interval of the mean is that of
 /// Student's t.
-#[must_use]
 pub fn figures(values: &[f64], bins: usize) -> Option<Figures> {
     let count = values.len();
     let mut sorted = values.to_vec();
@@ -131,7 +131,6 @@ fn sum(values: &[f64], of: impl Fn(f64) -> f64) -> f64 {
 ///
 /// # Source
 /// Hahn & Meeker 1991, "Statistical Intervals", section 5.2.
-#[must_use]
 pub fn least_count(percent: f64) -> usize {
     let mut counts = 2..;
     let has_interval = |count: &usize| interval(percent / 100.0, *count).is_some();
@@ -169,7 +168,6 @@ fn interval(part: f64, count: usize) -> Option<[usize; 2]> {
 ///
 /// # Source
 /// Wilson 1927, J. Am. Stat. Assoc. 22, 209-212: the score interval.
-#[must_use]
 pub fn probability(events: usize, samples: usize) -> Option<Estimate> {
     if samples == 0 {
         return None;
@@ -220,7 +218,6 @@ pub struct Ranked {
 /// # Source
 /// Saltelli et al. 2010, Comput. Phys. Commun. 181, 259-270, Table 2 (b) for S_i and (f) for ST_i
 /// (Jansen 1999).
-#[must_use]
 pub fn indices(samples: &[Ranked]) -> Option<Vec<Indices>> {
     let count = samples.len() as f64;
     let mean = samples.iter().map(|s| s.first + s.second).sum::<f64>() / (2.0 * count);

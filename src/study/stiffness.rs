@@ -1,6 +1,6 @@
 //! Tooth compliance over the flank of each gear, by every model and by finite elements.
 
-use crate::model::compliance::tooth::{Tooth, ToothModel};
+use crate::model::compliance::tooth::Tooth;
 use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity, Teeth};
 use crate::model::field::Field;
 use crate::model::geometry::{Circles, Geometry, geometry, mesh_force};
@@ -34,15 +34,6 @@ pub struct Flanks {
     pub models: Vec<ToothCompliance>,
     /// Driver and driven gear.
     pub gears: [GearComparison; 2],
-}
-
-/// The compliances of both gears, and the stiffness over the path of contact.
-#[derive(Debug, Clone)]
-pub struct Comparison {
-    /// The compliances of both gears.
-    pub flanks: Flanks,
-    /// Stiffness of each pair and of the mesh over the path of contact.
-    pub path: PathComparison,
 }
 
 /// The compliances of one gear.
@@ -107,42 +98,21 @@ pub struct FieldPoint {
 ///
 /// # Errors
 /// The refusals of the geometry, and [`Refusal::BoreTooLarge`].
-pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
-    Ok(Comparison { flanks: compare_flanks(inputs, points)?, path: compare_path(inputs, points)? })
-}
-
-/// Compares the models over both flanks, without the path of contact.
-///
-/// # Errors
-/// As [`compare`].
 pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal> {
     let (geometry, mesh_force) = loaded(inputs)?;
     let elasticity = inputs.elasticity();
     let pitch_point = geometry.start + geometry.approach_length;
     let place = ContactPlace::on_line_of_action(&geometry, pitch_point);
-    let contact_half_width = elasticity.half_width(&place, mesh_force);
+    let half_width = elasticity.half_width(&place, mesh_force);
     let models: Vec<_> =
         ToothCompliance::ALL.into_iter().filter(|model| model.name() != FIELD).collect();
-    let flank = |name, gear, elastic: ElasticGear, circles, pitch_radius| {
-        let profile = Profile::of(&elastic.rack, circles);
-        let flank = Flank { name, gear, elastic, circles, pitch_radius, profile };
-        flank.compare(inputs, &models, points, contact_half_width)
-    };
-    let (Elasticity { driver, driven, .. }, of) = (elasticity, &geometry);
+    let (Elasticity { driver, driven, .. }, of) = (&elasticity, &geometry);
     let gears = [
-        flank("driver", &inputs.driver, driver, &of.driver, place.radius_driver),
-        flank("driven", &inputs.driven, driven, &of.driven, place.radius_driven),
+        Flank::of("driver", &inputs.driver, driver, &of.driver, place.radius_driver),
+        Flank::of("driven", &inputs.driven, driven, &of.driven, place.radius_driven),
     ];
-    Ok(Flanks { contact_half_width, models, gears })
-}
-
-/// Compares the models at `points` places of the path of contact.
-///
-/// # Errors
-/// As [`compare`].
-pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Refusal> {
-    let (geometry, mesh_force) = loaded(inputs)?;
-    Ok(compare_along_path(inputs, &geometry, mesh_force, points))
+    let gears = gears.map(|flank| flank.compare(inputs, &models, points, half_width));
+    Ok(Flanks { contact_half_width: half_width, models, gears })
 }
 
 /// Geometry and mesh force of the pair, in N.
@@ -158,13 +128,24 @@ fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
 struct Flank<'a> {
     name: &'static str,
     gear: &'a Gear,
-    elastic: ElasticGear,
+    elastic: &'a ElasticGear,
     circles: &'a Circles,
     pitch_radius: f64,
-    profile: Profile,
+    form_radius: f64,
 }
 
-impl Flank<'_> {
+impl<'a> Flank<'a> {
+    fn of(
+        name: &'static str,
+        gear: &'a Gear,
+        elastic: &'a ElasticGear,
+        circles: &'a Circles,
+        pitch_radius: f64,
+    ) -> Flank<'a> {
+        let form_radius = Profile::of(&elastic.rack, circles).form_radius();
+        Flank { name, gear, elastic, circles, pitch_radius, form_radius }
+    }
+
     fn compare(
         &self,
         inputs: &Inputs,
@@ -172,48 +153,35 @@ impl Flank<'_> {
         points: usize,
         half_width: f64,
     ) -> GearComparison {
-        let radii = self.radii(points);
-        let mut gaps = Vec::new();
-        let columns: Vec<_> = models
-            .iter()
-            .map(|&model| {
-                let (column, reason) = self.column(inputs, model, &radii);
-                gaps.extend(reason.map(|reason| Gap { model, reason }));
-                column
-            })
-            .collect();
-        let field = self.elastic.field();
-        let young = self.elastic.young;
+        // In equal steps from the form circle to the tip.
+        let (form, tip) = (self.form_radius, self.circles.tip);
+        let last = points.max(LEAST_POINTS) - 1;
+        let inner = (0..last).map(|step| form + (tip - form) * step as f64 / last as f64);
+        let radii: Vec<f64> = if form < tip { inner.chain([tip]).collect() } else { Vec::new() };
+        let (mut columns, mut gaps) = (Vec::new(), Vec::new());
+        for &model in models {
+            let (column, reason) = self.column(inputs, model, &radii);
+            columns.push(column);
+            gaps.extend(reason.map(|reason| Gap { model, reason }));
+        }
+        let (field, young) = (self.elastic.field(), self.elastic.young);
+        let known = field.as_ref().ok();
         let points = radii.iter().enumerate().map(|(index, &radius)| Point {
             radius,
             models: columns.iter().map(|column| column[index]).collect(),
-            field: field
-                .as_ref()
-                .ok()
-                .and_then(|field| field_point(field, radius, half_width, young)),
+            field: known.and_then(|field| field_point(field, radius, half_width, young)),
         });
         GearComparison {
             gear: self.name,
             teeth: self.gear.teeth,
-            form_radius: self.profile.form_radius(),
-            tip_radius: self.circles.tip,
+            form_radius: form,
+            tip_radius: tip,
             pitch_radius: self.pitch_radius,
-            twist: field.as_ref().ok().and_then(|field| field.twist()).map(|twist| twist / young),
+            twist: known.and_then(|field| field.twist()).map(|twist| twist / young),
             refusal: field.as_ref().err().copied(),
             gaps,
             points: points.collect(),
         }
-    }
-
-    /// Radii in equal steps from the form circle to the tip.
-    fn radii(&self, points: usize) -> Vec<f64> {
-        let (form, tip) = (self.profile.form_radius(), self.circles.tip);
-        if form >= tip {
-            return Vec::new();
-        }
-        let last = points.max(LEAST_POINTS) - 1;
-        let inner = (0..last).map(|step| form + (tip - form) * step as f64 / last as f64);
-        inner.chain([tip]).collect()
     }
 
     /// The compliance by a model at each radius, with the reason if values are absent.
@@ -224,37 +192,28 @@ impl Flank<'_> {
         radii: &[f64],
     ) -> (Vec<Option<f64>>, Option<String>) {
         let none = |reason: String| (vec![None; radii.len()], Some(reason));
-        if !self.is_covered(inputs, model.model()) {
+        // The validity range is a property of each gear: that of a pair of two such gears.
+        let (driver, driven) = (self.gear.clone(), self.gear.clone());
+        if !(model.model().covers)(&Inputs { driver, driven, ..inputs.clone() }) {
             return none(format!("covers {} only", model.model().range));
         }
-        let tooth = match Tooth::of(model, &self.elastic, self.circles) {
+        let tooth = match Tooth::of(model, self.elastic, self.circles) {
             Ok(tooth) => tooth,
             Err(refusal) => return none(refusal.to_string()),
         };
-        let values: Vec<_> =
-            radii.iter().map(|&radius| tooth.at(self.above_form_circle(radius))).collect();
-        let refusal = values.iter().find_map(|value| value.as_ref().err());
-        let reason = refusal.map(ToString::to_string);
-        (values.into_iter().map(Result::ok).collect(), reason)
-    }
-
-    /// Whether the model covers a pair of two such gears: the validity range is a property of each
-    /// gear.
-    fn is_covered(&self, inputs: &Inputs, model: &ToothModel) -> bool {
-        (model.covers)(&Inputs {
-            driver: self.gear.clone(),
-            driven: self.gear.clone(),
-            ..inputs.clone()
-        })
-    }
-
-    /// A radius at which a model has a value: the form circle itself belongs to the fillet.
-    fn above_form_circle(&self, radius: f64) -> f64 {
-        const STEP: f64 = 1e-9;
-        let form = self.profile.form_radius();
-        radius.max(form + STEP * (self.circles.tip - form))
+        // The form circle itself belongs to the fillet.
+        let least = self.form_radius + STEP * (self.circles.tip - self.form_radius);
+        let mut reason = None;
+        let value = |&radius: &f64| {
+            let value = tooth.at(radius.max(least));
+            value.inspect_err(|refusal| reason = reason.take().or(Some(refusal.to_string()))).ok()
+        };
+        (radii.iter().map(value).collect(), reason)
     }
 }
+
+/// The distance from the form circle at which a model has a value, relative to the flank.
+const STEP: f64 = 1e-9;
 
 /// `None` if the contact under the mesh force is wider than the tooth.
 fn field_point(field: &Field, radius: f64, half_width: f64, young: f64) -> Option<FieldPoint> {
@@ -291,6 +250,15 @@ pub struct PathPoint {
     pub mesh: Vec<Option<f64>>,
 }
 
+/// Compares the models at `points` places of the path of contact.
+///
+/// # Errors
+/// As [`compare_flanks`].
+pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Refusal> {
+    let (geometry, mesh_force) = loaded(inputs)?;
+    Ok(compare_along_path(inputs, &geometry, mesh_force, points))
+}
+
 /// Compares the models at `points` places from E to B, with the contact under the mesh force.
 fn compare_along_path(
     inputs: &Inputs,
@@ -299,16 +267,13 @@ fn compare_along_path(
     points: usize,
 ) -> PathComparison {
     let models = ToothCompliance::ALL.to_vec();
-    let elasticities: Vec<_> = models
+    let meshes: Vec<_> = models
         .iter()
         .map(|&tooth| {
             let inputs = Inputs { tooth_compliance: Some(tooth), ..inputs.clone() };
-            (tooth.model().covers)(&inputs).then(|| inputs.elasticity())
+            let covers = (tooth.model().covers)(&inputs);
+            covers.then(|| Mesh::of(&inputs.elasticity(), geometry, mesh_force).ok()).flatten()
         })
-        .collect();
-    let meshes: Vec<_> = elasticities
-        .iter()
-        .map(|elasticity| Mesh::of(elasticity.as_ref()?, geometry, mesh_force).ok())
         .collect();
     let length = geometry.end - geometry.start;
     let last = points.max(LEAST_POINTS) - 1;
@@ -350,13 +315,14 @@ struct Mesh<'a> {
 
 impl<'a> Mesh<'a> {
     fn of(
-        elasticity: &'a Elasticity,
+        elasticity: &Elasticity,
         geometry: &'a Geometry,
         force: f64,
     ) -> Result<Mesh<'a>, Refusal> {
+        let Elasticity { tooth, driver, driven, .. } = elasticity;
         let gears = [
-            Tooth::of(elasticity.tooth, &elasticity.driver, &geometry.driver)?,
-            Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)?,
+            Tooth::of(*tooth, driver, &geometry.driver)?,
+            Tooth::of(*tooth, driven, &geometry.driven)?,
         ];
         Ok(Mesh { teeth: Teeth::of(elasticity, geometry)?, gears, geometry, force })
     }
@@ -376,9 +342,8 @@ impl<'a> Mesh<'a> {
         let (pitch, length) = (self.geometry.base_pitch, self.geometry.end - self.geometry.start);
         let first = (-way / pitch).ceil() as i32;
         let last = ((length - way) / pitch).floor() as i32;
-        let pairs: Vec<(i32, ContactPlace)> = (first..=last)
-            .map(|ahead| (ahead, self.place(way + f64::from(ahead) * pitch)))
-            .collect();
+        let place = |ahead: i32| (ahead, self.place(way + f64::from(ahead) * pitch));
+        let pairs: Vec<(i32, ContactPlace)> = (first..=last).map(place).collect();
         let mut matrix = DMatrix::zeros(pairs.len(), pairs.len());
         for (row, measured) in pairs.iter().enumerate() {
             for (column, loaded) in pairs.iter().enumerate() {

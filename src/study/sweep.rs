@@ -1,7 +1,7 @@
 //! A sweep: a case solved over a grid of one or more varied fields.
 
 use super::axis::{Axis, AxisPoint, Sampling};
-use super::batch::{Points, Sequence};
+use super::batch::Points;
 use crate::case::{Case, Problem};
 use crate::model::Inputs;
 use crate::model::inputs::Method;
@@ -39,33 +39,27 @@ impl Grid {
         is_log: bool,
     ) -> Result<Grid, (&'t str, Problem)> {
         let mut axes: Vec<Axis> = Vec::new();
-        let mut ranges = 0;
+        let (mut ranges, mut count) = (0, 1_usize);
         for text in texts {
-            let count = points.get(ranges).or(points.last().filter(|_| points.len() == 1));
-            let sampling = Sampling { points: count.copied(), is_log };
+            let points = if points.len() == 1 { points.first() } else { points.get(ranges) };
+            let sampling = Sampling { points: points.copied(), is_log };
             ranges += usize::from(Axis::is_range(text));
-            let axis = Axis::parse(text, sampling).map_err(|problem| (text.as_str(), problem))?;
-            apart(&axes, &axis).map_err(|problem| (text.as_str(), problem))?;
+            let axis = Axis::parse(text, sampling)
+                .and_then(|axis| apart(&axes, &axis).map(|()| axis))
+                .map_err(|problem| (text.as_str(), problem))?;
+            count = count.saturating_mul(axis.points.len());
             axes.push(axis);
         }
-        let grid = Grid { axes };
-        let last = texts.last().map_or("", String::as_str);
-        if points.len() > 1 && points.len() != ranges {
-            return Err((last, unlike_points(points.len(), ranges)));
-        }
-        grid.checked_count().map(|_| grid).map_err(|problem| (last, problem))
-    }
-
-    fn checked_count(&self) -> Result<usize, Problem> {
-        let product = self
-            .axes
-            .iter()
-            .try_fold(1_usize, |product, axis| product.checked_mul(axis.points.len()));
-        product.filter(|&count| count <= MOST_SWEPT).ok_or_else(|| {
+        let problem = if points.len() > 1 && points.len() != ranges {
+            let cause = format!("--points is given {} times for {ranges} ranges", points.len());
+            Problem::new("--points", cause, "give it once for all ranges, or once for each")
+        } else if count > MOST_SWEPT {
             let cause = format!("the grid has more than {MOST_SWEPT} points");
-            let key = self.axes.last().map_or("", Axis::key);
-            Problem::new(key, cause, "write fewer --points")
-        })
+            Problem::new(axes.last().map_or("", Axis::key), cause, "write fewer --points")
+        } else {
+            return Ok(Grid { axes });
+        };
+        Err((texts.last().map_or("", String::as_str), problem))
     }
 
     /// The axes of a point with the index of its value on each axis.
@@ -81,25 +75,16 @@ impl Grid {
     }
 
     /// Every method of the points.
-    #[must_use]
     pub fn methods(&self, inputs: &Inputs) -> Vec<Method> {
-        let mut found = vec![inputs.method];
-        for axis in self.axes.iter().filter(|axis| axis.key() == "model.method") {
-            let of = |point: &AxisPoint| {
-                let mut inputs = inputs.clone();
-                point.put(axis.field, &mut inputs);
-                inputs.method
-            };
-            found = axis.points.iter().map(of).collect();
-        }
-        found
-    }
-
-    /// Writes the values of a point into inputs.
-    pub fn put(&self, index: usize, inputs: &mut Inputs) {
-        for (axis, at) in self.places(index) {
-            axis.points[at].put(axis.field, inputs);
-        }
+        let Some(axis) = self.axes.iter().find(|axis| axis.key() == "model.method") else {
+            return vec![inputs.method];
+        };
+        let of = |point: &AxisPoint| {
+            let mut inputs = inputs.clone();
+            point.put(axis.field, &mut inputs);
+            inputs.method
+        };
+        axis.points.iter().map(of).collect()
     }
 }
 
@@ -114,29 +99,26 @@ impl Points for Grid {
         self.places(index).map(setting).collect::<Vec<_>>().join(", ")
     }
 
-    fn sequence(&self) -> Sequence<'_> {
-        Box::new(|index, inputs| {
-            self.put(index, inputs);
-            Ok(())
-        })
+    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
+        for (axis, at) in self.places(index) {
+            axis.points[at].put(axis.field, inputs);
+        }
+        Ok(())
     }
 }
 
 /// Checks that an axis varies another field than the previous axes.
 fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
-    let refused = |cause: String| Err(Problem::new(axis.key(), cause, "leave one of them out"));
-    for other in others {
-        if other.field == axis.field {
-            return refused(format!("{} is varied twice", axis.key()));
+    let key = axis.key();
+    let cause = others.iter().find_map(|other| match other.key() {
+        own if own == key => Some(format!("{key} is varied twice")),
+        other if Case::are_exclusive(other, key) => {
+            Some(format!("{other} and {key} exclude each other"))
         }
-        if Case::are_exclusive(other.key(), axis.key()) {
-            return refused(format!("{} and {} exclude each other", other.key(), axis.key()));
-        }
+        _ => None,
+    });
+    match cause {
+        Some(cause) => Err(Problem::new(key, cause, "leave one of them out")),
+        None => Ok(()),
     }
-    Ok(())
-}
-
-fn unlike_points(points: usize, ranges: usize) -> Problem {
-    let cause = format!("--points is given {points} times for {ranges} ranges");
-    Problem::new("--points", cause, "give it once for all ranges, or once for each")
 }

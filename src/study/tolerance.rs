@@ -1,6 +1,6 @@
 //! Tolerance studies: the results of a case with distributed fields.
 
-use super::batch::{Batch, Control, PointOutcome, Points, Refusals, Rows, Stopped, solve_all};
+use super::batch::{Batch, Control, PointOutcome, Points, Refusals, Row, Stopped, solve_all};
 use super::condition::{distinct, headline};
 use super::sample::{Design, Distribution, Member};
 use super::statistics::{Estimate, Figures, Indices, Ranked, figures, indices, probability};
@@ -56,15 +56,12 @@ impl Tolerance {
         size: Size,
     ) -> Result<Tolerance, Problem> {
         if case.spread.is_empty() {
-            let fix = "add a line [spread] and below it a line such as \"deviations.base_pitch\" = \
-                { normal = \"4 um\" }";
+            let fix = "add a line [spread] and below it a line such as \
+                \"deviations.base_pitch\" = { normal = \"4 um\" }";
             return Err(Problem::new("spread", "the case has no distributions", fix));
         }
-        let distributions = case
-            .spread
-            .iter()
-            .map(|spread| Distribution::of(spread, case, inputs))
-            .collect::<Result<Vec<_>, _>>()?;
+        let distributions = case.spread.iter().map(|spread| Distribution::of(spread, case, inputs));
+        let distributions = distributions.collect::<Result<Vec<_>, _>>()?;
         // A single field causes all of the spread.
         let ranked = match size.ranked {
             _ if distributions.len() == 1 => 0,
@@ -79,11 +76,8 @@ impl Tolerance {
         } else {
             distinct(only.iter().copied().chain(limited))
         };
-        Ok(Tolerance {
-            design: Design { seed: size.seed, distributions, samples: size.samples, ranked },
-            quantities,
-            limits,
-        })
+        let design = Design { seed: size.seed, distributions, samples: size.samples, ranked };
+        Ok(Tolerance { design, quantities, limits })
     }
 
     /// Solves every point.
@@ -93,15 +87,14 @@ impl Tolerance {
     pub fn run(&self, inputs: &Inputs, control: &Control) -> Result<Samples, Stopped> {
         let mut samples = Samples::of(self);
         let batch = Batch { inputs, points: &self.design, quantities: &self.quantities };
-        solve_all(&batch, 0..self.design.count(), control, &mut |rows| {
-            samples.add(&rows);
+        solve_all(&batch, 0..self.design.count(), control, &mut |first, rows| {
+            samples.add(first, rows);
             true
         })?;
         Ok(samples)
     }
 
     /// The figures of the results.
-    #[must_use]
     pub fn summary(&self, samples: &Samples) -> Summary {
         let count = self.design.samples;
         let outcomes = &samples.outcomes[..count];
@@ -183,7 +176,6 @@ pub struct Samples {
 
 impl Samples {
     /// No results yet.
-    #[must_use]
     pub fn of(study: &Tolerance) -> Samples {
         let count = study.design.count();
         let column = |_: &&Quantity| Vec::with_capacity(count);
@@ -195,17 +187,17 @@ impl Samples {
     }
 
     /// Adds the next rows.
-    pub fn add(&mut self, rows: &Rows) {
-        self.outcomes.extend(&rows.outcomes);
-        self.refusals.count(rows);
-        let width = self.columns.len();
-        for (at, column) in self.columns.iter_mut().enumerate() {
-            column.extend(rows.all_values().iter().skip(at).step_by(width));
+    pub fn add(&mut self, first: usize, rows: &[Row]) {
+        self.refusals.count(first, rows);
+        for row in rows {
+            self.outcomes.push(row.outcome);
+            for (column, value) in self.columns.iter_mut().zip(&row.values) {
+                column.push(value.unwrap_or(f64::NAN));
+            }
         }
     }
 
     /// The value of a quantity at a point, in SI.
-    #[must_use]
     pub fn value(&self, quantity: usize, index: usize) -> Option<f64> {
         Some(self.columns[quantity][index]).filter(|value| !value.is_nan())
     }

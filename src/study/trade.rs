@@ -15,15 +15,6 @@ use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, St
 /// How long each setting is timed for a reliable figure; no time means a single run.
 pub const STEADY: Duration = Duration::from_millis(25);
 
-/// The parameters of a trade study.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TradeParameters {
-    /// Accepted error of a setting, relative to the reference; also the tolerance of method `auto`.
-    pub within: f64,
-    /// How long each setting is timed.
-    pub patience: Duration,
-}
-
 /// The methods and their settings, measured on one case.
 #[derive(Debug, Clone)]
 pub struct Trade {
@@ -37,8 +28,9 @@ pub struct Trade {
     pub reference: Result<Reference, Refusal>,
     /// Model error of each method: its finest setting against the reference.
     pub models: Vec<Model>,
-    /// Seconds to build the fields of both gears, or the reason why one has none.
-    pub build: Result<Build, Refusal>,
+    /// Seconds to build the fields of driver and driven gear, or the reason why one has none. Later
+    /// solves read the cached fields.
+    pub build: Result<[f64; 2], Refusal>,
 }
 
 /// The answer of method `dynamic` with the finest setting, by the default compliance: the elastic
@@ -107,49 +99,50 @@ pub struct Time {
     pub runs: usize,
 }
 
-/// Seconds to build the field of each gear; later solves read the cached fields.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Build {
-    /// Driver.
-    pub driver: f64,
-    /// Driven gear.
-    pub driven: f64,
-}
-
-/// Measures error and time of every setting on the case. `show` receives the results after each
-/// setting.
+/// Measures error and time of every setting on the case, each for `patience`. The accepted error is
+/// that of the inputs. `show` receives the results after each setting.
 ///
 /// # Errors
 /// [`Refusal::Stopped`] if `go_on` returns false; the refusal of the model if no method solves the
 /// case.
 pub fn trade(
     inputs: &Inputs,
-    parameters: &TradeParameters,
+    patience: Duration,
     go_on: &dyn Fn() -> bool,
     show: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
-    let inputs = &Inputs { within: parameters.within, ..inputs.clone() };
-    let mut settings = Setting::all(inputs);
-    let current = Setting::of(inputs);
+    let (mut settings, current) = (Setting::all(inputs), Setting::of(inputs));
     if !settings.contains(&current) {
         settings.push(current);
     }
-    let finest = finest(inputs)
-        .into_iter()
-        .map(|setting| {
-            let solution = stopped(solve(&setting.inputs(inputs), go_on))?;
-            Ok((setting, solution.map(|solution| Answer::of(&solution))))
-        })
-        .collect::<Result<Vec<_>, Refusal>>()?;
+    let mut finest = METHODS.map(|method| Setting::usual(method, inputs).best()).to_vec();
+    let own = current.best();
+    if own.models.is_some() && own.method != Method::Auto && !finest.contains(&own) {
+        finest.push(own);
+    }
+    let answer = |setting: Setting| {
+        let solution = stopped(solve(&setting.inputs(inputs), go_on))?;
+        Ok((setting, solution.map(|solution| Answer::of(&solution))))
+    };
+    let finest = finest.into_iter().map(answer).collect::<Result<Vec<_>, Refusal>>()?;
     let (reference, truth) = &finest[REFERENCE];
-    let off = |found: &Answer| truth.as_ref().map_or(NO_DIFFERENCES, |truth| found.all_off(truth));
+    let off = |found: &Answer, truth: &Result<Answer, Refusal>| {
+        let truth = truth.as_ref().ok();
+        Subject::ALL.map(|subject| found.off(truth?, subject))
+    };
     let model = |(setting, found): &(Setting, Result<Answer, Refusal>)| Model {
         setting: *setting,
-        off: found.as_ref().map_or(NO_DIFFERENCES, off),
+        off: found.as_ref().map_or([None; Subject::ALL.len()], |found| off(found, truth)),
         outcome: found.as_ref().ok().map(|found| found.outcome),
     };
+    let build = |gear: &Gear| {
+        let begun = Instant::now();
+        black_box(ElasticGear::of(inputs, gear).build_field()?);
+        Ok::<f64, Refusal>(begun.elapsed().as_secs_f64())
+    };
+    let build = build(&inputs.driver).and_then(|driver| Ok([driver, build(&inputs.driven)?]));
     let mut trade = Trade {
-        within: parameters.within,
+        within: inputs.within,
         planned: settings.len(),
         // The capacity is exact, because a measurement stays in memory with its case.
         settings: Vec::with_capacity(settings.len()),
@@ -158,23 +151,24 @@ pub fn trade(
             .map(|truth| Reference { setting: *reference, values: truth.values })
             .map_err(|refusal| *refusal),
         models: finest.iter().map(model).collect(),
-        build: Build::measure(inputs),
+        build,
     };
     show(&trade);
     for setting in settings {
         let of_setting = setting.inputs(inputs);
-        let found = stopped(timed(parameters.patience, || solve(&of_setting, go_on)))?;
+        let found = stopped(timed(patience, || solve(&of_setting, go_on)))?;
         let found = found.map(|(solution, time)| {
             let answer = Answer::of(&solution);
-            let taken = setting.taken(inputs, answer.method);
+            let by_taken = Inputs { method: answer.method, ..of_setting };
+            let models = Some(StiffnessModels::of(&by_taken));
+            let taken = Setting { method: answer.method, models, ..setting };
             let best = finest.iter().find(|(best, _)| best.is_finer_or_coarser(&taken));
-            let best = best.and_then(|(_, best)| best.as_ref().ok());
             Figures {
                 taken,
                 time,
                 evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.evaluations),
-                numerical: best.map_or(NO_DIFFERENCES, |best| answer.all_off(best)),
-                total: off(&answer),
+                numerical: best.map_or([None; Subject::ALL.len()], |(_, best)| off(&answer, best)),
+                total: off(&answer, truth),
             }
         });
         let is_current = setting == current;
@@ -189,20 +183,8 @@ pub fn trade(
     }
 }
 
-const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
-
 /// The index of the reference among the finest settings.
 const REFERENCE: usize = 3;
-
-/// The finest setting of each method, and of the method and compliance of the case.
-fn finest(inputs: &Inputs) -> Vec<Setting> {
-    let mut settings = METHODS.map(|method| Setting::usual(method, inputs).best()).to_vec();
-    let own = Setting::of(inputs).best();
-    if own.models.is_some() && own.method != Method::Auto && !settings.contains(&own) {
-        settings.push(own);
-    }
-    settings
-}
 
 /// Passes on a stop as an error, and any other refusal as a result.
 fn stopped<T>(found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
@@ -238,43 +220,28 @@ fn timed(
     Ok((solution, Time { seconds: quarter(2), spread, runs }))
 }
 
-impl Build {
-    fn measure(inputs: &Inputs) -> Result<Build, Refusal> {
-        let of = |gear: &Gear| {
-            let begun = Instant::now();
-            black_box(ElasticGear::of(inputs, gear).build_field()?);
-            Ok::<f64, Refusal>(begun.elapsed().as_secs_f64())
-        };
-        Ok(Build { driver: of(&inputs.driver)?, driven: of(&inputs.driven)? })
-    }
-}
-
 /// The greatest difference, if any.
-#[must_use]
 pub fn greatest(differences: &Differences) -> Option<f64> {
     differences.iter().flatten().copied().reduce(f64::max)
 }
 
 impl Trade {
     /// The progress of the measurement, from 0 to 1.
-    #[must_use]
     pub fn part(&self) -> f64 {
         self.settings.len() as f64 / self.planned as f64
     }
 
     /// The model error of the method and compliance of a setting.
-    #[must_use]
     pub fn model(&self, setting: &Setting) -> Option<&Model> {
         self.models.iter().find(|model| model.setting.is_finer_or_coarser(setting))
     }
 
     /// The compared compliances, first that of the reference.
-    #[must_use]
     pub fn compliances(&self) -> Vec<StiffnessModels> {
-        let reference = self.reference.as_ref().ok().map(|reference| &reference.setting);
-        let settings = self.settings.iter().map(|measured| &measured.setting);
+        let reference = self.reference.iter().map(|reference| reference.setting);
+        let settings = self.settings.iter().map(|measured| measured.setting);
         let mut found: Vec<StiffnessModels> = Vec::new();
-        for models in reference.into_iter().chain(settings).filter_map(|setting| setting.models) {
+        for models in reference.chain(settings).filter_map(|setting| setting.models) {
             if !found.contains(&models) {
                 found.push(models);
             }
@@ -283,24 +250,18 @@ impl Trade {
     }
 
     /// The default setting of a method and compliance.
-    #[must_use]
     pub fn usual(&self, method: Method, models: StiffnessModels) -> Option<&MeasuredSetting> {
-        self.settings.iter().find(|measured| {
-            let setting = &measured.setting;
-            (setting.method, setting.models) == (method, Some(models))
-                && *setting == setting.usual_fineness()
-        })
+        let usual = Setting::of_method(method, Some(models));
+        self.settings.iter().find(|measured| measured.setting == usual)
     }
 
     /// The fastest setting that qualifies; `None` if no method finds corner contact: without a
     /// force, no setting can reduce its error.
-    #[must_use]
     pub fn recommended(&self) -> Option<&MeasuredSetting> {
         self.cheapest_where(|_| true).filter(|_| !self.is_without_contact())
     }
 
     /// Whether every method that solves the case finds no corner contact.
-    #[must_use]
     pub fn is_without_contact(&self) -> bool {
         let mut outcomes = self.models.iter().filter_map(|model| model.outcome).peekable();
         outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
@@ -324,7 +285,6 @@ impl Trade {
     /// The fastest of the admitted settings that qualifies, among the methods from which `auto`
     /// chooses: `auto` itself uses one of these, and `paper` repeats `exact`. Of settings whose
     /// times are not distinguishable, the most accurate.
-    #[must_use]
     pub fn cheapest_where(&self, admitted: impl Fn(&Setting) -> bool) -> Option<&MeasuredSetting> {
         let is_candidate = |measured: &&MeasuredSetting| {
             measured.qualifies
@@ -332,29 +292,26 @@ impl Trade {
                 && admitted(&measured.setting)
         };
         let candidates = || self.settings.iter().filter(is_candidate);
-        let by = |key: fn(&MeasuredSetting) -> f64| {
-            move |one: &&MeasuredSetting, other: &&MeasuredSetting| key(one).total_cmp(&key(other))
-        };
-        let fastest = candidates().min_by(by(MeasuredSetting::seconds))?;
+        let fastest =
+            candidates().min_by(|one, other| one.seconds().total_cmp(&other.seconds()))?;
         let spread = |measured: &MeasuredSetting| {
             measured.found.as_ref().map_or(0.0, |figures| figures.time.spread)
         };
         let ties = |measured: &&MeasuredSetting| {
             measured.seconds() - fastest.seconds() <= spread(measured) + spread(fastest)
         };
-        candidates().filter(ties).min_by(by(|one| one.total().unwrap_or(f64::INFINITY)))
+        let error = |measured: &MeasuredSetting| measured.total().unwrap_or(f64::INFINITY);
+        candidates().filter(ties).min_by(|one, other| error(one).total_cmp(&error(other)))
     }
 }
 
 impl MeasuredSetting {
     /// Time of a solve in s; infinite without a solve.
-    #[must_use]
     pub fn seconds(&self) -> f64 {
         self.found.as_ref().map_or(f64::INFINITY, |figures| figures.time.seconds)
     }
 
     /// The greatest total error, if the setting answers all needed subjects.
-    #[must_use]
     pub fn total(&self) -> Option<f64> {
         let total = &self.found.as_ref().ok()?.total;
         let is_answered = |subject: &Subject| total[*subject as usize].is_some();
@@ -391,22 +348,25 @@ pub struct Setting {
 impl Setting {
     /// Every compared setting: each method coarse and fine with the default compliance, then the
     /// default setting of each method with every other compliance that covers the pair.
-    #[must_use]
     pub fn all(inputs: &Inputs) -> Vec<Setting> {
         let usual = |method| Setting::usual(method, inputs);
         let dynamic = usual(Method::Dynamic);
         let tolerances =
             TOLERANCES.map(|tolerance| Setting { tolerance: Some(tolerance), ..dynamic });
+        // With every number of stations, and with as many as the curve needs.
+        let stations = |setting: Setting| {
+            let counts = STATIONS.into_iter().map(Some).chain([None]);
+            counts.map(move |stations| Setting { stations, ..setting })
+        };
         let fineness = [Method::Paper, Method::Exact, Method::Static]
             .into_iter()
-            .flat_map(|method| usual(method).with_stations())
+            .flat_map(|method| stations(usual(method)))
             .chain(tolerances)
-            .chain(dynamic.with_stations())
-            .chain(tolerances[0].with_stations())
-            .chain([Setting { stations: None, models: None, ..usual(Method::Auto) }]);
-        let others = StiffnessModels::covering(inputs).flat_map(|models| {
-            METHODS.map(|method| Setting { models: Some(models), ..usual(method) })
-        });
+            .chain(stations(dynamic))
+            .chain(stations(tolerances[0]))
+            .chain([Setting { stations: None, ..Setting::of_method(Method::Auto, None) }]);
+        let others = StiffnessModels::covering(inputs)
+            .flat_map(|models| METHODS.map(|method| Setting::of_method(method, Some(models))));
         let mut settings: Vec<Setting> = Vec::new();
         for setting in fineness.chain(others) {
             if !settings.contains(&setting) {
@@ -416,43 +376,20 @@ impl Setting {
         settings
     }
 
+    /// A method and compliance with the default fineness.
+    fn of_method(method: Method, models: Option<StiffnessModels>) -> Setting {
+        let Inputs { stations, tolerance, .. } = Inputs::default();
+        let tolerance = (method == Method::Dynamic).then_some(tolerance);
+        Setting { method, models, stations, tolerance, accurate: false }
+    }
+
     /// The setting of a case that sets only the method.
-    #[must_use]
     pub fn usual(method: Method, inputs: &Inputs) -> Setting {
         let inputs = Inputs { method, ..inputs.clone() };
-        Setting {
-            method,
-            models: Some(StiffnessModels::by_default(&inputs)),
-            stations: None,
-            tolerance: None,
-            accurate: false,
-        }
-        .usual_fineness()
-    }
-
-    /// The same method and compliance with the default fineness.
-    #[must_use]
-    pub fn usual_fineness(self) -> Setting {
-        let usual = Inputs::default();
-        Setting {
-            stations: usual.stations,
-            tolerance: (self.method == Method::Dynamic).then_some(usual.tolerance),
-            accurate: false,
-            ..self
-        }
-    }
-
-    /// This setting with every number of stations, and with as many as the curve needs.
-    fn with_stations(self) -> impl Iterator<Item = Setting> {
-        STATIONS
-            .into_iter()
-            .map(Some)
-            .chain([None])
-            .map(move |stations| Setting { stations, ..self })
+        Setting::of_method(method, Some(StiffnessModels::by_default(&inputs)))
     }
 
     /// The finest setting of the same method and compliance, the reference of the numerical error.
-    #[must_use]
     pub fn best(self) -> Setting {
         Setting {
             stations: Some(BEST_STATIONS),
@@ -463,49 +400,38 @@ impl Setting {
     }
 
     /// Whether both settings differ only in their fineness.
-    #[must_use]
     pub fn is_finer_or_coarser(&self, other: &Setting) -> bool {
-        self.method == other.method && self.models == other.models
+        (self.method, self.models) == (other.method, other.models)
     }
 
     /// The setting of some inputs.
-    #[must_use]
     pub fn of(inputs: &Inputs) -> Setting {
-        let is_left_to_auto = inputs.method == Method::Auto && inputs.tooth_compliance.is_none();
+        let Inputs { method, stations, accurate, .. } = *inputs;
+        let is_left_to_auto = method == Method::Auto && inputs.tooth_compliance.is_none();
         Setting {
-            method: inputs.method,
+            method,
             models: (!is_left_to_auto).then(|| StiffnessModels::of(inputs)),
-            stations: inputs.stations,
-            tolerance: (inputs.method == Method::Dynamic).then_some(inputs.tolerance),
-            accurate: inputs.accurate,
+            stations,
+            tolerance: (method == Method::Dynamic).then_some(inputs.tolerance),
+            accurate,
         }
     }
 
     /// The inputs of the same pair with this setting.
-    #[must_use]
     pub fn inputs(&self, inputs: &Inputs) -> Inputs {
-        let inputs = self.models.map_or_else(
-            || Inputs { tooth_compliance: None, ..inputs.clone() },
-            |models| models.in_place_of(inputs),
-        );
         Inputs {
             method: self.method,
             stations: self.stations,
             tolerance: self.tolerance.unwrap_or(inputs.tolerance),
             accurate: self.accurate,
-            ..inputs
+            ..match self.models {
+                Some(models) => models.in_place_of(inputs),
+                None => Inputs { tooth_compliance: None, ..inputs.clone() },
+            }
         }
     }
 
-    /// The setting that the solve used: another one if method `auto` chose it.
-    #[must_use]
-    pub fn taken(&self, inputs: &Inputs, method: Method) -> Setting {
-        let inputs = Inputs { method, ..self.inputs(inputs) };
-        Setting { method, models: Some(StiffnessModels::of(&inputs)), ..*self }
-    }
-
     /// The number of stations in the syntax of a case file.
-    #[must_use]
     pub fn stations_text(&self) -> String {
         self.stations.map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
     }
@@ -513,26 +439,30 @@ impl Setting {
     /// Writes the setting into a case. If the case names no compliance and the setting has the
     /// default compliance, the case still names none.
     pub fn apply(&self, case: &mut Case) {
-        write(case, "model.method", self.method.name());
-        write(case, "model.stations", &self.stations_text());
-        write(case, "model.accurate", if self.accurate { "true" } else { "false" });
+        let mut write = |key: &str, text: &str| {
+            if let Some(field) = index_of(key) {
+                case.write(field, text);
+            }
+        };
+        write("model.method", self.method.name());
+        write("model.stations", &self.stations_text());
+        write("model.accurate", if self.accurate { "true" } else { "false" });
         if let Some(tolerance) = self.tolerance {
-            write(case, "model.tolerance", &format!("{tolerance:e}"));
+            write("model.tolerance", &format!("{tolerance:e}"));
         }
         let own = case.inputs().ok().and_then(|inputs| Setting::of(&inputs).models);
         if own == self.models {
             return;
         }
-        write(case, "model.tooth_compliance", self.models.map_or("", |models| models.tooth.name()));
-        if let Some(contact) = self.models.and_then(|models| models.contact) {
-            write(case, "model.contact_compliance", contact.name());
+        let tooth = self.models.map_or("", |models| models.tooth.name());
+        let contact = self.models.and_then(|models| models.contact);
+        let names = [("tooth", Some(tooth)), ("contact", contact.map(|contact| contact.name()))];
+        for (part, name) in names {
+            let field = index_of(&format!("model.{part}_compliance"));
+            if let Some((field, name)) = field.zip(name) {
+                case.write(field, name);
+            }
         }
-    }
-}
-
-fn write(case: &mut Case, key: &str, text: &str) {
-    if let Some(field) = index_of(key) {
-        case.write(field, text);
     }
 }
 
@@ -580,39 +510,34 @@ impl Subject {
     /// The subjects that a setting must answer to qualify.
     pub const NEEDED: [Subject; 3] = [Subject::FirstContact, Subject::PeakForce, Subject::Curve];
 
-    /// The name in JSON.
-    #[must_use]
-    pub fn key(self) -> &'static str {
+    /// The name in JSON, and the key of the quantity of the free impact; empty for the curve.
+    const fn names(self) -> (&'static str, &'static str) {
         match self {
-            Subject::FirstContact => "first_contact_angle",
-            Subject::PeakForce => "peak_force",
-            Subject::PeakApproachForce => "peak_approach_force",
-            Subject::Duration => "impact_duration",
-            Subject::FrictionRatio => "friction_ratio",
-            Subject::Curve => "curve",
+            Subject::FirstContact => ("first_contact_angle", "approach_angle_driven"),
+            Subject::PeakForce => ("peak_force", "impact_force"),
+            Subject::PeakApproachForce => ("peak_approach_force", "impact_force"),
+            Subject::Duration => ("impact_duration", "impact_duration"),
+            Subject::FrictionRatio => ("friction_ratio", "friction_ratio"),
+            Subject::Curve => ("curve", ""),
         }
+    }
+
+    /// The name in JSON.
+    pub fn key(self) -> &'static str {
+        self.names().0
     }
 
     /// The quantity of a method for this subject; `None` for the curve, and if the method has no
     /// such quantity.
-    #[must_use]
     pub fn quantity(self, method: Method) -> Option<&'static Quantity> {
-        let free = match self {
-            Subject::FirstContact => "approach_angle_driven",
-            Subject::PeakForce | Subject::PeakApproachForce => "impact_force",
-            Subject::Duration => "impact_duration",
-            Subject::FrictionRatio => "friction_ratio",
-            Subject::Curve => return None,
-        };
         match (self, method) {
             (Subject::PeakForce, Method::Static) => Quantity::find("static_peak_force"),
             (Subject::PeakForce, Method::Dynamic) => Quantity::find("dynamic_peak_force"),
-            _ => Quantity::find(free)?.by(method),
+            _ => Quantity::find(self.names().1)?.by(method),
         }
     }
 
     /// Whether the method computes the subject.
-    #[must_use]
     pub fn is_of(self, method: Method) -> bool {
         self == Subject::Curve || self.quantity(method).is_some()
     }
@@ -632,7 +557,6 @@ pub struct Answer {
 }
 
 /// The stages that the answer of a method needs.
-#[must_use]
 pub fn stages(method: Method) -> Stages {
     match method {
         Method::Paper | Method::Exact => Stages::CLOSED_FORM.with(Stage::Stations),
@@ -661,48 +585,36 @@ fn solve(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<Solution, Refusal>
 
 impl Answer {
     /// The answer of a solve.
-    #[must_use]
     pub fn of(solution: &Solution) -> Answer {
-        let value = |subject: Subject| {
-            subject.quantity(solution.method).and_then(|quantity| (quantity.value)(solution))
-        };
-        Answer {
-            method: solution.method,
-            outcome: solution.outcome,
-            values: Subject::ALL.map(value),
-            curve: curve(solution),
-        }
+        let Solution { method, outcome, .. } = *solution;
+        let value =
+            |subject: Subject| subject.quantity(method).and_then(|known| (known.value)(solution));
+        let stations = solution.own_stations().iter();
+        let before_end = stations.filter(|station| station.roll_angle_driver >= 0.0);
+        let curve = before_end.map(|station| (station.roll_angle_driver, station.force));
+        Answer { method, outcome, values: Subject::ALL.map(value), curve: curve.collect() }
     }
 
     /// The value in SI, if any.
-    #[must_use]
     pub fn value(&self, subject: Subject) -> Option<f64> {
         self.values[subject as usize]
     }
 
-    /// The error of every subject, see [`Answer::off`].
-    fn all_off(&self, truth: &Answer) -> Differences {
-        Subject::ALL.map(|subject| self.off(truth, subject))
-    }
-
     /// The error of this answer, relative to `truth`; `None` if one of the methods has no such
     /// quantity. If neither finds a strike the error is 0; if only one does, it is 1.
-    #[must_use]
     pub fn off(&self, truth: &Answer, subject: Subject) -> Option<f64> {
         if !(subject.is_of(self.method) && subject.is_of(truth.method)) {
             return None;
         }
-        if subject == Subject::Curve {
-            return Some(self.curve_error(truth));
-        }
-        match (self.value(subject), truth.value(subject)) {
-            (Some(found), Some(expected)) => Some(relative(found - expected, expected)),
-            (None, None) => Some(0.0),
-            _ if self.outcome == truth.outcome && self.outcome == Outcome::NoCornerContact => {
-                Some(0.0)
-            }
-            _ => Some(1.0),
-        }
+        let strikes = [self, truth].map(|answer| answer.outcome == Outcome::CornerContact);
+        let values = [self, truth].map(|answer| answer.value(subject));
+        Some(match (values, strikes) {
+            (_, [true, true]) if subject == Subject::Curve => self.curve_error(truth),
+            ([Some(found), Some(expected)], _) => relative(found - expected, expected),
+            ([None, None], _) if subject != Subject::Curve => 0.0,
+            (_, [false, false]) => 0.0,
+            _ => 1.0,
+        })
     }
 
     /// The greatest difference of the forces over the driver's roll angle from the earlier first
@@ -713,18 +625,11 @@ impl Answer {
         let apart = angles
             .map(|angle| (self.force_at(angle) - truth.force_at(angle)).abs())
             .fold(0.0, f64::max);
-        match (self.outcome, truth.outcome) {
-            (Outcome::NoCornerContact, Outcome::NoCornerContact) => 0.0,
-            (Outcome::CornerContact, Outcome::CornerContact) => {
-                relative(apart, truth.value(Subject::PeakForce).unwrap_or_default())
-            }
-            _ => 1.0,
-        }
+        relative(apart, truth.value(Subject::PeakForce).unwrap_or_default())
     }
 
     /// The force at the driver's angle before E, by linear interpolation between stations; 0 before
     /// the first contact.
-    #[must_use]
     pub fn force_at(&self, angle: f64) -> f64 {
         /// First contacts that differ by no more than rounding are equal.
         const ROUNDING: f64 = 1e-9;
@@ -738,13 +643,6 @@ impl Answer {
             (Some(last), None) => last.1,
         }
     }
-}
-
-/// The force from the first contact to E.
-fn curve(solution: &Solution) -> Vec<(f64, f64)> {
-    let stations = solution.own_stations().iter();
-    let before_end = stations.filter(|station| station.roll_angle_driver >= 0.0);
-    before_end.map(|station| (station.roll_angle_driver, station.force)).collect()
 }
 
 /// A difference over a size; 1 if the size is 0.

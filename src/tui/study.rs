@@ -65,8 +65,6 @@ pub(crate) enum LayerSource {
 /// The distributions of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToleranceParameters {
-    /// The name of the case.
-    pub(crate) name: String,
     /// The case with its distributions.
     pub(crate) case: Case,
     /// The pair.

@@ -5,11 +5,11 @@ use crate::envelope::Random;
 
 use std::collections::BTreeMap;
 
-use tipstrike::case::{Case, Evaluator, Limit};
+use tipstrike::case::{Case, Evaluator, Limit, Problem};
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages};
 use tipstrike::report::{Report, Selection};
-use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Sequence, solve_all};
+use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, solve_all};
 
 /// A study of one point that is the case itself.
 struct Itself;
@@ -19,8 +19,8 @@ impl Points for Itself {
         1
     }
 
-    fn sequence(&self) -> Sequence<'_> {
-        Box::new(|_, _| Ok(()))
+    fn put(&self, _: usize, _: &mut Inputs) -> Result<(), Problem> {
+        Ok(())
     }
 }
 
@@ -42,10 +42,10 @@ fn of_study(inputs: &Inputs, only: &[&'static Quantity]) -> Option<(Outcome, Val
     let inputs = &inputs.clone().needing(only.iter().map(|quantity| quantity.stage));
     let batch = Batch { inputs, points: &Itself, quantities: only };
     let mut found = None;
-    solve_all(&batch, 0..1, &Control::PLAIN, &mut |rows| {
-        let pairs = only.iter().zip(rows.values(0));
-        let pairs = pairs.filter_map(|(quantity, value)| Some((*quantity, value?)));
-        if let PointOutcome::Solved(outcome) = rows.outcomes[0] {
+    solve_all(&batch, 0..1, &Control::PLAIN, &mut |_, rows| {
+        let pairs = only.iter().zip(&rows[0].values);
+        let pairs = pairs.filter_map(|(quantity, value)| Some((*quantity, (*value)?)));
+        if let PointOutcome::Solved(outcome) = rows[0].outcome {
             found = Some((outcome, values(pairs)));
         }
         true

@@ -4,8 +4,8 @@ use tipstrike::case::spread::Shape;
 use tipstrike::case::{Case, Spread};
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages, solve};
-use tipstrike::study::axis::AxisRange;
-use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Rows, Stopped, solve_all};
+use tipstrike::study::axis::{AxisRange, Sampling};
+use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Row, Stopped, solve_all};
 use tipstrike::study::condition::{Condition, State};
 use tipstrike::study::sample::{Design, Distribution, Member};
 use tipstrike::study::seek::{Found, seek};
@@ -25,56 +25,48 @@ fn grid(texts: &[&str], points: usize) -> Grid {
     Grid::parse(&texts, &[points], false).unwrap()
 }
 
-fn solved(inputs: &Inputs, grid: &Grid, jobs: usize, quantities: &[&'static Quantity]) -> Rows {
+fn solved(inputs: &Inputs, grid: &Grid, jobs: usize, quantities: &[&'static Quantity]) -> Vec<Row> {
     let batch = Batch { inputs, points: grid, quantities };
     let control = Control { jobs: Some(jobs), ..Control::PLAIN };
-    let mut all = Rows::starting_at(0);
-    solve_all(&batch, 0..grid.count(), &control, &mut |rows| {
-        for row in 0..rows.outcomes.len() {
-            all.push(rows.outcomes[row], rows.values(row));
-        }
-        all.refusals.extend(rows.refusals);
+    let mut all = Vec::new();
+    let solved = solve_all(&batch, 0..grid.count(), &control, &mut |first, rows| {
+        assert_eq!(first, all.len());
+        all.extend_from_slice(rows);
         true
-    })
-    .unwrap();
+    });
+    solved.unwrap();
     all
 }
 
-/// The row of a plain solve of the case with the settings of a point.
-fn plain(case: &Case, grid: &Grid, index: usize, quantities: &[&'static Quantity]) -> Rows {
+/// The outcome and the values of a plain solve of the case with the settings of a point.
+fn plain(
+    case: &Case,
+    grid: &Grid,
+    index: usize,
+    quantities: &[&'static Quantity],
+) -> (PointOutcome, Vec<Option<u64>>) {
     let mut case = case.clone();
     for (axis, at) in grid.places(index) {
         case.set(axis.key(), &axis.with_unit(at)).unwrap();
     }
-    let mut row = Rows::starting_at(0);
-    let inputs = case.inputs().map_err(|mut problems| problems.remove(0));
     let wanted = |method: Method| {
         let stages = quantities.iter().map(|quantity| Stages::of(quantity.stage));
         stages.fold(method.deciding_stages(), Stages::and)
     };
-    let solution = inputs.and_then(|inputs| {
-        solve(&inputs, wanted(inputs.method)).map_err(|refusal| (&refusal).into())
-    });
-    let values = |solution| {
-        let all = quantities.iter();
-        all.map(move |quantity| quantity.finite_value(solution))
-    };
-    match solution {
-        Ok(solution) if solution.withheld.is_none() => {
-            row.push(PointOutcome::Solved(solution.outcome), values(&solution));
+    let solution = case.inputs().ok();
+    let solution = solution.and_then(|inputs| solve(&inputs, wanted(inputs.method)).ok());
+    match solution.filter(|solution| solution.withheld.is_none()) {
+        Some(solution) => {
+            let values = quantities.iter().map(|quantity| quantity.finite_value(&solution));
+            let bits = values.map(|value| value.map(f64::to_bits)).collect();
+            (PointOutcome::Solved(solution.outcome), bits)
         }
-        Ok(_) => row.push(PointOutcome::Refused, quantities.iter().map(|_| None)),
-        Err(problem) => {
-            row.push(PointOutcome::Refused, quantities.iter().map(|_| None));
-            row.refusals.push((index, problem));
-        }
+        None => (PointOutcome::Refused, vec![None; quantities.len()]),
     }
-    row
 }
 
-fn bits(rows: &Rows, row: usize) -> Vec<Option<u64>> {
-    let values = rows.values(row);
-    values.map(|value| value.map(f64::to_bits)).collect()
+fn bits(row: &Row) -> Vec<Option<u64>> {
+    row.values.iter().map(|value| value.map(f64::to_bits)).collect()
 }
 
 #[test]
@@ -95,11 +87,10 @@ fn every_row_of_a_sweep_is_a_plain_solve_to_the_last_bit() {
         for texts in grids {
             let grid = grid(texts, 4);
             let rows = solved(&inputs, &grid, 1, &quantities);
-            for index in 0..grid.count() {
+            for (index, row) in rows.iter().enumerate() {
                 let plain = plain(&case, &grid, index, &quantities);
                 let place = format!("{} at {}", method.name(), grid.point(index));
-                assert_eq!(rows.outcomes[index], plain.outcomes[0], "{place}");
-                assert_eq!(bits(&rows, index), bits(&plain, 0), "{place}");
+                assert_eq!((row.outcome, bits(row)), plain, "{place}");
             }
         }
     }
@@ -121,9 +112,9 @@ fn one_mesh_serves_every_speed_under_a_torque_to_the_last_bit() {
     let quantities = quick_quantities();
     let grid = grid(&["operation.speed=500..9000 rpm"], 12);
     let rows = solved(&case.inputs().unwrap(), &grid, 1, &quantities);
-    for index in 0..grid.count() {
-        let plain = plain(&case, &grid, index, &quantities);
-        assert_eq!(bits(&rows, index), bits(&plain, 0), "{}", grid.point(index));
+    for (index, row) in rows.iter().enumerate() {
+        let (_, plain) = plain(&case, &grid, index, &quantities);
+        assert_eq!(bits(row), plain, "{}", grid.point(index));
     }
 }
 
@@ -135,16 +126,13 @@ fn rows_do_not_depend_on_the_number_of_threads() {
     let one = solved(&inputs, &grid, 1, &quantities);
     let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact].map(PointOutcome::Solved);
     for outcome in outcomes.into_iter().chain([PointOutcome::Refused]) {
-        assert!(one.outcomes.contains(&outcome), "{}", outcome.name());
+        assert!(one.iter().any(|row| row.outcome == outcome), "{}", outcome.name());
     }
     for jobs in [2, 5] {
         let other = solved(&inputs, &grid, jobs, &quantities);
-        let cells = |rows: &Rows| {
-            let all = (0..grid.count()).flat_map(|row| rows.values(row).collect::<Vec<_>>());
-            all.map(|value| value.map(f64::to_bits)).collect::<Vec<_>>()
-        };
+        let cells = |rows: &[Row]| rows.iter().flat_map(bits).collect::<Vec<_>>();
         assert_eq!(cells(&one), cells(&other));
-        assert_eq!((&one.outcomes, &one.refusals), (&other.outcomes, &other.refusals));
+        assert_eq!(one, other);
     }
 }
 
@@ -154,21 +142,22 @@ fn the_user_or_the_reader_can_stop_a_study() {
     let grid = grid(&["operation.speed=1..9000 rpm"], 100_000);
     let batch = Batch { inputs: &inputs, points: &grid, quantities: &[] };
     let mut rows = 0;
-    let by_reader = solve_all(&batch, 0..grid.count(), &Control::PLAIN, &mut |arrived| {
-        rows += arrived.outcomes.len();
+    let by_reader = solve_all(&batch, 0..grid.count(), &Control::PLAIN, &mut |_, arrived| {
+        rows += arrived.len();
         false
     });
     assert_eq!(by_reader, Err(Stopped));
     assert!(0 < rows && rows < grid.count());
-    let control = Control { go_on: &|| false, ..Control::PLAIN };
-    let by_user = solve_all(&batch, 0..grid.count(), &control, &mut |_| true);
+    let control = Control { go_on: &|_, _| false, ..Control::PLAIN };
+    let by_user = solve_all(&batch, 0..grid.count(), &control, &mut |_, _| true);
     assert_eq!(by_user, Err(Stopped));
 }
 
 fn sought(inputs: &Inputs, range: &str, condition: &str) -> Found {
     let range = AxisRange::parse(range).unwrap();
     let condition = Condition::parse(condition).unwrap();
-    seek(inputs, &range, &condition, 41, &Control::PLAIN).unwrap()
+    let scan = range.axis(Sampling { points: Some(41), is_log: false }).unwrap();
+    seek(inputs, &range, &condition, scan, &Control::PLAIN).unwrap()
 }
 
 #[test]
@@ -228,9 +217,7 @@ fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_th
     let grid = grid(&["operation.speed=3000..3600 rpm"], 401);
     let quantities = [Quantity::find("dynamic_peak_force").unwrap()];
     let rows = solved(&inputs, &grid, 2, &quantities);
-    let peaks: Vec<f64> =
-        (0..grid.count()).filter_map(|row| rows.values(row).next().flatten()).collect();
-    let most = peaks.iter().copied().fold(0.0, f64::max);
+    let most = rows.iter().filter_map(|row| row.values[0]).fold(0.0, f64::max);
     let limit = 0.999_99 * most;
     let found = sought(
         &inputs,

@@ -14,18 +14,18 @@ use tipstrike::case::Case;
 use tipstrike::model::impact::StiffnessModels;
 use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{Inputs, Refusal, Stage, Stages, solve};
-use tipstrike::report::trade::{TradeReport, write, write_json};
-use tipstrike::study::trade::{
-    METHODS, MeasuredSetting, STATIONS, Setting, Subject, Trade, TradeParameters, trade,
-};
+use tipstrike::report::results::Named;
+use tipstrike::study::shard::Format;
+use tipstrike::study::trade::{METHODS, MeasuredSetting, STATIONS, Setting, Subject, Trade, trade};
 
 fn table_1() -> Inputs {
     Case::table_1().inputs().expect("the built-in case is valid")
 }
 
 fn traded(inputs: &Inputs, within: f64) -> Trade {
-    let parameters = TradeParameters { within, patience: Duration::ZERO };
-    trade(inputs, &parameters, &|| true, &mut |_| ()).unwrap_or_else(|refusal| panic!("{refusal}"))
+    let inputs = Inputs { within, ..inputs.clone() };
+    let found = trade(&inputs, Duration::ZERO, &|| true, &mut |_| ());
+    found.unwrap_or_else(|refusal| panic!("{refusal}"))
 }
 
 /// The trade study of Table 1, computed once for all tests.
@@ -48,17 +48,18 @@ fn numerical(measured: &MeasuredSetting, subject: Subject) -> f64 {
     figures.numerical[subject as usize].unwrap_or_else(|| panic!("no {}", subject.key()))
 }
 
+fn written(trade: &Trade, format: Format) -> String {
+    let (case, mut out) = (Named { name: "case.toml", title: "a title" }, Vec::new());
+    case.write(trade, format, &mut out).expect("memory");
+    String::from_utf8(out).expect("text")
+}
+
 fn json(trade: &Trade) -> Value {
-    let mut out = Vec::new();
-    write_json(&TradeReport { name: "case.toml", title: "a title", trade }, &mut out)
-        .expect("memory");
-    serde_json::from_slice(&out).expect("JSON")
+    serde_json::from_str(&written(trade, Format::Json)).expect("JSON")
 }
 
 fn text(trade: &Trade) -> String {
-    let mut out = Vec::new();
-    write(&TradeReport { name: "case.toml", title: "a title", trade }, &mut out).expect("memory");
-    String::from_utf8(out).expect("text")
+    written(trade, Format::Text)
 }
 
 #[test]
@@ -91,7 +92,7 @@ fn every_method_is_compared_with_every_compliance_of_the_pair() {
         }
     }
     let build = trade.build.expect("both gears have a field");
-    assert!(build.driver > 0.0 && build.driven > 0.0);
+    assert!(build.iter().all(|&seconds| seconds > 0.0));
     let (text, json) = (text(trade), json(trade));
     assert!(text.contains("> kuang-yang logarithmic"), "{text}");
     assert!(text.contains("are built once per gear"), "{text}");
@@ -262,18 +263,17 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
 #[test]
 fn a_trade_reports_its_progress_and_stops_on_request() {
     let (seen, asked) = (Cell::new(0), Cell::new(0u32));
-    let parameters = TradeParameters { within: 0.05, patience: Duration::ZERO };
     let go_on = || {
         asked.set(asked.get() + 1);
         seen.get() < 5
     };
-    let stopped = trade(&table_1(), &parameters, &go_on, &mut |sofar| {
+    let stopped = trade(&table_1(), Duration::ZERO, &go_on, &mut |sofar| {
         assert!(sofar.settings.len() <= sofar.planned);
         seen.set(sofar.settings.len());
     });
     assert_eq!((stopped.err(), seen.get()), (Some(Refusal::Stopped), 5));
     assert!(asked.get() > 5);
-    let never = trade(&table_1(), &parameters, &|| false, &mut |_| panic!("no benchmark"));
+    let never = trade(&table_1(), Duration::ZERO, &|| false, &mut |_| panic!("no benchmark"));
     assert_eq!(never.err(), Some(Refusal::Stopped));
 }
 

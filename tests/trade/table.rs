@@ -11,9 +11,7 @@ use tipstrike::model::Inputs;
 use tipstrike::model::impact::StiffnessModels;
 use tipstrike::model::inputs::Method;
 use tipstrike::report::trade::{duration, percent};
-use tipstrike::study::trade::{
-    Differences, METHODS, Setting, Subject, Trade, TradeParameters, greatest, trade,
-};
+use tipstrike::study::trade::{Differences, METHODS, Setting, Subject, Trade, greatest, trade};
 
 /// Errors below this are rounding and may differ between machines.
 const ROUNDING: f64 = 1e-11;
@@ -72,9 +70,9 @@ fn path() -> PathBuf {
 
 /// Every case and its trade study, in the order of `cases`.
 pub(crate) fn trades(patience: Duration) -> Vec<(String, Trade)> {
-    let parameters = TradeParameters { within: 0.05, patience };
     let made = |path: PathBuf| {
-        let found = trade(&inputs(&path), &parameters, &|| true, &mut |_| ());
+        let inputs = Inputs { within: 0.05, ..inputs(&path) };
+        let found = trade(&inputs, patience, &|| true, &mut |_| ());
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
         (name, found.unwrap_or_else(|refusal| panic!("{}: {refusal}", path.display())))
     };

@@ -5,7 +5,7 @@ use harness::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
-use tipstrike::study::trade::{Build, Setting};
+use tipstrike::study::trade::Setting;
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::actions::Progress;
@@ -272,7 +272,7 @@ fn v_shows_every_method_with_every_compliance_as_a_table() {
 fn evened(desk: &mut Desk) {
     let traded = desk.app.tab.traded.as_mut().expect("a measurement");
     let trade = traded.trade.as_mut().expect("it is whole");
-    trade.build = Ok(Build { driver: 12e-3, driven: 15e-3 });
+    trade.build = Ok([12e-3, 15e-3]);
 }
 
 #[test]

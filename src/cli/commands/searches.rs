@@ -6,18 +6,18 @@ use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::options::{CaseFile, Destination, Edits, Threads, count, formats};
 use crate::cli::output::{Done, Exit, Failure, Running, follow};
+use crate::model::Inputs;
 use crate::numeric::decimal::shortest;
+use crate::report::relief::ReliefReport;
 use crate::report::seek::SeekReport;
-use crate::report::specification::ReliefReport;
-use crate::report::stiffness::{StiffnessReport, no_field, write, write_csv, write_json};
-use crate::report::trade::{self, TradeReport};
-use crate::study::axis::{AxisRange, with_unit};
+use crate::report::stiffness::{StiffnessReport, no_field};
+use crate::study::axis::{AxisRange, Sampling, with_unit};
 use crate::study::condition::Condition;
 use crate::study::relief::{self, Demand, NoRelief, specify};
-use crate::study::seek::{SeekError, USUAL_SCAN, seek};
+use crate::study::seek::{USUAL_SCAN, seek};
 use crate::study::shard::Format;
-use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare};
-use crate::study::trade::{self as study, STEADY, TradeParameters};
+use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS, compare_flanks, compare_path};
+use crate::study::trade::{self as study, STEADY};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -66,25 +66,18 @@ impl Seek {
         opened.need(condition.quantity());
         streams.say_all(opened.without_effect(range.field, &opened.inputs));
         condition.check(opened.inputs.method).map_err(bad_condition)?;
+        let scan = range.axis(Sampling { points: Some(*points), is_log: false });
+        let scan = scan.map_err(bad_range)?;
         let running = Running::new("points", self.threads.jobs);
         let found =
-            running.run(|control| seek(&opened.inputs, &range, &condition, *points, control));
-        let found = found.map_err(|unfound| match unfound {
-            SeekError::Stopped => Failure::Interrupted,
-            SeekError::Bad(problem) => bad_range(problem),
-        })?;
+            running.run(|control| seek(&opened.inputs, &range, &condition, scan, control))?;
         let report = SeekReport {
-            name: &opened.name,
-            title: opened.document.case.title(),
             method: opened.inputs.method.name(),
             range: &range,
             condition: &condition,
             found: &found,
         };
-        destination.write(streams, |sink| match self.format {
-            Format::Json => report.write_json(sink),
-            _ => report.write(sink),
-        })
+        destination.write(streams, |sink| opened.named().write(&report, self.format, sink))
     }
 }
 
@@ -140,17 +133,8 @@ impl Relief {
             NoRelief::Refused(refusal) => opened.refused(&refusal),
             none => opened.failed(&none),
         })?;
-        let report = ReliefReport {
-            name: &opened.name,
-            title: opened.document.case.title(),
-            method: opened.inputs.method,
-            found: &found,
-        };
-        destination.write(streams, |sink| match self.format {
-            Format::Json => report.write_json(sink),
-            Format::Csv => report.write_csv(sink),
-            _ => report.write(sink),
-        })
+        let report = ReliefReport { method: opened.inputs.method, found: &found };
+        destination.write(streams, |sink| opened.named().write(&report, self.format, sink))
     }
 }
 
@@ -179,21 +163,17 @@ pub struct Stiffness {
 impl Stiffness {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let opened = cases::open(&self.case, &self.edits, &[], streams)?;
-        let comparison =
-            compare(&opened.inputs, self.points).map_err(|refusal| opened.refused(&refusal))?;
-        let (name, title) = (&opened.name, opened.document.case.title());
-        let report = StiffnessReport { name, title, comparison: &comparison };
-        let out = streams.output.as_mut();
-        match self.format {
-            Format::Json => write_json(&report, out)?,
-            Format::Csv => {
-                write_csv(&comparison.flanks, out)?;
-                let absent = comparison.flanks.gears.iter();
-                let absent = absent
-                    .filter_map(|gear| Some(format!("{name}: {}: {}", gear.gear, no_field(gear)?)));
-                streams.say_all(absent);
-            }
-            _ => write(&report, out)?,
+        let refused = |refusal| opened.refused(&refusal);
+        let flanks = compare_flanks(&opened.inputs, self.points).map_err(refused)?;
+        let path = compare_path(&opened.inputs, self.points).map_err(refused)?;
+        let report = StiffnessReport { flanks: &flanks, path: &path };
+        opened.named().write(&report, self.format, streams.output.as_mut())?;
+        if self.format == Format::Csv {
+            let (name, gears) = (&opened.name, flanks.gears.iter());
+            streams
+                .say_all(gears.filter_map(|gear| {
+                    Some(format!("{name}: {}: {}", gear.gear, no_field(gear)?))
+                }));
         }
         Ok(Exit::Done)
     }
@@ -234,7 +214,7 @@ impl Trade {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let opened = cases::open(&self.case, &self.edits, &[], streams)?;
         let within = self.within.unwrap_or(opened.inputs.within);
-        let parameters = TradeParameters { within, patience: STEADY };
+        let inputs = Inputs { within, ..opened.inputs.clone() };
         let found = follow("settings", |report| {
             let (done, planned) = (Cell::new(0), Cell::new(1));
             let mut show = |sofar: &study::Trade| {
@@ -242,16 +222,10 @@ impl Trade {
                 planned.set(sofar.planned);
             };
             let go_on = || report(done.get(), planned.get());
-            study::trade(&opened.inputs, &parameters, &go_on, &mut show)
+            study::trade(&inputs, STEADY, &go_on, &mut show)
         });
         let trade = found.map_err(|refusal| opened.refused(&refusal))?;
-        let (name, title) = (&opened.name, opened.document.case.title());
-        let report = TradeReport { name, title, trade: &trade };
-        let out = streams.output.as_mut();
-        match self.format {
-            Format::Json => trade::write_json(&report, out)?,
-            _ => trade::write(&report, out)?,
-        }
+        opened.named().write(&trade, self.format, streams.output.as_mut())?;
         Ok(Exit::Done)
     }
 }

@@ -1,21 +1,22 @@
 //! Commands of studies that can be split into shards: `sweep`, `tolerance`, `gather`.
 
-use std::io::{self, Write};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crate::cli::Streams;
 use crate::cli::cases::Opened;
 use crate::cli::options::{CaseFile, Destination, Only, StudyOptions, count, formats};
-use crate::cli::output::{Done, Exit, Failure, Running, Sink, check_out, write_to};
+use crate::cli::output::{Done, Exit, Failure, Running, check_out, write_to};
 use crate::model::Quantity;
 use crate::report::absence::Absence;
+use crate::report::results::Named;
 use crate::report::sweep::SweepTable;
 use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::Axis;
-use crate::study::batch::{Refusals, Rows, Stopped, solve_all};
+use crate::study::batch::{Points, Refusals, Row, Stopped, solve_all};
 use crate::study::condition::headline;
 use crate::study::shard::{
-    Complete, Format, Header, Kind, PointsRequest, ShardError, ShardWriter, Study, in_order,
+    Complete, Format, Header, Kind, PointsRequest, Request, ShardWriter, Study, in_order,
 };
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{self, MOST_SAMPLES, Samples, Size, USUAL_SAMPLES};
@@ -71,9 +72,8 @@ impl Sweep {
         }
         streams.say_all(absent(&quantities, &grid, &opened));
         let points = PointsRequest::Sweep { vary: vary.clone(), points: points.clone(), log: *log };
-        let format = self.format;
-        let study = of_case(opened, quantities, format, Kind::Sweep(grid));
-        run_study(&study, points, &self.running, streams)
+        let study = of_case(opened, quantities, (self.format, points), Kind::Sweep(grid));
+        run_study(&study, &self.running, streams)
     }
 }
 
@@ -95,7 +95,8 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     if grid.methods(&inputs).len() > 1 {
         return Vec::new();
     }
-    grid.put(0, &mut inputs);
+    // The values of a grid are checked when it is made.
+    drop(grid.put(0, &mut inputs));
     let warning = |axis: &Axis| opened.without_effect(axis.field, &inputs);
     grid.axes.iter().filter_map(warning).collect()
 }
@@ -154,9 +155,9 @@ impl Tolerance {
             streams.say_all(opened.without_effect(spread.field, &opened.inputs));
         }
         let points = PointsRequest::Tolerance { samples, seed, ranked: study.design.ranked };
-        let (format, quantities) = (self.format, study.quantities.clone());
-        let study = of_case(opened, quantities, format, Kind::Tolerance(study));
-        run_study(&study, points, &self.running, streams)
+        let (request, quantities) = ((self.format, points), study.quantities.clone());
+        let study = of_case(opened, quantities, request, Kind::Tolerance(study));
+        run_study(&study, &self.running, streams)
     }
 }
 
@@ -176,22 +177,19 @@ impl Gather {
         let files: Vec<&Path> = self.files.iter().map(AsRef::as_ref).collect();
         let out = self.destination.out.as_deref();
         check_out(out, &files)?;
-        let gathered = files.iter().map(|file| Complete::read(file)).collect::<Result<Vec<_>, _>>();
-        let gathered = gathered.and_then(in_order).and_then(|shards| {
-            let Header { shard, request, .. } = &shards[0].header;
-            let study = Study::restore(request)
-                .map_err(|problem| ShardError::Wrong(format!("shard {shard}: {problem}")))?;
-            Ok((shards, study))
-        });
-        let (shards, study) = gathered.map_err(|unfit| match unfit {
-            ShardError::Unreadable(line) => Failure::new(Exit::Unreadable, line),
-            ShardError::Wrong(line) => Failure::new(Exit::BadCase, line),
+        let gathered = files.iter().map(|file| Complete::read(file)).collect::<Result<_, _>>();
+        let shards = gathered.and_then(in_order).map_err(|error| match error.kind() {
+            ErrorKind::InvalidData => Failure::new(Exit::BadCase, error),
+            _ => Failure::new(Exit::Unreadable, error),
         })?;
+        let Header { shard, request, .. } = &shards[0].header;
+        let study = Study::restore(request)
+            .map_err(|problem| Failure::new(Exit::BadCase, format!("shard {shard}: {problem}")))?;
         let count = study.points().count();
         write_study(&study, out, streams, |take| {
-            shards.iter().try_for_each(|shard| {
-                shard.rows(shard.header.shard.range(count).start, take).map_err(Ended::Unwritten)
-            })
+            shards
+                .iter()
+                .try_for_each(|shard| shard.rows(shard.header.shard.range(count).start, take))
         })
     }
 }
@@ -199,41 +197,21 @@ impl Gather {
 fn of_case(
     opened: Opened,
     quantities: Vec<&'static Quantity>,
-    format: Format,
+    (format, points): (Format, PointsRequest),
     kind: Kind,
-) -> (Study, String) {
-    let text = opened.document.render();
+) -> Study {
+    let case = opened.document.render();
+    let keys = quantities.iter().map(|known| known.key.to_owned()).collect();
     let Opened { name, document, inputs, .. } = opened;
-    (Study { name, case: document.case, inputs, quantities, format, kind }, text)
+    let request = Request { name, case, quantities: keys, format, points };
+    Study { request, case: document.case, inputs, quantities, kind }
 }
 
 /// Receives the rows of a study in order.
-type Take<'a> = &'a mut dyn FnMut(Rows) -> io::Result<()>;
-
-/// Why the rows of a study end early.
-enum Ended {
-    /// The rows cannot be read or written.
-    Unwritten(io::Error),
-    /// Ctrl-C ends the study.
-    Stopped,
-}
-
-impl Ended {
-    fn failure(self, sink: &Sink) -> Failure {
-        match self {
-            Ended::Unwritten(error) => sink.failure(error),
-            Ended::Stopped => Failure::Interrupted,
-        }
-    }
-}
+type Take<'a> = &'a mut dyn FnMut(usize, &[Row]) -> io::Result<()>;
 
 /// Solves the points of a study and writes the results, or writes one of its shards.
-fn run_study(
-    (study, case): &(Study, String),
-    points: PointsRequest,
-    options: &StudyOptions,
-    streams: &mut Streams,
-) -> Done {
+fn run_study(study: &Study, options: &StudyOptions, streams: &mut Streams) -> Done {
     let out = options.destination.out.as_deref();
     let what = match (&study.kind, options.shard) {
         (Kind::Tolerance(_), None) => "solves",
@@ -241,29 +219,26 @@ fn run_study(
     };
     let running = Running::new(what, options.threads.jobs);
     let count = study.points().count();
+    // A stop is an interrupted write.
     let solve = |range, take: Take| {
         let mut written = Ok(());
         let solved = running.run(|control| {
-            solve_all(&study.batch(), range, control, &mut |rows| {
-                written = take(rows);
+            solve_all(&study.batch(), range, control, &mut |first, rows| {
+                written = take(first, rows);
                 written.is_ok()
             })
         });
-        written.map_err(Ended::Unwritten)?;
-        solved.map_err(|Stopped| Ended::Stopped)
+        written?;
+        solved.map_err(|Stopped| ErrorKind::Interrupted.into())
     };
     let Some(shard) = options.shard else {
         return write_study(study, out, streams, |take| solve(0..count, take));
     };
-    let mut sink = Sink::open(out, streams.output.as_mut())?;
-    let request = study.request(case.clone(), points);
-    let write = |sink: &mut Sink| {
-        let mut writer = ShardWriter::begin(shard, &request, sink).map_err(Ended::Unwritten)?;
-        solve(shard.range(count), &mut |rows| writer.write(&rows))?;
-        writer.finish().map_err(Ended::Unwritten)
-    };
-    write(&mut sink).map_err(|ended| ended.failure(&sink))?;
-    sink.finish()
+    write_to(out, streams, |sink| {
+        let mut writer = ShardWriter::begin(shard, &study.request, sink)?;
+        solve(shard.range(count), &mut |_, rows| writer.write(rows))?;
+        writer.finish()
+    })
 }
 
 /// Writes the results of a study and reports its refused points. Rows of a sweep are written as
@@ -272,35 +247,29 @@ fn write_study(
     study: &Study,
     out: Option<&Path>,
     streams: &mut Streams,
-    rows: impl FnOnce(Take) -> Result<(), Ended>,
+    rows: impl FnOnce(Take) -> io::Result<()>,
 ) -> Done {
     let refusals = match &study.kind {
         Kind::Sweep(grid) => {
-            let (quantities, format) = (&study.quantities, study.format);
+            let (quantities, format) = (&study.quantities, study.request.format);
             let table = SweepTable { grid, quantities, format };
-            let (mut sink, mut refusals) =
-                (Sink::open(out, streams.output.as_mut())?, Refusals::default());
-            table.begin(&mut sink).map_err(|error| sink.failure(error))?;
-            let written = rows(&mut |rows| {
-                refusals.count(&rows);
-                table.write(&rows, &mut sink)
-            });
-            written.map_err(|ended| ended.failure(&sink))?;
-            sink.finish()?;
+            let mut refusals = Refusals::default();
+            write_to(out, streams, |sink| {
+                table.begin(sink)?;
+                rows(&mut |first, rows| {
+                    refusals.count(first, rows);
+                    table.write(first, rows, sink)
+                })
+            })?;
             refusals
         }
         Kind::Tolerance(tolerance) => {
             let mut samples = Samples::of(tolerance);
-            let found = rows(&mut |rows| {
-                samples.add(&rows);
+            rows(&mut |first, rows| {
+                samples.add(first, rows);
                 Ok(())
-            });
-            found.map_err(|ended| match ended {
-                Ended::Unwritten(error) => Failure::Stream(error),
-                Ended::Stopped => Failure::Interrupted,
             })?;
             let report = ToleranceReport {
-                name: &study.name,
                 case: &study.case,
                 method: study.inputs.method,
                 study: tolerance,
@@ -308,14 +277,12 @@ fn write_study(
             };
             // The figures take time, during which a signal must still end the program; therefore
             // they are complete before the file is created.
-            let mut figures = Vec::new();
-            match study.format {
-                Format::Text => report.write(&mut figures),
-                Format::Json => report.write_json(&mut figures),
-                Format::Csv | Format::Md => Ok(()),
+            let (mut figures, format) = (Vec::new(), study.request.format);
+            if format != Format::Csv {
+                let case = Named { name: &study.request.name, title: study.case.title() };
+                case.write(&report, format, &mut figures)?;
             }
-            .map_err(Failure::Stream)?;
-            write_to(out, streams, |sink| match study.format {
+            write_to(out, streams, |sink| match format {
                 Format::Csv => report.write_csv(sink),
                 _ => sink.write_all(&figures),
             })?;
@@ -323,7 +290,7 @@ fn write_study(
         }
     };
     for refused in &refusals.0 {
-        streams.say(&format!("{}: {}", study.name, refused.sentence(study.points())));
+        streams.say(&format!("{}: {}", study.request.name, refused.sentence(study.points())));
     }
     let is_all = refusals.total() == study.points().count();
     Ok(if is_all { Exit::BadCase } else { Exit::Done })

@@ -1,10 +1,9 @@
 //! The search over round amounts and lengths.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use super::{AMOUNT_STEP, Demand, MapPoint, NoRelief, TipReliefs, decimal};
-use crate::model::budget::Meter;
 use crate::model::geometry::{Geometry, PairShape, geometry};
 use crate::model::inputs::{Gear, ReliefShape};
 use crate::model::mesh::Mesh;
@@ -32,6 +31,10 @@ const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
 const FOLLOWED: [usize; 2] = [6, 16];
 /// Greatest stride of the search, in steps; it is halved down to one step.
 const STRIDE: i32 = 8;
+/// Greatest number of reliefs that the search evaluates.
+pub(super) const MOST_TRIES: u64 = 50_000;
+/// Number of reliefs that a typical search evaluates.
+const USUAL_TRIES: f64 = 7_500.0;
 
 /// The steps and bounds of amounts and lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,16 +51,6 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Sum of both greatest amounts, in m.
-    pub(super) fn most_relief(&self) -> f64 {
-        AMOUNT_STEP * f64::from(self.most_amounts[0] + self.most_amounts[1])
-    }
-
-    /// The greatest amount of either gear, in m.
-    fn most_amount(&self) -> f64 {
-        AMOUNT_STEP * f64::from(self.most_amounts[0].max(self.most_amounts[1]))
-    }
-
     /// The reliefs with amounts increased by `steps`, if the tips allow it.
     pub(super) fn greater(&self, reliefs: &TipReliefs, steps: i32) -> Option<TipReliefs> {
         let more = |at: usize| {
@@ -81,10 +74,12 @@ impl Grid {
         [driver, driven, one, other]
     }
 
-    fn has(&self, steps: Steps) -> bool {
+    fn has(&self, [driver, driven, one, other]: Steps) -> bool {
         let lengths = self.least_length..=self.most_length;
-        let has_amount = |at: usize| (0..=self.most_amounts[at]).contains(&steps[at]);
-        has_amount(0) && has_amount(1) && lengths.contains(&steps[2]) && lengths.contains(&steps[3])
+        (0..=self.most_amounts[0]).contains(&driver)
+            && (0..=self.most_amounts[1]).contains(&driven)
+            && lengths.contains(&one)
+            && lengths.contains(&other)
     }
 }
 
@@ -95,22 +90,31 @@ type Cost = (bool, f64);
 /// A relief with its cost.
 type Tried = (Steps, Cost);
 
+fn by_cost(one: &Tried, other: &Tried) -> std::cmp::Ordering {
+    one.1.partial_cmp(&other.1).unwrap_or(std::cmp::Ordering::Equal)
+}
+
 pub(super) struct Search<'a> {
-    pub(super) bench: &'a PreparedMesh,
+    pub(super) bench: &'a PreparedMesh<'a>,
     pub(super) grid: &'a Grid,
-    pub(super) meter: &'a Meter,
     pub(super) go_on: &'a dyn Fn(f64) -> bool,
-    pub(super) known: RefCell<HashMap<(bool, Steps), Cost>>,
-    /// The number of evaluated reliefs.
-    pub(super) tries: Cell<u64>,
+    /// The costs of the evaluated reliefs, by shape and steps.
+    pub(super) known: HashMap<(bool, Steps), Cost>,
 }
 
 impl Search<'_> {
+    /// The number of evaluated reliefs.
+    pub(super) fn tries(&self) -> u64 {
+        self.known.len() as u64
+    }
+
     /// The best relief of each kind without corner contact, those with equal gears last.
     ///
     /// # Errors
     /// Returns an error if no kind has such a relief, or if the user stops the search.
-    pub(super) fn best_of_each_kind(&self) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
+    pub(super) fn best_of_each_kind(
+        &mut self,
+    ) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
         let (mut own, mut alike) = (Vec::new(), Vec::new());
         for (shape, names) in KINDS {
             let best_alike = self.best(shape, true, None)?;
@@ -125,29 +129,25 @@ impl Search<'_> {
 
     /// Why no relief prevents corner contact.
     fn none(&self) -> NoRelief {
-        let grid = self.grid;
-        let [one, other] = grid.most_amounts;
-        let most = [one, other, grid.most_length, grid.most_length];
-        let overlap = self.bench.overlap(&grid.reliefs(ReliefShape::Linear, most));
-        let thin = (0..2).find(|&at| grid.tips[at] < grid.most_amount() + AMOUNT_STEP);
-        match thin {
+        let Grid { tips, most_amounts: [one, other], most_length, .. } = *self.grid;
+        let steps = [one, other, most_length, most_length];
+        let overlap = self.bench.overlap(&self.grid.reliefs(ReliefShape::Linear, steps));
+        let most = AMOUNT_STEP * f64::from(one.max(other));
+        match (0..2).find(|&at| tips[at] < most + AMOUNT_STEP) {
             Some(at) => {
-                NoRelief::ThinTip { gear: ["driver", "driven"][at], most: grid.tips[at], overlap }
+                NoRelief::ThinTip { gear: ["driver", "driven"][at], most: tips[at], overlap }
             }
-            None => NoRelief::Beyond { most: grid.most_amount(), overlap },
+            None => NoRelief::Beyond { most, overlap },
         }
     }
 
     /// The best relief of a kind; the search also follows `start`.
     fn best(
-        &self,
+        &mut self,
         shape: ReliefShape,
         is_alike: bool,
         start: Option<Tried>,
     ) -> Result<Option<Tried>, NoRelief> {
-        let by_cost = |one: &Tried, other: &Tried| {
-            one.1.partial_cmp(&other.1).unwrap_or(std::cmp::Ordering::Equal)
-        };
         let mut starts = self.starts(shape, is_alike)?;
         starts.sort_by(by_cost);
         starts.truncate(FOLLOWED[usize::from(is_alike)]);
@@ -161,7 +161,7 @@ impl Search<'_> {
 
     /// Reliefs of several lengths with the least amounts without corner contact, and with greater
     /// amounts.
-    fn starts(&self, shape: ReliefShape, is_alike: bool) -> Result<Vec<Tried>, NoRelief> {
+    fn starts(&mut self, shape: ReliefShape, is_alike: bool) -> Result<Vec<Tried>, NoRelief> {
         let grid = self.grid;
         let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
         let length = |part: f64| (part * most).round().max(least) as i32;
@@ -187,13 +187,14 @@ impl Search<'_> {
     /// The least amount, the same on both gears, without overlap; the greatest amount if there is
     /// none. Amounts are tried in rising order: a very large relief shifts load to the pair ahead,
     /// whose deflection causes an overlap again.
-    fn least_clear(&self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
+    fn least_clear(&mut self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
         const STRIDES: i32 = 24;
-        let overlaps = |amount: i32| {
-            let (overlaps, _) = self.cost(shape, self.grid.equal(amount, lengths))?;
+        let grid = self.grid;
+        let mut overlaps = |amount: i32| {
+            let (overlaps, _) = self.cost(shape, grid.equal(amount, lengths))?;
             Ok::<bool, NoRelief>(overlaps)
         };
-        let [one, other] = self.grid.most_amounts;
+        let [one, other] = grid.most_amounts;
         let greatest = one.max(other);
         let stride = (greatest / STRIDES).max(1);
         let (mut low, mut high) = (-1, 0);
@@ -216,7 +217,7 @@ impl Search<'_> {
 
     /// The best relief that steps in every direction find from a start, long steps first.
     fn followed(
-        &self,
+        &mut self,
         shape: ReliefShape,
         directions: &[Steps],
         start: Tried,
@@ -240,40 +241,32 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// The cost of a relief. Once the budget is spent, a relief that is not cached costs an
-    /// infinite overlap.
-    fn cost(&self, shape: ReliefShape, steps: Steps) -> Result<Cost, NoRelief> {
+    /// The cost of a relief. After the last try, a relief that is not known costs an infinite
+    /// overlap.
+    fn cost(&mut self, shape: ReliefShape, steps: Steps) -> Result<Cost, NoRelief> {
+        /// Part of the mean error in the cost, which decides between equal greatest errors.
+        const MEAN: f64 = 1e-3;
         let key = (shape == ReliefShape::Linear, steps);
-        if let Some(&known) = self.known.borrow().get(&key) {
+        if let Some(&known) = self.known.get(&key) {
             return Ok(known);
         }
-        if !(self.go_on)(self.meter.spent() as f64 / self.meter.limit() as f64) {
+        if !(self.go_on)(self.tries() as f64 / USUAL_TRIES) {
             return Err(NoRelief::Refused(Refusal::Stopped));
         }
-        if !self.meter.spend(0) {
+        if self.tries() >= MOST_TRIES {
             return Ok((true, f64::INFINITY));
         }
-        self.tries.set(self.tries.get() + 1);
-        let (reliefs, [errors, corners]) = (self.grid.reliefs(shape, steps), self.bench.costs);
-        self.meter.spend(corners);
+        let reliefs = self.grid.reliefs(shape, steps);
         let overlap = self.bench.overlap(&reliefs);
         let cost = if overlap > 0.0 {
             (true, overlap)
         } else {
-            self.meter.spend(errors);
-            (false, self.error(&reliefs))
+            let errors: Vec<f64> = self.bench.errors(&reliefs).collect();
+            let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+            (false, errors.into_iter().fold(0.0, f64::max) + MEAN * mean)
         };
-        self.known.borrow_mut().insert(key, cost);
+        self.known.insert(key, cost);
         Ok(cost)
-    }
-
-    /// The greatest transmission error over the loads, plus a thousandth of the mean, which decides
-    /// between equal errors.
-    fn error(&self, reliefs: &TipReliefs) -> f64 {
-        const MEAN: f64 = 1e-3;
-        let errors: Vec<f64> = self.bench.errors(reliefs).collect();
-        let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
-        errors.into_iter().fold(0.0, f64::max) + MEAN * mean
     }
 
     /// The map around a relief over both amounts and both lengths in proportion; the map contains
@@ -285,27 +278,22 @@ impl Search<'_> {
         const CLOSE: f64 = 0.03;
         let longest = self.grid.length_step * f64::from(self.grid.most_length);
         let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
-        let row = |part: f64| {
-            let scale = part * longest / greatest;
-            let point = |times: f64| {
-                let at = TipReliefs {
-                    shape: reliefs.shape,
-                    amounts: reliefs.amounts.map(|amount| times * amount),
-                    lengths: reliefs.lengths.map(|length| scale * length),
-                };
-                MapPoint {
-                    reliefs: at,
-                    error: self.bench.errors(&at).fold(0.0, f64::max),
-                    margin: -self.bench.overlap(&at),
-                }
-            };
-            AMOUNTS.into_iter().map(point).collect()
-        };
         let own = greatest / longest;
         let mut parts = LENGTHS.to_vec();
         parts.retain(|part| (part - own).abs() > CLOSE);
         parts.push(own);
         parts.sort_by(f64::total_cmp);
+        let point = |part: f64, times: f64| {
+            let scale = part * longest / greatest;
+            let reliefs = TipReliefs {
+                shape: reliefs.shape,
+                amounts: reliefs.amounts.map(|amount| times * amount),
+                lengths: reliefs.lengths.map(|length| scale * length),
+            };
+            let error = self.bench.errors(&reliefs).fold(0.0, f64::max);
+            MapPoint { reliefs, error, margin: -self.bench.overlap(&reliefs) }
+        };
+        let row = |part| AMOUNTS.map(|times| point(part, times)).to_vec();
         parts.into_iter().map(row).collect()
     }
 }
@@ -337,6 +325,16 @@ struct Place {
     first: i32,
 }
 
+impl Place {
+    fn eased(&self, relief: &Relief) -> PairSet {
+        self.pairs.widened(|ahead| {
+            let index = usize::try_from(ahead - self.first).unwrap_or(0);
+            let (driver, driven) = self.radii[index];
+            relief.at(driver, driven)
+        })
+    }
+}
+
 /// The places beyond both ends of the path of contact under one load.
 struct Corners {
     force: f64,
@@ -347,58 +345,72 @@ struct Corners {
 struct Pitch {
     force: f64,
     mesh: Mesh,
-    curvatures: Curvatures,
     places: Vec<OnceCell<Place>>,
 }
 
+/// A pair without tip reliefs, and its solution at the greatest load.
+struct BarePair<'a> {
+    inputs: Inputs,
+    solution: &'a Solution,
+    /// The geometry with the gears exchanged.
+    swapped: Geometry,
+}
+
 /// The prepared mesh.
-pub(super) struct PreparedMesh {
-    geometry: Geometry,
+pub(super) struct PreparedMesh<'a> {
+    pair: BarePair<'a>,
     reliefs: Reliefs,
     tolerance: f64,
     loads: Vec<Pitch>,
     corners: Corners,
-    /// Number of pairs at all places: of the transmission error and of the corners.
-    costs: [u64; 2],
 }
 
-impl PreparedMesh {
-    /// The mesh of a pair with its solution at the greatest load; `most` is the greatest sum of
-    /// both reliefs, in m.
+impl<'a> PreparedMesh<'a> {
+    /// The mesh of a pair with its solution at the greatest load; the grid has the greatest reliefs.
     ///
     /// # Errors
     /// Refusals of the mesh.
     pub(super) fn new(
         inputs: &Inputs,
-        solution: &Solution,
+        solution: &'a Solution,
         demand: &Demand,
         loads: &[f64],
-        most: f64,
-    ) -> Result<PreparedMesh, Refusal> {
-        let bare = bare(inputs);
-        let survey = Survey::new(&bare, solution, most)?;
+        grid: &Grid,
+    ) -> Result<PreparedMesh<'a>, Refusal> {
+        let [driver, driven] = grid.most_amounts;
+        let most = AMOUNT_STEP * f64::from(driver + driven);
+        let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..gear.clone() };
+        let (driver, driven) = (bare(&inputs.driver), bare(&inputs.driven));
+        let inputs = Inputs { driver, driven, ..inputs.clone() };
+        let shape = inputs.shape();
+        let swapped = PairShape { driver: shape.driven, driven: shape.driver, ..shape };
+        let pair = BarePair { inputs, solution, swapped: geometry(&swapped)? };
         let unit = solution.mesh_force / demand.loads.1;
-        let over_pitch = |load: &f64| survey.over_pitch(load * unit);
-        let loads = loads.iter().map(over_pitch).collect::<Result<Vec<_>, _>>()?;
-        let corners = survey.corners(solution.mesh_force)?;
-        let pairs = corners.places.iter().map(|place| place.radii.len() as u64);
+        let pitch = |load: &f64| {
+            let (force, places) = (load * unit, vec![OnceCell::new(); PLACES * BETWEEN]);
+            Ok(Pitch { force, mesh: pair.mesh((force, 0.0), most, 1.0)?, places })
+        };
         Ok(PreparedMesh {
-            geometry: solution.geometry,
-            reliefs: bare.reliefs(),
+            loads: loads.iter().map(pitch).collect::<Result<_, Refusal>>()?,
+            corners: pair.corners(most, 1.0)?,
+            reliefs: pair.inputs.reliefs(),
             tolerance: demand.tolerance,
-            costs: [
-                loads.iter().map(Pitch::cost).sum(),
-                tolerances(demand.tolerance).len() as u64 * pairs.sum::<u64>(),
-            ],
-            loads,
-            corners,
+            pair,
         })
     }
 
     /// The peak-to-peak transmission error at each load, in m.
     pub(super) fn errors(&self, reliefs: &TipReliefs) -> impl Iterator<Item = f64> {
         let relief = self.relief(reliefs, [0.0; 2]);
-        self.loads.iter().map(move |loaded| loaded.error(&relief))
+        self.loads.iter().map(move |pitch| {
+            let ahead = |at: usize| {
+                let eased = pitch.place(&self.pair, at).eased(&relief);
+                eased.balance(pitch.force).displacement
+            };
+            let even: Vec<f64> = (0..PLACES).map(|at| ahead(at * BETWEEN)).collect();
+            let opposite: Vec<f64> = even.iter().map(|ahead| -ahead).collect();
+            greatest(&even, &ahead) + greatest(&opposite, &|at| -ahead(at))
+        })
     }
 
     /// Overlap of the teeth before E or after B at the greatest load with the least favourable
@@ -411,27 +423,29 @@ impl PreparedMesh {
     ///
     /// # Errors
     /// Refusals of the mesh.
-    pub(super) fn overlap_under(
-        &self,
-        reliefs: &TipReliefs,
-        (inputs, solution): (&Inputs, &Solution),
-        times: f64,
-    ) -> Result<f64, Refusal> {
+    pub(super) fn overlap_under(&self, reliefs: &TipReliefs, times: f64) -> Result<f64, Refusal> {
         let most = reliefs.amounts[0] + reliefs.amounts[1] + 2.0 * self.tolerance;
-        let bare = bare(inputs);
-        let mut survey = Survey::new(&bare, solution, most)?;
-        survey.reach *= times.max(1.0);
-        Ok(self.overlap_of(reliefs, &survey.corners(times * solution.mesh_force)?))
+        Ok(self.overlap_of(reliefs, &self.pair.corners(most, times)?))
     }
 
     fn overlap_of(&self, reliefs: &TipReliefs, corners: &Corners) -> f64 {
-        let ways = tolerances(self.tolerance).into_iter();
-        let overlaps = ways.map(|off| corners.overlap(&self.relief(reliefs, off)));
+        let overlaps = tolerances(self.tolerance).into_iter().map(|off| {
+            let relief = self.relief(reliefs, off);
+            let leads = corners.places.iter();
+            let leads = leads.map(|place| place.eased(&relief).lead(0, corners.force));
+            leads.fold(f64::NEG_INFINITY, f64::max)
+        });
         overlaps.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    fn relief(&self, reliefs: &TipReliefs, off: [f64; 2]) -> Relief {
-        Relief::of(&with(self.reliefs, reliefs, off), &self.geometry)
+    /// The reliefs of the pair with other tip reliefs and their deviations.
+    fn relief(&self, tips: &TipReliefs, off: [f64; 2]) -> Relief {
+        let mut all = Reliefs { shape: tips.shape, ..self.reliefs };
+        for (at, gear) in [&mut all.driver, &mut all.driven].into_iter().enumerate() {
+            gear.tip = (tips.amounts[at] + off[at]).max(0.0);
+            gear.tip_length = Some(tips.lengths[at]);
+        }
+        Relief::of(&all, &self.pair.solution.geometry)
     }
 }
 
@@ -443,47 +457,13 @@ pub(super) fn tolerances(tolerance: f64) -> Vec<[f64; 2]> {
     pairs.collect()
 }
 
-/// The reliefs with other tip reliefs and their deviations.
-fn with(reliefs: Reliefs, tips: &TipReliefs, off: [f64; 2]) -> Reliefs {
-    let mut all = Reliefs { shape: tips.shape, ..reliefs };
-    for (at, gear) in [&mut all.driver, &mut all.driven].into_iter().enumerate() {
-        gear.tip = (tips.amounts[at] + off[at]).max(0.0);
-        gear.tip_length = Some(tips.lengths[at]);
-    }
-    all
-}
-
-/// The pair without tip reliefs.
-fn bare(inputs: &Inputs) -> Inputs {
-    let bare = |gear: &Gear| Gear { tip_relief: 0.0, ..gear.clone() };
-    Inputs { driver: bare(&inputs.driver), driven: bare(&inputs.driven), ..inputs.clone() }
-}
-
 impl Pitch {
-    /// Number of pairs at all places of a transmission error, about half of them near the turning
-    /// points.
-    fn cost(&self) -> u64 {
-        let pairs = |at: usize| self.place(at * BETWEEN).radii.len() as u64;
-        2 * (0..PLACES).map(pairs).sum::<u64>()
-    }
-
-    fn place(&self, at: usize) -> &Place {
-        let count = self.places.len();
-        self.places[at % count].get_or_init(|| {
-            let part = ((at % count) as f64 + 0.5) / count as f64;
-            self.curvatures.place(&self.mesh, part * self.mesh.base_pitch)
+    fn place(&self, pair: &BarePair, at: usize) -> &Place {
+        let at = at % self.places.len();
+        self.places[at].get_or_init(|| {
+            let part = (at as f64 + 0.5) / self.places.len() as f64;
+            pair.place(&self.mesh, part * self.mesh.base_pitch)
         })
-    }
-
-    /// The peak-to-peak transmission error, in m.
-    fn error(&self, relief: &Relief) -> f64 {
-        let ahead = |at: usize| {
-            let eased = self.place(at).eased(relief);
-            eased.balance(self.force).displacement
-        };
-        let even: Vec<f64> = (0..PLACES).map(|at| ahead(at * BETWEEN)).collect();
-        let opposite: Vec<f64> = even.iter().map(|ahead| -ahead).collect();
-        greatest(&even, &ahead) + greatest(&opposite, &|at| -ahead(at))
     }
 }
 
@@ -510,105 +490,49 @@ fn greatest(even: &[f64], value: &dyn Fn(usize) -> f64) -> f64 {
         }
         most
     };
-    let turns = (0..count).filter(exceeds).map(climbed);
-    turns.fold(even[0], f64::max)
+    (0..count).filter(exceeds).map(climbed).fold(even[0], f64::max)
 }
 
-impl Corners {
-    fn overlap(&self, relief: &Relief) -> f64 {
-        let leads = self.places.iter().map(|place| place.eased(relief).lead(0, self.force));
-        leads.fold(f64::NEG_INFINITY, f64::max)
-    }
-}
-
-impl Place {
-    fn eased(&self, relief: &Relief) -> PairSet {
-        self.pairs.widened(|ahead| {
-            let index = usize::try_from(ahead - self.first).unwrap_or(0);
-            let (driver, driven) = self.radii[index];
-            relief.at(driver, driven)
-        })
-    }
-}
-
-/// Data for the radii of curvature at a place.
-#[derive(Clone, Copy)]
-struct Curvatures {
-    geometry: Geometry,
-    swapped: Geometry,
-}
-
-struct Survey<'a> {
-    inputs: &'a Inputs,
-    solution: &'a Solution,
-    curvatures: Curvatures,
-    reach: f64,
-}
-
-impl<'a> Survey<'a> {
-    fn new(inputs: &'a Inputs, solution: &'a Solution, most: f64) -> Result<Survey<'a>, Refusal> {
+impl BarePair<'_> {
+    /// The mesh under a force with an error; `most` is the greatest sum of both reliefs, in m.
+    fn mesh(&self, load: (f64, f64), most: f64, times: f64) -> Result<Mesh, Refusal> {
         const FURTHER: f64 = 4.0;
-        let shape = inputs.shape();
-        let deviation = &solution.deviation;
-        let yields = deviation.loaded_deflection() + deviation.equivalent_error.abs();
-        Ok(Survey {
-            inputs,
-            solution,
-            curvatures: Curvatures {
-                geometry: solution.geometry,
-                swapped: geometry(&PairShape {
-                    driver: shape.driven,
-                    driven: shape.driver,
-                    ..shape
-                })?,
-            },
-            reach: FURTHER * (2.0 * yields + most + inputs.reliefs().sum()),
-        })
-    }
-
-    fn mesh(&self, force: f64, error: f64) -> Result<Mesh, Refusal> {
         let mut inputs = self.inputs.mesh();
         // The places apply the root reliefs together with the tip reliefs.
         (inputs.reliefs.driver.root, inputs.reliefs.driven.root) = (0.0, 0.0);
-        Mesh::new(&inputs, &self.solution.geometry, (force, error), self.reach, None)
+        let deviation = &self.solution.deviation;
+        let yields = deviation.loaded_deflection() + deviation.equivalent_error.abs();
+        let reach = FURTHER * (2.0 * yields + most + self.inputs.reliefs().sum()) * times;
+        Mesh::new(&inputs, &self.solution.geometry, load, reach, None)
     }
 
-    fn over_pitch(&self, force: f64) -> Result<Pitch, Refusal> {
-        Ok(Pitch {
-            force,
-            mesh: self.mesh(force, 0.0)?,
-            curvatures: self.curvatures,
-            places: vec![OnceCell::new(); PLACES * BETWEEN],
-        })
-    }
-
-    /// Places from the ends of the path of contact outwards, denser near the ends.
-    fn corners(&self, force: f64) -> Result<Corners, Refusal> {
-        let mesh = self.mesh(force, self.solution.deviation.equivalent_error)?;
+    /// Places from the ends of the path of contact outwards, denser near the ends, under `times` the
+    /// greatest load.
+    fn corners(&self, most: f64, times: f64) -> Result<Corners, Refusal> {
+        let force = times * self.solution.mesh_force;
+        let error = self.solution.deviation.equivalent_error;
+        let mesh = self.mesh((force, error), most, times.max(1.0))?;
         let (from, to) = mesh.ends();
         let part = |at: usize| (at as f64 / BEYOND as f64).powi(2);
         let before = (0..=BEYOND).map(|at| part(at) * from);
         let after = (0..=BEYOND).map(|at| mesh.length + part(at) * (to - mesh.length));
-        let places = before.chain(after);
-        Ok(Corners { force, places: places.map(|s| self.curvatures.place(&mesh, s)).collect() })
+        Ok(Corners { force, places: before.chain(after).map(|s| self.place(&mesh, s)).collect() })
     }
-}
 
-impl Curvatures {
     fn place(&self, mesh: &Mesh, s: f64) -> Place {
         let pairs = mesh.pair_set(s, s);
-        let way = |ahead: i32| s + f64::from(ahead) * mesh.base_pitch;
         let all = pairs.pairs().iter();
+        let way = |ahead: i32| s + f64::from(ahead) * mesh.base_pitch;
         Place {
-            radii: all.map(|pair| self.at(mesh, way(pair.ahead))).collect(),
+            radii: all.map(|pair| self.radii(mesh, way(pair.ahead))).collect(),
             first: pairs.pairs().first().map_or(0, |pair| pair.ahead),
             pairs,
         }
     }
 
     /// The radii of curvature of both flanks at the contact of a pair.
-    fn at(&self, mesh: &Mesh, s: f64) -> (f64, f64) {
-        let geometry = &self.geometry;
+    fn radii(&self, mesh: &Mesh, s: f64) -> (f64, f64) {
+        let geometry = &self.solution.geometry;
         if s < 0.0 {
             let tip = tip_at(geometry, -s / geometry.driven.base);
             return (tip.curvature_driver, geometry.driven.tip_curvature);

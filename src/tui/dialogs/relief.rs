@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 use super::boxes::{frame, page_height, room};
 use super::{Dialog, Outcome, Surroundings};
 use crate::model::Inputs;
-use crate::report::specification::{ReliefReport, settings};
+use crate::report::relief::{ReliefReport, settings};
 use crate::study::relief::{Demand, Specification};
 use crate::tui::actions::{Action, Effect};
 use crate::tui::ascii::printable;
@@ -27,8 +27,6 @@ const HEAD: u16 = 3;
 pub struct ReliefDialog {
     /// The typed load range and tolerance.
     pub(crate) input: Line,
-    name: String,
-    title: String,
     inputs: Inputs,
     /// The demand of the last search.
     searched: Option<Demand>,
@@ -41,11 +39,9 @@ pub struct ReliefDialog {
 
 impl ReliefDialog {
     /// The dialog on a pair, before its first search.
-    pub(crate) fn new(name: String, title: String, inputs: Inputs) -> ReliefDialog {
+    pub(crate) fn new(inputs: Inputs) -> ReliefDialog {
         ReliefDialog {
             input: Line::whole(Demand::USUAL.text()),
-            name,
-            title,
             inputs,
             searched: None,
             answer: None,
@@ -161,13 +157,7 @@ impl Dialog for ReliefDialog {
             return;
         }
         self.lines = match &found {
-            Ok(found) => ReliefReport {
-                name: &self.name,
-                title: &self.title,
-                method: self.inputs.method,
-                found,
-            }
-            .lines(),
+            Ok(found) => ReliefReport { method: self.inputs.method, found }.without_title(),
             Err(reason) => vec![reason.clone()],
         };
         self.answer = Some(found);
@@ -205,7 +195,7 @@ mod tests {
     #[test]
     fn esc_ends_a_running_search_and_has_no_effect_after_its_result() {
         let pair = standard_pair(20, 30, 5e-3);
-        let mut dialog = ReliefDialog::new("case".to_owned(), String::new(), pair);
+        let mut dialog = ReliefDialog::new(pair);
         assert!(dialog.close().is_empty(), "nothing is searched");
         let effects = dialog.search();
         let Some(Effect::Job(Job::Relief(request))) = effects.into_iter().next() else {

@@ -218,9 +218,7 @@ pub(super) fn ask_relief(app: &mut App) -> Vec<Effect> {
         app.complain("no search: fix the fields marked with ! first");
         return Vec::new();
     };
-    let title = index_of("title").and_then(|field| app.tab.case.text(field));
-    let title = title.unwrap_or_default().to_owned();
-    let mut dialog = ReliefDialog::new(app.tab.name(), title, inputs);
+    let mut dialog = ReliefDialog::new(inputs);
     let effects = dialog.search();
     app.prompts.push(Prompt::Relief(Box::new(dialog)));
     effects

@@ -141,7 +141,6 @@ fn tolerance(app: &App, inputs: &Inputs, quantity: &Quantity) -> Result<StudyPar
             .to_owned());
     }
     Ok(StudyParameters::Tolerance(Box::new(ToleranceParameters {
-        name: app.tab.short_name(),
         case: app.tab.case.clone(),
         inputs: inputs.clone(),
         quantity: quantity.key,

@@ -2,7 +2,6 @@
 //! axes, and of the benchmark.
 
 use std::io;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::{Running, Send, Worker};
@@ -13,12 +12,12 @@ use crate::model::solve::speeds;
 use crate::model::{Inputs, Quantity, Refusal, Stage, Stages, solve_while};
 use crate::report::charts::{chart_of_spectra, spectra, speed_chart, tooth_chart};
 use crate::report::tolerance::ToleranceReport;
-use crate::study::batch::{self, Batch, Control, Points, Refusals, Rows, Stopped, solve_all};
+use crate::study::batch::{self, Batch, Control, Points, Refusals, Row, Stopped, solve_all};
 use crate::study::sample::Design;
 use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Size, Tolerance};
-use crate::study::trade::{Trade, TradeParameters, trade};
+use crate::study::trade::{Trade, trade};
 use crate::tui::actions::Action;
 use crate::tui::jobs::{
     BenchmarkProgress, ChartPart, ChartRequest, ChartValues, End as BenchmarkEnd, Measuring,
@@ -102,12 +101,10 @@ pub(crate) fn start_benchmark(send: Send) -> io::Result<Worker<Measuring>> {
 
 /// Runs the benchmark to its end and sends each step.
 pub fn measure(measuring: &Measuring, running: Running<'_>) {
-    let parameters =
-        TradeParameters { within: measuring.inputs.within, patience: measuring.patience };
     let mut report = |sofar: &Trade| {
         (running.send)(benchmark_action(measuring, Some(sofar.clone()), None));
     };
-    let found = trade(&measuring.inputs, &parameters, running.is_wanted, &mut report);
+    let found = trade(&measuring.inputs, measuring.patience, running.is_wanted, &mut report);
     let (trade, end) = match found {
         Ok(trade) => (Some(trade), BenchmarkEnd::Whole),
         Err(Refusal::Stopped) => (None, BenchmarkEnd::Stopped),
@@ -137,17 +134,12 @@ fn solve(
     batch: &Batch,
     count: usize,
     running: Running<'_>,
-    take: &mut dyn FnMut(Rows) -> bool,
+    take: &mut dyn FnMut(usize, &[Row]) -> bool,
 ) -> Result<(), Stopped> {
-    let is_stopped = AtomicBool::new(!(running.is_wanted)());
     // One core stays free for the main loop and the solver.
     let cores = batch::jobs(None);
-    let control = Control {
-        jobs: Some(cores.saturating_sub(1).max(1)),
-        go_on: &|| !is_stopped.load(Ordering::Relaxed),
-        progress: &|_, _| is_stopped.store(!(running.is_wanted)(), Ordering::Relaxed),
-    };
-    solve_all(batch, 0..count, &control, take)
+    let jobs = Some(cores.saturating_sub(1).max(1));
+    solve_all(batch, 0..count, &Control { jobs, go_on: &|_, _| (running.is_wanted)() }, take)
 }
 
 fn solve_grid(
@@ -175,11 +167,10 @@ fn solve_layer(
     let batch = Batch { inputs, points: grid, quantities: &quantities };
     let (mut waiting, mut refusals) = (LayerFound::default(), Refusals::default());
     let mut sent = Instant::now();
-    let solved = solve(&batch, grid.count(), running, &mut |rows| {
-        refusals.count(&rows);
-        waiting.outcomes.extend(&rows.outcomes);
-        let values = (0..rows.outcomes.len()).map(|row| rows.values(row).next().flatten());
-        waiting.values.extend(values);
+    let solved = solve(&batch, grid.count(), running, &mut |first, rows| {
+        refusals.count(first, rows);
+        waiting.outcomes.extend(rows.iter().map(|row| row.outcome));
+        waiting.values.extend(rows.iter().map(|row| row.values.first().copied().flatten()));
         if sent.elapsed() > STEP {
             sent = Instant::now();
             waiting.refusals = refusals.clone();
@@ -205,8 +196,8 @@ fn sample(
     let batch = Batch { inputs, points: &study.design, quantities: &study.quantities };
     let (mut samples, mut sent) = (Samples::of(&study), Instant::now());
     let count = study.design.count();
-    let solved = solve(&batch, count, running, &mut |rows| {
-        samples.add(&rows);
+    let solved = solve(&batch, count, running, &mut |first, rows| {
+        samples.add(first, rows);
         let is_due = sent.elapsed() > PAGE_STEP && samples.outcomes.len() > 1;
         if is_due {
             sent = Instant::now();
@@ -232,17 +223,12 @@ fn page(parameters: &ToleranceParameters, study: &Tolerance, samples: &Samples) 
         ..study.clone()
     };
     let report = ToleranceReport {
-        name: &parameters.name,
         case: &parameters.case,
         method: parameters.inputs.method,
         study: &so_far,
         samples,
     };
-    let mut bytes = Vec::new();
-    // Writing into memory does not fail.
-    drop(report.write_for_screen(&mut bytes));
-    let mut lines: Vec<String> =
-        String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect();
+    let mut lines = report.lines_for_screen();
     let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
     lines.extend(refused);
     Found::Page(lines, solved as f64 / count as f64)
