@@ -8,7 +8,7 @@ use crate::case::sanitize::sanitize;
 use crate::numeric::decimal::shortest;
 use crate::study::axis::{AxisRange, with_unit};
 use crate::study::condition::{Condition, State};
-use crate::study::seek::{Crossing, Found, Sample, Segment};
+use crate::study::seek::{Found, Sample};
 
 /// A search and its result.
 #[derive(Clone, Copy)]
@@ -26,10 +26,10 @@ pub struct SeekReport<'a> {
 impl SeekReport<'_> {
     /// The result in one word.
     fn answer(&self) -> &'static str {
-        match &self.found.segments[..] {
-            [Segment { state: State::Met, .. }] => "always",
-            [Segment { state: State::NotMet, .. }] => "never",
-            [Segment { state: State::Unknown(_), .. }] => "unknown",
+        match self.found.segments()[..] {
+            [[Sample { state: State::Met, .. }, _]] => "always",
+            [[Sample { state: State::NotMet, .. }, _]] => "never",
+            [[Sample { state: State::Unknown(_), .. }, _]] => "unknown",
             _ => "crossings",
         }
     }
@@ -69,20 +69,20 @@ impl Results for SeekReport<'_> {
         }
         // A value with the digits that a bracket supports.
         let rounded = |number: f64| self.value(format!("{number:.9e}").parse().unwrap_or(number));
-        for Crossing { lower, upper } in &self.found.crossings {
+        for [lower, upper] in self.found.crossings() {
             let middle = rounded(lower.at + 0.5 * (upper.at - lower.at));
             let (below, above) = (word(&lower.state), word(&upper.state));
             lines.push(format!("  crossing at {middle}: {below} below, {above} above"));
             let [from, to] = [lower, upper].map(|sample| self.value(sample.at));
             lines.push(format!("    bracket {from} to {to}{}", self.values(lower, upper)));
         }
-        for Segment { from, to, state } in &self.found.segments {
-            let reason = match state {
+        for [first, last] in self.found.segments() {
+            let reason = match &first.state {
                 State::Unknown(problem) => format!(": {problem}"),
                 _ => String::new(),
             };
-            let [from, to] = [*from, *to].map(rounded);
-            lines.push(format!("  {} from {from} to {to}{reason}", word(state)));
+            let [from, to] = [first, last].map(|sample| rounded(sample.at));
+            lines.push(format!("  {} from {from} to {to}{reason}", word(&first.state)));
         }
         lines
     }
@@ -94,15 +94,16 @@ impl Results for SeekReport<'_> {
             let value = quantity.and_then(|known| Some(measured(known, (*value)?, None)));
             json!({"at": at, "state": name(state), "quantity": value})
         };
-        let crossing =
-            |Crossing { lower, upper }: &Crossing| json!({"from": end(lower), "to": end(upper)});
-        let segment = |Segment { from, to, state }: &Segment| {
+        let crossings = self.found.crossings().into_iter();
+        let crossings =
+            crossings.map(|[lower, upper]| json!({"from": end(lower), "to": end(upper)}));
+        let segments = self.found.segments().into_iter().map(|[Sample { at, state, .. }, last]| {
             let refusal = match state {
                 State::Unknown(problem) => Some(reason(problem)),
                 _ => None,
             };
-            json!({"from": from, "to": to, "state": name(state), "refusal": refusal})
-        };
+            json!({"from": at, "to": last.at, "state": name(state), "refusal": refusal})
+        });
         json!({
             "method": self.method,
             "vary": FIELDS[*field].key,
@@ -111,9 +112,9 @@ impl Results for SeekReport<'_> {
             "to": to,
             "until": self.condition.text,
             "answer": self.answer(),
-            "crossings": self.found.crossings.iter().map(crossing).collect::<Json>(),
-            "segments": self.found.segments.iter().map(segment).collect::<Json>(),
-            "solves": self.found.solves,
+            "crossings": crossings.collect::<Json>(),
+            "segments": segments.collect::<Json>(),
+            "solves": self.found.0.len(),
         })
     }
 }

@@ -32,35 +32,23 @@ pub struct Sample {
     pub value: Option<f64>,
 }
 
-/// Two neighbouring points between which the state changes.
+/// The result of a search: every solved point, in order.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Crossing {
-    /// The lower end of the bracket.
-    pub lower: Sample,
-    /// The upper end of the bracket.
-    pub upper: Sample,
-}
+pub struct Found(pub Vec<Sample>);
 
-/// A part of the range with one state.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Segment {
-    /// Its first point.
-    pub from: f64,
-    /// Its last point.
-    pub to: f64,
-    /// The state; an unknown state has the reason at its first point.
-    pub state: State,
-}
+impl Found {
+    /// Every change of the state: the neighbouring points between which it changes.
+    pub fn crossings(&self) -> Vec<[&Sample; 2]> {
+        let changes = self.0.windows(2).filter(|pair| !pair[0].state.is_like(&pair[1].state));
+        changes.map(|pair| [&pair[0], &pair[1]]).collect()
+    }
 
-/// The result of a search.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Found {
-    /// Every change of the state, in order.
-    pub crossings: Vec<Crossing>,
-    /// The parts of the range between them.
-    pub segments: Vec<Segment>,
-    /// Number of solves.
-    pub solves: usize,
+    /// The first and the last point of each part of the range with one state. An unknown state has
+    /// the reason at the first point.
+    pub fn segments(&self) -> Vec<[&Sample; 2]> {
+        let parts = self.0.chunk_by(|one, other| one.state.is_like(&other.state));
+        parts.filter_map(|part| Some([part.first()?, part.last()?])).collect()
+    }
 }
 
 /// Finds every value of a field at which a condition changes.
@@ -105,7 +93,7 @@ pub fn seek(
         samples.extend(solve(Axis { field: range.field, unit: range.unit.clone(), points })?);
         samples.sort_by(|one, other| one.at.total_cmp(&other.at));
     }
-    Ok(found(&samples))
+    Ok(Found(samples))
 }
 
 /// New points in the intervals that need refinement.
@@ -149,21 +137,4 @@ fn pieces(from: f64, to: f64) -> impl Iterator<Item = f64> {
     (1..PIECES)
         .map(move |piece| from + step * piece as f64)
         .filter(move |&number| from < number && number < to)
-}
-
-fn found(samples: &[Sample]) -> Found {
-    let changes = samples.windows(2).filter(|pair| !pair[0].state.is_like(&pair[1].state));
-    let crossings =
-        changes.map(|pair| Crossing { lower: pair[0].clone(), upper: pair[1].clone() }).collect();
-    let mut segments: Vec<Segment> = Vec::new();
-    for sample in samples {
-        match segments.last_mut() {
-            Some(segment) if segment.state.is_like(&sample.state) => segment.to = sample.at,
-            _ => {
-                let state = sample.state.clone();
-                segments.push(Segment { from: sample.at, to: sample.at, state });
-            }
-        }
-    }
-    Found { crossings, segments, solves: samples.len() }
 }

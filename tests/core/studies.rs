@@ -165,8 +165,8 @@ fn a_crossing_is_located_to_1e_9_and_agrees_with_plain_solves() {
     let case = Case::table_1();
     let found =
         sought(&case.inputs().unwrap(), "deviations.base_pitch=0..40 um", "impact_force<=2000 N");
-    let [crossing] = &found.crossings[..] else { panic!("one crossing: {:?}", found.crossings) };
-    let (lower, upper) = (&crossing.lower, &crossing.upper);
+    let crossings = found.crossings();
+    let [[lower, upper]] = crossings[..] else { panic!("one crossing: {crossings:?}") };
     assert_eq!((&lower.state, &upper.state), (&State::Met, &State::NotMet));
     assert!(upper.at - lower.at <= 1e-9 * upper.at && lower.at < upper.at);
     for sample in [lower, upper] {
@@ -182,8 +182,9 @@ fn a_crossing_is_located_to_1e_9_and_agrees_with_plain_solves() {
 fn never_always_and_unknown_are_answers_of_a_search() {
     let inputs = Case::table_1().inputs().unwrap();
     let states = |range, condition| {
-        let segments = sought(&inputs, range, condition).segments;
-        segments.into_iter().map(|segment| segment.state).collect::<Vec<_>>()
+        let found = sought(&inputs, range, condition);
+        let segments = found.segments().into_iter();
+        segments.map(|[first, _]| first.state.clone()).collect::<Vec<_>>()
     };
     let relief = "driven.tip_relief=0..20 um";
     assert_eq!(states(relief, "impact_force<=9 kN"), [State::Met]);
@@ -203,8 +204,9 @@ fn the_end_of_contact_is_where_the_deviation_vanishes() {
     let found = sought(&inputs, "driven.tip_relief=0..90 um", "outcome=no-corner-contact");
     let solution = solve(&inputs, Stages::of(Stage::Deviation)).unwrap();
     let end = solution.deviation.total * 1e6;
-    assert_eq!(found.crossings.len(), 1);
-    assert!((found.crossings[0].upper.at / end - 1.0).abs() < 1e-9);
+    let crossings = found.crossings();
+    assert_eq!(crossings.len(), 1);
+    assert!((crossings[0][1].at / end - 1.0).abs() < 1e-9);
 }
 
 #[test]
@@ -224,7 +226,8 @@ fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_th
         "operation.speed=3000..3600 rpm",
         &format!("dynamic_peak_force<={limit} N"),
     );
-    assert!(found.crossings.len() == 2, "{} of {most} N", found.crossings.len());
+    let count = found.crossings().len();
+    assert!(count == 2, "{count} of {most} N");
 }
 
 /// A design with uniform fields between -pi and pi, for the test functions of the literature.
