@@ -189,10 +189,9 @@ fn likely_units(
         let value = units::parse(&format!("{} {unit}", text.trim()), dimension, unit);
         value.is_ok_and(|value| (from..=to).contains(&value))
     };
-    let others = || dimension.symbols().filter(|&unit| unit != usual).filter(fits);
-    let first = std::iter::once(usual).chain(others()).find(fits);
-    let is_common = |unit: &&str| dimension.symbols().take(COMMON).any(|common| common == *unit);
-    let second = others().find(|unit| is_common(unit) && Some(*unit) != first);
+    let first = std::iter::once(usual).chain(dimension.symbols()).find(fits);
+    let is_other = |unit: &&str| *unit != usual && Some(*unit) != first && fits(unit);
+    let second = dimension.symbols().take(COMMON).find(is_other);
     first.into_iter().chain(second).collect()
 }
 

@@ -21,13 +21,9 @@ pub(crate) fn nearest<'n>(typed: &str, known: impl Iterator<Item = &'n str>) -> 
     let letters = sorted(typed);
     // With equal distances, prefers the name with the same letters: "mu" is a transposed "um", not
     // "m".
-    let is_nearer =
-        |a: (f64, &str), b: (f64, &str)| a.0 > b.0 || a.0 >= b.0 && sorted(a.1) == letters;
-    known
-        .map(|name| (likeness(name), name))
-        .filter(|&(likeness, _)| likeness >= limit)
-        .reduce(|best, next| if is_nearer(next, best) { next } else { best })
-        .map(|(_, name)| name)
+    let known = known.map(|name| (likeness(name), sorted(name) == letters, name));
+    let near = known.filter(|&(likeness, ..)| likeness >= limit);
+    near.min_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1))).map(|(.., name)| name)
 }
 
 fn sorted(name: &str) -> Vec<char> {

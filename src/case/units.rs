@@ -420,10 +420,10 @@ pub fn ending(typed: &str, dimension: Dimension, usual: &str) -> Option<String> 
     if parse(typed, dimension, usual).is_ok() {
         return None;
     }
-    let mut units = units_of(dimension).iter().filter_map(|unit| rest(unit, begun));
-    let plain = plain_spelling(usual);
-    let own = rest_of(usual, begun).or_else(|| rest_of(&plain, &plain_spelling(begun)));
-    own.or_else(|| units.next().filter(|_| units.next().is_none())).map(str::to_owned)
+    let fitting = units_of(dimension).iter().filter_map(|unit| Some((unit, rest(unit, begun)?)));
+    let fitting: Vec<_> = fitting.collect();
+    let own = fitting.iter().find(|(unit, _)| unit.symbol == usual || fitting.len() == 1);
+    own.map(|(_, rest)| (*rest).to_owned())
 }
 
 /// How further typing can change a text into another value.
@@ -464,14 +464,12 @@ fn begun_unit(typed: &str, dimension: Dimension) -> Option<&str> {
 
 /// The missing rest of the unit: of its symbol, or of the first matching spelling.
 fn rest(unit: &Unit, begun: &str) -> Option<&'static str> {
+    let plain = plain_spelling(begun);
     let mut spellings = std::iter::once(unit.symbol).chain(unit.aliases.iter().copied());
     spellings.find_map(|spelling| {
-        rest_of(spelling, begun).or_else(|| rest_of(spelling, &plain_spelling(begun)))
+        let rest = spelling.strip_prefix(begun).or_else(|| spelling.strip_prefix(&*plain));
+        rest.filter(|rest| !rest.is_empty())
     })
-}
-
-fn rest_of<'u>(spelling: &'u str, begun: &str) -> Option<&'u str> {
-    spelling.strip_prefix(begun).filter(|rest| !rest.is_empty())
 }
 
 /// Whether the text is only a number or the beginning of one, such as `-`, `0.` or `1e`.

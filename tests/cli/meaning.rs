@@ -369,23 +369,6 @@ fn a_note_reports_that_a_given_deflection_replaces_the_load() {
 }
 
 #[test]
-fn no_result_has_more_places_than_digits() {
-    let wide = [
-        "--set",
-        "driver.face_width=300 mm",
-        "--set",
-        "driven.face_width=300 mm",
-        "--set",
-        "operation.power=2 MW",
-    ];
-    let page = stdout_of(&[&["solve", TABLE_1, "--set", "model.deflection="][..], &wide].concat());
-    assert!(page.contains("F_0      mesh force                203.24 kN"), "{page}");
-    let places =
-        |word: &str| word.trim_start_matches('-').bytes().take_while(u8::is_ascii_digit).count();
-    assert!(page.split_whitespace().all(|word| places(word) < 6), "{page}");
-}
-
-#[test]
 fn auto_computes_what_a_limit_or_a_selected_quantity_needs_besides_its_choice() {
     const MILL: &str = "cases/mill-coarse-slow.toml";
     let by_auto = |command: &[&str]| {

@@ -43,7 +43,7 @@ impl Written {
             (None, Some((shape, width))) if own.starts_with(spread::PREFIX) => {
                 distribution(shape, width)
             }
-            _ => limit_value(text),
+            _ => number(text),
         };
         Written { table: table.into_iter().map(str::to_owned).collect(), name, value }
     }
@@ -68,12 +68,8 @@ fn written(case: &Case) -> Vec<Written> {
     given.map(|(key, text)| Written::of(&key, &text)).collect()
 }
 
-fn limit_value(text: &str) -> String {
-    if units::parse(text, Dimension::Number, "").is_ok() { number(text) } else { string(text) }
-}
-
 fn distribution(shape: &str, width: &str) -> String {
-    format!("{{ {shape} = {} }}", limit_value(width))
+    format!("{{ {shape} = {} }}", number(width))
 }
 
 /// Whether two cases have the same values, in any order.
