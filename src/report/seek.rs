@@ -92,7 +92,7 @@ impl Results for SeekReport<'_> {
         let quantity = self.condition.quantity();
         let end = |Sample { at, state, value }: &Sample| {
             let value = quantity.and_then(|known| Some(measured(known, (*value)?, None)));
-            json!({"at": at, "state": name(state), "quantity": value})
+            json!({"at": at, "state": word(state).replace(' ', "-"), "quantity": value})
         };
         let crossings = self.found.crossings().into_iter();
         let crossings =
@@ -102,7 +102,7 @@ impl Results for SeekReport<'_> {
                 State::Unknown(problem) => Some(reason(problem)),
                 _ => None,
             };
-            json!({"from": at, "to": last.at, "state": name(state), "refusal": refusal})
+            json!({"from": at, "to": last.at, "state": word(state).replace(' ', "-"), "refusal": refusal})
         });
         json!({
             "method": self.method,
@@ -126,9 +126,4 @@ fn word(state: &State) -> &'static str {
         State::NotMet => "not met",
         State::Unknown(_) => "unknown",
     }
-}
-
-/// A state in JSON.
-fn name(state: &State) -> &'static str {
-    if *state == State::NotMet { "not-met" } else { word(state) }
 }

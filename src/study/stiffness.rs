@@ -106,12 +106,58 @@ pub fn compare_flanks(inputs: &Inputs, points: usize) -> Result<Flanks, Refusal>
     let half_width = elasticity.half_width(&place, mesh_force);
     let models: Vec<_> =
         ToothCompliance::ALL.into_iter().filter(|model| model.name() != FIELD).collect();
+    let flank = |name, gear: &Gear, elastic: &ElasticGear, circles: &Circles, pitch_radius| {
+        let form_radius = Profile::of(&elastic.rack, circles).form_radius();
+        // In equal steps from the form circle to the tip.
+        let (form, tip, last) = (form_radius, circles.tip, points.max(LEAST_POINTS) - 1);
+        let inner = (0..last).map(|step| form + (tip - form) * step as f64 / last as f64);
+        let radii: Vec<f64> = if form < tip { inner.chain([tip]).collect() } else { Vec::new() };
+        let (mut columns, mut gaps) = (Vec::new(), Vec::new());
+        // The validity range is a property of each gear: that of a pair of two such gears.
+        let pair = Inputs { driver: gear.clone(), driven: gear.clone(), ..inputs.clone() };
+        for &model in &models {
+            let tooth = if (model.model().covers)(&pair) {
+                Tooth::of(model, elastic, circles).map_err(|refusal| refusal.to_string())
+            } else {
+                Err(format!("covers {} only", model.model().range))
+            };
+            let mut reason = tooth.as_ref().err().cloned();
+            // The form circle itself belongs to the fillet.
+            let least = form + STEP * (tip - form);
+            let value = |&radius: &f64| match tooth.as_ref().ok()?.at(radius.max(least)) {
+                Ok(value) => Some(value),
+                Err(refusal) => {
+                    reason = reason.take().or(Some(refusal.to_string()));
+                    None
+                }
+            };
+            columns.push(radii.iter().map(value).collect::<Vec<_>>());
+            gaps.extend(reason.map(|reason| Gap { model, reason }));
+        }
+        let (field, young) = (elastic.field(), elastic.young);
+        let known = field.as_ref().ok();
+        let points = radii.iter().enumerate().map(|(index, &radius)| Point {
+            radius,
+            models: columns.iter().map(|column| column[index]).collect(),
+            field: known.and_then(|field| field_point(field, radius, half_width, young)),
+        });
+        GearComparison {
+            gear: name,
+            teeth: gear.teeth,
+            form_radius,
+            tip_radius: tip,
+            pitch_radius,
+            twist: known.and_then(|field| field.twist()).map(|twist| twist / young),
+            refusal: field.as_ref().err().copied(),
+            gaps,
+            points: points.collect(),
+        }
+    };
     let (Elasticity { driver, driven, .. }, of) = (&elasticity, &geometry);
     let gears = [
-        Flank::of("driver", &inputs.driver, driver, &of.driver, place.radius_driver),
-        Flank::of("driven", &inputs.driven, driven, &of.driven, place.radius_driven),
+        flank("driver", &inputs.driver, driver, &of.driver, place.radius_driver),
+        flank("driven", &inputs.driven, driven, &of.driven, place.radius_driven),
     ];
-    let gears = gears.map(|flank| flank.compare(inputs, &models, points, half_width));
     Ok(Flanks { contact_half_width: half_width, models, gears })
 }
 
@@ -122,94 +168,6 @@ fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
     Masses::of(inputs, &geometry)?;
     let mesh_force = mesh_force(inputs.torque(), &geometry);
     Ok((geometry, mesh_force))
-}
-
-/// One gear of the pair.
-struct Flank<'a> {
-    name: &'static str,
-    gear: &'a Gear,
-    elastic: &'a ElasticGear,
-    circles: &'a Circles,
-    pitch_radius: f64,
-    form_radius: f64,
-}
-
-impl<'a> Flank<'a> {
-    fn of(
-        name: &'static str,
-        gear: &'a Gear,
-        elastic: &'a ElasticGear,
-        circles: &'a Circles,
-        pitch_radius: f64,
-    ) -> Flank<'a> {
-        let form_radius = Profile::of(&elastic.rack, circles).form_radius();
-        Flank { name, gear, elastic, circles, pitch_radius, form_radius }
-    }
-
-    fn compare(
-        &self,
-        inputs: &Inputs,
-        models: &[ToothCompliance],
-        points: usize,
-        half_width: f64,
-    ) -> GearComparison {
-        // In equal steps from the form circle to the tip.
-        let (form, tip) = (self.form_radius, self.circles.tip);
-        let last = points.max(LEAST_POINTS) - 1;
-        let inner = (0..last).map(|step| form + (tip - form) * step as f64 / last as f64);
-        let radii: Vec<f64> = if form < tip { inner.chain([tip]).collect() } else { Vec::new() };
-        let (mut columns, mut gaps) = (Vec::new(), Vec::new());
-        for &model in models {
-            let (column, reason) = self.column(inputs, model, &radii);
-            columns.push(column);
-            gaps.extend(reason.map(|reason| Gap { model, reason }));
-        }
-        let (field, young) = (self.elastic.field(), self.elastic.young);
-        let known = field.as_ref().ok();
-        let points = radii.iter().enumerate().map(|(index, &radius)| Point {
-            radius,
-            models: columns.iter().map(|column| column[index]).collect(),
-            field: known.and_then(|field| field_point(field, radius, half_width, young)),
-        });
-        GearComparison {
-            gear: self.name,
-            teeth: self.gear.teeth,
-            form_radius: form,
-            tip_radius: tip,
-            pitch_radius: self.pitch_radius,
-            twist: known.and_then(|field| field.twist()).map(|twist| twist / young),
-            refusal: field.as_ref().err().copied(),
-            gaps,
-            points: points.collect(),
-        }
-    }
-
-    /// The compliance by a model at each radius, with the reason if values are absent.
-    fn column(
-        &self,
-        inputs: &Inputs,
-        model: ToothCompliance,
-        radii: &[f64],
-    ) -> (Vec<Option<f64>>, Option<String>) {
-        let none = |reason: String| (vec![None; radii.len()], Some(reason));
-        // The validity range is a property of each gear: that of a pair of two such gears.
-        let (driver, driven) = (self.gear.clone(), self.gear.clone());
-        if !(model.model().covers)(&Inputs { driver, driven, ..inputs.clone() }) {
-            return none(format!("covers {} only", model.model().range));
-        }
-        let tooth = match Tooth::of(model, self.elastic, self.circles) {
-            Ok(tooth) => tooth,
-            Err(refusal) => return none(refusal.to_string()),
-        };
-        // The form circle itself belongs to the fillet.
-        let least = self.form_radius + STEP * (self.circles.tip - self.form_radius);
-        let mut reason = None;
-        let value = |&radius: &f64| {
-            let value = tooth.at(radius.max(least));
-            value.inspect_err(|refusal| reason = reason.take().or(Some(refusal.to_string()))).ok()
-        };
-        (radii.iter().map(value).collect(), reason)
-    }
 }
 
 /// The distance from the form circle at which a model has a value, relative to the flank.
