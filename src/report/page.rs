@@ -2,36 +2,23 @@
 
 use std::fmt::Write;
 
-use super::charts::{NamedCase, Solved};
+use super::charts::NamedCase;
 use super::compare::{ComparedCase, Comparison, Row};
 use super::pictures::{Picture, pictures};
+use super::solve::Subject;
 use super::table::{Cell, Column, Table};
 use super::verdict::verdicts;
-use super::{Report, Selection, common_unit, groups, shown_with, solve, text, value};
+use super::{Report, common_unit, groups, shown_with, text, value};
 use crate::case::changes::label;
 use crate::case::fields::index_of;
 use crate::case::file::without_comments;
 use crate::case::sanitize::{one_line, sanitize};
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
-use crate::model::inputs::Method;
-use crate::model::{Inputs, Quantity};
-use crate::study::batch::{Control, Stopped};
-use crate::study::condition::{distinct, headline};
+use crate::model::Quantity;
 use crate::study::statistics::{Estimate, PERCENTILES};
-use crate::study::tolerance::{Samples, Size, Tolerance};
+use crate::study::tolerance::{Samples, Tolerance};
 use askama::Template;
-
-/// A solved case with the text of its file.
-#[derive(Debug)]
-pub struct Subject {
-    /// The results.
-    pub solved: Solved,
-    /// The studies of the case.
-    pub studies: Studies,
-    /// The text of the case file.
-    pub file: String,
-}
 
 /// A case of the page.
 struct PageCase {
@@ -160,7 +147,7 @@ impl PageCase {
             verdict: text::verdict(report),
             limits: limits.collect(),
             notes: report.notes.iter().map(|note| sanitize(&note.message)).collect(),
-            studies: subject.studies.tables(&report.case),
+            studies: tables(subject, &report.case),
             lines,
             fence: "`".repeat(longest.max(2) + 1),
             link: address(&subject.file),
@@ -238,81 +225,12 @@ fn results(reports: &[&Report], cases: &[PageCase]) -> Vec<Table> {
     tables.filter(|table| !table.rows.is_empty()).collect()
 }
 
-/// Samples of a closed form, as in the command `tolerance`.
-const SAMPLES: usize = 10_000;
-/// Samples of a method that shares the load: a solve takes a hundred times as long.
-const FEW_SAMPLES: usize = 1000;
-/// Seed of the command `tolerance`.
-const SEED: u64 = 1;
-/// Quantities of variants in addition to the headline quantities.
-const OF_VARIANTS: [&str; 4] =
-    ["total_deviation", "static_te_peak_to_peak", "mesh_force_factor", "steady_back_strikes"];
-
-/// The studies of a case.
-#[derive(Debug, Default)]
-pub struct Studies {
-    variants: Option<Comparison>,
-    tolerance: Option<(Tolerance, Samples)>,
-}
-
-impl Studies {
-    /// Computes the studies of the case: its `[variants]` and its `[spread]`. `go_on` receives the
-    /// number of solved points and their total.
-    ///
-    /// # Errors
-    /// [`Stopped`] if `go_on` returns false.
-    pub fn of(
-        case: &Case,
-        inputs: &Inputs,
-        go_on: &dyn Fn(usize, usize) -> bool,
-    ) -> Result<Studies, Stopped> {
-        let variants = variants(case, inputs, go_on)?;
-        let control = Control { jobs: None, go_on };
-        let is_slow = inputs.method.shares_load() || inputs.method == Method::Auto;
-        let samples = if is_slow { FEW_SAMPLES } else { SAMPLES };
-        let size = Size { samples, seed: SEED, ranked: Some(0) };
-        let tolerance = match Tolerance::of(case, inputs, &[], size) {
-            Ok(study) => Some((study.run(inputs, &control)?, study)),
-            Err(_) => None,
-        };
-        Ok(Studies { variants, tolerance: tolerance.map(|(samples, study)| (study, samples)) })
-    }
-
-    fn tables(&self, case: &Case) -> Vec<Table> {
-        let variants = self.variants.iter().map(of_variants);
-        let tolerance = self.tolerance.iter();
-        let tolerance = tolerance.map(|(study, samples)| of_tolerance(case, study, samples));
-        variants.chain(tolerance).collect()
-    }
-}
-
-/// The case and its variants; `None` without variants.
-fn variants(
-    case: &Case,
-    inputs: &Inputs,
-    go_on: &dyn Fn(usize, usize) -> bool,
-) -> Result<Option<Comparison>, Stopped> {
-    if case.variants.is_empty() {
-        return Ok(None);
-    }
-    let cases: Vec<(&str, Case)> = std::iter::once(("case", case.clone()))
-        .chain(case.variants.iter().map(|one| (one.name.as_str(), case.with(one))))
-        .collect();
-    let methods = cases.iter().filter_map(|(_, case)| Some(case.inputs().ok()?.method));
-    let methods: Vec<Method> = methods.chain([inputs.method]).collect();
-    let others = OF_VARIANTS.iter().filter_map(|key| Quantity::find(key));
-    let selection = Selection {
-        only: distinct(headline(case, &methods).into_iter().chain(others)),
-        stations: false,
-    };
-    let count = cases.len();
-    let solved = cases.into_iter().enumerate().map(|(at, (name, case))| {
-        if !go_on(at, count) {
-            return Err(Stopped);
-        }
-        Ok(solve::compared(name.to_owned(), case, &selection))
-    });
-    Ok(Some(Comparison { cases: solved.collect::<Result<_, _>>()?, selection }))
+/// The tables of the studies of a case.
+fn tables(subject: &Subject, case: &Case) -> Vec<Table> {
+    let variants = subject.variants.iter().map(of_variants);
+    let tolerance = subject.tolerance.iter();
+    let tolerance = tolerance.map(|(study, samples)| of_tolerance(case, study, samples));
+    variants.chain(tolerance).collect()
 }
 
 fn of_variants(comparison: &Comparison) -> Table {
@@ -371,7 +289,7 @@ fn of_tolerance(case: &Case, study: &Tolerance, samples: &Samples) -> Table {
     let refused = Some(samples - summary.solved).filter(|&refused| refused > 0);
     let refused = refused.map_or_else(String::new, |refused| format!(", {refused} refused"));
     let spread = format!("Spread: {}.", spread.join("; "));
-    let title = format!("Tolerance, {samples} samples{refused}, seed {SEED}");
+    let title = format!("Tolerance, {samples} samples{refused}, seed {}", study.design.seed);
     Table {
         notes: [spread].into_iter().chain(contact).chain(limits).collect(),
         ..Table::new(title, columns).with(rows)

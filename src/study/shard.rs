@@ -29,6 +29,8 @@ pub enum Format {
     Csv,
     /// Tables in Markdown
     Md,
+    /// A page with charts
+    Html,
 }
 
 /// A case and the study of that case.

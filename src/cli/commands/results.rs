@@ -17,9 +17,9 @@ use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Solution, Stages};
 use crate::report::compare::{ComparedCase, Comparison};
 use crate::report::explain::{explain, render, write_json};
-use crate::report::export::{ReportFormat, subject};
+use crate::report::export::{ENDINGS, format_of, render as render_report};
 use crate::report::pictures::{NoPicture, Picture, find, pictures};
-use crate::report::solve::compared;
+use crate::report::solve::{compared, subject};
 use crate::report::verdict::{self, Standing, refused, stages, stages_beside, verdicts};
 use crate::report::{self, Selection, data, text};
 use crate::study::shard::Format;
@@ -88,7 +88,7 @@ fn print(
     match format {
         Format::Json => data::write_json(&report, out),
         Format::Csv => data::write_csv(&report, first, out),
-        Format::Text | Format::Md => {
+        Format::Text | Format::Md | Format::Html => {
             let blank = if first { "" } else { "\n" };
             write!(out, "{blank}{}", text::render(&report.with_others()))
         }
@@ -272,7 +272,7 @@ impl Compare {
             Format::Text => comparison.write(out)?,
             Format::Csv => comparison.write_csv(out)?,
             Format::Json => comparison.write_json(out)?,
-            Format::Md => comparison.write_markdown(out)?,
+            Format::Md | Format::Html => comparison.write_markdown(out)?,
         }
         for (case, (_, edits, document)) in comparison.cases.iter().zip(&edited) {
             for problem in case.found.as_ref().err().into_iter().flatten() {
@@ -364,11 +364,11 @@ pub struct Report {
 impl Report {
     pub(super) fn run(&self, streams: &mut Streams) -> Done {
         let Report { input: Cases { cases, changes }, out } = self;
-        let Some(format) = ReportFormat::of(out) else {
+        let Some(format) = format_of(out) else {
             return Err(Failure::usage(format!(
                 "--out {}: the file extension selects the format: use {}",
                 out.display(),
-                ReportFormat::ENDINGS
+                ENDINGS
             )));
         };
         check_out(Some(out), &cases.iter().map(AsRef::as_ref).collect::<Vec<_>>())?;
@@ -377,7 +377,7 @@ impl Report {
         let worst = cases::each(cases, streams, |path, streams| {
             let opened = cases::open(path, &edits, &[], streams)?;
             // Ctrl-C ends the program.
-            let solved = opened.unsolved().solve(format.has_stations()).and_then(|report| {
+            let solved = opened.unsolved().solve(format != Format::Csv).and_then(|report| {
                 let file = opened.document.render();
                 follow("parts", |go_on| subject(report, file, format, go_on))
             });
@@ -385,7 +385,7 @@ impl Report {
             Ok(Exit::Done)
         })?;
         if !subjects.is_empty() {
-            let text = format.render(&subjects)?;
+            let text = render_report(format, &subjects)?;
             write_to(Some(out), streams, |sink| sink.write_all(text.as_bytes()))?;
         }
         Ok(worst)

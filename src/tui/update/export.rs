@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::report::export::{self as exports, ReportFormat};
+use crate::report::export as exports;
 use crate::report::pictures::{Picture, find};
 use crate::report::{self, Report, Selection};
 use crate::tui::actions::Effect;
@@ -62,7 +62,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
         app.complain(format!(
             "not exported: no chart is visible. {chart} and {teeth} show the chart and the teeth; \
                 {} write the report",
-            ReportFormat::ENDINGS
+            exports::ENDINGS
         ));
         return Vec::new();
     }

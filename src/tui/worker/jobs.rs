@@ -11,11 +11,12 @@ use crate::model::{self, Inputs, Refusal, Stages};
 use crate::report::charts::Solved;
 use crate::report::digest::Digest;
 use crate::report::explain;
-use crate::report::export::{self, ReportFormat};
-use crate::report::page::{Page, Studies, Subject};
-use crate::report::pictures::{NoPicture, Picture, Unsolved};
-use crate::report::solve;
+use crate::report::export;
+use crate::report::page::Page;
+use crate::report::pictures::{NoPicture, Unsolved};
+use crate::report::solve::{self, Subject};
 use crate::study::relief::{NoRelief, specify};
+use crate::study::shard::Format;
 use crate::tui::actions::Action;
 use crate::tui::jobs::{
     Explained, Explaining, ExportFault, Exporting, Job, ReliefAnswer, ReliefRequest, Reporting,
@@ -79,11 +80,8 @@ fn failed(job: &Job) -> Action {
 }
 
 fn markdown(reporting: Reporting) -> String {
-    let subject = Subject {
-        solved: Solved { reports: vec![reporting.report.with_others()], ..Solved::default() },
-        studies: Studies::default(),
-        file: reporting.file,
-    };
+    let solved = Solved { reports: vec![reporting.report.with_others()], ..Solved::default() };
+    let subject = Subject { solved, file: reporting.file, ..Subject::default() };
     Page::of(&[subject]).markdown().unwrap_or_else(|error| error.to_string())
 }
 
@@ -134,12 +132,6 @@ fn explained(explaining: Explaining) -> Explained {
     Explained { quantity, page }
 }
 
-/// The content of the file.
-enum ExportSubject {
-    Picture(Picture),
-    Report(ReportFormat),
-}
-
 /// Solves the case and writes the file. Returns the full path.
 fn write_export(
     exporting: &Exporting,
@@ -165,38 +157,28 @@ fn export_text(
     path: &Path,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<String, String> {
-    let format = ReportFormat::of(path);
-    let subject = match (exporting.picture, format) {
-        (Some(picture), _) => ExportSubject::Picture(picture),
-        (None, Some(format)) => ExportSubject::Report(format),
-        (None, None) => {
-            return Err(format!(
-                "unknown file extension: use {} for the report, or .svg for the picture",
-                ReportFormat::ENDINGS
-            ));
-        }
-    };
     let source = Unsolved {
         name: &exporting.name,
         case: &exporting.document.case,
         inputs: &exporting.inputs,
     };
     let go_on = |done: usize, of: usize| go_on(done as f64 / of.max(1) as f64);
-    let format = match subject {
-        ExportSubject::Picture(picture) => {
-            return picture.of_case(source, &go_on).map_err(|reason| match reason {
-                NoPicture::Refused(refusal) => refused(&refusal),
-                NoPicture::Absent(reason) => reason,
-            });
-        }
-        ExportSubject::Report(format) => format,
+    if let Some(picture) = exporting.picture {
+        return picture.of_case(source, &go_on).map_err(|reason| match reason {
+            NoPicture::Refused(refusal) => refused(&refusal),
+            NoPicture::Absent(reason) => reason,
+        });
+    }
+    let Some(format) = export::format_of(path) else {
+        return Err(format!(
+            "unknown file extension: use {} for the report, or .svg for the picture",
+            export::ENDINGS
+        ));
     };
-    let report = source.solve(format.has_stations());
-    let report = report.map_err(|refusal| refused(&refusal))?;
-    let file = exporting.document.render();
-    let subject = export::subject(report, file, format, &go_on);
+    let report = source.solve(format != Format::Csv).map_err(|refusal| refused(&refusal))?;
+    let subject = solve::subject(report, exporting.document.render(), format, &go_on);
     let subject = subject.map_err(|refusal| refused(&refusal))?;
-    format.render(&[subject]).map_err(|error| error.to_string())
+    export::render(format, &[subject]).map_err(|error| error.to_string())
 }
 
 fn refused(refusal: &Refusal) -> String {
