@@ -29,7 +29,7 @@ pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};
 pub use file::Document;
-pub use problem::{Fix, Problem};
+pub use problem::{Fix, NEWER_FORMAT, Problem};
 pub use spread::Spread;
 pub use variant::{Override, Variant};
 

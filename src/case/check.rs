@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use super::fields::{Absent, FIELDS, Field, index_of};
+use super::problem::MISSING;
 use super::{Case, Fix, Limit, Problem};
 use crate::case::fields::{AUTO, Kind, Range, Value};
 use crate::case::sanitize::{cut, quoted};
@@ -63,7 +64,8 @@ pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem
             Ok(())
         }
         (None, Absent::Refused) => {
-            Err(Problem::new(known.key, "a required value is missing", addition(known)))
+            let cause = "a required value is missing";
+            Err(Problem::new(known.key, cause, addition(known)).coded(MISSING))
         }
         (None, Absent::Without(_) | Absent::Either) => Ok(()),
     }
@@ -92,7 +94,7 @@ fn neither_given(case: &Case, field: usize) -> Option<Problem> {
         known.absent == Absent::Either && case.text(field).is_none() && case.text(other).is_none();
     is_missing.then(|| {
         let cause = format!("neither {} nor {} is given", known.key, named.key);
-        Problem::new(known.key, cause, addition(known))
+        Problem::new(known.key, cause, addition(known)).coded(MISSING)
     })
 }
 
@@ -349,8 +351,8 @@ impl Height<'_> {
         let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * sign * coefficient));
         let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
         let fix = format!("write a diameter from {least} to {most} mm");
-        let code = "diameter-outside-range".into();
-        Some(Problem { code, ..Problem::new(FIELDS[self.diameter].key, cause, fix) })
+        let problem = Problem::new(FIELDS[self.diameter].key, cause, fix);
+        Some(problem.coded("diameter-outside-range"))
     }
 
     fn bore_through_root(&self, module: f64, key: &str) -> Option<Problem> {
@@ -364,7 +366,7 @@ impl Height<'_> {
                     + x)"
             );
             let fix = format!("write a radius (not a diameter) below {root} mm");
-            Problem { code: "bore-through-root".into(), ..Problem::new(key, cause, fix) }
+            Problem::new(key, cause, fix).coded("bore-through-root")
         })
     }
 }

@@ -13,11 +13,11 @@ use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::stamp::Stamp;
-use super::{Case, Problem};
+use super::{Case, NEWER_FORMAT, Problem};
 use crate::system::files;
 pub use comments::without_comments;
-pub use fault::{Fault, FaultKind, ReadError, SaveError};
-use fault::{Found, place, shown};
+pub use fault::{Fault, ReadError, SaveError};
+use fault::{place, shown};
 use layout::Layout;
 use save::target_of;
 pub use save::{Draft, followed, write};
@@ -107,7 +107,7 @@ impl Document {
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = read::read(unmarked, is_newer);
         if !is_newer && !reading.is_draft() {
-            return Err(Found::placed(name, unmarked, reading.faults));
+            return Err(Fault::placed(name, unmarked, reading.faults));
         }
         Ok(Document { is_newer, ..Document::with(name.to_owned(), reading.case, text) })
     }
@@ -184,7 +184,7 @@ impl Document {
         let name = shown(path);
         let parse = |bytes: Vec<u8>| {
             Document::of(&name, &bytes, is_newer).map_err(|mut faults| match &faults[..] {
-                [only] if only.kind == FaultKind::NewerFormat => {
+                [only] if &*only.problem.code == NEWER_FORMAT => {
                     ReadError::NewerFormat(faults.remove(0))
                 }
                 _ => ReadError::Bad(faults),

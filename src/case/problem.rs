@@ -20,6 +20,11 @@ pub struct Problem {
     pub fix: Fix,
 }
 
+/// The code of a required value that is missing.
+pub(super) const MISSING: &str = "missing";
+/// The code of a file of a newer format.
+pub const NEWER_FORMAT: &str = "newer-format";
+
 /// How to fix a problem.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Fix {
@@ -40,6 +45,12 @@ impl Problem {
         Problem { field: field.to_owned(), code: "".into(), cause: cause.into(), fix: fix.into() }
     }
 
+    /// The same problem with a code.
+    #[must_use]
+    pub(super) fn coded(self, code: &str) -> Problem {
+        Problem { code: code.into(), ..self }
+    }
+
     /// The same problem of another field.
     #[must_use]
     pub fn at(self, field: &str) -> Problem {
@@ -56,8 +67,8 @@ impl Problem {
 
 impl From<&Refusal> for Problem {
     fn from(refusal: &Refusal) -> Problem {
-        let code = refusal.code().into();
-        Problem { code, ..Problem::new(key_of(refusal.at()), refusal.to_string(), refusal.fix()) }
+        let field = key_of(refusal.at());
+        Problem::new(field, refusal.to_string(), refusal.fix()).coded(refusal.code())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Every invalid file is refused at the correct place with cause and fix: a syntax error alone,
 //! otherwise all faults in one run.
-use tipstrike::case::Document;
-use tipstrike::case::file::{Fault, FaultKind, MOST_BYTES};
+use tipstrike::case::file::{Fault, MOST_BYTES};
+use tipstrike::case::{Document, NEWER_FORMAT};
 
 const GOOD: &str = include_str!("../../cases/zhou-chen-2014.toml");
 
@@ -23,12 +23,13 @@ fn expect(text: &str, rows: &[Row<'_>]) {
     for (fault, &(line, column, field, cause, fix)) in found.iter().zip(rows) {
         let shown = printed(&found);
         assert_eq!(
-            (fault.line, fault.column, fault.field.as_str()),
+            (fault.line, fault.column, fault.problem.field.as_str()),
             (line, column, field),
             "{text:?}\n{shown}"
         );
-        assert!(fault.cause.contains(cause), "cause {cause:?} of {shown}");
-        assert!(fault.fix.contains(fix), "fix {fix:?} of {shown}");
+        let problem = &fault.problem;
+        assert!(problem.cause.contains(cause), "cause {cause:?} of {shown}");
+        assert!(problem.fix.to_string().contains(fix), "fix {fix:?} of {shown}");
     }
 }
 
@@ -217,7 +218,7 @@ fn a_missing_value_is_reported_at_its_key_its_table_or_the_end() {
 fn an_empty_file_lacks_every_required_value() {
     for text in ["", "\u{feff}", "\n\n", "# a comment"] {
         let found = faults(text);
-        let fields: Vec<&str> = found.iter().map(|fault| fault.field.as_str()).collect();
+        let fields: Vec<&str> = found.iter().map(|fault| fault.problem.field.as_str()).collect();
         let needed = [
             "format",
             "pair.module",
@@ -309,10 +310,10 @@ fn a_newer_format_is_reported_alone() {
     let found =
         faults(&GOOD.replacen("format = 1", "format = 2", 1).replacen(MODULE, "modulus = 5", 1));
     assert_eq!(found.len(), 1, "{}", printed(&found));
-    assert_eq!((found[0].kind, found[0].line, found[0].column), (FaultKind::NewerFormat, 6, 10));
-    assert!(found[0].fix.contains("newer tipstrike"));
+    assert_eq!((&*found[0].problem.code, found[0].line, found[0].column), (NEWER_FORMAT, 6, 10));
+    assert!(found[0].to_string().contains("newer tipstrike"));
     let text = faults(&GOOD.replacen("format = 1", "format = \"1\"", 1));
-    assert_eq!((text.len(), text[0].kind), (1, FaultKind::Bad));
+    assert_eq!((text.len(), &*text[0].problem.code), (1, ""));
 }
 
 #[test]
@@ -340,8 +341,8 @@ fn a_flood_of_faults_is_cut() {
             (0..50_000).map(|number| line.replace('#', &number.to_string())).collect();
         let found = faults(&format!("format = 1\n{table}{}\n", flood.join("\n")));
         assert_eq!(found.len(), 101, "{line}");
-        assert!(found.iter().any(|fault| fault.field == first), "{line}: {}", found[0]);
-        assert_eq!(found[100].cause, "and more faults", "{line}");
+        assert!(found.iter().any(|fault| fault.problem.field == first), "{line}: {}", found[0]);
+        assert_eq!(found[100].problem.cause, "and more faults", "{line}");
     }
 }
 

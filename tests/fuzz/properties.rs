@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 use tipstrike::case::fields::{index_of, key_of};
-use tipstrike::case::file::{Fault, FaultKind};
-use tipstrike::case::{Document, FIELDS};
+use tipstrike::case::file::Fault;
+use tipstrike::case::{Document, FIELDS, NEWER_FORMAT};
 use tipstrike::model::{Inputs, Refusal, Solution, Station};
 use tipstrike::report::{self, Report, Selection};
 
@@ -46,13 +46,16 @@ pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
         assert!((1..=columns).contains(&fault.column), "{fault} is not in {text:?}");
         let message = fault.to_string();
         assert!(!message.contains('\n') && message.chars().count() < 1000, "{message}");
-        assert!(!fault.cause.is_empty() && !fault.fix.is_empty(), "{message}");
+        assert!(
+            !fault.problem.cause.is_empty() && !fault.problem.fix.to_string().is_empty(),
+            "{message}"
+        );
         assert_safe(&message);
     }
     let ordered = faults.is_sorted_by_key(|fault| (fault.line, fault.column));
     assert!(ordered, "in the order of the places: {faults:?}");
     assert!(
-        faults.len() == 1 || faults.iter().all(|fault| fault.kind == FaultKind::Bad),
+        faults.len() == 1 || faults.iter().all(|fault| &*fault.problem.code != NEWER_FORMAT),
         "{faults:?}"
     );
 }

@@ -12,15 +12,6 @@ use crate::case::sanitize::{cut, sanitize};
 /// Greatest number of faults shown for one file.
 pub(super) const MOST: usize = 100;
 
-/// The reason why a file is refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FaultKind {
-    /// The text is not a valid case.
-    Bad,
-    /// The file has a newer format.
-    NewerFormat,
-}
-
 /// A fault at one place of a file. Prints as `file:line:column: field: cause: fix`, on one line and
 /// without control characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,70 +22,40 @@ pub struct Fault {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// The field's key, an unknown key as written, or `toml` if the text is not TOML.
-    pub field: String,
-    /// The cause.
-    pub cause: String,
-    /// How to fix it.
-    pub fix: String,
-    /// The reason why the file is refused.
-    pub kind: FaultKind,
+    /// The problem. Its field is `toml` if the text is not TOML.
+    pub problem: Problem,
 }
 
 impl Fault {
     pub(super) fn new(file: &str, (line, column): (usize, usize), problem: Problem) -> Fault {
-        let Problem { field, cause, fix, .. } = problem;
-        let fix = fix.to_string();
-        Fault { file: file.to_owned(), line, column, field, cause, fix, kind: FaultKind::Bad }
+        Fault { file: file.to_owned(), line, column, problem }
+    }
+
+    /// The first problems at bytes of a text, in the order of their places.
+    pub(super) fn placed(
+        file: &str,
+        text: &str,
+        mut problems: Vec<(usize, Problem)>,
+    ) -> Vec<Fault> {
+        problems.sort_by_key(|(at, _)| *at);
+        let more = problems.get(MOST).map(|_| problems[MOST - 1].0);
+        problems.truncate(MOST);
+        let more =
+            more.map(|at| (at, Problem::new("toml", "and more faults", "fix those above first")));
+        let all = problems.into_iter().chain(more);
+        all.map(|(at, problem)| Fault::new(file, place(text, at), problem)).collect()
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Fault { file, line, column, field, cause, fix, .. } = self;
-        write!(
-            f,
-            "{}:{line}:{column}: {}: {}: {}",
-            sanitize(file),
-            cut(field),
-            sanitize(cause),
-            sanitize(fix)
-        )
+        let Fault { file, line, column, problem: Problem { field, cause, fix, .. } } = self;
+        let (file, field, cause) = (sanitize(file), cut(field), sanitize(cause));
+        write!(f, "{file}:{line}:{column}: {field}: {cause}: {}", sanitize(&fix.to_string()))
     }
 }
 
 impl std::error::Error for Fault {}
-
-/// A problem at a byte of the text.
-#[derive(Debug)]
-pub(super) struct Found {
-    pub(super) at: usize,
-    pub(super) problem: Problem,
-    pub(super) kind: FaultKind,
-    /// Whether the problem is a missing required value.
-    pub(super) is_missing: bool,
-}
-
-impl Found {
-    pub(super) fn new(at: usize, problem: Problem) -> Found {
-        Found { at, problem, kind: FaultKind::Bad, is_missing: false }
-    }
-
-    /// The first faults with line and column, in the order of their places.
-    pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>) -> Vec<Fault> {
-        found.sort_by_key(|found| found.at);
-        let more = found.get(MOST).map(|_| found[MOST - 1].at);
-        found.truncate(MOST);
-        let more = more.map(|at| {
-            Found::new(at, Problem::new("toml", "and more faults", "fix those above first"))
-        });
-        let fault = |found: Found| Fault {
-            kind: found.kind,
-            ..Fault::new(file, place(text, found.at), found.problem)
-        };
-        found.into_iter().chain(more).map(fault).collect()
-    }
-}
 
 /// Line and column of a byte, both from 1, the column in characters.
 pub(super) fn place(text: &str, at: usize) -> (usize, usize) {

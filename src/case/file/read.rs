@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::FORMAT;
-use super::fault::{FaultKind, Found, MOST};
+use super::fault::MOST;
 use super::layout::{Entry, Layout, Value};
 use super::syntax;
 use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind, index_of};
+use crate::case::problem::{MISSING, NEWER_FORMAT};
 use crate::case::sanitize::quoted;
 use crate::case::{
     Case, Limit, Override, Problem, Spread, Variant, check, spread, suggest, variant,
@@ -21,13 +22,14 @@ const OVERRIDE: &str = "\"driven.tip_relief\" = \"48 um\"";
 /// The case of a text and its faults.
 pub(super) struct Reading {
     pub(super) case: Case,
-    pub(super) faults: Vec<Found>,
+    /// The problems at their bytes.
+    pub(super) faults: Vec<(usize, Problem)>,
 }
 
 impl Reading {
     /// Whether the text is a case that lacks only required values.
     pub(super) fn is_draft(&self) -> bool {
-        self.faults.iter().all(|found| found.is_missing)
+        self.faults.iter().all(|(_, problem)| &*problem.code == MISSING)
     }
 }
 
@@ -117,12 +119,12 @@ struct Reader<'l> {
     seen: HashSet<String>,
     /// The entries of the distribution of a field of a scope, and the number of keys above them.
     distributions: BTreeMap<(usize, usize), (usize, Vec<&'l Entry>)>,
-    faults: Vec<Found>,
+    faults: Vec<(usize, Problem)>,
 }
 
 impl<'l> Reader<'l> {
     /// Checks the format. A newer format is the only reported fault.
-    fn format(&mut self) -> Option<Found> {
+    fn format(&mut self) -> Option<(usize, Problem)> {
         let Some(entry) = self.layout.value("format") else {
             let fix = format!("begin the file with format = {FORMAT}");
             self.fault(0, 0, Problem::new("format", "the format is missing", fix));
@@ -140,7 +142,7 @@ impl<'l> Reader<'l> {
                     "format {number} is newer than this version, which reads format {FORMAT}"
                 );
                 let problem = Problem::new("format", cause, "open it with a newer tipstrike");
-                return Some(Found { kind: FaultKind::NewerFormat, ..Found::new(at, problem) });
+                return Some((at, problem.coded(NEWER_FORMAT)));
             }
             _ => {
                 let fix = format!("write format = {FORMAT}");
@@ -308,13 +310,8 @@ impl<'l> Reader<'l> {
                 given.flat_map(alone).flatten().collect()
             };
             for problem in problems {
-                let own = &self.scopes[scope];
-                let field = index_of(&problem.field);
-                let is_missing = scope == 0 && field.is_some_and(|field| own.case.lacks(field));
-                self.fault(scope, self.layout.place(&own.key(&problem.field)), problem);
-                if let Some(found) = self.faults.last_mut() {
-                    found.is_missing = is_missing;
-                }
+                let key = self.scopes[scope].key(&problem.field);
+                self.fault(scope, self.layout.place(&key), problem);
             }
             let own = &self.scopes[scope];
             if scope > 0 && own.values.is_empty() && !own.has_faults {
@@ -329,7 +326,7 @@ impl<'l> Reader<'l> {
         let own = &mut self.scopes[scope];
         own.has_faults = true;
         let field = own.key(&problem.field);
-        self.faults.push(Found::new(at, Problem { field, ..problem }));
+        self.faults.push((at, problem.at(&field)));
     }
 }
 

@@ -2,7 +2,6 @@
 
 use toml_edit::TomlError;
 
-use super::fault::Found;
 use crate::case::fields::{AUTO, FIELDS, Field, index_of};
 use crate::case::sanitize::{cut, quoted};
 use crate::case::units::{self, Dimension};
@@ -10,7 +9,7 @@ use crate::case::{Problem, check};
 
 /// The first syntax error of a text: in terms of a case if its line belongs to a field, otherwise in
 /// terms of TOML.
-pub(super) fn fault(error: &TomlError, source: &str) -> Found {
+pub(super) fn fault(error: &TomlError, source: &str) -> (usize, Problem) {
     let span = error.span().unwrap_or(source.len()..source.len());
     let at = (0..=span.start).rev().find(|&at| source.is_char_boundary(at)).unwrap_or_default();
     let start = source[..at].rfind('\n').map_or(0, |end| end + 1);
@@ -21,27 +20,27 @@ pub(super) fn fault(error: &TomlError, source: &str) -> Found {
     let is_control = |c: &char| c.is_control() && !matches!(c, '\t' | '\r');
     if let Some((offset, control)) = text.char_indices().find(|(_, c)| is_control(c)) {
         let cause = format!("control character {} in the text", quoted(&control.to_string()));
-        return Found::new(start + offset, Problem::new(name, cause, "remove it"));
+        return (start + offset, Problem::new(name, cause, "remove it"));
     }
     let message = error.message();
     if message == "duplicate key" {
-        return Found::new(at, twice(above, text, source.get(span).unwrap_or_default()));
+        return (at, twice(above, text, source.get(span).unwrap_or_default()));
     }
     if let (Some(field), Some((_, value))) = (field, named)
         && let Some(problem) = mistaken(field, value)
     {
         let offset = value.as_ptr() as usize - text.as_ptr() as usize;
-        return Found::new(start + offset, problem);
+        return (start + offset, problem);
     }
     if let (None, Some((key, _))) = (field, text.split_once(':'))
         && let Some(field) = field_of(above, key.trim())
     {
         let problem = Problem::new(field.key, "`:` instead of `=`", written(field));
-        return Found::new(start + key.len(), problem);
+        return (start + key.len(), problem);
     }
     let cause = message.split(", expected").next().unwrap_or(message);
     let known = FIXES.iter().find(|(part, _)| message.contains(part));
-    Found::new(at, Problem::new(name, cause, known.map_or("write valid TOML", |(_, fix)| fix)))
+    (at, Problem::new(name, cause, known.map_or("write valid TOML", |(_, fix)| *fix)))
 }
 
 fn written(field: &Field) -> String {
