@@ -61,13 +61,16 @@ impl Spread {
     /// If the field cannot have a distribution, the shape is unknown, or the width is not a value
     /// of the field's dimension.
     pub fn new(key: &str, shape: &str, text: &str) -> Result<Spread, Problem> {
-        let place = place(key);
-        let (field, dimension) = spreadable(&place, key)?;
-        let shape = named(&place, shape)?;
+        Spread::read(key, shape, text).map_err(|problem| problem.at(&place(key)))
+    }
+
+    fn read(key: &str, shape: &str, text: &str) -> Result<Spread, Problem> {
+        let (field, dimension) = spreadable(key)?;
+        let shape = named(shape)?;
         let width = if shape == Shape::Grade {
-            grade(&place, field, text)?
+            grade(field, text)?
         } else {
-            width(&place, dimension, field, text)?
+            width(dimension, field, text)?
         };
         Ok(Spread { field: field.key, shape, text: text.to_owned(), width })
     }
@@ -76,21 +79,20 @@ impl Spread {
     /// only member.
     #[must_use]
     pub fn malformed(key: &str, shape: Option<&str>) -> Problem {
-        let place = place(key);
-        let form = || {
-            let (field, _) = spreadable(&place, key)?;
-            Ok(match shape.map(|shape| named(&place, shape)).transpose()? {
-                Some(shape) => format!("write {}", by_example(shape, field)),
-                None => format!(
-                    "write {}, or uniform, triangular or truncated in place of normal",
-                    by_example(Shape::Normal, field)
-                ),
-            })
+        let problem = match (spreadable(key), shape.map(named)) {
+            (Err(problem), _) | (_, Some(Err(problem))) => problem,
+            (Ok((field, _)), shape) => {
+                let (shape, others) = match shape {
+                    Some(Ok(shape)) => (shape, ""),
+                    _ => {
+                        (Shape::Normal, ", or uniform, triangular or truncated in place of normal")
+                    }
+                };
+                let fix = format!("write {}{others}", by_example(shape, field));
+                Problem::new("", "this is not a distribution", fix)
+            }
         };
-        form().map_or_else(
-            |problem: Problem| problem,
-            |fix| Problem::new(&place, "this is not a distribution", fix),
-        )
+        problem.at(&place(key))
     }
 
     /// The distribution as text, such as "normal 4 um".
@@ -101,10 +103,9 @@ impl Spread {
 }
 
 /// A field that can have a distribution, and its dimension.
-fn spreadable(place: &str, key: &str) -> Result<(&'static Field, Dimension), Problem> {
-    let Some(field) = index_of(key).map(|index| &FIELDS[index]) else {
-        return Err(Problem { field: place.to_owned(), ..check::unknown_key(key) });
-    };
+fn spreadable(key: &str) -> Result<(&'static Field, Dimension), Problem> {
+    let field = index_of(key).ok_or_else(|| check::unknown_key(key))?;
+    let field = &FIELDS[field];
     let (cause, fix) = match field.kind {
         Kind::Number(dimension, ..) => return Ok((field, dimension)),
         Kind::Count(..) => (
@@ -115,7 +116,7 @@ fn spreadable(place: &str, key: &str) -> Result<(&'static Field, Dimension), Pro
             (format!("{key} is not a number and has no distribution"), "remove the line".to_owned())
         }
     };
-    Err(Problem::new(place, cause, fix))
+    Err(Problem::new("", cause, fix))
 }
 
 /// An example of a distribution of a field.
@@ -128,24 +129,20 @@ fn by_example(shape: Shape, field: &Field) -> String {
     format!("{{ {} = {width} }}", shape.name())
 }
 
-fn width(place: &str, dimension: Dimension, field: &Field, text: &str) -> Result<f64, Problem> {
-    let width =
-        units::parse(text, dimension, field.usual_unit()).map_err(|misread| misread.at(place))?;
+fn width(dimension: Dimension, field: &Field, text: &str) -> Result<f64, Problem> {
+    let width = units::parse(text, dimension, field.usual_unit())?;
     if width > 0.0 {
         return Ok(width);
     }
-    Err(Problem::new(
-        place,
-        format!("the width {} is not above 0", quoted(text)),
-        "write a width above 0, or remove the distribution",
-    ))
+    let cause = format!("the width {} is not above 0", quoted(text));
+    Err(Problem::new("", cause, "write a width above 0, or remove the distribution"))
 }
 
 /// The flank tolerance class, for a base pitch deviation only.
-fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
+fn grade(field: &Field, text: &str) -> Result<f64, Problem> {
     if field.name() != "base_pitch" {
         return Err(Problem::new(
-            place,
+            "",
             format!("a grade gives a base pitch deviation, and {} is not one", field.key),
             "use normal, uniform, triangular or truncated",
         ));
@@ -154,7 +151,7 @@ fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
     class.filter(|class| TOLERANCE_CLASSES.contains(class)).map(f64::from).ok_or_else(|| {
         let (from, to) = (TOLERANCE_CLASSES.start(), TOLERANCE_CLASSES.end());
         Problem::new(
-            place,
+            "",
             format!("{} is no flank tolerance class", quoted(text)),
             format!("write a whole number from {from} to {to}"),
         )
@@ -169,11 +166,11 @@ pub(super) fn place(key: &str) -> String {
     format!("{PREFIX}\"{key}\"")
 }
 
-fn named(place: &str, name: &str) -> Result<Shape, Problem> {
+fn named(name: &str) -> Result<Shape, Problem> {
     Shape::ALL.into_iter().find(|shape| shape.name() == name).ok_or_else(|| {
         let known = Shape::ALL.into_iter().map(Shape::name);
         let all: Vec<&str> = known.clone().collect();
         let fix = suggest::fix(name, known, || format!("use one of {}", all.join(", ")));
-        Problem::new(place, format!("unknown distribution {}", quoted(name)), fix)
+        Problem::new("", format!("unknown distribution {}", quoted(name)), fix)
     })
 }

@@ -1,5 +1,6 @@
 //! Reads a case from TOML: finds every key in the table of fields and places every fault.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::FORMAT;
@@ -131,13 +132,13 @@ impl<'l> Reader<'l> {
             return None;
         };
         let written = match &entry.value {
-            Value::Number(number) => number.parse::<u32>().ok(),
+            Value::Number(number) => number.parse::<u64>().ok(),
             _ => None,
         };
         let at = entry.span.start;
-        match written {
-            Some(FORMAT) => {}
-            Some(number) if number > FORMAT => {
+        match written.map(|number| (number, number.cmp(&u64::from(FORMAT)))) {
+            Some((_, Ordering::Equal)) => {}
+            Some((number, Ordering::Greater)) => {
                 let cause = format!(
                     "format {number} is newer than this version, which reads format {FORMAT}"
                 );
