@@ -301,11 +301,7 @@ fn take_out(text: &mut String, entry: &Entry) {
         (Some(comma), _) => {
             text.remove(comma);
         }
-        (None, Some(comma)) => {
-            text.remove(comma);
-            cut = cut.start - 1..cut.end - 1;
-        }
-        (None, None) => {}
+        (None, _) => {}
     }
     let lines = line(text, cut.clone());
     let rest = &text[cut.end..];
