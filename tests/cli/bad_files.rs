@@ -319,7 +319,10 @@ fn a_newer_format_is_reported_alone() {
 #[test]
 fn no_depth_and_no_length_is_too_much() {
     let deep = GOOD.replacen(MODULE, &format!("module = {}", "[".repeat(5000)), 1);
-    assert_eq!((faults(&deep)[0].line, faults(&deep)[0].field.as_str()), (11, "pair.module"));
+    assert_eq!(
+        (faults(&deep)[0].line, faults(&deep)[0].problem.field.as_str()),
+        (11, "pair.module")
+    );
     let keys = GOOD.replacen(MODULE, &format!("{}x = 1", "a.".repeat(5000)), 1);
     assert!(!faults(&keys).is_empty());
     let long = format!("{GOOD}#{}", "x".repeat(MOST_BYTES));
