@@ -267,51 +267,33 @@ impl WorkerChart {
         }
     }
 
-    /// The description in lists.
+    /// The name and the description in lists, and the description in the status line.
     #[must_use]
-    pub fn about(self) -> &'static str {
+    pub fn words(self) -> [&'static str; 3] {
+        const TOOTH: &str = "The deflection of the loaded tooth per unit load; surface includes the \
+            contact. C is the pitch circle.";
         match self {
-            WorkerChart::ToothCompliance(0) => {
-                "Show the compliance of a tooth of the driver over its flank, by every model."
-            }
-            WorkerChart::ToothCompliance(_) => {
-                "Show the compliance of a tooth of the driven gear over its flank, by every model."
-            }
-            WorkerChart::Spectrum => {
-                "Show the harmonics of the transmission error at rest and in motion."
-            }
-            WorkerChart::Speed => {
-                "Show the dynamic factor over speed, up and down, with the resonances."
-            }
-        }
-    }
-
-    /// The description in the status line.
-    #[must_use]
-    pub fn hint(self) -> &'static str {
-        match self {
-            WorkerChart::ToothCompliance(_) => {
-                "The deflection of the loaded tooth per unit load; surface includes the contact. C \
-                    is the pitch circle."
-            }
-            WorkerChart::Spectrum => {
-                "The amplitude of each harmonic of the mesh frequency, at rest and in motion."
-            }
-            WorkerChart::Speed => {
+            WorkerChart::ToothCompliance(0) => [
+                "Driver tooth compliance",
+                "Show the compliance of a tooth of the driver over its flank, by every model.",
+                TOOTH,
+            ],
+            WorkerChart::ToothCompliance(_) => [
+                "Driven tooth compliance",
+                "Show the compliance of a tooth of the driven gear over its flank, by every model.",
+                TOOTH,
+            ],
+            WorkerChart::Spectrum => [
+                "Spectrum",
+                "Show the harmonics of the transmission error at rest and in motion.",
+                "The amplitude of each harmonic of the mesh frequency, at rest and in motion.",
+            ],
+            WorkerChart::Speed => [
+                "Dynamic factor over speed",
+                "Show the dynamic factor over speed, up and down, with the resonances.",
                 "N is the mesh frequency over the natural frequency. N = 1, 1/2 and 1/3 mark the \
-                    resonances."
-            }
-        }
-    }
-
-    /// The name in lists.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            WorkerChart::ToothCompliance(0) => "Driver tooth compliance",
-            WorkerChart::ToothCompliance(_) => "Driven tooth compliance",
-            WorkerChart::Spectrum => "Spectrum",
-            WorkerChart::Speed => "Dynamic factor over speed",
+                    resonances.",
+            ],
         }
     }
 }

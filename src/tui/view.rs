@@ -236,7 +236,7 @@ fn focused(app: &App) -> String {
             compared + &about
         }),
         Pane::Chart | Pane::Teeth => match app.chart.worker_chart {
-            Some(chart) if app.layout.focus() == Pane::Chart => chart.hint().to_owned(),
+            Some(chart) if app.layout.focus() == Pane::Chart => chart.words()[2].to_owned(),
             _ => at_cursor(app),
         },
         Pane::Trade => trade::signs(&app.trade()),

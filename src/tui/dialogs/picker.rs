@@ -468,10 +468,11 @@ fn graph((place, graph): (usize, &Graph)) -> Item {
 }
 
 fn worker_chart((place, chart): (usize, WorkerChart)) -> Item {
+    let [name, about, _] = chart.words();
     Item {
         pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
-        name: format!("chart: {}", chart.label().to_lowercase()),
-        about: chart.about().to_owned(),
+        name: format!("chart: {}", name.to_lowercase()),
+        about: about.to_owned(),
         keys: String::new(),
     }
 }

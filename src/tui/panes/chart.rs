@@ -387,7 +387,7 @@ pub(crate) fn draw(charts: &Charts, title: &Title, buffer: &mut Buffer) {
     if let Some(chart) = charts.pane.worker_chart {
         let running = if charts.work.is_running { "computing: " } else { "" };
         let drawn = charts.work.drawn(chart);
-        let words = drawn.map_or_else(|| chart.label().to_owned(), Chart::quantities);
+        let words = drawn.map_or_else(|| chart.words()[0].to_owned(), Chart::quantities);
         let state = if stale.is_empty() { running } else { stale };
         let inner = title.draw(&format!("{state}{words}"), charts.area, buffer);
         match drawn {

@@ -7,9 +7,8 @@ pub(crate) mod range;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 use ratatui::symbols::Marker;
-use unicode_width::UnicodeWidthStr;
+use ratatui::text::Line;
 
 use super::Title;
 use crate::case::units::System;
@@ -120,36 +119,26 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     let StudyParameters::Grid(grid) = &shown.request.parameters else {
         return draw_page(pane, shown, inner, buffer);
     };
-    let lines = below(pane, shown, text_room(inner.width));
-    let (plot, words) = split(inner, lines.len());
+    let (about, width) = (below(pane, shown), usize::from(inner.width).saturating_sub(2));
+    let (plot, words) = split(inner, text::wrap(&about, width).len());
     match grid.axes.as_slice() {
         [across] => curve::draw(pane, shown, across, plot, buffer),
         [up, across] => map::draw(pane, shown, (across, up), plot, buffer),
         _ => {}
     }
-    for (line, row) in lines.iter().zip(words.rows()) {
-        buffer.set_stringn(row.x + 1, row.y, line, usize::from(row.width) - 1, Style::new());
-    }
+    text::draw_words(&about, words, buffer);
 }
 
-/// The hint line while the pane has the focus: the values at the cursor if the pane cuts them,
-/// otherwise the signs.
+/// The hint line while the pane has the focus.
 #[must_use]
 pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
     let shown = pane.study.shown.as_ref();
     let shown = shown.filter(|_| pane.study.obstacle.is_none());
-    match shown.map(|shown| (shown, &shown.request.parameters)) {
-        Some((shown, StudyParameters::Grid(_))) => {
-            let line = values_at_cursor(pane, shown);
-            if line.width() > text_room(pane.area.width) {
-                format!("{line}.")
-            } else {
-                format!(
-                    "● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point."
-                )
-            }
+    match shown.map(|shown| &shown.request.parameters) {
+        Some(StudyParameters::Grid(_)) => {
+            format!("● present value, ▴ cursor, {NO_CONTACT} no contact, {REFUSED} refused point.")
         }
-        Some((_, StudyParameters::Tolerance(_))) => {
+        Some(StudyParameters::Tolerance(_)) => {
             format!("{SAMPLES} samples draw every field of [spread] from its distribution.")
         }
         None => "The study varies the focused field over a range.".to_owned(),
@@ -159,29 +148,20 @@ pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
 /// The text of each varied field at the cursor, in the syntax of a case file.
 #[must_use]
 pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
-    let Some(shown) = &pane.study.shown else {
-        return Vec::new();
-    };
-    let (across, up) = axes(shown);
-    let (x, y) = cursor(pane, shown);
-    let text = |axis: &StudyAxis, at: usize| (axis.field, axis.with_unit(at));
-    let first = across.map(|axis| text(axis, x));
-    let second = up.map(|axis| text(axis, y));
-    first.into_iter().chain(second).collect()
+    let shown = pane.study.shown.iter();
+    let places = shown.flat_map(|shown| places(pane, shown));
+    places.map(|(axis, at)| (axis.field, axis.with_unit(at))).collect()
 }
 
 /// The cursor after a move by points on the visible axes.
 #[must_use]
 pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = pane.study.shown.as_ref()?;
-    let last =
-        |axis: Option<&StudyAxis>| axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
-    let (x_axis, y_axis) = axes(shown);
-    let (x, y) = cursor(pane, shown);
-    Some((
-        x.saturating_add_signed(across).min(last(x_axis)),
-        y.saturating_add_signed(up).min(last(y_axis)),
-    ))
+    let moved = places(pane, shown).into_iter().zip([across, up]).map(|((axis, at), by)| {
+        at.saturating_add_signed(by).min(axis.points.len().saturating_sub(1))
+    });
+    let moved: Vec<usize> = moved.collect();
+    Some((moved.first().copied()?, moved.get(1).copied().unwrap_or(0)))
 }
 
 /// The first visible line of the tolerance after scrolling by lines downwards.
@@ -201,27 +181,24 @@ pub(crate) fn paged(pane: &StudyPane<'_>, by: isize) -> usize {
     scrolled(pane, by * isize::try_from(page).unwrap_or(1))
 }
 
-/// The first and the second axis.
-fn axes(shown: &StudyResults) -> (Option<&StudyAxis>, Option<&StudyAxis>) {
-    match &shown.request.parameters {
-        StudyParameters::Grid(grid) => {
-            let second = grid.axes.first().filter(|_| grid.axes.len() == 2);
-            (grid.axes.last(), second)
-        }
-        StudyParameters::Tolerance(_) => (None, None),
-    }
+/// The axes, the horizontal one first, each with the point of the cursor; without a cursor, with the
+/// point of the present case.
+fn places<'a>(pane: &StudyPane<'_>, shown: &'a StudyResults) -> Vec<(&'a StudyAxis, usize)> {
+    let chosen = pane.study.cursor.map(|(x, y)| [x, y]);
+    let axes = shown.request.parameters.axes().iter().rev().enumerate();
+    let place = |(at, axis): (usize, &'a StudyAxis)| {
+        let chosen = chosen.map(|chosen| chosen[at]);
+        let point = chosen.or_else(|| range::nearest(axis, pane.case)).unwrap_or(0);
+        (axis, point.min(axis.points.len().saturating_sub(1)))
+    };
+    axes.map(place).collect()
 }
 
-/// The point of the cursor; without a cursor, the point of the present case.
+/// The point of the cursor on the horizontal and on the vertical axis.
 fn cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> (usize, usize) {
-    let (across, up) = axes(shown);
-    let at = |axis: Option<&StudyAxis>, chosen: Option<usize>| {
-        let own = || axis.and_then(|axis| range::nearest(axis, pane.case));
-        let last = axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
-        chosen.or_else(own).unwrap_or(0).min(last)
-    };
-    let chosen = pane.study.cursor;
-    (at(across, chosen.map(|chosen| chosen.0)), at(up, chosen.map(|chosen| chosen.1)))
+    let places = places(pane, shown);
+    let at = |axis: usize| places.get(axis).map_or(0, |(_, at)| *at);
+    (at(0), at(1))
 }
 
 /// The area of the plot and the area below it for `lines` lines of text, if the plot keeps most of
@@ -245,12 +222,9 @@ fn draw_page(pane: &StudyPane<'_>, shown: &StudyResults, inner: Rect, buffer: &m
         return text::draw_words(words, inner, buffer);
     }
     let top = top(pane, shown);
-    let lines = shown.page.iter().skip(top);
     let page = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    for (line, y) in lines.zip(page.top()..page.bottom()) {
-        let width = usize::from(page.width);
-        buffer.set_stringn(page.x, y, text::cut(line, width), width, Style::new());
-    }
+    let lines: Vec<Line> = shown.page[top..].iter().map(|line| Line::raw(line.as_str())).collect();
+    text::draw_lines(&lines, page, buffer);
     text::scroll_bar_beside(top, shown.page.len(), page, buffer);
 }
 
@@ -316,16 +290,15 @@ fn progress(shown: &StudyResults) -> String {
     }
 }
 
-/// The lines below the plot: the values at the cursor, then the refused points.
-fn below(pane: &StudyPane<'_>, shown: &StudyResults, width: usize) -> Vec<String> {
-    let mut lines = Vec::new();
-    if let Some(End::Failed(reason)) = &shown.end {
-        lines.extend(text::wrap(reason, width));
-    }
-    let line = values_at_cursor(pane, shown);
-    lines.push(text::cut(&symbol(&line, pane.look.ascii), width));
-    lines.extend(refused(shown).into_iter().flat_map(|line| text::wrap(&line, width)));
-    lines
+/// The text below the plot: why the study failed, the values at the cursor, the refused points.
+fn below(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
+    let failed = match &shown.end {
+        Some(End::Failed(reason)) => Some(reason.clone()),
+        _ => None,
+    };
+    let parts = [failed, Some(values_at_cursor(pane, shown)), refused(shown)];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    symbol(&parts.join(". "), pane.look.ascii).into_owned()
 }
 
 /// The varied values at the cursor, and the value of each curve.
@@ -333,22 +306,17 @@ fn values_at_cursor(pane: &StudyPane<'_>, shown: &StudyResults) -> String {
     let StudyParameters::Grid(grid) = &shown.request.parameters else {
         return String::new();
     };
-    let (across, up) = axes(shown);
-    let (x, y) = cursor(pane, shown);
-    let width = across.map_or(0, |axis| axis.points.len());
-    let setting = |axis: &StudyAxis, at: usize| {
+    let places = places(pane, shown);
+    let settings = places.iter().map(|(axis, at)| {
         let known = &FIELDS[axis.field];
         let name = if known.symbol.is_empty() { known.label } else { known.symbol };
-        format!("{name} = {}", axis.with_unit(at))
-    };
-    let first = across.map(|axis| setting(axis, x));
-    let settings: Vec<String> = first.into_iter().chain(up.map(|axis| setting(axis, y))).collect();
-    let values: Vec<String> = grid
-        .layers
-        .iter()
-        .zip(&shown.layers)
-        .filter_map(|(layer, found)| value(pane, layer, found, y * width + x))
-        .collect();
+        format!("{name} = {}", axis.with_unit(*at))
+    });
+    let settings: Vec<String> = settings.collect();
+    let index = places.iter().rev().fold(0, |index, (axis, at)| index * axis.points.len() + at);
+    let layers = grid.layers.iter().zip(&shown.layers);
+    let values: Vec<String> =
+        layers.filter_map(|(layer, found)| value(pane, layer, found, index)).collect();
     format!("{}: {}", settings.join(", "), values.join(", "))
 }
 
@@ -376,9 +344,4 @@ fn refused(shown: &StudyResults) -> Option<String> {
     let points = if total == 1 { "point" } else { "points" };
     let of_them = if *count < total { format!(", {count} of them") } else { String::new() };
     Some(format!("{total} {points} refused{of_them}: {}: {}", problem.cause, problem.fix))
-}
-
-/// The number of columns of a line in a pane with a width.
-fn text_room(width: u16) -> usize {
-    usize::from(width).saturating_sub(2)
 }
