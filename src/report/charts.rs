@@ -112,25 +112,28 @@ pub fn graph_chart(graph: &Graph, cases: &[NamedCase]) -> Result<Chart, String> 
 
 /// The chart of a column of the stations.
 fn stations_chart<'a>(graph: &Graph, cases: &[NamedCase<'a>]) -> Result<Chart, String> {
-    let curve = |report: &Report| {
-        let column = graph.column(report.solution.method)?;
-        lines(report, column.shown, |row| column.of(row))
+    let line = |report: &Report, kind: Kind| {
+        let Report { inputs, solution, .. } = report;
+        let column = graph.column(solution.method)?;
+        let (name, mut pieces) = curve(graph, inputs, solution, (column.shown, kind))?;
+        pieces.retain(|piece| piece.len() > 1);
+        let name = name.to_owned();
+        (!pieces.is_empty()).then_some((column, Series { name, pieces, kind }))
     };
     let of_case = |&(name, case): &NamedCase<'a>| {
-        let (report, pieces) =
-            case.reports.iter().find_map(|report| Some((report, curve(report)?)))?;
-        let method = format!("method {}", report.solution.method.name());
-        Some((report, Series { name: of(name, &method), pieces, kind: Kind::Curve }))
+        case.reports.iter().find_map(|report| {
+            let (column, mut series) = line(report, Kind::Curve)?;
+            series.name = of(name, &format!("method {}", report.solution.method.name()));
+            Some(((report, column), series))
+        })
     };
     let (reports, mut series): (Vec<_>, Vec<_>) = cases.iter().filter_map(of_case).unzip();
-    let first =
-        reports.first().and_then(|first| Some((first, graph.column(first.solution.method)?)));
-    let Some((first, column)) = first else {
+    let Some((first, column)) = reports.first() else {
         let absence = |(_, case): &NamedCase| case.absence(|method| graph.column(method).is_some());
         return Err(cases.first().map(absence).unwrap_or_default());
     };
     if series.len() == 1 {
-        series.extend(bound(graph, column, first));
+        series.extend(line(first, Kind::Bound).map(|(_, bound)| bound));
     }
     let up = axis_of(graph, column);
     Ok(Chart { up, series, marks: marks(&first.solution), ..Chart::default() })
@@ -188,37 +191,28 @@ fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
     contact.into_iter().chain([(0.0, "E")]).collect()
 }
 
-fn bound(graph: &Graph, column: &Column, report: &Report) -> Option<Series> {
-    let (bound, solution) = (graph.bound?, &report.solution);
-    let pieces = lines(report, column.shown, |row| (bound.value)(solution, row))?;
-    let name = bound.symbols[usize::from(solution.method.shares_load())].to_owned();
-    Some(Series { name, pieces, kind: Kind::Bound })
-}
-
-/// A curve as line series; `None` without a line.
-fn lines(
-    report: &Report,
-    unit: &'static str,
-    value: impl Fn(&Station) -> Option<f64>,
-) -> Option<Vec<Vec<Point>>> {
-    let mut lines = curve_of(&report.inputs, &report.solution, unit, value);
-    lines.retain(|piece| piece.len() > 1);
-    (!lines.is_empty()).then_some(lines)
-}
-
-/// The curve of a column over the stations, in a unit, in pieces.
-pub fn curve_of(
+/// A curve over the stations, in a unit and in pieces: the column of the method, or its comparison
+/// value, with its symbol.
+pub fn curve(
+    graph: &Graph,
     inputs: &Inputs,
     solution: &Solution,
-    unit: &str,
-    value: impl Fn(&Station) -> Option<f64>,
-) -> Vec<Vec<Point>> {
-    let factor = units::factor(unit).unwrap_or(1.0);
-    let points = solution
-        .own_stations()
-        .iter()
-        .map(|row| (row.angle_after_e(), value(row).map(|value| value / factor)));
-    pieces(points, longest_interval(inputs, solution))
+    (unit, kind): (&str, Kind),
+) -> Option<(&'static str, Vec<Vec<Point>>)> {
+    let (factor, column) = (units::factor(unit).unwrap_or(1.0), graph.column(solution.method)?);
+    let bound = graph.bound.filter(|_| kind == Kind::Bound);
+    let symbol = match bound {
+        Some(bound) => bound.symbols[usize::from(solution.method.shares_load())],
+        None if kind == Kind::Bound => return None,
+        None => column.symbol,
+    };
+    let value = |station: &Station| match bound {
+        Some(bound) => (bound.value)(solution, station),
+        None => column.of(station),
+    };
+    let points = solution.own_stations().iter();
+    let points = points.map(|one| (one.angle_after_e(), value(one).map(|value| value / factor)));
+    Some((symbol, pieces(points, longest_interval(inputs, solution))))
 }
 
 /// Splits a curve at missing stations and at values that are not finite.

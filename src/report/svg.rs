@@ -88,9 +88,10 @@ fn frame(chart: &Chart, height: f64) -> String {
 
 /// The root element, the styles and the background of a picture; the title must be escaped.
 fn opening(title: &str, width: f64, height: f64) -> String {
+    let style = style();
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-         class=\"tipstrike\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
+         class=\"tipstrike\">\n<title>{title}</title>\n<style>{style}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" class=\"ground\"/>\n"
     )
 }
@@ -224,39 +225,55 @@ const LOOKS: [&str; 6] = [
     "M-1.5-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5Z",
 ];
 
-/// The style sheet of every picture. Its rules apply only to pictures, so that a page may contain
-/// several.
-const STYLE: &str = "\
-.tipstrike{font:15px 'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222}\
-.tipstrike .title{font-size:17px;font-weight:bold}\
-.tipstrike .ground{fill:#fff}\
-.tipstrike .grid{stroke:#ddd;fill:none}\
-.tipstrike .axis{stroke:#333;fill:none}\
-.tipstrike .mark{stroke:#888;fill:none;stroke-dasharray:2 3}\
-.tipstrike .curve{fill:none;stroke-width:2;stroke-linejoin:round}\
-.tipstrike .thin{fill:none;stroke-opacity:.6}\
-.tipstrike .bound{fill:none;stroke:#777;stroke-dasharray:1 3;stroke-width:1.5}\
-.tipstrike .s0{stroke:#0b6e99}.tipstrike .f0{fill:#0b6e99}\
-.tipstrike .s1{stroke:#b3261e;stroke-dasharray:9 3}.tipstrike .f1{fill:#b3261e}\
-.tipstrike .s2{stroke:#2b7a3d;stroke-dasharray:3 2}.tipstrike .f2{fill:#2b7a3d}\
-.tipstrike .s3{stroke:#8a4b08;stroke-dasharray:9 3 2 3}.tipstrike .f3{fill:#8a4b08}\
-.tipstrike .s4{stroke:#6a3fa0;stroke-dasharray:14 4}.tipstrike .f4{fill:#6a3fa0}\
-.tipstrike .s5{stroke:#555;stroke-dasharray:2 4}.tipstrike .f5{fill:#555}\
-.tipstrike .thin{stroke-dasharray:none}\
-.tipstrike .body1{fill:#d7e9f2;stroke:#0b6e99;stroke-width:1.5}\
-.tipstrike .body2{fill:#f6e3d0;stroke:#8a4b08;stroke-width:1.5}\
-.tipstrike .path{fill:none;stroke:#2b7a3d;stroke-width:2.5}\
-.tipstrike .halo{paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round}\
-@media screen and (prefers-color-scheme:dark){\
-.tipstrike{fill:#ddd}.tipstrike .ground{fill:#16181b}.tipstrike .grid{stroke:#33373c}\
-.tipstrike .axis{stroke:#aaa}.tipstrike .path{stroke:#84d394}.tipstrike .bound{stroke:#999}.tipstrike .halo{stroke:#16181b}\
-.tipstrike .s0{stroke:#62c3ee}.tipstrike .f0{fill:#62c3ee}\
-.tipstrike .s1{stroke:#ff8a80}.tipstrike .f1{fill:#ff8a80}\
-.tipstrike .s2{stroke:#84d394}.tipstrike .f2{fill:#84d394}\
-.tipstrike .s3{stroke:#e8a862}.tipstrike .f3{fill:#e8a862}\
-.tipstrike .s4{stroke:#c5a4f2}.tipstrike .f4{fill:#c5a4f2}\
-.tipstrike .s5{stroke:#bbb}.tipstrike .f5{fill:#bbb}\
-.tipstrike .body1{fill:#1d3642;stroke:#62c3ee}.tipstrike .body2{fill:#3f2d1a;stroke:#e8a862}}";
+/// Light and dark colour of each series, and the dashes of its line.
+const COLOURS: [(&str, &str, &str); LOOKS.len()] = [
+    ("#0b6e99", "#62c3ee", "none"),
+    ("#b3261e", "#ff8a80", "9 3"),
+    ("#2b7a3d", "#84d394", "3 2"),
+    ("#8a4b08", "#e8a862", "9 3 2 3"),
+    ("#6a3fa0", "#c5a4f2", "14 4"),
+    ("#555", "#bbb", "2 4"),
+];
+
+/// The rules of the style sheet of every picture: the class, its style, and its style in the dark.
+const RULES: [(&str, &str, &str); 13] = [
+    ("", "font:15px 'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222", "fill:#ddd"),
+    (" .title", "font-size:17px;font-weight:bold", ""),
+    (" .ground", "fill:#fff", "fill:#16181b"),
+    (" .grid", "stroke:#ddd;fill:none", "stroke:#33373c"),
+    (" .axis", "stroke:#333;fill:none", "stroke:#aaa"),
+    (" .mark", "stroke:#888;fill:none;stroke-dasharray:2 3", ""),
+    (" .curve", "fill:none;stroke-width:2;stroke-linejoin:round", ""),
+    (" .bound", "fill:none;stroke:#777;stroke-dasharray:1 3;stroke-width:1.5", "stroke:#999"),
+    (" .thin", "fill:none;stroke-opacity:.6;stroke-dasharray:none", ""),
+    (" .body1", "fill:#d7e9f2;stroke:#0b6e99;stroke-width:1.5", "fill:#1d3642;stroke:#62c3ee"),
+    (" .body2", "fill:#f6e3d0;stroke:#8a4b08;stroke-width:1.5", "fill:#3f2d1a;stroke:#e8a862"),
+    (" .path", "fill:none;stroke:#2b7a3d;stroke-width:2.5", "stroke:#84d394"),
+    (
+        " .halo",
+        "paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round",
+        "stroke:#16181b",
+    ),
+];
+
+/// The style sheet. Its rules apply only to pictures, so that a page may contain several.
+fn style() -> String {
+    let (mut light, mut dark) = (String::new(), String::new());
+    for (at, (own, own_dark, dashes)) in COLOURS.into_iter().enumerate() {
+        let _ = write!(light, ".tipstrike .s{at}{{stroke:{own};stroke-dasharray:{dashes}}}");
+        for (sheet, colour) in [(&mut light, own), (&mut dark, own_dark)] {
+            let _ = write!(sheet, ".tipstrike .f{at}{{fill:{colour}}}");
+        }
+        let _ = write!(dark, ".tipstrike .s{at}{{stroke:{own_dark}}}");
+    }
+    for (class, own, own_dark) in RULES {
+        let _ = write!(light, ".tipstrike{class}{{{own}}}");
+        if !own_dark.is_empty() {
+            let _ = write!(dark, ".tipstrike{class}{{{own_dark}}}");
+        }
+    }
+    format!("{light}@media screen and (prefers-color-scheme:dark){{{dark}}}")
+}
 
 /// Escapes a text for an element or an attribute.
 pub(crate) fn escaped(text: &str) -> String {

@@ -5,8 +5,8 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker;
-use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
+use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use crate::report::chart::{Axis, Chart, Kind, Point, Series, Span};
@@ -149,11 +149,11 @@ impl Plot {
     pub(crate) fn draw_axes(&self, across: &Axis, up: &Axis, theme: &Theme, buffer: &mut Buffer) {
         let (cells, rule) = (self.cells, theme.rule);
         let (left, bottom) = (cells.x - 1, cells.bottom());
-        for y in cells.top()..bottom {
-            buffer.set_string(left, y, "│", rule);
-        }
-        buffer.set_string(left, bottom, "└", rule);
-        buffer.set_string(cells.x, bottom, "─".repeat(cells.width.into()), rule);
+        let frame = Rect { x: left, width: cells.width + 1, height: cells.height + 1, ..cells };
+        Block::new()
+            .borders(Borders::LEFT | Borders::BOTTOM)
+            .border_style(rule)
+            .render(frame, buffer);
         let mut last = None;
         for (value, label) in beside(up, self.up, cells.height) {
             let y = self.row(value);

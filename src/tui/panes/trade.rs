@@ -217,10 +217,7 @@ fn draw_chart(
     let theme = pane.look.theme;
     let methods = METHODS.into_iter().chain([Method::Auto]);
     let methods = methods.map(|method| (method.name().to_owned(), mark_of(pane, method).1));
-    let accepted = format!("{LEVEL}{LEVEL} within {} %", percent(trade.within));
-    let signs = ["CAPITAL on the front", "(case)", "[selected]", &accepted];
-    let signs = signs.map(|sign| (sign.to_owned(), Style::new()));
-    let words: Vec<Words> = methods.chain(signs).collect();
+    let words: Vec<Words> = methods.collect();
     let legend = Rect { height: u16::from(area.height >= TALL - 2), ..area };
     draw_legend(&words, legend, buffer);
     let area = Rect { y: area.y + legend.height, height: area.height - legend.height, ..area };

@@ -11,7 +11,7 @@ use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::{Inputs, Interpolated, Solution};
 use crate::numeric::decimal::significant;
 use crate::report::chart::{Kind, Point, Series, Span};
-use crate::report::charts::{curve_of, pieces};
+use crate::report::charts::{curve, pieces};
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::Column;
 use crate::tui::ascii::symbol;
@@ -130,12 +130,10 @@ pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
         let (inputs, solution) = (&answer.inputs, answer.of(method)?);
         let column = graph.column(method)?;
         let unit = system.unit(column.shown);
-        let pieces = match (source, graph.bound) {
-            (CurveSource::Bound(_), Some(bound)) => {
-                curve_of(inputs, solution, unit, |row| (bound.value)(solution, row))
-            }
-            _ => curve_of(inputs, solution, unit, |row| column.of(row)),
-        };
+        let is_bound = matches!(source, CurveSource::Bound(_));
+        let kind = if is_bound { Kind::Bound } else { Kind::Curve };
+        let (symbol, pieces) = curve(graph, inputs, solution, (unit, kind))?;
+        let source = if is_bound { CurveSource::Bound(symbol) } else { source };
         let solved = Some((inputs, solution));
         (!pieces.is_empty()).then_some(Curve { source, column, unit, pieces, solved })
     };
@@ -147,10 +145,7 @@ pub fn curves<'a>(charts: &Charts<'a>, graph: &Graph) -> Vec<Curve<'a>> {
     let others = answer.methods.iter().map(|(method, _)| *method);
     let others = others.filter(|method| *method != active);
     let others = others.filter_map(|method| of(answer, method, CurveSource::Other(method)));
-    let bound = graph.bound.and_then(|bound| {
-        let symbol = bound.symbols[usize::from(active.shares_load())];
-        of(answer, active, CurveSource::Bound(symbol))
-    });
+    let bound = of(answer, active, CurveSource::Bound(""));
     let own = of(answer, active, CurveSource::Active(active));
     pinned.into_iter().chain(others).chain(bound).chain(own).collect()
 }
@@ -164,14 +159,14 @@ fn models<'a>(answer: &Answer, column: &'static Column, system: System) -> Vec<C
     let unit = system.unit(column.shown);
     let factor = units::factor(unit).unwrap_or(1.0);
     let own = model_of(&answer.inputs);
-    let curve = |(at, &model): (usize, &ToothCompliance)| {
+    let of_model = |(at, &model): (usize, &ToothCompliance)| {
         let points = found.mesh_curve(at);
         let points = points.map(|(angle, value)| (angle.to_degrees(), Some(value / factor)));
         let pieces = pieces(points, f64::INFINITY);
         let source = CurveSource::Model { model, is_own: model == own };
         Curve { source, column, unit, pieces, solved: None }
     };
-    let mut curves: Vec<Curve> = found.models.iter().enumerate().map(curve).collect();
+    let mut curves: Vec<Curve> = found.models.iter().enumerate().map(of_model).collect();
     curves.retain(|curve| !curve.pieces.is_empty());
     let is_own = |source| matches!(source, CurveSource::Model { is_own: true, .. });
     curves.sort_by_key(|curve| (is_own(curve.source), is_field(curve.source)));

@@ -117,7 +117,8 @@ impl Map<'_> {
 
     fn cell(&self, column: u16, row: u16) -> (&'static str, Style) {
         let theme = self.pane.look.theme;
-        let is_above = |value: Option<f64>| value.zip(self.limit).is_some_and(|(one, limit)| one > limit);
+        let is_above =
+            |value: Option<f64>| value.zip(self.limit).is_some_and(|(one, limit)| one > limit);
         let has_beside = |is: &dyn Fn((PointOutcome, Option<f64>)) -> bool| {
             let mut beside = self.beside(column, row);
             beside.any(|(column, row)| self.point(column, row).is_some_and(is))
