@@ -164,7 +164,7 @@ pub fn specify(
     let mut search =
         Search { bench: &bench, grid: &grid, go_on: &searching, known: HashMap::new() };
     let found = search.best_of_each_kind()?;
-    let figures = Figures {
+    let solves = WholeSolves {
         inputs: &at_rest,
         is_in_motion: method == Method::Dynamic,
         at_most: &at_most,
@@ -181,11 +181,11 @@ pub fn specify(
         amounts: gears.map(|gear| gear.tip_relief),
         lengths: gears.map(|gear| gear.tip_relief_length.unwrap_or(usual)),
     };
-    let (mut choices, mut beyond) = (vec![figures.choice("relief of the case", present)?], None);
+    let (mut choices, mut beyond) = (vec![solves.choice("relief of the case", present)?], None);
     let kinds = found.len() as f64;
     for (done, (name, reliefs)) in (1..).zip(found) {
-        figures.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
-        match figures.cleared(name, reliefs) {
+        solves.part.set(SEARCH + (1.0 - SEARCH) * f64::from(done) / (kinds + 1.0));
+        match solves.cleared(name, reliefs) {
             Ok(choice) => choices.push(choice),
             // Another kind of relief may still prevent corner contact.
             Err(none @ (NoRelief::Beyond { .. } | NoRelief::InMotion { .. })) => {
@@ -205,7 +205,7 @@ pub fn specify(
         method,
         demand: *demand,
         torque,
-        greatest_load: figures.greatest_load(&bench, &reliefs)?,
+        greatest_load: solves.greatest_load(&bench, &reliefs)?,
         unloaded_contact_ratio: solution.geometry.contact_ratio
             - (reliefs.lengths[0] + reliefs.lengths[1]) / solution.geometry.base_pitch,
         map: search.map(&reliefs),
@@ -373,8 +373,8 @@ fn relieved(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 2]) -> Inputs {
     }
 }
 
-/// Inputs of the results of a relief.
-struct Figures<'a> {
+/// Whole solves of the pair with other reliefs.
+struct WholeSolves<'a> {
     inputs: &'a Inputs,
     /// Whether the motion decides.
     is_in_motion: bool,
@@ -388,7 +388,7 @@ struct Figures<'a> {
     part: Cell<f64>,
 }
 
-impl Figures<'_> {
+impl WholeSolves<'_> {
     /// Increases a relief until no whole solve finds corner contact.
     fn cleared(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
         let (mut greatest, mut overlap) = (reliefs, f64::INFINITY);

@@ -111,15 +111,11 @@ pub fn trade(
     go_on: &dyn Fn() -> bool,
     show: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
-    let (mut settings, current) = (Setting::all(inputs), Setting::of(inputs));
-    if !settings.contains(&current) {
-        settings.push(current);
-    }
-    let mut finest = METHODS.map(|method| Setting::usual(method, inputs).best()).to_vec();
-    let own = current.best();
-    if own.models.is_some() && own.method != Method::Auto && !finest.contains(&own) {
-        finest.push(own);
-    }
+    let current = Setting::of(inputs);
+    let settings = distinct(Setting::all(inputs).into_iter().chain([current]));
+    let own = (current.models.is_some() && current.method != Method::Auto).then(|| current.best());
+    let finest = METHODS.map(|method| Setting::usual(method, inputs).best());
+    let finest = distinct(finest.into_iter().chain(own));
     let answer = |setting: Setting| {
         let solution = stopped(solve(&setting.inputs(inputs), go_on))?;
         Ok((setting, solution.map(|solution| Answer::of(&solution))))
@@ -240,13 +236,7 @@ impl Trade {
     pub fn compliances(&self) -> Vec<StiffnessModels> {
         let reference = self.reference.iter().map(|reference| reference.setting);
         let settings = self.settings.iter().map(|measured| measured.setting);
-        let mut found: Vec<StiffnessModels> = Vec::new();
-        for models in reference.chain(settings).filter_map(|setting| setting.models) {
-            if !found.contains(&models) {
-                found.push(models);
-            }
-        }
-        found
+        distinct(reference.chain(settings).filter_map(|setting| setting.models))
     }
 
     /// The default setting of a method and compliance.
@@ -367,13 +357,7 @@ impl Setting {
             .chain([Setting { stations: None, ..Setting::of_method(Method::Auto, None) }]);
         let others = StiffnessModels::covering(inputs)
             .flat_map(|models| METHODS.map(|method| Setting::of_method(method, Some(models))));
-        let mut settings: Vec<Setting> = Vec::new();
-        for setting in fineness.chain(others) {
-            if !settings.contains(&setting) {
-                settings.push(setting);
-            }
-        }
-        settings
+        distinct(fineness.chain(others))
     }
 
     /// A method and compliance with the default fineness.
@@ -439,31 +423,37 @@ impl Setting {
     /// Writes the setting into a case. If the case names no compliance and the setting has the
     /// default compliance, the case still names none.
     pub fn apply(&self, case: &mut Case) {
-        let mut write = |key: &str, text: &str| {
-            if let Some(field) = index_of(key) {
-                case.write(field, text);
-            }
-        };
-        write("model.method", self.method.name());
-        write("model.stations", &self.stations_text());
-        write("model.accurate", if self.accurate { "true" } else { "false" });
-        if let Some(tolerance) = self.tolerance {
-            write("model.tolerance", &format!("{tolerance:e}"));
-        }
+        let accurate = if self.accurate { "true" } else { "false" };
+        write(case, "model.method", Some(self.method.name()));
+        write(case, "model.stations", Some(&self.stations_text()));
+        write(case, "model.accurate", Some(accurate));
+        let tolerance = self.tolerance.map(|tolerance| format!("{tolerance:e}"));
+        write(case, "model.tolerance", tolerance.as_deref());
         let own = case.inputs().ok().and_then(|inputs| Setting::of(&inputs).models);
-        if own == self.models {
-            return;
-        }
-        let tooth = self.models.map_or("", |models| models.tooth.name());
-        let contact = self.models.and_then(|models| models.contact);
-        let names = [("tooth", Some(tooth)), ("contact", contact.map(|contact| contact.name()))];
-        for (part, name) in names {
-            let field = index_of(&format!("model.{part}_compliance"));
-            if let Some((field, name)) = field.zip(name) {
-                case.write(field, name);
-            }
+        if own != self.models {
+            let tooth = self.models.map_or("", |models| models.tooth.name());
+            write(case, "model.tooth_compliance", Some(tooth));
+            let contact = self.models.and_then(|models| Some(models.contact?.name()));
+            write(case, "model.contact_compliance", contact);
         }
     }
+}
+
+fn write(case: &mut Case, key: &str, text: Option<&str>) {
+    if let Some((field, text)) = index_of(key).zip(text) {
+        case.write(field, text);
+    }
+}
+
+/// Items without duplicates, in the order of their first occurrence.
+fn distinct<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for item in items {
+        if !found.contains(&item) {
+            found.push(item);
+        }
+    }
+    found
 }
 
 impl fmt::Display for Setting {
