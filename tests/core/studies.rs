@@ -97,28 +97,6 @@ fn every_row_of_a_sweep_is_a_plain_solve_to_the_last_bit() {
 }
 
 #[test]
-fn one_mesh_serves_every_speed_under_a_torque_to_the_last_bit() {
-    let mut case = Case::table_1();
-    for (key, text) in [
-        ("model.deflection", ""),
-        ("model.method", "dynamic"),
-        ("model.damping_ratio", "0.01"),
-        ("operation.power", ""),
-        ("operation.torque", "20 N m"),
-        ("operation.friction_coefficient", "0.08"),
-    ] {
-        case.set(key, text).unwrap();
-    }
-    let quantities = quick_quantities();
-    let grid = grid(&["operation.speed=500..9000 rpm"], 12);
-    let rows = solved(&case.inputs().unwrap(), &grid, 1, &quantities);
-    for (index, row) in rows.iter().enumerate() {
-        let (_, plain) = plain(&case, &grid, index, &quantities);
-        assert_eq!(bits(row), plain, "{}", grid.point(index));
-    }
-}
-
-#[test]
 fn rows_do_not_depend_on_the_number_of_threads() {
     let inputs = Case::table_1().inputs().unwrap();
     let grid = grid(&["driven.tip_relief=0..80 um", "driver.bore_radius=30..50 mm"], 60);
