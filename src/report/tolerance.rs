@@ -1,12 +1,9 @@
 //! A tolerance study as text, JSON or CSV.
 
-use std::io::{self, Write};
-
 use super::absence::Absence;
 use super::json::{Json, json, sorted};
 use super::layout::count;
 use super::results::{Named, Results};
-use super::table::{Cell, Column, Table};
 use super::{common_unit, shown_with};
 use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
@@ -15,15 +12,12 @@ use crate::case::{Case, Problem, Spread};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::study::batch::Points;
-use crate::study::sample::{Distribution, Member};
+use crate::study::sample::Distribution;
 use crate::study::statistics::{Estimate, Figure, Indices, PERCENTILES, least_count};
 use crate::study::tolerance::{Exceedance, OfQuantity, Samples, Tolerance};
 
 /// Greatest length of a bar of a histogram, in characters.
 const LONGEST_BAR: usize = 40;
-
-/// Rows of CSV that are written together.
-const ROWS: usize = 1024;
 
 /// A tolerance study and its results.
 #[derive(Clone, Copy)]
@@ -177,44 +171,6 @@ impl ToleranceReport<'_> {
         Absence::by_method(quantity, self.method).map(|absence| absence.to_string())
     }
 
-    /// Writes one row per solve: the samples, then the points of the ranking.
-    ///
-    /// # Errors
-    /// Errors of the writer.
-    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        let (design, quantities) = (&self.study.design, &self.study.quantities);
-        let number = |(key, unit)| Column::si(key, unit);
-        let spread = design.distributions.iter().map(|one| (one.key(), unit(one)));
-        let computed = quantities.iter().map(|quantity| (quantity.key, quantity.unit));
-        let [sample, set, outcome] = ["sample", "set", "outcome"].map(|key| Column::text(key, ""));
-        let columns = [sample, set].into_iter().chain(spread.chain(computed).map(number));
-        let table = Table::new("", columns.chain([outcome]).collect());
-        table.write_csv_header(out)?;
-        let row = |index: usize| {
-            let (number, set) = match design.member(index) {
-                Member::Sample(number) => (number, "a".to_owned()),
-                Member::Second(number) => (number, "b".to_owned()),
-                Member::Swapped(number, field) => {
-                    (number, format!("b:{}", design.distributions[field].key()))
-                }
-            };
-            let computed = (0..quantities.len()).map(|at| self.samples.value(at, index));
-            let values = design.values(index).into_iter().map(Some).chain(computed);
-            let values = values.map(|value| Cell::number(value, ""));
-            let outcome = self.samples.outcomes[index].name().into();
-            [number.to_string().into(), set.into()]
-                .into_iter()
-                .chain(values)
-                .chain([outcome])
-                .collect()
-        };
-        // A study may have more rows than fit into memory as text.
-        (0..design.count()).step_by(ROWS).try_for_each(|first| {
-            let part = first..(first + ROWS).min(design.count());
-            table.clone().with(part.map(row)).write_csv_rows(out)
-        })
-    }
-
     fn quantity(&self, of: &OfQuantity) -> Json {
         let figures = of.figures.as_ref().map(|figures| {
             let [p5, p50, p95] = figures.percentiles.map(figure);
@@ -267,7 +223,7 @@ impl Results for ToleranceReport<'_> {
                 "shape": spread.shape.name(),
                 "width": spread.text,
                 "centre": distribution.centre,
-                "unit": unit(distribution),
+                "unit": distribution.unit_or_one(),
             })
         });
         let limits = summary.limits.iter().map(|limit| {
@@ -292,11 +248,6 @@ impl Results for ToleranceReport<'_> {
             "quantities": sorted(quantities),
         })
     }
-}
-
-/// The SI unit of a spread field.
-fn unit(distribution: &Distribution) -> &'static str {
-    Some(distribution.unit()).filter(|unit| !unit.is_empty()).unwrap_or("1")
 }
 
 /// A probability with its interval, down to the first digit in which the ends of the interval

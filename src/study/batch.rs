@@ -28,6 +28,16 @@ pub trait Points: Sync {
         String::new()
     }
 
+    /// The columns that describe a point: name and unit, which is empty for texts.
+    fn columns(&self) -> Vec<(String, &str)> {
+        Vec::new()
+    }
+
+    /// The cells of a point in these columns.
+    fn cells(&self, _index: usize) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Writes the values of a point into inputs of the case or of another point.
     ///
     /// # Errors

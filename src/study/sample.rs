@@ -121,6 +121,26 @@ impl Points for Design {
         settings.join(", ")
     }
 
+    /// The number and the set of the sample, and the spread fields in SI units.
+    fn columns(&self) -> Vec<(String, &str)> {
+        let names = ["sample", "set"].map(|name| (name.to_owned(), ""));
+        let spread = self.distributions.iter();
+        let spread = spread.map(|one| (one.key().to_owned(), one.unit_or_one()));
+        names.into_iter().chain(spread).collect()
+    }
+
+    fn cells(&self, index: usize) -> Vec<String> {
+        let (number, set) = match self.member(index) {
+            Member::Sample(number) => (number, "a".to_owned()),
+            Member::Second(number) => (number, "b".to_owned()),
+            Member::Swapped(number, field) => {
+                (number, format!("b:{}", self.distributions[field].key()))
+            }
+        };
+        let values = self.values(index).into_iter().map(|value| format!("{value:?}"));
+        [number.to_string(), set].into_iter().chain(values).collect()
+    }
+
     fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
         if self.draws_known_deviations() {
             inputs.combination = Combination::Sum;
@@ -235,6 +255,11 @@ impl Distribution {
             Kind::Number(dimension, ..) => dimension.si_unit(),
             _ => "",
         }
+    }
+
+    /// The SI unit of the field; 1 for a bare number.
+    pub fn unit_or_one(&self) -> &'static str {
+        if self.unit().is_empty() { "1" } else { self.unit() }
     }
 
     /// The key of the field.

@@ -99,6 +99,15 @@ impl Points for Grid {
         self.places(index).map(setting).collect::<Vec<_>>().join(", ")
     }
 
+    /// The varied fields in their units.
+    fn columns(&self) -> Vec<(String, &str)> {
+        self.axes.iter().map(|axis| (axis.key().to_owned(), axis.unit.as_str())).collect()
+    }
+
+    fn cells(&self, index: usize) -> Vec<String> {
+        self.places(index).map(|(axis, at)| axis.points[at].text.clone()).collect()
+    }
+
     fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
         for (axis, at) in self.places(index) {
             axis.points[at].put(axis.field, inputs);

@@ -10,7 +10,7 @@ use crate::cli::output::{Done, Exit, Failure, Running, check_out, write_to};
 use crate::model::Quantity;
 use crate::report::absence::Absence;
 use crate::report::results::Named;
-use crate::report::sweep::SweepTable;
+use crate::report::sweep::RowWriter;
 use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::Axis;
 use crate::study::batch::{Points, Refusals, Row, Stopped, solve_all};
@@ -241,29 +241,15 @@ fn run_study(study: &Study, options: &StudyOptions, streams: &mut Streams) -> Do
     })
 }
 
-/// Writes the results of a study and reports its refused points. Rows of a sweep are written as
-/// they arrive.
+/// Writes the results of a study and reports its refused points. Rows are written as they arrive.
 fn write_study(
     study: &Study,
     out: Option<&Path>,
     streams: &mut Streams,
     rows: impl FnOnce(Take) -> io::Result<()>,
 ) -> Done {
-    let refusals = match &study.kind {
-        Kind::Sweep(grid) => {
-            let (quantities, format) = (&study.quantities, study.request.format);
-            let table = SweepTable { grid, quantities, format };
-            let mut refusals = Refusals::default();
-            write_to(out, streams, |sink| {
-                table.begin(sink)?;
-                rows(&mut |first, rows| {
-                    refusals.count(first, rows);
-                    table.write(first, rows, sink)
-                })
-            })?;
-            refusals
-        }
-        Kind::Tolerance(tolerance) => {
+    let refusals = match (&study.kind, study.request.format) {
+        (Kind::Tolerance(tolerance), format) if format != Format::Csv => {
             let mut samples = Samples::of(tolerance);
             rows(&mut |first, rows| {
                 samples.add(first, rows);
@@ -277,16 +263,22 @@ fn write_study(
             };
             // The figures take time, during which a signal must still end the program; therefore
             // they are complete before the file is created.
-            let (mut figures, format) = (Vec::new(), study.request.format);
-            if format != Format::Csv {
-                let case = Named { name: &study.request.name, title: study.case.title() };
-                case.write(&report, format, &mut figures)?;
-            }
-            write_to(out, streams, |sink| match format {
-                Format::Csv => report.write_csv(sink),
-                _ => sink.write_all(&figures),
-            })?;
+            let mut figures = Vec::new();
+            let case = Named { name: &study.request.name, title: study.case.title() };
+            case.write(&report, format, &mut figures)?;
+            write_to(out, streams, |sink| sink.write_all(&figures))?;
             samples.refusals
+        }
+        _ => {
+            let (writer, mut refusals) = (RowWriter(study), Refusals::default());
+            write_to(out, streams, |sink| {
+                writer.begin(sink)?;
+                rows(&mut |first, rows| {
+                    refusals.count(first, rows);
+                    writer.write(first, rows, sink)
+                })
+            })?;
+            refusals
         }
     };
     for refused in &refusals.0 {
