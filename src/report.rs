@@ -24,6 +24,7 @@ pub mod stiffness;
 pub mod svg;
 pub mod sweep;
 pub mod table;
+pub mod teeth;
 pub mod text;
 pub mod tolerance;
 pub mod trade;

@@ -18,20 +18,9 @@ pub struct Graph {
     pub bound: Option<Bound>,
     /// The value with one curve per compliance model; `None` for a chart of the stations.
     pub by_model: Option<&'static Column>,
-    /// Other places that show the values.
-    places: &'static [Place],
+    /// Whether the page of a report, which prints one case on two sheets, shows the chart.
+    pub is_on_page: bool,
 }
-
-/// A place other than the chart pane and `plot` that shows the values of a chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// The page of a report, which prints one case on two sheets.
-    Page,
-    /// The values at the cursor below the teeth.
-    Teeth,
-}
-
-use Place::{Page, Teeth};
 
 /// A comparison value of a curve.
 #[derive(Debug, Clone, Copy)]
@@ -43,14 +32,14 @@ pub struct Bound {
 }
 
 macro_rules! graph {
-    ($key:literal, $label:literal, $columns:expr, $bound:expr, $places:expr) => {
+    ($key:literal, $label:literal, $columns:expr, $bound:expr, $is_on_page:expr) => {
         Graph {
             key: $key,
             label: $label,
             columns: &$columns,
             bound: $bound,
             by_model: None,
-            places: &$places,
+            is_on_page: $is_on_page,
         }
     };
 }
@@ -68,25 +57,19 @@ const CLOSED: Bound = Bound {
 /// Every chart, the most important first.
 #[rustfmt::skip]
 pub const GRAPHS: &[Graph] = &[
-    graph!("force", "Force", ["impact_force", "force"], None, [Page, Teeth]),
-    graph!("gap", "Gap", ["gap"], Some(CLOSED), [Page, Teeth]),
-    graph!("normal_velocity", "Approach velocity", ["normal_velocity"], None, [Page, Teeth]),
-    graph!("sliding_velocity", "Sliding velocity", ["sliding_velocity"], None, [Teeth]),
-    graph!("load_share", "Load share", ["load_share"], None, [Page, Teeth]),
-    graph!("pair_compliance", "Pair compliance", ["pair_compliance"], None, []),
-    Graph { by_model: Some(&MESH_STIFFNESS), ..graph!("mesh_stiffness", "Mesh stiffness", [], None, [Page]) },
-    graph!("impact_energy", "Impact energy", ["impact_energy"], None, []),
-    graph!("transmission_error", "Transmission error", ["transmission_error"], None, [Page, Teeth]),
-    graph!("radius_driver", "Driver contact radius", ["radius_driver"], None, [Teeth]),
+    graph!("force", "Force", ["impact_force", "force"], None, true),
+    graph!("gap", "Gap", ["gap"], Some(CLOSED), true),
+    graph!("normal_velocity", "Approach velocity", ["normal_velocity"], None, true),
+    graph!("sliding_velocity", "Sliding velocity", ["sliding_velocity"], None, false),
+    graph!("load_share", "Load share", ["load_share"], None, true),
+    graph!("pair_compliance", "Pair compliance", ["pair_compliance"], None, false),
+    Graph { by_model: Some(&MESH_STIFFNESS), ..graph!("mesh_stiffness", "Mesh stiffness", [], None, true) },
+    graph!("impact_energy", "Impact energy", ["impact_energy"], None, false),
+    graph!("transmission_error", "Transmission error", ["transmission_error"], None, true),
+    graph!("radius_driver", "Driver contact radius", ["radius_driver"], None, false),
 ];
 
 impl Graph {
-    /// Whether a place other than the chart pane and `plot` shows the values.
-    #[must_use]
-    pub fn is_at(&self, place: Place) -> bool {
-        self.places.contains(&place)
-    }
-
     /// The column of a method.
     #[must_use]
     pub fn column(&self, method: Method) -> Option<&'static Column> {

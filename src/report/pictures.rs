@@ -6,7 +6,7 @@ use super::charts::{
     NamedCase, SPECTRUM, SPEED, Solved, TOOTH_KEYS, graph_chart, spectrum_chart, speed_chart,
     tooth_chart,
 };
-use super::graphs::{GRAPHS, Graph, Place};
+use super::graphs::{GRAPHS, Graph};
 use super::svg;
 use super::{Report, Selection};
 use crate::case::Case;
@@ -82,7 +82,7 @@ impl Picture {
     #[must_use]
     pub fn is_on_page(self) -> bool {
         match self.drawing {
-            Drawing::Graph(graph) => graph.is_at(Place::Page),
+            Drawing::Graph(graph) => graph.is_on_page,
             Drawing::ToothCompliance(_) => false,
             Drawing::Spectrum | Drawing::Speed | Drawing::Teeth => true,
         }

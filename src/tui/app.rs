@@ -246,14 +246,6 @@ impl App {
         if self.has_line() { typed() } else { None }
     }
 
-    /// The number of missing required values, if nothing else is wrong.
-    #[must_use]
-    pub(crate) fn missing(&self) -> Option<usize> {
-        let count = self.tab.problems.len();
-        let is_draft = self.tab.problems.iter().all(|(row, _)| rows::lacks(&self.tab.case, *row));
-        Some(count).filter(|_| is_draft)
-    }
-
     /// Shows a message until the next key.
     pub(super) fn say(&mut self, text: impl Into<String>) {
         self.message = Some(Message { text: text.into(), is_fault: false });
@@ -315,13 +307,14 @@ impl App {
             inputs: &tab.inputs_so_far,
             problems: &tab.problems,
             refused: tab.refused_row(),
-            answer: tab.answer.as_ref(),
-            is_stale: tab.is_stale(),
-            focus: tab.form.focus,
-            line: self.has_line().then_some(&tab.form.input),
+            solution: tab
+                .answer
+                .as_ref()
+                .filter(|_| !tab.is_stale())
+                .and_then(|answer| answer.of(answer.active)),
+            state: &tab.form,
+            is_editing: self.has_line(),
             ending: self.ending(),
-            top: tab.form.top,
-            lines: &tab.form.lines,
             look: self.look,
             title: self.title(Pane::Form),
             area: self.layout.plan().form,
@@ -335,20 +328,16 @@ impl App {
         Results {
             state: tab.results,
             answer: tab.answer.as_ref(),
+            is_stale: tab.is_stale(),
             baseline: self.baseline.as_ref(),
-            variants: tab.variants.as_ref().filter(|_| self.first_variant.is_some()),
-            first_variant: self.first_variant.unwrap_or(0),
+            variants: tab.variants.as_ref().zip(self.first_variant),
             earlier: tab.earlier.as_ref(),
             refusal: tab.refusal.as_ref(),
             problems: &tab.problems,
-            missing: self.missing(),
             case: &tab.case,
-            is_stale: tab.is_stale(),
-            shows_last_valid: tab.shows_last_valid(),
             shows_cost: self.shows_cost,
-            is_focused: self.layout.focus() == Pane::Results,
-            next_fault: || key_in(Place::FORM, Command::NextFault),
-            notes_key: self.notes_key(),
+            next_fault: key_in(Place::FORM, Command::NextFault),
+            notes_key: self.notes_key()(),
             units: self.settings.units,
             look: self.look,
             title: self.title(Pane::Results),

@@ -240,11 +240,7 @@ impl Tab {
         };
         self.case.drop_empty_limits(limit);
         let focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);
-        self.form = FormState {
-            top: self.form.top,
-            lines: std::mem::take(&mut self.form.lines),
-            ..FormState::at(&self.case, focus)
-        };
+        self.form = FormState { top: self.form.top, ..FormState::at(&self.case, focus) };
         self.history.end_visit();
     }
 

@@ -56,20 +56,8 @@ pub mod chart {
     }
 }
 
-pub mod results {
-    pub use crate::tui::panes::results::{count, marked, page};
-}
-
 pub mod teeth {
-    pub use crate::tui::panes::teeth::readings;
-    pub use crate::tui::panes::teeth::scene::Labels;
-    pub use crate::tui::panes::teeth::scene::Scene;
-    pub use crate::tui::panes::teeth::window::{Centre, Exaggeration, TeethView};
-    pub use crate::tui::panes::teeth::{Picture, draw};
-
-    pub mod raster {
-        pub use crate::tui::panes::teeth::scene::draw_strokes as draw;
-    }
+    pub use crate::tui::panes::teeth::{Centre, Picture, TeethView, draw, readings};
 }
 
 pub mod rows {

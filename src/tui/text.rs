@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
-use ratatui::widgets::Widget;
+use ratatui::widgets::{Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget, Widget};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::report::with_units;
@@ -57,29 +57,15 @@ pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// The text in at most `rows` lines. A longer text ends after a sentence, or after a clause with a
-/// mark, unless this leaves half of the room empty.
+/// The text in at most `rows` lines; the last line of a longer text is cut.
 #[must_use]
-pub(super) fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
-    let fits = |text: &str| wrap(text, width).len() <= rows;
-    if fits(text) {
-        return wrap(text, width);
+pub(super) fn fitted(text: &str, width: usize, rows: usize) -> Vec<String> {
+    let mut lines = wrap(text, width);
+    if lines.len() > rows {
+        let rest = lines.split_off(rows.saturating_sub(1)).join(" ");
+        lines.extend((rows > 0).then(|| cut(&rest, width)));
     }
-    let least = width * rows / 2;
-    let ends = |mark: &'static str| {
-        text.match_indices(mark).map(|(at, _)| at).collect::<Vec<_>>().into_iter().rev()
-    };
-    let is_end = |at: &usize| !text[..*at].ends_with("Eq") && !text[..*at].ends_with("Eqs");
-    let whole = ends(". ").filter(is_end).map(|at| text[..=at].to_owned());
-    let mut ends_of_parts: Vec<usize> = ends("; ").chain(ends(", ")).collect();
-    ends_of_parts.sort_unstable_by_key(|&at| std::cmp::Reverse(at));
-    let parts = ends_of_parts.into_iter().map(|at| format!("{}…", &text[..at]));
-    let words = ends(" ").map(|at| format!("{}…", &text[..at]));
-    let mut sayings =
-        whole.chain(parts).filter(|shortened| shortened.width() >= least).chain(words);
-    sayings
-        .find(|shortened| fits(shortened))
-        .map_or_else(Vec::new, |shortened| wrap(&shortened, width))
+    lines
 }
 
 /// Draws a rule with a title on the top line of an area. Returns the area below it.
@@ -201,16 +187,13 @@ fn width_of(letter: char) -> usize {
 
 /// Draws a scroll bar for the visible part of the lines.
 pub(super) fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
-    let height = usize::from(area.height);
-    let is_thumb = |row: usize| {
-        let from = top * height / lines.max(1);
-        let size = (height * height).div_ceil(lines.max(1)).max(1);
-        lines > height && (from..from + size).contains(&row)
-    };
-    for (row, y) in (area.top()..area.bottom()).enumerate() {
-        let bar = if is_thumb(row) { "█" } else { "│" };
-        buffer.set_string(area.x, y, bar, Style::new());
-    }
+    let hidden = lines.saturating_sub(usize::from(area.height));
+    let mut state =
+        ScrollbarState::new(hidden + 1).position(top).viewport_content_length(area.height.into());
+    let bar = Scrollbar::new(ScrollbarOrientation::VerticalRight);
+    let bar = bar.begin_symbol(None).end_symbol(None).track_symbol(Some("│"));
+    let bar = bar.thumb_symbol(if hidden > 0 { "█" } else { "│" });
+    bar.render(area, buffer, &mut state);
 }
 
 /// Draws a scroll bar in the column right of an area, if not all lines fit.
@@ -254,10 +237,10 @@ mod tests {
     }
 
     #[test]
-    fn a_long_text_fills_its_lines_up_to_the_last_part_that_has_room() {
+    fn the_last_line_of_a_long_text_is_cut() {
         let text = "at E: one 1 mm and some; two 2 mm, three 3 mm, four 4 mm.";
-        let lines = ["at E: one 1 mm and", "some; two 2 mm…"];
-        assert_eq!(sentences(text, 20, 2), lines);
+        assert_eq!(fitted(text, 20, 2), ["at E: one 1 mm and", "some; two 2 mm, thr…"]);
+        assert!(fitted(text, 20, 0).is_empty());
     }
 
     #[test]

@@ -26,7 +26,7 @@ use super::dialogs::page::Page;
 use super::dialogs::picker::{Context, List, Picker};
 use super::jobs::Job;
 use super::layout::Pane;
-use super::panes::{form, results};
+use super::panes::form;
 use super::rows;
 use super::session::save::Next;
 use super::settings::marker_name;
@@ -67,13 +67,11 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     effects
 }
 
-/// Updates the dependent state: the lines of the form, the scrolling of form and results, and the
-/// axes of the charts.
+/// Updates the dependent state: the scrolling of form and results, and the axes of the charts.
 pub(crate) fn settle(app: &mut App) {
-    app.tab.form.lines = form::Lines::of(&app.form());
     if mem::take(&mut app.needs_scroll) {
         app.tab.form.top = form::top_for(&app.form());
-        app.tab.results.top = results::top_for(&app.results());
+        app.tab.results.top = app.results().top_for();
     }
     panes::fit_chart(app);
 }
@@ -104,7 +102,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
             return vec![Effect::Redraw];
         }
         Action::Solved(answer) => {
-            panes::take_answer(app, *answer);
+            app.take(*answer);
             variants::pin_baseline(app);
         }
         Action::Measured(measured) => trade::measured(app, *measured),
@@ -239,7 +237,7 @@ fn find(app: &mut App, list: List) {
         commands.filter(|&command| scope_of(app, command) == scope).collect()
     };
     let context = Context {
-        results: results::listed(&app.results()).map(|quantity| quantity.key).collect(),
+        results: app.results().listed().iter().map(|quantity| quantity.key).collect(),
         are_results_first: app.layout.focus() == Pane::Results,
         idle: (0..FIELDS.len()).filter(idle).collect(),
         own: of_scope(Scope::Own),
@@ -420,39 +418,4 @@ fn complete_path(app: &mut App) -> Vec<Effect> {
 
 fn browser(app: &mut App) -> Option<&mut Browser> {
     app.prompts.last_mut().and_then(Prompt::browser)
-}
-
-#[cfg(test)]
-mod tests {
-    use crossterm::event::{KeyCode, KeyEvent};
-
-    use super::*;
-    use crate::tui::actions::of_key;
-    use crate::tui::store;
-
-    #[test]
-    fn after_every_event_the_lines_of_the_form_are_those_of_its_state() {
-        let mut app = opened(store::built_in(), None, Look::FULL, Size::new(80, 24));
-        let events = [
-            Action::Insert('x'),
-            Action::Do(Command::Next),
-            Action::Do(Command::Undo),
-            Action::Resize(Size::new(140, 45)),
-            Action::Do(Command::New),
-            Action::Do(Command::PreviousTab),
-            Action::Do(Command::Limit),
-            Action::Do(Command::Accept),
-            Action::Do(Command::Next),
-            Action::Do(Command::Zoom),
-            Action::Do(Command::Zoom),
-            Action::Resize(Size::new(60, 16)),
-            Action::Tick,
-        ];
-        let key = of_key(KeyEvent::from(KeyCode::Char('8')), app.place());
-        for event in key.into_iter().chain(events) {
-            let words = format!("{event:?}");
-            update(&mut app, event);
-            assert_eq!(app.tab.form.lines, form::Lines::of(&app.form()), "{words}");
-        }
-    }
 }

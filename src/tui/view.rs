@@ -68,7 +68,7 @@ pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let room = usize::from(area.height);
     if !is_long {
         let left = room.saturating_sub(lines.len());
-        lines.extend(text::sentences(&focused(app), width, left).into_iter().map(Line::raw));
+        lines.extend(text::fitted(&focused(app), width, left).into_iter().map(Line::raw));
     }
     if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
         lines[at] = Line::styled(
@@ -222,7 +222,7 @@ fn focused(app: &App) -> String {
             };
             typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }
-        Pane::Results => results::marked(&app.results()).map_or_else(String::new, |quantity| {
+        Pane::Results => app.results().marked().map_or_else(String::new, |quantity| {
             let method = app.tab.answer.as_ref().map_or(Method::Exact, |answer| answer.active);
             let name = symbol(quantity.symbol_in(method), app.look.ascii);
             let about = format!(

@@ -5,7 +5,6 @@ use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
 use tipstrike::report::graphs::GRAPHS;
 use tipstrike::tui::testing::chart::curves::{self, CurveSource};
-use tipstrike::tui::testing::results;
 
 const HYDRO: &str = include_str!("../../cases/hydro-speed-up.toml");
 const TINY: Size = Size { width: 60, height: 16 };
@@ -74,7 +73,7 @@ fn a_small_screen_keeps_four_quantities_in_sight_and_counts_the_hidden_lines() {
     for size in [TINY, SMALL] {
         for method in ["static", "dynamic"] {
             let desk = hydro(size, method);
-            let rows = results::page(&desk.app.results());
+            let rows = desk.app.results().page();
             assert!(rows >= 4, "{size} {method}: {rows}\n{}", desk.screen());
         }
     }
@@ -158,14 +157,6 @@ fn the_descriptions_of_commands_line_up() {
         assert!(columns.len() > 5, "{screen}");
         assert!(columns.iter().all(|column| *column == columns[0]), "{screen}");
     }
-}
-
-#[test]
-fn a_limit_has_the_name_of_its_result_where_the_line_has_room() {
-    let mut desk = Desk::on(LARGE, "case.toml", HYDRO);
-    desk.keys(&["Ctrl-End"]);
-    let named = "ΔV_n approach velocity at D <= 0.5 m/s";
-    assert!(desk.shows(named), "{}", desk.screen());
 }
 
 #[test]

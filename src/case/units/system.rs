@@ -109,15 +109,6 @@ pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System)
     unit
 }
 
-/// Greatest number of characters of the units that can appear in a column of this unit, because
-/// large values use a larger unit.
-#[must_use]
-pub fn widest_beside(unit: &str) -> usize {
-    let is_beside = |(less, more): &&(&str, &str)| *less == unit || *more == unit;
-    let widths = NEXT.iter().filter(is_beside);
-    widths.fold(unit.len(), |most, (less, more)| most.max(less.len()).max(more.len()))
-}
-
 /// A value in SI converted to a unit, with exactly this many significant digits, with an exponent
 /// if needed.
 #[must_use]

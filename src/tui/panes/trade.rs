@@ -74,7 +74,7 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
         TradeView::Chart => draw_chart(pane, traded, trade, area, buffer),
     }
     let (below, width) = (Rect { y: area.bottom(), ..below }, usize::from(inner.width));
-    let lines = text::sentences(&about(pane, traded, trade), width.saturating_sub(2), words.into());
+    let lines = text::fitted(&about(pane, traded, trade), width.saturating_sub(2), words.into());
     for (line, row) in lines.iter().zip(below.rows()) {
         buffer.set_stringn(row.x + 1, row.y, line, width - 1, Style::new());
     }

@@ -55,7 +55,7 @@ pub(super) fn preview(app: &mut App) -> Option<Effect> {
 
 /// Opens the explanation of the selected result.
 pub(super) fn explain(app: &mut App) -> Vec<Effect> {
-    let Some(quantity) = results::marked(&app.results()) else {
+    let Some(quantity) = app.results().marked() else {
         app.complain("there are no results to explain");
         return Vec::new();
     };

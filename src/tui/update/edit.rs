@@ -20,7 +20,6 @@ use crate::tui::form_aids::step_limit;
 use crate::tui::jobs::Job;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
-use crate::tui::panes::results;
 use crate::tui::rows::{self, Row};
 use crate::tui::session::save;
 
@@ -188,9 +187,7 @@ pub(super) fn make_of_material(app: &mut App, gears: &[&str], material: &Materia
 /// Sets a limit on the selected result if the results have the focus, otherwise opens the list of
 /// results.
 pub(super) fn ask_limit(app: &mut App) -> Vec<Effect> {
-    if let Some(quantity) =
-        results::marked(&app.results()).filter(|_| app.layout.focus() == Pane::Results)
-    {
+    if let Some(quantity) = app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
         return hold_limit(app, quantity);
     }
     app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));

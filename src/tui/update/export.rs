@@ -16,7 +16,7 @@ use crate::tui::jobs::{ExportFault, Exporting, Job, Reporting, RunningExport};
 use crate::tui::keys::Place;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
-use crate::tui::panes::{chart, results};
+use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
 
 /// Terminals refuse or cut a longer text.
@@ -121,7 +121,7 @@ pub(super) fn copy_value(app: &mut App) -> Vec<Effect> {
         let reading = chart::readout(&app.charts(), cursor);
         return copy(app, reading, "the reading at the cursor");
     }
-    let Some(quantity) = results::marked(&app.results()) else {
+    let Some(quantity) = app.results().marked() else {
         app.complain("there are no results to copy");
         return Vec::new();
     };

@@ -11,9 +11,9 @@ use crate::tui::app::App;
 use crate::tui::commands::Command;
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{ChartCommand, angle_at};
+use crate::tui::panes::form;
 use crate::tui::panes::study::{self as study_pane, StudyCommand};
 use crate::tui::panes::teeth::TeethCommand;
-use crate::tui::panes::{form, results};
 use crate::tui::tab::Tab;
 use crate::tui::{header, rows};
 
@@ -57,7 +57,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
     let nearer = if by < 0 { 1 } else { -1 };
     match pane_at(app, at) {
         Some(Pane::Form) => app.tab.form.top = form::scrolled(&app.form(), by),
-        Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
+        Some(Pane::Results) => app.tab.results.top = app.results().scrolled(by),
         Some(Pane::Chart) => panes::run_chart(app, ChartCommand::Zoom(nearer)),
         Some(Pane::Teeth) => panes::run_teeth(app, TeethCommand::Zoom(nearer)),
         Some(Pane::Study) if app.study.is_tolerance => {
@@ -165,7 +165,7 @@ fn turn(app: &mut App, by: isize) {
 }
 
 fn page(app: &App) -> isize {
-    results::page(&app.results()).max(2).cast_signed() - 1
+    app.results().page().max(2).cast_signed() - 1
 }
 
 // The first field of the next group, of this one, or of the previous one.
@@ -177,11 +177,6 @@ fn group_beside(case: &Case, focus: usize, by: isize) -> usize {
         starts.iter().rev().find(|&&start| start < focus)
     };
     found.copied().unwrap_or(if by > 0 { rows::count(case) - 1 } else { 0 })
-}
-
-// Returns whether the line was already selected.
-fn mark_line(marked: &mut usize, line: usize) -> bool {
-    std::mem::replace(marked, line) == line
 }
 
 fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
@@ -202,9 +197,12 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
         Pane::Form => return in_form(app, form::field_at(&app.form(), at)),
         Pane::Results => {
             panes::show(app, pane);
-            let row = results::row_at(&app.results(), at);
-            if row.is_some_and(|row| mark_line(&mut app.tab.results.row, row) && had_focus) {
-                return dialogs::explain(app);
+            if let Some(key) = app.results().key_at(at) {
+                let was_selected = app.results().marked().is_some_and(|known| known.key == key);
+                app.tab.results.selected = Some(key);
+                if was_selected && had_focus {
+                    return dialogs::explain(app);
+                }
             }
         }
         Pane::Chart => {

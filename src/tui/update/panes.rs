@@ -10,9 +10,7 @@ use crate::tui::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
 use crate::tui::jobs::{ChartPart, ChartRequest};
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{self, ChartCommand, first_contact};
-use crate::tui::panes::results::{self, followed, place_of};
 use crate::tui::panes::teeth::TeethCommand;
-use crate::tui::solver::Answer;
 
 /// Moves the focus to a pane and makes it visible. In the form, letters are commands until the user
 /// enters a field.
@@ -61,8 +59,10 @@ pub(super) fn go_to(app: &mut App, field: usize) {
 
 /// Goes to the result with a key.
 pub(super) fn show_result(app: &mut App, key: &str) {
-    let row = results::listed(&app.results()).position(|quantity| quantity.key == key);
-    app.tab.results.row = row.unwrap_or(app.tab.results.row);
+    let listed = app.results().listed();
+    if let Some(quantity) = listed.iter().find(|quantity| quantity.key == key) {
+        app.tab.results.selected = Some(quantity.key);
+    }
     show(app, Pane::Results);
 }
 
@@ -108,21 +108,6 @@ pub(super) fn fit_chart(app: &mut App) {
 pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
         app.chart.view = app.chart.view.following(0.0 - cursor.to_degrees(), &app.tab.scale);
-    }
-}
-
-/// Shows an answer in its tab.
-pub(super) fn take_answer(app: &mut App, answer: Answer) {
-    let serial = answer.serial;
-    let before = app.tab_of(serial).and_then(|tab| {
-        let answer = tab.answer.as_ref()?;
-        place_of(answer, tab.results, None)
-    });
-    app.take(answer);
-    if let Some(tab) = app.tab_of(serial)
-        && let Some(answer) = &tab.answer
-    {
-        tab.results = followed(tab.results, before, answer);
     }
 }
 

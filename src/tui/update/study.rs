@@ -10,7 +10,6 @@ use crate::tui::app::App;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::layout::Pane;
-use crate::tui::panes::results;
 use crate::tui::panes::study::range::{MOST_ZOOM, RangeOf, Steps};
 use crate::tui::panes::study::{self, CURVE_POINTS, StudyCommand, map_points};
 use crate::tui::rows::{self, Row};
@@ -96,7 +95,7 @@ fn tab_of(app: &mut App, serial: u64) -> Option<&mut Tab> {
 }
 
 fn quantity(app: &App) -> Option<&'static Quantity> {
-    results::marked(&app.results()).or_else(|| Quantity::find("impact_force"))
+    app.results().marked().or_else(|| Quantity::find("impact_force"))
 }
 
 /// The study of the focused field and the selected result.

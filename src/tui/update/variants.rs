@@ -11,7 +11,6 @@ use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker, VARIANT};
 use crate::tui::jobs::Job;
 use crate::tui::layout::Pane;
-use crate::tui::panes::results;
 use crate::tui::solver::{Baseline, Variants, VariantsRequest};
 
 /// Asks for the name of the variant.
@@ -56,7 +55,7 @@ pub(super) fn next(app: &mut App) {
         app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
         return;
     }
-    let page = results::variants_page(&app.results());
+    let page = app.results().variants_page();
     app.first_variant = match app.first_variant {
         None => Some(0),
         Some(first) if first + page < count => Some(first + page),

@@ -10,53 +10,32 @@ use ratatui::widgets::{HighlightSpacing, Row, Table};
 use unicode_width::UnicodeWidthStr;
 
 use super::Results;
-use super::words::shown_in;
 use crate::model::inputs::Method;
-use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
+use crate::model::{QUANTITIES, Quantity, Solution, Stages};
 use crate::report::compare::difference;
 use crate::report::verdict::{Standing, verdict};
-use crate::report::{self, value_as_in};
+use crate::report::{self, Shown, value_as_in};
 use crate::tui::ascii::symbol;
 use crate::tui::solver::Answer;
 use crate::tui::text;
 
-/// The first rows, which show the most important quantities of a closed form.
-const FIRST: &[&str] = &[
+/// The most important quantities of each method.
+const FIRST: [&str; 15] = [
+    "dynamic_peak_approach_force",
+    "dynamic_peak_force",
+    "dynamic_impact_duration",
+    "dynamic_first_contact_angle_driver",
+    "dynamic_contact_lost",
+    "static_force_at_start",
+    "static_peak_force",
+    "static_first_contact_angle_driver",
+    "static_transmission_error",
     "impact_force",
     "impact_duration",
     "approach_angle_driver",
     "friction_ratio",
     "normal_velocity",
     "total_deviation",
-];
-/// The first rows of `static`, which shares the load among all pairs.
-const FIRST_OF_STATIC: &[&str] = &[
-    "static_force_at_start",
-    "static_peak_force",
-    "static_first_contact_angle_driver",
-    "static_transmission_error",
-    "mesh_force",
-    "total_deviation",
-];
-/// The first rows of `dynamic`.
-const FIRST_OF_DYNAMIC: &[&str] = &[
-    "dynamic_peak_approach_force",
-    "dynamic_peak_force",
-    "dynamic_impact_duration",
-    "dynamic_first_contact_angle_driver",
-    "dynamic_contact_lost",
-    "total_deviation",
-];
-/// The first rows without corner contact.
-const FIRST_WITHOUT_CONTACT: &[&str] = &[
-    "total_deviation",
-    "dynamic_peak_force",
-    "dynamic_contact_lost",
-    "static_peak_force",
-    "equivalent_error",
-    "combined_deflection",
-    "mesh_force",
-    "contact_ratio",
 ];
 
 /// Marks after a value that the last edit changed, and after a value above its limit.
@@ -67,9 +46,8 @@ const NONE: &str = "–";
 const REFUSED: &str = "refused";
 /// A longer name of a variant is cut.
 const LONGEST_NAME: usize = 18;
-/// Least width of the equations; a longer one is left out if it does not fit.
+/// Least widths of the equations and of the units, which are cut in a narrow pane.
 const LEAST_EQUATION: usize = 12;
-/// Least width of the units with their marks.
 const LEAST_UNIT: usize = 5;
 
 /// In a narrow pane columns give way in this order; the last ones remain.
@@ -83,7 +61,7 @@ enum Rank {
     Second,
     Baseline,
     Kept,
-    /// The units are cut if nothing else gives way.
+    /// The units are cut before the second method or the baseline gives way.
     Unit,
 }
 
@@ -117,29 +95,22 @@ impl Column {
     }
 }
 
-/// The quantities that at least one method has: the most important first, then those of the active
-/// method.
-pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> {
-    let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
-    let strikes = answer.of(answer.active).is_none_or(strikes);
-    let first = match answer.active {
-        _ if !strikes => FIRST_WITHOUT_CONTACT,
-        Method::Static => FIRST_OF_STATIC,
-        Method::Dynamic => FIRST_OF_DYNAMIC,
-        Method::Paper | Method::Exact | Method::Auto => FIRST,
-    };
-    let stages =
-        answer.methods.iter().fold(Stages::NONE, |stages, (method, _)| stages.and(method.stages()));
+/// The quantities that at least one method has: first those with a value, the most important ones
+/// before the others in the order of the active method.
+pub(super) fn order(answer: &Answer) -> Vec<&'static Quantity> {
+    let methods = || answer.methods.iter().map(|(method, _)| *method);
+    let stages = methods().fold(Stages::NONE, |stages, method| stages.and(method.stages()));
     let has_friction = answer.inputs.friction_coefficient.is_some();
-    let is_listed = move |quantity: &&Quantity| {
-        !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction)
-    };
-    let rest = report::quantities(answer.active).filter(is_listed);
-    first
-        .iter()
-        .filter_map(|key| Quantity::find(key))
-        .chain(rest)
-        .filter(move |quantity| stages.has(quantity.stage))
+    let first = FIRST.iter().filter_map(|key| Quantity::find(key));
+    let rest = report::quantities(answer.active).filter(|quantity| {
+        !FIRST.contains(&quantity.key) && (has_friction || !quantity.needs_friction)
+    });
+    let listed = first.chain(rest).filter(|quantity| stages.has(quantity.stage));
+    let has_value =
+        |quantity: &&Quantity| methods().any(|method| value(answer, method, quantity).is_some());
+    let (mut known, unknown): (Vec<_>, Vec<_>) = listed.partition(has_value);
+    known.extend(unknown);
+    known
 }
 
 /// The label of a quantity, which names the free impact beside a method that resolves the impact.
@@ -154,223 +125,229 @@ pub(crate) fn label(quantity: &Quantity, active: Method) -> Cow<'static, str> {
 
 /// The table in the width of the pane.
 pub(super) fn table(pane: &Results<'_>, answer: &Answer) -> Table<'static> {
-    let columns = fitting(pane, columns(pane, answer, pane.first_variant));
+    let columns = Content::of(pane, answer).fitting();
     let theme = pane.look.theme;
-    let is_outdated = |serial: u64| serial != answer.serial;
-    let is_stale =
-        pane.is_stale || pane.variants.is_some_and(|variants| is_outdated(variants.serial));
+    let is_outdated = pane.variants.is_some_and(|(variants, _)| variants.serial != answer.serial);
     let heading = columns.iter().map(|column| column.cell(&column.heading, column.styles[0]));
     let row = |at: usize| {
         let cells = columns.iter().map(|column| column.cell(&column.cells[at], column.styles[1]));
         Row::new(cells.collect::<Vec<_>>())
     };
-    let rows: Vec<Row<'static>> = (0..order(answer).count()).map(row).collect();
+    let count = columns.first().map_or(0, |column| column.cells.len());
     let widths = columns.iter().map(|column| Constraint::Length(column.width() as u16));
-    Table::new(rows, widths)
+    Table::new((0..count).map(row), widths)
         .header(Row::new(heading.collect::<Vec<_>>()))
-        .style(if is_stale { theme.faint } else { Style::new() })
+        .style(if pane.is_stale || is_outdated { theme.faint } else { Style::new() })
         .highlight_symbol(Text::styled("▸", theme.focus))
         .highlight_spacing(HighlightSpacing::Always)
 }
 
-/// The columns that fit, each after a blank. The fastest method, which is the least accurate one,
-/// and the last variant give way first.
-fn fitting(pane: &Results<'_>, mut columns: Vec<Column>) -> Vec<Column> {
-    let width = usize::from(pane.area.width);
-    let taken = |columns: &[Column]| columns.iter().map(|column| column.width() + 1).sum::<usize>();
-    let unit = |columns: &[Column]| {
-        let unit = columns.iter().find(|column| column.rank == Rank::Unit);
-        unit.map_or(0, Column::width)
-    };
-    while let Some(least) = columns.iter().map(|column| column.rank).min() {
-        let is_plenty = least < Rank::Second;
-        let spare = if is_plenty { 0 } else { unit(&columns).saturating_sub(LEAST_UNIT) };
-        if taken(&columns) <= width + spare || least >= Rank::Kept {
-            break;
-        }
-        let over = taken(&columns) - width;
-        let equations = columns.iter_mut().find(|column| column.rank == Rank::Equation);
-        if let Some(equations) = equations
-            && let Some(room) = equations.width().checked_sub(over)
-            && room >= LEAST_EQUATION
-        {
-            equations.cells.iter_mut().filter(|cell| cell.width() > room).for_each(String::clear);
-            break;
-        }
-        let is_least = |column: &Column| column.rank == least;
-        let found = match pane.variants {
-            Some(_) => columns.iter().rposition(is_least),
-            None => columns.iter().position(is_least),
-        };
-        columns.remove(found.unwrap_or(0));
-    }
-    let room = (width + unit(&columns)).saturating_sub(taken(&columns));
-    for column in columns.iter_mut().filter(|column| column.rank == Rank::Unit) {
-        column.cells.iter_mut().for_each(|unit| *unit = text::cut(unit, room));
-    }
-    columns
-}
-
-/// Every column, with the variants from a first one on.
-fn columns(pane: &Results<'_>, answer: &Answer, first_variant: usize) -> Vec<Column> {
-    let (theme, active) = (pane.look.theme, answer.active);
-    let known: Vec<&'static Quantity> = order(answer).collect();
-    let methods = if pane.variants.is_some() { vec![active] } else { methods(answer) };
-    let units = units(pane, answer, &known, &methods);
-    let number = |at: usize, value: Option<f64>| {
-        let shown = |value| report::shown_with(known[at], value, units[at]).number;
-        value.map_or_else(|| NONE.to_owned(), shown)
-    };
-    let own = |at: usize| value(answer, active, known[at]);
-    let of_method = |(at, &method): (usize, &Method)| {
-        let (rank, heading) = match (pane.variants, methods.len() - at) {
-            (Some(_), _) => (Rank::Second, "case".to_owned()),
-            _ if method == active => (Rank::Kept, format!("▸{}", method.name())),
-            (None, left) => {
-                let rank = if left > 2 { Rank::Further } else { Rank::Second };
-                (rank, method.name().to_owned())
-            }
-        };
-        let cells = (0..known.len()).map(|at| number(at, value(answer, method, known[at])));
-        let is_active = method == active;
-        let styles =
-            if is_active { [theme.active, theme.focus] } else { [theme.other, Style::new()] };
-        Column::numbers(rank, heading, cells.collect(), styles)
-    };
-    let of_variant = |(at, (name, found)): (usize, &(String, Result<Solution, String>))| {
-        let cell = |at: usize| {
-            let Ok(found) = found else { return [REFUSED.to_owned(), String::new()] };
-            let now = value_as_in(known[at], found, active).filter(|now| now.is_finite());
-            let against = now.zip(own(at));
-            let against = against.map(|(now, own)| difference(known[at], now, own, units[at]));
-            [number(at, now), against.unwrap_or_default()]
-        };
-        let cells: Vec<[String; 2]> = (0..known.len()).map(cell).collect();
-        let widest = |part: usize| cells.iter().map(|cell| cell[part].width()).max().unwrap_or(0);
-        let (left, right) = (widest(0), widest(1));
-        let cells = cells.iter().map(|[now, by]| format!("{now:>left$} {by:>right$}")).collect();
-        let rank = [Rank::Kept, Rank::Second].get(at).copied().unwrap_or(Rank::Further);
-        Column::numbers(rank, text::cut(name, LONGEST_NAME), cells, [theme.other, Style::new()])
-    };
-    let difference_to_base = |at: usize| match (own(at), base(pane, answer, known[at])) {
-        (Some(now), Some((_, Some(base)))) => difference(known[at], now, base, units[at]),
-        (None, Some((_, Some(base)))) => format!("was {}", number(at, Some(base))),
-        (Some(_), _) => "was none".to_owned(),
-        (None, _) => String::new(),
-    };
-    let symbols = known.iter().map(|known| symbol(known.symbol_in(active), pane.look.ascii));
-    let labels = known.iter().map(|known| label(known, active));
-    let shown_units = known.iter().zip(&units).map(|(known, &unit)| {
-        let has_value = methods.iter().any(|&method| value(answer, method, known).is_some());
-        let unit = if has_value { report::shown_with(known, 0.0, unit).unit } else { "" };
-        let mark = if pane.variants.is_some() { "" } else { mark(pane, answer, known) };
-        [unit, mark].join(" ").trim().to_owned()
-    });
-    let plain = Style::new();
-    let mut columns = vec![
-        Column::words(Rank::Kept, symbols.map(Cow::into_owned), plain),
-        Column::words(Rank::Label, labels.map(Cow::into_owned), plain),
-    ];
-    columns.extend(methods.iter().enumerate().map(of_method));
-    columns.push(Column::words(Rank::Unit, shown_units, plain));
-    if let Some(variants) = pane.variants {
-        columns.extend(variants.columns.iter().skip(first_variant).enumerate().map(of_variant));
-        return columns;
-    }
-    if pane.baseline.is_some() {
-        let cells = (0..known.len()).map(difference_to_base).collect();
-        let heading = "baseline".to_owned();
-        columns.push(Column::numbers(Rank::Baseline, heading, cells, [theme.baseline; 2]));
-    } else {
-        let equations = known.iter().map(|quantity| quantity.equation.to_owned());
-        columns.push(Column::words(Rank::Equation, equations, theme.faint));
-    }
-    columns
-}
-
-/// The common unit of the values of each quantity.
-fn units(
-    pane: &Results<'_>,
-    answer: &Answer,
-    known: &[&'static Quantity],
-    methods: &[Method],
-) -> Vec<&'static str> {
-    let variants = pane.variants.map_or(&[][..], |variants| &variants.columns);
-    let unit = |quantity: &&'static Quantity| {
-        let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
-        let of_variants = variants
-            .iter()
-            .filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, answer.active));
-        report::common_unit(quantity, of_methods.chain(of_variants), pane.units)
-    };
-    known.iter().map(unit).collect()
+/// The number of variants that fit side by side: the columns after the one of the units, which has
+/// no heading.
+pub(super) fn variants_page(pane: &Results<'_>) -> usize {
+    let shown = pane.answer.map(|answer| Content::of(pane, answer).fitting());
+    let is_variant = |column: &&Column| !column.heading.is_empty();
+    shown.map_or(1, |shown| shown.iter().rev().take_while(is_variant).count().max(1))
 }
 
 /// The value of the quantity and the value of the baseline, with the method of the baseline if it
 /// differs.
-pub(super) fn compared(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> Option<String> {
+pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
+    let answer = pane.answer?;
     let (method, base) = base(pane, answer, quantity)?;
     let printed = |value: Option<f64>| {
         value.map_or_else(|| "none".to_owned(), |value| shown_in(pane, quantity, value).to_string())
     };
     let whose =
         if method == answer.active { String::new() } else { format!(" ({})", method.name()) };
-    Some(format!(
-        "{}; baseline{whose}: {}.",
-        printed(value(answer, answer.active, quantity)),
-        printed(base)
-    ))
+    let own = printed(value(answer, answer.active, quantity));
+    Some(format!("{own}; baseline{whose}: {}.", printed(base)))
 }
 
-/// The number of variants that fit side by side: the columns after the one of the units, which has
-/// no heading.
-pub(super) fn variants_page(pane: &Results<'_>) -> usize {
-    let shown = pane.answer.map(|answer| fitting(pane, columns(pane, answer, 0)));
-    let is_variant = |column: &&Column| !column.heading.is_empty();
-    shown.map_or(1, |shown| shown.iter().rev().take_while(is_variant).count().max(1))
+/// The quantities with the methods that have a column and the units of the values.
+struct Content<'a> {
+    pane: &'a Results<'a>,
+    answer: &'a Answer,
+    known: Vec<&'static Quantity>,
+    methods: Vec<Method>,
+    units: Vec<&'static str>,
 }
 
-// The methods with columns: results of `static` are among the rows of `dynamic`.
-fn methods(answer: &Answer) -> Vec<Method> {
-    let is_row = |method: Method| method == Method::Static && answer.active == Method::Dynamic;
-    let methods = answer.methods.iter().map(|(method, _)| *method);
-    methods.filter(|&method| !is_row(method)).collect()
+impl<'a> Content<'a> {
+    fn of(pane: &'a Results<'a>, answer: &'a Answer) -> Content<'a> {
+        let (known, active) = (order(answer), answer.active);
+        // Results of `static` are among the rows of `dynamic`.
+        let is_column = |method: Method| match pane.variants {
+            Some(_) => method == active,
+            None => active != Method::Dynamic || method != Method::Static,
+        };
+        let methods: Vec<Method> = answer.methods.iter().map(|(method, _)| *method).collect();
+        let methods: Vec<Method> =
+            methods.into_iter().filter(|method| is_column(*method)).collect();
+        let variants = pane.variants.map_or(&[][..], |(variants, _)| &variants.columns);
+        let unit = |quantity: &&'static Quantity| {
+            let of_methods = methods.iter().filter_map(|&method| value(answer, method, quantity));
+            let of_variants = variants
+                .iter()
+                .filter_map(|(_, found)| value_as_in(quantity, found.as_ref().ok()?, active));
+            report::common_unit(quantity, of_methods.chain(of_variants), pane.units)
+        };
+        let units = known.iter().map(unit).collect();
+        Content { pane, answer, known, methods, units }
+    }
+
+    /// The columns that fit, each after a blank. The fastest method, which is the least accurate
+    /// one, and the last variant give way first.
+    fn fitting(&self) -> Vec<Column> {
+        let mut columns = self.columns();
+        let width = usize::from(self.pane.area.width);
+        loop {
+            let taken: usize = columns.iter().map(|column| column.width() + 1).sum();
+            let over = taken.saturating_sub(width);
+            let ranks = columns.iter().map(|column| column.rank);
+            let Some(least) = ranks.min().filter(|least| over > 0 && *least < Rank::Kept) else {
+                return columns;
+            };
+            let (cut, narrowest) = match least {
+                Rank::Equation => (Rank::Equation, LEAST_EQUATION),
+                Rank::Further | Rank::Label => (Rank::Unit, usize::MAX),
+                _ => (Rank::Unit, LEAST_UNIT),
+            };
+            let cut = columns.iter_mut().find(|column| column.rank == cut);
+            if let Some(column) = cut
+                && column.width().saturating_sub(over) >= narrowest
+            {
+                let room = column.width() - over;
+                column.cells.iter_mut().for_each(|cell| *cell = text::cut(cell, room));
+                continue;
+            }
+            let is_least = |column: &Column| column.rank == least;
+            let found = match self.pane.variants {
+                Some(_) => columns.iter().rposition(is_least),
+                None => columns.iter().position(is_least),
+            };
+            columns.remove(found.unwrap_or(0));
+        }
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let (pane, answer, known) = (self.pane, self.answer, &self.known);
+        let (theme, active) = (pane.look.theme, answer.active);
+        let symbols = known.iter().map(|known| symbol(known.symbol_in(active), pane.look.ascii));
+        let labels = known.iter().map(|known| label(known, active));
+        let plain = Style::new();
+        let mut columns = vec![
+            Column::words(Rank::Kept, symbols.map(Cow::into_owned), plain),
+            Column::words(Rank::Label, labels.map(Cow::into_owned), plain),
+        ];
+        columns.extend((0..self.methods.len()).map(|at| self.of_method(at)));
+        let units = known.iter().zip(&self.units).map(|(known, &unit)| {
+            let has_value =
+                self.methods.iter().any(|&method| value(answer, method, known).is_some());
+            let unit = if has_value { report::shown_with(known, 0.0, unit).unit } else { "" };
+            let mark = if pane.variants.is_some() { "" } else { mark(pane, answer, known) };
+            [unit, mark].join(" ").trim().to_owned()
+        });
+        columns.push(Column::words(Rank::Unit, units, plain));
+        if let Some((variants, first)) = pane.variants {
+            let variants = variants.columns.iter().skip(first).enumerate();
+            columns.extend(variants.map(|(at, (name, found))| self.of_variant(at, name, found)));
+        } else if pane.baseline.is_some() {
+            let cells = (0..known.len()).map(|at| self.difference_to_base(at)).collect();
+            let styles = [theme.baseline; 2];
+            columns.push(Column::numbers(Rank::Baseline, "baseline".to_owned(), cells, styles));
+        } else {
+            let equations = known.iter().map(|quantity| quantity.equation.to_owned());
+            columns.push(Column::words(Rank::Equation, equations, theme.faint));
+        }
+        columns
+    }
+
+    fn of_method(&self, at: usize) -> Column {
+        let (theme, method) = (self.pane.look.theme, self.methods[at]);
+        let is_active = method == self.answer.active;
+        let (rank, heading) = match (self.pane.variants, self.methods.len() - at) {
+            (Some(_), _) => (Rank::Second, "case".to_owned()),
+            (None, _) if is_active => (Rank::Kept, format!("▸{}", method.name())),
+            (None, left) => {
+                let rank = if left > 2 { Rank::Further } else { Rank::Second };
+                (rank, method.name().to_owned())
+            }
+        };
+        let value = |at: usize| self.number(at, value(self.answer, method, self.known[at]));
+        let cells = (0..self.known.len()).map(value).collect();
+        let styles =
+            if is_active { [theme.active, theme.focus] } else { [theme.other, Style::new()] };
+        Column::numbers(rank, heading, cells, styles)
+    }
+
+    /// The values of a variant and their differences from the case.
+    fn of_variant(&self, at: usize, name: &str, found: &Result<Solution, String>) -> Column {
+        let cell = |at: usize| {
+            let Ok(found) = found else { return [REFUSED.to_owned(), String::new()] };
+            let quantity = self.known[at];
+            let now = value_as_in(quantity, found, self.answer.active);
+            let now = now.filter(|now| now.is_finite());
+            let by = now.zip(self.own(at));
+            let by = by.map(|(now, own)| difference(quantity, now, own, self.units[at]));
+            [self.number(at, now), by.unwrap_or_default()]
+        };
+        let cells: Vec<[String; 2]> = (0..self.known.len()).map(cell).collect();
+        let widest = |part: usize| cells.iter().map(|cell| cell[part].width()).max().unwrap_or(0);
+        let (left, right) = (widest(0), widest(1));
+        let cells = cells.iter().map(|[now, by]| format!("{now:>left$} {by:>right$}")).collect();
+        let rank = [Rank::Kept, Rank::Second].get(at).copied().unwrap_or(Rank::Further);
+        let styles = [self.pane.look.theme.other, Style::new()];
+        Column::numbers(rank, text::cut(name, LONGEST_NAME), cells, styles)
+    }
+
+    fn difference_to_base(&self, at: usize) -> String {
+        let quantity = self.known[at];
+        match (self.own(at), base(self.pane, self.answer, quantity)) {
+            (Some(now), Some((_, Some(base)))) => difference(quantity, now, base, self.units[at]),
+            (None, Some((_, Some(base)))) => format!("was {}", self.number(at, Some(base))),
+            (Some(_), _) => "was none".to_owned(),
+            (None, _) => String::new(),
+        }
+    }
+
+    fn own(&self, at: usize) -> Option<f64> {
+        value(self.answer, self.answer.active, self.known[at])
+    }
+
+    fn number(&self, at: usize, value: Option<f64>) -> String {
+        let shown = |value| report::shown_with(self.known[at], value, self.units[at]).number;
+        value.map_or_else(|| NONE.to_owned(), shown)
+    }
 }
 
 // The mark of a quantity: above its limit, or changed.
 fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static str {
-    let solution = answer.of(answer.active).filter(|_| !pane.is_stale);
+    let Some(solution) = answer.of(answer.active).filter(|_| !pane.is_stale) else { return "" };
     let limit = pane.case.limits.iter().find(|limit| limit.quantity == quantity.key);
-    let is_exceeded = limit
-        .zip(solution)
-        .and_then(|(limit, solution)| verdict(limit, solution))
-        .is_some_and(|verdict| verdict.standing == Standing::Exceeded);
-    match is_exceeded {
-        true => EXCEEDED,
-        false if is_changed(pane, answer, quantity) => CHANGED,
-        false => "",
+    let verdict = limit.and_then(|limit| verdict(limit, solution));
+    if verdict.is_some_and(|verdict| verdict.standing == Standing::Exceeded) {
+        return EXCEEDED;
     }
+    // Whether the present visit of a field changed the printed value of the quantity.
+    let at = QUANTITIES.iter().position(|known| known.key == quantity.key);
+    let before = pane.earlier.zip(at).map(|(earlier, at)| earlier.get(at).copied().flatten());
+    let printed = |value: Option<f64>| value.map(|value| shown_in(pane, quantity, value));
+    let is_changed = |before| printed(before) != printed((quantity.value)(solution));
+    if before.is_some_and(is_changed) { CHANGED } else { "" }
 }
 
-// Whether the present visit of a field changed the printed value of the quantity.
-fn is_changed(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> bool {
-    let Some(earlier) = pane.earlier.filter(|_| !pane.is_stale) else {
-        return false;
-    };
-    let at = QUANTITIES.iter().position(|known| known.key == quantity.key);
-    let before = at.and_then(|at| earlier.get(at).copied().flatten());
-    let now = answer.of(answer.active).and_then(quantity.value);
-    let printed = |value: Option<f64>| value.map(|value| shown_in(pane, quantity, value));
-    printed(before) != printed(now)
+fn shown_in(pane: &Results<'_>, quantity: &Quantity, value: f64) -> Shown {
+    report::shown_in(quantity, value, pane.units)
 }
 
 fn value(answer: &Answer, method: Method, quantity: &Quantity) -> Option<f64> {
-    report::value_as_in(quantity, answer.of(method)?, answer.active)
+    value_as_in(quantity, answer.of(method)?, answer.active)
 }
 
 // The method and the value of the baseline.
 fn base(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> Option<(Method, Option<f64>)> {
     let base = &pane.baseline?.answer;
     let method = base.beside(answer.active);
-    Some((method, report::value_as_in(quantity, base.of(method)?, answer.active)))
+    Some((method, value_as_in(quantity, base.of(method)?, answer.active)))
 }
