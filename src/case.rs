@@ -210,7 +210,15 @@ impl Case {
     /// # Errors
     /// All problems of the case, in the order of the fields.
     pub fn inputs(&self) -> Result<Inputs, Vec<Problem>> {
-        check::inputs(self)
+        let (inputs, problems) = self.read();
+        if problems.is_empty() { Ok(inputs) } else { Err(problems) }
+    }
+
+    /// The inputs that can be read, enough for the relevance of fields, and all problems of the
+    /// case, in the order of the fields.
+    #[must_use]
+    pub fn read(&self) -> (Inputs, Vec<Problem>) {
+        check::read(self, &[])
     }
 
     /// Writes a field or a limit by its key, as `--set KEY=VALUE` does. Quotes around the value are

@@ -13,12 +13,6 @@ use crate::model::inputs::{Gear, Method};
 use crate::model::{Inputs, QUANTITIES, Quantity};
 use crate::numeric::decimal::{shortest, significant};
 
-/// The inputs of the model, or all problems of the case.
-pub(super) fn inputs(case: &Case) -> Result<Inputs, Vec<Problem>> {
-    let (inputs, problems) = read(case, &[]);
-    if problems.is_empty() { Ok(inputs) } else { Err(problems) }
-}
-
 /// The inputs that can be read, and all problems of the case. Skips the fields in `wrong`.
 pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     let mut inputs = Inputs::default();

@@ -3,7 +3,7 @@
 
 use super::fields::{Kind, Range, Reason};
 use super::units::{self, Dimension};
-use super::{Case, FIELDS, Problem, check};
+use super::{Case, FIELDS};
 use crate::model::compliance::{model_of, without_field};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Refusal, Stage, Stages};
@@ -228,15 +228,6 @@ pub enum Acting {
 
 /// The reason for an unused field without its own reason.
 const NO_REASON: &str = "no result of this case depends on it";
-
-impl Case {
-    /// The inputs that can be read, enough for the relevance of fields, and all problems of the
-    /// case, in the order of the fields.
-    #[must_use]
-    pub fn read(&self) -> (Inputs, Vec<Problem>) {
-        check::read(self, &[])
-    }
-}
 
 /// Whether the field has an effect in a case with these inputs.
 #[must_use]
