@@ -2,7 +2,7 @@
 
 use super::Absent::{Default, Either, Without};
 use super::Reason::Beside;
-use super::{Field, Kind, Range};
+use super::{Absent, Field, Kind, Range};
 use crate::case::fields::Absent::Refused;
 use crate::case::fields::Reason::{Idle, Partly};
 use crate::case::fields::{
@@ -10,6 +10,7 @@ use crate::case::fields::{
     by_impact, has_size, is_driver, is_wider, root_diameter, tip_diameter,
 };
 use crate::case::units::Dimension;
+use crate::model::Inputs;
 use crate::model::compliance::contact_of;
 use crate::model::inputs::{
     Combination, ContactCompliance, Drive, InertiaModel, Method, ReliefShape, ToothCompliance,
@@ -27,6 +28,31 @@ macro_rules! number {
             ..Field::PLAIN
         }
     };
+}
+
+const fn count(
+    key: &'static str,
+    symbol: &'static str,
+    label: &'static str,
+    (from, to): (u32, u32),
+    absent: Absent,
+    put: fn(&mut Inputs, u32),
+    help: &'static str,
+) -> Field {
+    let kind = Kind::Count(from, to, put);
+    Field { key, symbol, label, help, kind, absent, ..Field::PLAIN }
+}
+
+const fn choice(
+    key: &'static str,
+    symbol: &'static str,
+    label: &'static str,
+    names: &'static [&'static str],
+    absent: Absent,
+    put: fn(&mut Inputs, usize),
+    help: &'static str,
+) -> Field {
+    Field { key, symbol, label, help, kind: Kind::Choice(names, put), absent, ..Field::PLAIN }
 }
 
 const fn text(key: &'static str, label: &'static str, help: &'static str) -> Field {
@@ -114,15 +140,15 @@ pub static FIELDS: [Field; COUNT] = {
 macro_rules! gear {
     ($gear:ident, $i:literal) => {
         [
-            Field {
-                key: concat!(stringify!($gear), ".teeth"),
-                symbol: concat!("z", $i),
-                label: "number of teeth",
-                help: "Whole number of teeth of the gear.",
-                kind: Kind::Count(5, 1000, |inputs, value| inputs.$gear.teeth = value),
-                absent: Refused,
-                ..Field::PLAIN
-            }
+            count(
+                concat!(stringify!($gear), ".teeth"),
+                concat!("z", $i),
+                "number of teeth",
+                (5, 1000),
+                Refused,
+                |inputs, value| inputs.$gear.teeth = value,
+                "Whole number of teeth of the gear.",
+            )
             .with_example("20"),
             number!(
                 concat!(stringify!($gear), ".profile_shift"),
@@ -320,36 +346,34 @@ macro_rules! gear {
                         flank."
             )
             .reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
-            Field {
-                key: concat!(stringify!($gear), ".tip_relief_length"),
-                symbol: concat!("La", $i),
-                label: "tip relief length",
-                help: "Length of the tip relief along the path of contact, from the tip; paper and \
-                    exact apply the whole relief at the tip.",
-                kind: Kind::Number(
-                    Dimension::Length,
-                    Range::new(0.0001, 1000.0, "mm"),
-                    |inputs, value| inputs.$gear.tip_relief_length = Some(value),
-                ),
-                absent: Without("to single contact"),
-                ..Field::PLAIN
-            }
+            number!(
+                concat!(stringify!($gear), ".tip_relief_length"),
+                concat!("La", $i),
+                "tip relief length",
+                Length,
+                0.0001,
+                1000.0,
+                "mm",
+                Without("to single contact"),
+                |inputs, value| inputs.$gear.tip_relief_length = Some(value),
+                "Length of the tip relief along the path of contact, from the tip; paper and \
+                    exact apply the whole relief at the tip."
+            )
             .with_example("1 mm")
             .reasons(&WHOLE_RELIEF),
-            Field {
-                key: concat!(stringify!($gear), ".root_relief_length"),
-                symbol: concat!("Lf", $i),
-                label: "root relief length",
-                help: "Length of the root relief along the path of contact, from its end at the \
-                    root; static and dynamic alone.",
-                kind: Kind::Number(
-                    Dimension::Length,
-                    Range::new(0.0001, 1000.0, "mm"),
-                    |inputs, value| inputs.$gear.root_relief_length = Some(value),
-                ),
-                absent: Without("to single contact"),
-                ..Field::PLAIN
-            }
+            number!(
+                concat!(stringify!($gear), ".root_relief_length"),
+                concat!("Lf", $i),
+                "root relief length",
+                Length,
+                0.0001,
+                1000.0,
+                "mm",
+                Without("to single contact"),
+                |inputs, value| inputs.$gear.root_relief_length = Some(value),
+                "Length of the root relief along the path of contact, from its end at the \
+                    root; static and dynamic alone."
+            )
             .with_example("1 mm")
             .reasons(&WHOLE_RELIEF),
             number!(
@@ -402,16 +426,16 @@ macro_rules! gear {
                 (inputs.$gear.grade.is_none() || has_size(inputs, &inputs.$gear))
                     .then(|| inputs.base_pitch_of(&inputs.$gear).0)
             }),
-            Field {
-                key: concat!(stringify!($gear), ".grade"),
-                symbol: concat!("A", $i),
-                label: "ISO 1328-1 class",
-                help: "Flank tolerance class of ISO 1328-1:2013; it gives the base pitch deviation \
+            count(
+                concat!(stringify!($gear), ".grade"),
+                concat!("A", $i),
+                "ISO 1328-1 class",
+                (1, 11),
+                Without("none"),
+                |inputs, value| inputs.$gear.grade = Some(value),
+                "Flank tolerance class of ISO 1328-1:2013; it gives the base pitch deviation \
                     f_pb = f_pT cos(alpha) of this gear.",
-                kind: Kind::Count(1, 11, |inputs, value| inputs.$gear.grade = Some(value)),
-                absent: Without("none"),
-                ..Field::PLAIN
-            }
+            )
             .with_example("7")
             .reasons(&[Idle(always, "the base pitch deviation of this gear is given")]),
         ]
@@ -437,17 +461,9 @@ const OPERATION: &[Field] = &[
         always,
         "both gears have their own base pitch deviation",
     )]),
-    Field {
-        key: "deviations.combination",
-        symbol: "",
-        label: "combination",
-        help: "independent: only the sizes are known, sqrt(f_pb1^2 + f_pb2^2). sum: known deviations, f_pb1 + f_pb2, positive if the incoming tooth is early.",
-        kind: Kind::Choice(&["independent", "sum"], |inputs, value| {
+    choice("deviations.combination", "", "combination", &["independent", "sum"], Default("independent"), |inputs, value| {
             inputs.combination = Combination::ALL[value];
-        }),
-        absent: Default("independent"),
-        ..Field::PLAIN
-    }
+        }, "independent: only the sizes are known, sqrt(f_pb1^2 + f_pb2^2). sum: known deviations, f_pb1 + f_pb2, positive if the incoming tooth is early.")
     .reasons(&[Idle(
         always,
         "base pitch deviations of unlike sign are known and always add as a sum",
@@ -530,18 +546,7 @@ const OPERATION: &[Field] = &[
 ];
 
 const MODEL: &[Field] = &[
-    Field {
-        key: "model.method",
-        symbol: "",
-        label: "method",
-        help: "paper: as printed, misprints fixed. exact: exact position, free impact. static: all pairs share the load. dynamic: with inertia. auto: the fastest within the tolerance.",
-        kind: Kind::Choice(
-            &["paper", "exact", "static", "dynamic", "auto"],
-            |inputs, value| inputs.method = Method::ALL[value],
-        ),
-        absent: Default("auto"),
-        ..Field::PLAIN
-    },
+    choice("model.method", "", "method", &["paper", "exact", "static", "dynamic", "auto"], Default("auto"), |inputs, value| inputs.method = Method::ALL[value], "paper: as printed, misprints fixed. exact: exact position, free impact. static: all pairs share the load. dynamic: with inertia. auto: the fastest within the tolerance."),
     number!(
         "model.deflection",
         "δ",
@@ -557,43 +562,19 @@ const MODEL: &[Field] = &[
         |inputs| inputs.method.shares_load(),
         "this method computes the deflection from the load",
     )]),
-    Field {
-        key: "model.tooth_compliance",
-        symbol: "q1,q2",
-        label: "tooth compliance",
-        help: ToothCompliance::HELP,
-        kind: Kind::Choice(&ToothCompliance::NAMES, |inputs, value| {
+    choice("model.tooth_compliance", "q1,q2", "tooth compliance", &ToothCompliance::NAMES, Without("by the method"), |inputs, value| {
             inputs.tooth_compliance = Some(ToothCompliance::ALL[value]);
-        }),
-        absent: Without("by the method"),
-        ..Field::PLAIN
-    },
-    Field {
-        key: "model.contact_compliance",
-        symbol: "q_H",
-        label: "contact compliance",
-        help: ContactCompliance::HELP,
-        kind: Kind::Choice(&ContactCompliance::NAMES, |inputs, value| {
+        }, ToothCompliance::HELP),
+    choice("model.contact_compliance", "q_H", "contact compliance", &ContactCompliance::NAMES, Default(ContactCompliance::NAMES[0]), |inputs, value| {
             inputs.contact_compliance = ContactCompliance::ALL[value];
-        }),
-        absent: Default(ContactCompliance::NAMES[0]),
-        ..Field::PLAIN
-    }.reasons(&[Idle(
+        }, ContactCompliance::HELP).reasons(&[Idle(
         |inputs| contact_of(inputs).is_none(),
         "the tooth compliance of this case includes the contact",
     )]),
-    Field {
-        key: "model.inertia",
-        symbol: "",
-        label: "inertia model",
-        help: "outline: inertia of the true gear outline. base-circle: inertia of a disc up to \
-            the base circle, Eq. 47; method paper always uses the disc.",
-        kind: Kind::Choice(&["outline", "base-circle"], |inputs, value| {
+    choice("model.inertia", "", "inertia model", &["outline", "base-circle"], Default("outline"), |inputs, value| {
             inputs.inertia = InertiaModel::ALL[value];
-        }),
-        absent: Default("outline"),
-        ..Field::PLAIN
-    }.reasons(&[
+        }, "outline: inertia of the true gear outline. base-circle: inertia of a disc up to \
+            the base circle, Eq. 47; method paper always uses the disc.").reasons(&[
         Idle(
             |inputs| inputs.method == Method::Paper,
             "method paper uses the disc to the base circle, Eq. 47",
@@ -601,17 +582,9 @@ const MODEL: &[Field] = &[
         Idle(always, "the inertia of both gears is given"),
         MASS[0],
     ]),
-    Field {
-        key: "model.relief_shape",
-        symbol: "",
-        label: "relief shape",
-        help: "How tip and root relief grow along the path of contact; static and dynamic alone.",
-        kind: Kind::Choice(&["linear", "parabolic"], |inputs, value| {
+    choice("model.relief_shape", "", "relief shape", &["linear", "parabolic"], Default("linear"), |inputs, value| {
             inputs.relief_shape = ReliefShape::ALL[value];
-        }),
-        absent: Default("linear"),
-        ..Field::PLAIN
-    }.reasons(&WHOLE_RELIEF),
+        }, "How tip and root relief grow along the path of contact; static and dynamic alone.").reasons(&WHOLE_RELIEF),
     number!(
         "model.damping_ratio",
         "ζ",
@@ -624,16 +597,8 @@ const MODEL: &[Field] = &[
         |inputs, value| inputs.damping_ratio = value,
         "Damping ratio of the mean mesh stiffness while a pair is in contact; dynamic alone."
     ).reasons(&[Idle(always, IN_TIME)]),
-    Field {
-        key: "model.warmup_cycles",
-        symbol: "",
-        label: "warm-up cycles",
-        help: "Number of base pitches between the start of the motion, at static balance, and E; \
-            method dynamic only.",
-        kind: Kind::Count(1, 10000, |inputs, value| inputs.warmup_cycles = value),
-        absent: Default("20"),
-        ..Field::PLAIN
-    }.reasons(&[Idle(always, IN_TIME)]),
+    count("model.warmup_cycles", "", "warm-up cycles", (1, 10000), Default("20"), |inputs, value| inputs.warmup_cycles = value, "Number of base pitches between the start of the motion, at static balance, and E; \
+            method dynamic only.").reasons(&[Idle(always, IN_TIME)]),
     number!(
         "model.tolerance",
         "",
@@ -669,17 +634,9 @@ const MODEL: &[Field] = &[
         always,
         "only the method auto chooses by a permitted error",
     )]),
-    Field {
-        key: "model.stations",
-        symbol: "n",
-        label: "stations",
-        help: "Intervals between D and E, and in static and dynamic as many again to the last contact; auto: as many as the curve needs.",
-        kind: Kind::Count(1, 10000, |inputs, value| {
+    count("model.stations", "n", "stations", (1, 10000), Default("64"), |inputs, value| {
             inputs.stations = (value > 0).then_some(value as usize);
-        }),
-        absent: Default("64"),
-        ..Field::PLAIN
-    }.reasons(&[Partly(always, CURVE)]),
+        }, "Intervals between D and E, and in static and dynamic as many again to the last contact; auto: as many as the curve needs.").reasons(&[Partly(always, CURVE)]),
     number!(
         "model.station_tolerance",
         "",
@@ -698,16 +655,8 @@ const MODEL: &[Field] = &[
         ),
         Partly(always, CURVE),
     ]),
-    Field {
-        key: "model.accurate",
-        symbol: "",
-        label: "accurate",
-        help: "Computes geometry and position in double-double arithmetic: relative error below \
-            1e-13 instead of 1e-12, with a longer run time.",
-        kind: Kind::Choice(FLAG, |inputs, value| inputs.accurate = value == 1),
-        absent: Default("false"),
-        ..Field::PLAIN
-    }.reasons(&[Partly(
+    choice("model.accurate", "", "accurate", FLAG, Default("false"), |inputs, value| inputs.accurate = value == 1, "Computes geometry and position in double-double arithmetic: relative error below \
+            1e-13 instead of 1e-12, with a longer run time.").reasons(&[Partly(
         always,
         "changes only digits beyond those shown",
     )]),
