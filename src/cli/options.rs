@@ -9,6 +9,7 @@ use super::output::{Done, Failure, Sink, check_out, write_to};
 use crate::case::{Case, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
+use crate::study::batch::Control;
 use crate::study::condition::distinct;
 use crate::study::shard::{Format, Shard};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -46,6 +47,13 @@ pub struct Threads {
     /// Number of threads (default: one per core); does not change the output
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
+}
+
+impl Threads {
+    /// The control of a study that reports to `go_on`.
+    pub(super) fn control<'a>(&self, go_on: &'a dyn Fn(usize, usize) -> bool) -> Control<'a> {
+        Control { jobs: self.jobs.map(usize::from), go_on }
+    }
 }
 
 /// Options of a study whose points can be divided among machines.

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use super::Streams;
 use crate::case::Problem;
 use crate::case::file::{Draft, SaveError};
-use crate::study::batch::{Control, Stopped};
+use crate::study::batch::Stopped;
 use crate::system::files::is_same;
 use crate::system::interrupt::Interrupt;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -112,90 +112,54 @@ pub(super) fn write_to(
 /// Delay before the bar appears.
 const QUIET: Duration = Duration::from_secs(1);
 
-/// Running work: its threads, its progress bar on a terminal, and Ctrl-C.
-pub(super) struct Running {
-    begun: Instant,
-    bar: ProgressBar,
-    is_up: Cell<bool>,
-    interrupt: Interrupt,
-    jobs: Option<usize>,
-}
-
-impl Running {
-    /// Work with a number of threads; `what` is the name of its parts.
-    pub(super) fn new(what: &'static str, jobs: Option<u16>) -> Running {
-        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
-            let rate = state.per_sec() as u64;
-            if rate > 0 {
-                // Errors of the bar are ignored.
-                let _ = write!(out, ", {}/s", HumanCount(rate));
-            }
-        };
-        let template = "{bar:30} {human_pos}/{human_len} {msg}{rate}, {eta} left";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style.with_key("rate", rate).progress_chars("=> "));
-        }
-        bar.set_message(what);
-        let (begun, interrupt) = (Instant::now(), Interrupt::install());
-        Running { begun, bar, is_up: Cell::new(false), interrupt, jobs: jobs.map(usize::from) }
-    }
-
-    /// Runs a part of the study and shows its progress.
-    pub(super) fn run<T, E>(&self, study: impl FnOnce(&Control) -> Result<T, E>) -> Result<T, E> {
-        let interrupt = &self.interrupt;
-        let done = study(&Control {
-            jobs: self.jobs,
-            go_on: &|done, of| {
-                self.show(done, of);
-                interrupt.go_on()
-            },
-        });
-        self.clear(done.is_err() && !self.interrupt.go_on());
-        done
-    }
-
-    /// Shows the number of completed parts and their total.
-    fn show(&self, done: usize, of: usize) {
-        if !self.is_up.get() {
-            if self.begun.elapsed() < QUIET || !io::stderr().is_terminal() {
-                return;
-            }
-            self.is_up.set(true);
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
-        self.bar.set_length(of as u64);
-        self.bar.set_position(done as u64);
-    }
-
-    /// Removes the bar. After Ctrl-C the terminal appends `^C` to the bar, which fills its line, so
-    /// that the cursor is on the next line.
-    fn clear(&self, is_stopped: bool) {
-        const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
-        self.bar.finish_and_clear();
-        if is_stopped && self.is_up.get() && self.interrupt.is_ctrl_c() {
-            drop(io::stderr().write_all(LINE_ABOVE));
-        }
-    }
-}
-
-/// Runs work that reports the number of completed parts and their total, with a bar during long
-/// work. The work stops if the report returns false, and Ctrl-C then ends the program.
+/// Runs work with a progress bar on a terminal if it takes long. The work reports the number of
+/// completed parts and their total, and stops if the report returns false.
+///
+/// # Errors
+/// [`Failure::Interrupted`] after Ctrl-C.
 pub(super) fn follow<T>(
     what: &'static str,
     work: impl FnOnce(&dyn Fn(usize, usize) -> bool) -> T,
-) -> T {
-    let running = Running::new(what, None);
+) -> Result<T, Failure> {
+    const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
+    let (begun, interrupt) = (Instant::now(), Interrupt::install());
+    let (bar, is_up) = (bar(what), Cell::new(false));
     let done = work(&|done, of| {
-        running.show(done, of);
-        running.interrupt.go_on()
+        if !is_up.get() && begun.elapsed() >= QUIET && io::stderr().is_terminal() {
+            is_up.set(true);
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+        interrupt.go_on()
     });
-    let is_stopped = !running.interrupt.go_on();
-    running.clear(is_stopped);
-    if is_stopped {
-        Interrupt::end();
+    bar.finish_and_clear();
+    if interrupt.go_on() {
+        return Ok(done);
     }
-    done
+    // The terminal appends `^C` to the bar, which fills its line: the cursor is on the next line.
+    if is_up.get() && interrupt.is_ctrl_c() {
+        drop(io::stderr().write_all(LINE_ABOVE));
+    }
+    Err(Failure::Interrupted)
+}
+
+/// A hidden bar; `what` is the name of its parts.
+fn bar(what: &'static str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+    let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
+        let rate = state.per_sec() as u64;
+        if rate > 0 {
+            // Errors of the bar are ignored.
+            let _ = write!(out, ", {}/s", HumanCount(rate));
+        }
+    };
+    let template = "{bar:30} {human_pos}/{human_len} {msg}{rate}, {eta} left";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.with_key("rate", rate).progress_chars("=> "));
+    }
+    bar.set_message(what);
+    bar
 }
 
 /// The exit code of a command; of several, the greatest counts.

@@ -256,7 +256,7 @@ impl Compare {
         let cases: Vec<ComparedCase> = follow("cases", |go_on| {
             let wanted = edited.iter().enumerate().take_while(|(at, _)| go_on(*at, edited.len()));
             wanted.map(|(_, edited)| solve(edited, &selection)).collect()
-        });
+        })?;
         if cases.len() < 2 && worst == Exit::Done {
             let name = cases.first().map_or("", |case| case.name.as_str());
             return Err(Failure::usage(format!(
@@ -333,7 +333,7 @@ impl Plot {
         let opened = input.open(&[], streams)?;
         let source = opened.unsolved();
         let drawn = if chart.needs_speeds() {
-            follow("speeds", |go_on| chart.of_case(source, go_on))
+            follow("speeds", |go_on| chart.of_case(source, go_on))?
         } else {
             chart.of_case(source, &|_, _| true)
         };
@@ -376,12 +376,11 @@ impl Report {
         let mut subjects = Vec::new();
         let worst = cases::each(cases, streams, |path, streams| {
             let opened = cases::open(path, &edits, &[], streams)?;
-            // Ctrl-C ends the program.
-            let solved = opened.unsolved().solve(format != Format::Csv).and_then(|report| {
-                let file = opened.document.render();
-                follow("parts", |go_on| subject(report, file, format, go_on))
-            });
-            subjects.push(solved.map_err(|refusal| opened.refused(&refusal))?);
+            let refused = |refusal| opened.refused(&refusal);
+            let report = opened.unsolved().solve(format != Format::Csv).map_err(refused)?;
+            let file = opened.document.render();
+            let subject = follow("parts", |go_on| subject(report, file, format, go_on))?;
+            subjects.push(subject.map_err(refused)?);
             Ok(Exit::Done)
         })?;
         if !subjects.is_empty() {

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use crate::cli::Streams;
 use crate::cli::cases;
 use crate::cli::options::{CaseFile, Destination, Edits, Threads, count, formats};
-use crate::cli::output::{Done, Exit, Failure, Running, follow};
+use crate::cli::output::{Done, Exit, Failure, follow};
 use crate::model::Inputs;
 use crate::numeric::decimal::shortest;
 use crate::report::relief::ReliefReport;
@@ -68,9 +68,9 @@ impl Seek {
         condition.check(opened.inputs.method).map_err(bad_condition)?;
         let scan = range.axis(Sampling { points: Some(*points), is_log: false });
         let scan = scan.map_err(bad_range)?;
-        let running = Running::new("points", self.threads.jobs);
-        let found =
-            running.run(|control| seek(&opened.inputs, &range, &condition, scan, control))?;
+        let found = follow("points", |go_on| {
+            seek(&opened.inputs, &range, &condition, scan, &self.threads.control(go_on))
+        })??;
         let report = SeekReport {
             method: opened.inputs.method.name(),
             range: &range,
@@ -128,7 +128,7 @@ impl Relief {
         let demand = Demand { loads: *loads, tolerance: *tolerance };
         let found = follow("% of the budget", |go_on| {
             specify(&opened.inputs, &demand, &|part| go_on((100.0 * part) as usize, 100))
-        });
+        })?;
         let found = found.map_err(|none| match none {
             NoRelief::Refused(refusal) => opened.refused(&refusal),
             none => opened.failed(&none),
@@ -223,7 +223,7 @@ impl Trade {
             };
             let go_on = || report(done.get(), planned.get());
             study::trade(&inputs, STEADY, &go_on, &mut show)
-        });
+        })?;
         let trade = found.map_err(|refusal| opened.refused(&refusal))?;
         opened.named().write(&trade, self.format, streams.output.as_mut())?;
         Ok(Exit::Done)

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use crate::cli::Streams;
 use crate::cli::cases::Opened;
 use crate::cli::options::{CaseFile, Destination, Only, StudyOptions, count, formats};
-use crate::cli::output::{Done, Exit, Failure, Running, check_out, write_to};
+use crate::cli::output::{Done, Exit, Failure, check_out, follow, write_to};
 use crate::model::Quantity;
 use crate::report::absence::Absence;
 use crate::report::results::Named;
 use crate::report::sweep::RowWriter;
 use crate::report::tolerance::ToleranceReport;
 use crate::study::axis::Axis;
-use crate::study::batch::{Points, Refusals, Row, Stopped, solve_all};
+use crate::study::batch::{Points, Refusals, Row, solve_all};
 use crate::study::condition::headline;
 use crate::study::shard::{
     Complete, Format, Header, Kind, PointsRequest, Request, ShardWriter, Study, in_order,
@@ -217,19 +217,19 @@ fn run_study(study: &Study, options: &StudyOptions, streams: &mut Streams) -> Do
         (Kind::Tolerance(_), None) => "solves",
         _ => "points",
     };
-    let running = Running::new(what, options.threads.jobs);
     let count = study.points().count();
     // A stop is an interrupted write.
     let solve = |range, take: Take| {
         let mut written = Ok(());
-        let solved = running.run(|control| {
-            solve_all(&study.batch(), range, control, &mut |first, rows| {
+        let solved = follow(what, |go_on| {
+            let control = options.threads.control(go_on);
+            solve_all(&study.batch(), range, &control, &mut |first, rows| {
                 written = take(first, rows);
                 written.is_ok()
             })
         });
         written?;
-        solved.map_err(|Stopped| ErrorKind::Interrupted.into())
+        if matches!(solved, Ok(Ok(()))) { Ok(()) } else { Err(ErrorKind::Interrupted.into()) }
     };
     let Some(shard) = options.shard else {
         return write_study(study, out, streams, |take| solve(0..count, take));
