@@ -350,10 +350,10 @@ pub fn in_order(mut shards: Vec<Complete>) -> io::Result<Vec<Complete>> {
     let is_foreign =
         |other: &&Complete| other.header.request != *request || other.header.shard.of != of;
     if let Some(other) = shards.iter().find(is_foreign) {
-        let (other, shard) = (name(other), other.header.shard);
         return Err(wrong(format!(
-            "{other}: this shard belongs to another study than {first}, or is not one of {of} \
-             ({shard}): gather one study at a time"
+            "{}: this shard belongs to another study than {first}, or to another number of \
+             shards: gather one study at a time",
+            name(other)
         )));
     }
     let number = |shard: &Complete| shard.header.shard.number;
