@@ -322,14 +322,13 @@ const BEYOND: usize = 24;
 struct Place {
     pairs: PairSet,
     radii: Vec<(f64, f64)>,
-    first: i32,
 }
 
 impl Place {
     fn eased(&self, relief: &Relief) -> PairSet {
+        let first = self.pairs.pairs().first().map_or(0, |pair| pair.ahead);
         self.pairs.widened(|ahead| {
-            let index = usize::try_from(ahead - self.first).unwrap_or(0);
-            let (driver, driven) = self.radii[index];
+            let (driver, driven) = self.radii[usize::try_from(ahead - first).unwrap_or(0)];
             relief.at(driver, driven)
         })
     }
@@ -359,7 +358,6 @@ struct BarePair<'a> {
 /// The prepared mesh.
 pub(super) struct PreparedMesh<'a> {
     pair: BarePair<'a>,
-    reliefs: Reliefs,
     tolerance: f64,
     loads: Vec<Pitch>,
     corners: Corners,
@@ -393,7 +391,6 @@ impl<'a> PreparedMesh<'a> {
         Ok(PreparedMesh {
             loads: loads.iter().map(pitch).collect::<Result<_, Refusal>>()?,
             corners: pair.corners(most, 1.0)?,
-            reliefs: pair.inputs.reliefs(),
             tolerance: demand.tolerance,
             pair,
         })
@@ -440,7 +437,7 @@ impl<'a> PreparedMesh<'a> {
 
     /// The reliefs of the pair with other tip reliefs and their deviations.
     fn relief(&self, tips: &TipReliefs, off: [f64; 2]) -> Relief {
-        let mut all = Reliefs { shape: tips.shape, ..self.reliefs };
+        let mut all = Reliefs { shape: tips.shape, ..self.pair.inputs.reliefs() };
         for (at, gear) in [&mut all.driver, &mut all.driven].into_iter().enumerate() {
             gear.tip = (tips.amounts[at] + off[at]).max(0.0);
             gear.tip_length = Some(tips.lengths[at]);
@@ -523,11 +520,7 @@ impl BarePair<'_> {
         let pairs = mesh.pair_set(s, s);
         let all = pairs.pairs().iter();
         let way = |ahead: i32| s + f64::from(ahead) * mesh.base_pitch;
-        Place {
-            radii: all.map(|pair| self.radii(mesh, way(pair.ahead))).collect(),
-            first: pairs.pairs().first().map_or(0, |pair| pair.ahead),
-            pairs,
-        }
+        Place { radii: all.map(|pair| self.radii(mesh, way(pair.ahead))).collect(), pairs }
     }
 
     /// The radii of curvature of both flanks at the contact of a pair.
