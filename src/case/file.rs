@@ -1,6 +1,5 @@
 //! Reads and saves case files: a case together with its source text.
 
-mod comments;
 mod fault;
 mod layout;
 mod read;
@@ -15,10 +14,10 @@ use std::path::{Path, PathBuf};
 use super::stamp::Stamp;
 use super::{Case, NEWER_FORMAT, Problem};
 use crate::system::files;
-pub use comments::without_comments;
 pub use fault::{Fault, ReadError, SaveError};
 use fault::{place, shown};
 use layout::Layout;
+pub use layout::without_comments;
 use save::target_of;
 pub use save::{Draft, followed, write};
 

@@ -2,7 +2,6 @@
 
 mod map;
 mod model;
-mod xml;
 
 use std::borrow::Cow;
 use std::io::{Cursor, Read};
@@ -187,7 +186,7 @@ fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
 
 fn parse(text: &str) -> Result<Model, Refusal> {
     let model = match text.trim_start().chars().next() {
-        Some('<') => xml::parse(text)?,
+        Some('<') => model::parse_xml(text)?,
         Some('{') => model::parse_json(text)?,
         _ => {
             return Err(refusal(
