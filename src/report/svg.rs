@@ -47,7 +47,12 @@ pub fn draw(chart: &Chart) -> String {
                 let (x, y) = (x + 8.0, middle - 6.0);
                 format!("<rect x=\"{x}\" y=\"{y}\" width=\"14\" height=\"12\" class=\"f{look}\"/>")
             }
-            Kind::Marks(_) => mark((x + 15.0, middle), look, ""),
+            Kind::Marks(_) => {
+                let (shape, x) = (LOOKS[look], x + 15.0);
+                format!(
+                    "<path d=\"{shape}\" transform=\"translate({x} {middle})\" class=\"f{look}\"/>"
+                )
+            }
         };
         let name = escaped(name);
         let _ = writeln!(text, "{symbol}<text x=\"{beside}\" y=\"{y}\">{name}</text>");
@@ -179,18 +184,14 @@ fn draw_series(
     if let Kind::Marks(ringed) = series.kind {
         let ring = format!("<circle r=\"9\" class=\"thin s{look}\"/>");
         for (number, point) in points().enumerate() {
-            let ring = if ringed == Some(number) { &ring } else { "" };
-            text.push_str(&(mark(place(point), look, ring) + "\n"));
+            let ((x, y), ring) = (place(point), if ringed == Some(number) { &ring } else { "" });
+            let _ = writeln!(
+                text,
+                "<g transform=\"translate({x:.1} {y:.1})\"><path d=\"{}\" class=\"f{look}\"/>{ring}</g>",
+                LOOKS[look]
+            );
         }
     }
-}
-
-/// The mark of a series with a ring around it.
-fn mark((x, y): Point, look: usize, ring: &str) -> String {
-    let shape = LOOKS[look];
-    format!(
-        "<g transform=\"translate({x:.1} {y:.1})\"><path d=\"{shape}\" class=\"f{look}\"/>{ring}</g>"
-    )
 }
 
 /// The positions of the names in the legend, in rows.

@@ -145,9 +145,7 @@ fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
 #[test]
 fn the_legend_shows_the_direction_of_time_and_the_title_the_quantities() {
     let mut desk = at_method(LARGE, "static");
-    assert!(
-        desk.shows("time ->") && desk.shows("Force F in N over driver roll angle before E in deg")
-    );
+    assert!(desk.shows("time ->") && desk.shows("Force F in N over roll angle before E in deg"));
     desk.keys(&["t"]);
     assert!(desk.shows("Force F in N over time after E in us "));
 }
@@ -399,7 +397,7 @@ fn the_time_axis_shows_the_same_curve() {
     let time = chart(&desk);
     assert!(
         time[0].contains("over time after E in us")
-            && angle[0].contains("over driver roll angle before E in deg"),
+            && angle[0].contains("over roll angle before E in deg"),
         "{}",
         time[0]
     );
@@ -516,7 +514,7 @@ fn a_large_pane_shows_several_charts() {
     let desk = at_method(HUGE, "static");
     let lines = chart(&desk).join("\n");
     assert!(
-        lines.contains("3 Force F in N over driver roll angle before E in deg")
+        lines.contains("3 Force F in N over roll angle before E in deg")
             && lines.contains("─ Gap S in um"),
         "{lines}"
     );

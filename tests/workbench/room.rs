@@ -36,7 +36,8 @@ fn a_pane_alone_has_no_poorer_title() {
                 let among = title(&desk, pane);
                 desk.keys(&["z"]);
                 let alone = title(&desk, pane);
-                let is_cut = alone.contains('…');
+                // The unit of the x axis is also below the corner of its axes.
+                let is_cut = alone.contains('…') && !alone.contains(" over ");
                 let is_poorer = pane != "2" && alone.chars().count() < among.chars().count();
                 assert!(!is_cut && !is_poorer, "{size}: {among:?}, alone {alone:?}");
             }

@@ -284,7 +284,7 @@ impl Charts<'_> {
         let micros = 1f64.to_radians() / speed * 1e6;
         let longest = micros * window.from.abs().max(window.to.abs());
         match self.pane.by_time {
-            false => (-1.0, Axis::new("driver roll angle before E", "deg")),
+            false => (-1.0, Axis::new("roll angle before E", "deg")),
             true if longest < MOST_MICROS => (micros, Axis::new("time after E", "us")),
             true => (1e-3 * micros, Axis::new("time after E", "ms")),
         }

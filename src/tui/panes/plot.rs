@@ -68,7 +68,8 @@ impl TerminalChart<'_> {
         let most = area.height.saturating_sub(2 + LEAST.1);
         let rows = draw_legend(&words, Rect { height: most, ..area }, buffer);
         let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
-        let margin = margin.max(label_margin(&self.chart.up, spans.1, area.height));
+        let unit = unit_of(&self.chart.across).width() as u16 + 1;
+        let margin = margin.max(label_margin(&self.chart.up, spans.1, area.height)).max(unit);
         let plot = Plot::new(area, margin, spans);
         if !plot.cells.is_empty() {
             plot.draw_axes(&self.chart.across, &self.chart.up, self.theme, buffer);
@@ -163,7 +164,7 @@ impl Plot {
                 buffer.set_string(left, y, "┤", rule);
             }
         }
-        let unit = across.unit.split(';').next().unwrap_or_default();
+        let unit = unit_of(across);
         let width = unit.width().min(left.into());
         buffer.set_stringn(left - width as u16, bottom + 1, unit, width, Style::new());
         let labels = across.ticks(self.across, cells.width / LABEL_COLUMNS).into_iter();
@@ -298,6 +299,11 @@ impl Plot {
             }
         }
     }
+}
+
+/// The unit below the corner of the axes, without a remark.
+fn unit_of(across: &Axis) -> &str {
+    across.unit.split(';').next().unwrap_or_default()
 }
 
 /// The width of the labels of the vertical axis of a plot, with its line, in an area of this height.
