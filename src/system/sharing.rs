@@ -2,33 +2,28 @@
 
 use std::ffi::OsString;
 use std::fs::{DirBuilder, File, Metadata, OpenOptions, Permissions};
-use std::io;
+use std::io::{self, ErrorKind};
 use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 
 use rustix::fs::OFlags;
 
-/// Opens a file for reading and writing, and creates it if missing.
-pub(crate) fn open_or_create_lock(path: &Path) -> io::Result<File> {
-    let mut options = OpenOptions::new();
-    options.read(true).write(true).create(true).truncate(false);
-    open_with(options.mode(0o644), path)
-}
-
-/// Opens a file for reading.
+/// Opens a lock file without following a link, and creates it if missing. The file of another user
+/// may be readable only, which is enough to lock it.
 pub(crate) fn open_lock(path: &Path) -> io::Result<File> {
-    open_with(OpenOptions::new().read(true), path)
+    let flags = (OFlags::NOFOLLOW | OFlags::NONBLOCK).bits().cast_signed();
+    let open = |options: &mut OpenOptions| options.read(true).custom_flags(flags).open(path);
+    let ours = open(OpenOptions::new().write(true).create(true).truncate(false).mode(0o644));
+    ours.or_else(|error| match error.kind() {
+        ErrorKind::PermissionDenied => open(&mut OpenOptions::new()).map_err(|_| error),
+        _ => Err(error),
+    })
 }
 
 /// Makes an own file readable for every user.
 pub(crate) fn open_to_readers(file: &File) -> io::Result<()> {
     file.set_permissions(Permissions::from_mode(0o644))
-}
-
-fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
-    let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK;
-    options.custom_flags(flags.bits().cast_signed()).open(path)
 }
 
 /// Whether both are the same file.
@@ -53,14 +48,6 @@ impl Access {
 /// The effective user id of this process.
 pub(crate) fn user() -> u32 {
     rustix::process::geteuid().as_raw()
-}
-
-/// Whether a process of this machine has the number.
-pub(crate) fn is_running(process: u32) -> bool {
-    use rustix::process::{Pid, test_kill_process};
-    let pid = i32::try_from(process).ok().and_then(Pid::from_raw);
-    // Of another user, it may not be signalled.
-    pid.is_some_and(|pid| matches!(test_kill_process(pid), Ok(()) | Err(rustix::io::Errno::PERM)))
 }
 
 /// The host name.

@@ -17,13 +17,13 @@ use tipstrike::case::{Document, fields};
 use tty::{Launch, PROGRAM, TABLE_1, is_there, skip};
 
 /// Every system call that creates, writes or renames a file.
-const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,flistxattr,llistxattr,lgetxattr,fsetxattr,rename,renameat,renameat2,link,linkat,unlink,close,ftruncate";
+const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,lgetxattr,fgetxattr,fsetxattr,rename,renameat,renameat2,link,linkat,unlink,close,ftruncate";
 /// More steps than any save has; the loop ends earlier, when no call is hit.
 const MOST_STEPS: usize = 100;
 /// Environment variable with the target of the disturbed save.
 const TARGET: &str = "TIPSTRIKE_SAVE_TARGET";
-/// An extended attribute of the case, if the file system supports attributes.
-const MARK: &str = "user.tipstrike.test";
+/// The attribute with the access list of a file.
+const LIST: &str = "system.posix_acl_access";
 const SAVED: i32 = 0;
 const REFUSED: i32 = 5;
 
@@ -77,19 +77,19 @@ fn folder_with_case() -> (TempDir, std::path::PathBuf) {
     let path = folder.path().join("case.toml");
     fs::write(&path, TABLE_1).expect("room on the disk");
     fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).expect("our own file");
-    if let Err(error) = xattr::set(&path, MARK, b"1") {
-        skip(&format!("attributes of files: {error}"));
+    if let Err(error) = xattr::set(&path, LIST, &entries(0)) {
+        skip(&format!("access lists: {error}"));
     }
     (folder, path)
 }
 
-fn mark(path: &Path) -> Option<Vec<u8>> {
-    xattr::get(path, MARK).ok().flatten()
+fn list(path: &Path) -> Option<Vec<u8>> {
+    xattr::get(path, LIST).ok().flatten()
 }
 
-/// The attribute of a new case; `None` if the file system does not support attributes.
-fn mark_of_a_case() -> Option<Vec<u8>> {
-    static FRESH: LazyLock<Option<Vec<u8>>> = LazyLock::new(|| mark(&folder_with_case().1));
+/// The access list of a new case; `None` if the file system does not support access lists.
+fn list_of_a_case() -> Option<Vec<u8>> {
+    static FRESH: LazyLock<Option<Vec<u8>>> = LazyLock::new(|| list(&folder_with_case().1));
     FRESH.clone()
 }
 
@@ -106,7 +106,7 @@ fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
     assert!(is_old || text == new_text(), "{fault}: half a file: {text:?}");
     let mode = fs::metadata(path).expect("it is there").permissions().mode();
     assert_eq!(mode & 0o7777, 0o640, "{fault}");
-    assert_eq!(mark(path), mark_of_a_case(), "{fault}");
+    assert_eq!(list(path), list_of_a_case(), "{fault}");
     match code {
         Some(SAVED) => assert!(!is_old, "{fault}: reported as saved, but is not"),
         Some(REFUSED) => assert!(is_old, "{fault}: reported as refused, but is saved"),
@@ -333,51 +333,42 @@ fn a_folder_that_may_not_be_written_leaves_the_old_file() {
 
 /// An access list in the format of the kernel: version 2, then tag, permissions and id, 8 bytes
 /// each.
-fn access_list(entries: &[(u16, u16, u32)]) -> Vec<u8> {
-    let bytes = |&(tag, may, who): &(u16, u16, u32)| {
+fn entries(group: u16) -> Vec<u8> {
+    const NOBODY_IN_PARTICULAR: u32 = u32::MAX;
+    let entries: [(u16, u16, u32); 5] = [
+        (1, 6, NOBODY_IN_PARTICULAR),
+        (2, 4, 65534),
+        (4, group, NOBODY_IN_PARTICULAR),
+        (16, 4, NOBODY_IN_PARTICULAR),
+        (32, 0, NOBODY_IN_PARTICULAR),
+    ];
+    let bytes = entries.iter().flat_map(|(tag, may, who)| {
         [&tag.to_le_bytes()[..], &may.to_le_bytes(), &who.to_le_bytes()].concat()
-    };
-    [2_u32.to_le_bytes().to_vec(), entries.iter().flat_map(bytes).collect()].concat()
+    });
+    2_u32.to_le_bytes().into_iter().chain(bytes).collect()
 }
 
 #[test]
-fn a_save_keeps_access_lists_and_attributes_and_inherits_none() {
-    const LIST: &str = "system.posix_acl_access";
-    const OF_NEW_FILES: &str = "system.posix_acl_default";
-    const NOBODY_IN_PARTICULAR: u32 = u32::MAX;
-    let entries = |group: u16| {
-        let own = [(1, 6, NOBODY_IN_PARTICULAR), (2, 4, 65534)];
-        let others = [
-            (4, group, NOBODY_IN_PARTICULAR),
-            (16, 4, NOBODY_IN_PARTICULAR),
-            (32, 0, NOBODY_IN_PARTICULAR),
-        ];
-        access_list(&[&own[..], &others].concat())
-    };
+fn a_save_keeps_the_access_list_and_inherits_none() {
     let (folder, path) = folder_with_case();
     let save = |path: &Path| {
         let output = saver_command(&[], path).output().expect("it starts");
         assert_eq!(output.status.code(), Some(SAVED), "{output:?}");
         assert_eq!(fs::read_to_string(path).expect("it is there"), new_text());
     };
-    if let Err(error) = xattr::set(&path, LIST, &entries(0)) {
-        return skip(&format!("access lists: {error}"));
+    if list_of_a_case().is_none() {
+        return;
     }
-    let list = xattr::get(&path, LIST).expect("a list").expect("a list");
     save(&path);
-    assert_eq!(
-        xattr::get(&path, LIST).expect("a list"),
-        Some(list),
-        "the group gains no rights from the mask"
-    );
-    assert_eq!(mark(&path), mark_of_a_case());
+    assert_eq!(list(&path), list_of_a_case(), "the group gains no rights from the mask");
     assert_eq!(fs::metadata(&path).expect("it is there").permissions().mode() & 0o7777, 0o640);
     // A folder whose default list opens new files to others does not open an old file.
     let plain = folder.path().join("plain.toml");
     fs::write(&plain, TABLE_1).expect("room on the disk");
-    xattr::set(folder.path(), OF_NEW_FILES, &entries(4)).expect("a list for new files");
+    let of_new_files = "system.posix_acl_default";
+    xattr::set(folder.path(), of_new_files, &entries(4)).expect("a list for new files");
     save(&plain);
-    assert_eq!(xattr::get(&plain, LIST).expect("no list"), None);
+    assert_eq!(list(&plain), None);
 }
 
 #[test]

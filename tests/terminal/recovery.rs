@@ -59,7 +59,7 @@ fn bench(folder: &Path) -> (App, Autosave, Arc<JournalWriter>) {
     );
     let journal_writer = JournalWriter::open(|warning| panic!("{warning}")).expect("a thread");
     let autosave = Autosave::new(
-        State::choose(Some(folder.join("tipstrike")), Vec::new()),
+        State::choose(Some(folder.join("tipstrike")), []),
         Arc::clone(&journal_writer),
     );
     (app, autosave, journal_writer)
@@ -115,10 +115,6 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     autosave.follow(&app.sheets(), Instant::now());
     autosave.end();
     assert!(journals(folder.path()).is_empty(), "an intended end leaves no journal");
-    assert_eq!(
-        fs::read_dir(folder.path().join("tipstrike/sessions")).map(Iterator::count).ok(),
-        Some(0)
-    );
     assert!(!folder.path().join(".case.toml.tipstrike").exists());
 }
 
@@ -140,22 +136,22 @@ fn a_failed_journal_is_written_as_soon_as_possible() {
 }
 
 #[test]
-fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_saved_again() {
+fn the_journal_of_recovered_edits_is_replaced_in_one_step() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut autosave, _chest) = bench(folder.path());
     autosave.follow(&app.sheets(), Instant::now());
-    write(&mut app, "pair.module", "6 mm");
-    autosave.follow(&app.sheets(), Instant::now());
-    let (place, old) = (folder.path().join("tipstrike/journals"), folder.path().join("old.toml"));
-    fs::remove_dir_all(&place).expect("our own folder");
+    let old = folder.path().join("tipstrike/journals/case-old.toml");
+    fs::create_dir_all(old.parent().expect("a folder")).expect("our own folder");
     fs::write(&old, "the edits of an earlier session").expect("room on the disk");
+    write(&mut app, "pair.module", "6 mm");
     autosave.adopt(old.clone());
     autosave.follow(&app.sheets(), Instant::now());
     assert!(old.exists(), "no other file has the edits");
-    fs::create_dir(&place).expect("our own folder");
-    autosave.follow(&app.sheets(), Instant::now());
-    assert!(!old.exists() && journals(folder.path()).len() == 1);
+    autosave.keep();
+    assert_eq!(journals(folder.path()), [old.clone()]);
+    assert!(fs::read_to_string(old).is_ok_and(|text| text.contains("6 mm")));
     autosave.end();
+    assert!(journals(folder.path()).is_empty());
 }
 
 #[test]
@@ -172,8 +168,7 @@ fn edits_that_cannot_be_written_to_a_journal_are_reported() {
         "{claims:?}"
     );
     drop(autosave);
-    let mut homeless =
-        Autosave::new(State::choose(None, Vec::new()), Arc::new(JournalWriter::default()));
+    let mut homeless = Autosave::new(State::choose(None, []), Arc::new(JournalWriter::default()));
     let claims = homeless.follow(&app.sheets(), Instant::now());
     assert!(matches!(&claims[..], [Ok(claim)] if claim.notices[0].contains("HOME")), "{claims:?}");
 }
@@ -289,18 +284,15 @@ fn journals_keep_away_from_a_folder_that_others_may_write() {
     tty.send_signal("TERM");
     tty.wait_for_end();
     let is_empty = |place: &Path| fs::read_dir(place).is_ok_and(|mut files| files.next().is_none());
-    assert!(is_empty(&elsewhere) && !state.join("sessions").exists());
+    assert!(is_empty(&elsewhere));
     assert!(!state.join("last-case").exists());
     let kept = fs::read_dir(folder.path().join("run/tipstrike/journals"));
     assert_eq!(kept.expect("a folder").count(), 1);
-    // They are offered from there, even after the usual folder is private again.
-    fs::set_permissions(&state, Permissions::from_mode(0o700)).expect("our own folder");
     let mut next = Launch::of(Arc::clone(&folder))
         .argument(folder.path().join("case.toml"))
         .variable("XDG_RUNTIME_DIR", run)
         .start();
     next.wait_for(OFFER);
-    assert!(!next.shows("others may write"));
     next.type_in("\r");
     next.wait_for("the edits are restored");
     next.type_in("\x13");

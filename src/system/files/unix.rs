@@ -1,7 +1,5 @@
-//! Owner, mode, access list and extended attributes of a file, for the file that replaces it.
+//! Owner, mode and access list of a file, for the file that replaces it.
 
-use std::collections::BTreeSet;
-use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, Metadata, Permissions};
 use std::io::{self, ErrorKind};
 use std::os::unix::ffi::OsStrExt;
@@ -10,17 +8,16 @@ use std::path::Path;
 
 use xattr::FileExt;
 
-/// Attributes that the system itself sets, some of them from the content of the file: labels and
-/// hashes.
-const OF_THE_SYSTEM: &[u8] = b"security.";
+/// The attribute with the access list of a file.
+const ACCESS_LIST: &str = "system.posix_acl_access";
 
-/// Gives a new file every attribute of the old one.
+/// Gives a new file owner, access list and mode of the old one.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if the system refuses an attribute, or the error of a full disk.
+/// [`ErrorKind::Unsupported`] if the system refuses that, or the error of a full disk.
 pub(crate) fn keep(old: &Metadata, path: &Path, new: &File) -> io::Result<()> {
     keep_owner(old, new)?;
-    keep_attributes(path, new)?;
+    keep_access_list(path, new)?;
     // The mode is set last: a new owner clears bits, and an access list sets them.
     set_mode(new, old.mode())
 }
@@ -89,31 +86,18 @@ fn keep_owner(old: &Metadata, new: &File) -> io::Result<()> {
 }
 
 // A new file may inherit an access list from its folder that the old file does not have.
-fn keep_attributes(path: &Path, new: &File) -> io::Result<()> {
-    let kept = names(xattr::list(path))?;
-    for name in names(new.list_xattr())?.difference(&kept) {
-        new.remove_xattr(name).map_err(|error| lost(&error, name))?;
-    }
-    for name in &kept {
-        let value = xattr::get(path, name).map_err(|error| lost(&error, name))?;
-        value
-            .map_or(Ok(()), |value| new.set_xattr(name, &value))
-            .map_err(|error| lost(&error, name))?;
-    }
-    Ok(())
-}
-
-// On a file system without attributes the list is empty.
-fn names(list: io::Result<xattr::XAttrs>) -> io::Result<BTreeSet<OsString>> {
-    match list {
-        Ok(list) => Ok(list.filter(|name| !name.as_bytes().starts_with(OF_THE_SYSTEM)).collect()),
-        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(BTreeSet::new()),
-        Err(error) => Err(error),
-    }
-}
-
-fn lost(error: &io::Error, name: &OsStr) -> io::Error {
-    refused(error, format!("the attribute {} of the file would be lost ({error})", name.display()))
+fn keep_access_list(path: &Path, new: &File) -> io::Result<()> {
+    let known = |list: io::Result<Option<Vec<u8>>>| match list {
+        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        list => list,
+    };
+    let kept = match (known(xattr::get(path, ACCESS_LIST))?, known(new.get_xattr(ACCESS_LIST))?) {
+        (Some(list), _) => new.set_xattr(ACCESS_LIST, &list),
+        (None, Some(_)) => new.remove_xattr(ACCESS_LIST),
+        (None, None) => Ok(()),
+    };
+    let lost = |error: &io::Error| format!("the access list of the file would be lost ({error})");
+    kept.map_err(|error| refused(&error, lost(&error)))
 }
 
 fn refused(error: &io::Error, words: String) -> io::Error {

@@ -7,15 +7,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
-use super::journal::{Found, Journal, JournalWriter, Journals};
-use super::lock::{Lock, Locks};
+use super::journal::{Journal, JournalWriter, Journals};
+use super::lock::Locks;
 use super::save::{Access, Claim, Offer, OpenCase, SaveFault, Saving, Written};
 use crate::case::Case;
 use crate::case::changes::{self, Change};
 use crate::case::file::followed;
-use crate::case::stamp::Stamp;
+use crate::case::stamp::hash;
 use crate::tui::session;
 use crate::tui::store::state::State;
 
@@ -30,31 +30,27 @@ pub struct Autosave {
     journal_writer: Arc<JournalWriter>,
     /// The journals of this session; `None` if no folder is private.
     journals: Option<Journals>,
-    /// Folders in which earlier sessions may have written journals of the opened cases.
-    others: Vec<Journals>,
     /// Whether the journals of other cases were reported.
     has_reported: bool,
     /// A message about the folder of journals, until it is shown.
     notice: Option<String>,
-    /// The name of this session, and the lock that shows other sessions that it runs; from the
-    /// first edit on.
-    session: Option<(String, Lock)>,
+    /// The name of this session in the names of its journals, from the first edit on.
+    session: Option<String>,
     locks: Locks,
     tracked: BTreeMap<usize, Tracked>,
-    /// Journals of earlier sessions whose edits are in the form.
-    adopted: Vec<PathBuf>,
+    /// The journal of an earlier session whose edits are now in the form.
+    adopted: Option<PathBuf>,
+    /// When the journal must be written at the latest; `None` if it is complete.
     due: Option<Due>,
 }
 
 /// An open case.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Tracked {
     path: Option<PathBuf>,
     is_held: bool,
     /// The last edits that were passed to the journal.
     noted: Option<Case>,
-    /// The stamp of the edited text.
-    stamp: Option<Stamp>,
     journal: Option<PathBuf>,
 }
 
@@ -69,17 +65,15 @@ impl Autosave {
     /// a claim reports this.
     #[must_use]
     pub fn new(state: State, journal_writer: Arc<JournalWriter>) -> Autosave {
-        let journals = |folder: &PathBuf| Journals::within(folder);
         Autosave {
             journal_writer,
-            journals: state.folder.as_ref().map(journals),
-            others: state.others.iter().map(journals).collect(),
+            journals: state.folder.as_deref().map(Journals::within),
             has_reported: false,
             notice: state.notice,
             session: None,
             locks: Locks::default(),
             tracked: BTreeMap::new(),
-            adopted: Vec::new(),
+            adopted: None,
             due: None,
         }
     }
@@ -88,12 +82,10 @@ impl Autosave {
     /// the opened cases, and the reasons why edits cannot be journaled.
     pub fn follow(&mut self, cases: &[OpenCase<'_>], now: Instant) -> Vec<Result<Claim, String>> {
         self.drop_closed(cases);
-        let claims: Vec<_> = cases.iter().filter_map(|case| self.claim(case)).collect();
-        let mut results: Vec<_> = claims.into_iter().map(Ok).collect();
-        for case in cases {
-            results.extend(self.note(case, now).err().map(Err));
-        }
-        self.drop_adopted();
+        let claims = cases.iter().filter_map(|case| self.claim(case)).map(Ok);
+        let mut results: Vec<_> = claims.collect();
+        results.extend(cases.iter().filter_map(|case| self.note(case, now).err()).map(Err));
+        self.adopted = None;
         results
     }
 
@@ -130,7 +122,7 @@ impl Autosave {
         saving.expand();
         let lock = followed(&saving.path).map(|path| self.locks.take(&path));
         let result = match lock {
-            Ok(Ok(Some(holder))) => Err(SaveFault::Held(holder.words(session::now()))),
+            Ok(Ok(Some(holder))) => Err(SaveFault::Held(holder)),
             _ => saving.write(),
         };
         (saving.path, result)
@@ -141,95 +133,66 @@ impl Autosave {
         self.journals.iter().flat_map(Journals::list).collect()
     }
 
-    /// Deletes a journal of an earlier session once the journal of this session contains its edits.
+    /// Makes the next journal replace the journal of an earlier session, whose edits it contains.
     pub fn adopt(&mut self, journal: PathBuf) {
-        self.adopted.push(journal);
+        self.adopted = Some(journal);
     }
 
     /// Ends the session and deletes its journals: unsaved edits that remain are discarded.
     pub fn end(mut self) {
         self.drop_closed(&[]);
         drop(self.journal_writer.write(false));
-        self.journal_writer.close();
     }
 
     // Drops closed cases, and cases that were saved under another name.
     fn drop_closed(&mut self, cases: &[OpenCase<'_>]) {
-        let is_open = |id: usize, case: &Tracked| {
-            cases.iter().any(|open| open.id == id && open.path == case.path.as_deref())
-        };
-        for (_, case) in self.tracked.iter().filter(|(id, case)| !is_open(**id, case)) {
-            if let Some(journal) = &case.journal {
-                self.journal_writer.put(journal, None);
-                self.journal_writer.ring();
+        self.tracked.retain(|id, case| {
+            let is_open =
+                cases.iter().any(|open| open.id == *id && open.path == case.path.as_deref());
+            if let Some(journal) = case.journal.as_ref().filter(|_| !is_open) {
+                self.journal_writer.delete(journal);
             }
-        }
-        self.tracked.retain(|id, case| is_open(*id, case));
-        let paths = cases.iter().filter_map(|open| open.path);
-        self.locks.keep_only(paths);
+            is_open
+        });
+        self.locks.keep_only(cases.iter().filter_map(|open| open.path));
     }
 
     fn claim(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
-        if self.tracked.contains_key(&open.id) {
-            return self.claim_again(open);
+        let is_new = !self.tracked.contains_key(&open.id);
+        let path = open.path.map(Path::to_owned);
+        let case = self.tracked.entry(open.id).or_insert(Tracked { path, ..Tracked::default() });
+        // A save may have found that the other session has ended, or the user opened the same file
+        // again.
+        let has_lock = open.path.is_some_and(|path| self.locks.has(path));
+        if !is_new && !(case.is_held && (has_lock || !open.is_held)) {
+            return None;
         }
-        let lock = open.path.map_or(Ok(None), |path| self.locks.take(path));
-        let case = Tracked {
-            path: open.path.map(Path::to_owned),
-            is_held: matches!(lock, Ok(Some(_))),
-            noted: None,
-            stamp: None,
-            journal: None,
-        };
-        self.tracked.insert(open.id, case);
-        let claim = match lock {
-            // Edits of earlier sessions are offered to the session that may save them.
-            Ok(Some(holder)) => Claim::of(open.id, Access::Held(holder.words(session::now()))),
-            Ok(None) => self.found(open, None),
-            Err(reason) => self.found(open, Some(reason)),
-        };
-        (open.is_held || !claim.is_silent()).then_some(claim)
-    }
-
-    // A save may have found that the other session has ended, or the user opened the same file
-    // again.
-    fn claim_again(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
-        let is_locked = open.path.is_some_and(|path| self.locks.has(path));
-        let case = self
-            .tracked
-            .get(&open.id)
-            .filter(|case| case.is_held && (is_locked || !open.is_held))?;
-        let lock = case.path.clone().map_or(Ok(None), |path| self.locks.take(&path));
         let mut claim = Claim::of(open.id, Access::Own);
-        match lock {
+        match open.path.map_or(Ok(None), |path| self.locks.take(path)) {
             Ok(None) => {}
-            Ok(Some(holder)) => claim.access = Access::Held(holder.words(session::now())),
+            Ok(Some(holder)) => claim.access = Access::Held(holder),
             Err(reason) => claim.notices.push(reason),
         }
-        if let Some(case) = self.tracked.get_mut(&open.id) {
-            case.is_held = claim.access != Access::Own;
+        case.is_held = claim.access != Access::Own;
+        // Edits of earlier sessions are offered to the session that may save them.
+        if is_new && !case.is_held {
+            self.offer(open, &mut claim);
         }
-        Some(claim)
+        (!is_new || open.is_held || !claim.is_silent()).then_some(claim)
     }
 
-    fn found(&mut self, open: &OpenCase<'_>, unlocked: Option<String>) -> Claim {
-        let mut claim = Claim::of(open.id, Access::Own);
-        claim.notices.extend(unlocked);
+    fn offer(&mut self, open: &OpenCase<'_>, claim: &mut Claim) {
         claim.notices.extend(self.notice.take());
+        let Some(own) = &self.journals else { return };
         let stamp = open.document.stamp();
-        for folder in self.journals.iter().chain(&self.others) {
-            let Found { journals, notices } = folder.left_behind(open.path, stamp);
-            let offers =
-                journals.into_iter().filter_map(|(place, journal)| offer(open, place, &journal));
-            claim.offers.extend(offers);
-            claim.notices.extend(notices);
-        }
+        let (journals, notices) = own.left_behind(open.path, stamp);
+        let journals = journals.into_iter();
+        claim.offers.extend(journals.filter_map(|(place, found)| offer(open, place, &found)));
+        claim.notices.extend(notices);
         // Only when the workbench starts.
         if !std::mem::replace(&mut self.has_reported, true) && claim.offers.is_empty() {
-            let own = self.journals.as_ref();
-            claim.notices.extend(own.and_then(|own| own.report(open.path, stamp)));
+            claim.notices.extend(own.report(open.path, stamp));
         }
-        claim
     }
 
     // Passes new edits to the journal. The error is the reason why they cannot be journaled.
@@ -241,53 +204,41 @@ impl Autosave {
             return Ok(());
         };
         case.noted = unsaved.cloned();
-        if let Some(edited) = unsaved {
-            return self.put(open, edited, now);
-        }
-        case.stamp = None;
-        if let Some(journal) = case.journal.take() {
-            self.journal_writer.put(&journal, None);
-            self.journal_writer.ring();
-        }
-        Ok(())
-    }
-
-    fn put(&mut self, open: &OpenCase<'_>, edited: &Case, now: Instant) -> Result<(), String> {
-        let Some(journals) = &self.journals else {
+        let (Some(edited), Some(journals)) = (unsaved, &self.journals) else {
+            if let Some(journal) = case.journal.take() {
+                self.journal_writer.delete(&journal);
+            }
             return Ok(());
         };
         if self.session.is_none() {
-            let begun = journals.begin().map_err(|error| {
+            journals.create().map_err(|error| {
                 format!(
-                    "the journal cannot be written: {error}: save the case, or a crash loses \
-                         the edits"
+                    "the journal cannot be written: {error}: save the case, or a crash loses the \
+                     edits"
                 )
-            });
-            self.session = Some(begun?);
+            })?;
         }
-        let session = self.session.as_ref().map(|(session, _)| session.clone()).unwrap_or_default();
-        let place = journals.place(open.path, &session, open.id);
-        if let Some(case) = self.tracked.get_mut(&open.id) {
-            let base_stamp = *case.stamp.get_or_insert_with(|| open.document.stamp());
-            let changes = changes::between(open.document.loaded(), edited);
-            let journal =
-                Journal { case: case.path.clone(), base_stamp, written: 0, session, changes };
-            self.journal_writer.put(&place, Some(journal));
-            case.journal = Some(place);
+        let session = self.session.get_or_insert_with(unique_name);
+        let own = || journals.place(open.path, session, open.id);
+        let place = self.adopted.take().or_else(|| case.journal.clone()).unwrap_or_else(own);
+        let journal = Journal {
+            case: case.path.clone(),
+            base_stamp: open.document.stamp(),
+            written: 0,
+            changes: changes::between(open.document.loaded(), edited),
+        };
+        self.journal_writer.put(&place, journal);
+        if let Some(replaced) = case.journal.replace(place.clone()).filter(|own| *own != place) {
+            self.journal_writer.delete(&replaced);
         }
         self.due = Some(Due { first: self.due.map_or(now, |due| due.first), last: now });
         Ok(())
     }
+}
 
-    // Only once the journal of this session contains their edits.
-    fn drop_adopted(&mut self) {
-        if !self.adopted.is_empty()
-            && self.journal_writer.is_needed()
-            && self.journal_writer.write(false).is_ok()
-        {
-            self.adopted.drain(..).for_each(|journal| drop(fs::remove_file(journal)));
-        }
-    }
+fn unique_name() -> String {
+    let now = SystemTime::now();
+    format!("{:016x}", hash(format!("{} {now:?}", std::process::id()).as_bytes()))
 }
 
 // A journal without differences from the file is deleted.

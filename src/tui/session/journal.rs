@@ -1,17 +1,18 @@
 //! Journals of unsaved edits: their text, with a checksum that shows whether it is complete, their
 //! folder, and the thread that writes them: the workbench never waits for a disk.
+//!
+//! The session that writes a journal has it locked; a journal without a lock is of an ended session.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use super::lock::Lock;
 use crate::case::changes::Change;
 use crate::case::sanitize::sanitize;
 use crate::case::stamp::{Stamp, hash};
@@ -30,6 +31,10 @@ const OPENING: &str =
 const FORMAT_KEY: &str = "format = ";
 const CHECKSUM_KEY: &str = "checksum = ";
 
+const NOT_ONE: &str = "the file is not a journal";
+const DAMAGED: &str = "the journal is damaged";
+const NEWER: &str = "the format of the journal is newer than this version";
+
 /// The extension of a journal.
 const ENDING: &str = "toml";
 /// Number of letters of the case's name in the name of its journal.
@@ -37,9 +42,6 @@ const MOST_LETTERS: usize = 40;
 
 /// Age in seconds of a journal that is not reported any more.
 const RECENT: u64 = 30 * 86400;
-
-/// The name of the thread that writes journals.
-const THREAD: &str = "journal";
 
 /// Edits of a case that are not in its file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,8 +52,6 @@ pub struct Journal {
     pub(crate) base_stamp: Stamp,
     /// When the journal was written, in seconds since 1970.
     pub(crate) written: u64,
-    /// The session of the journal.
-    pub(crate) session: String,
     /// The edits, each from the value in the file to the typed text, valid or not.
     pub changes: Vec<Change>,
 }
@@ -60,7 +60,6 @@ pub struct Journal {
 #[derive(Serialize, Deserialize)]
 struct Body {
     written: u64,
-    session: String,
     length: u64,
     /// In hexadecimal, because TOML has no such large integers.
     hash: String,
@@ -71,23 +70,9 @@ struct Body {
     change: Vec<Change>,
 }
 
-/// Why a text is not a valid journal.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum JournalFault {
-    /// The text is not a journal.
-    #[error("the file is not a journal")]
-    NotOne,
-    /// The journal has a newer format.
-    #[error("the format {0} of the journal is newer than this version")]
-    NewerFormat(i64),
-    /// The journal was cut or changed after it was written.
-    #[error("the journal is damaged")]
-    Damaged,
-}
-
 impl Journal {
     /// Whether the journal belongs to the case in a file; without a file, to the text with a stamp.
-    pub(crate) fn is_of(&self, case: Option<&Path>, stamp: Stamp) -> bool {
+    fn is_of(&self, case: Option<&Path>, stamp: Stamp) -> bool {
         self.case.as_deref() == case && (case.is_some() || self.base_stamp == stamp)
     }
 
@@ -95,13 +80,12 @@ impl Journal {
     ///
     /// # Errors
     /// Returns an error if TOML cannot represent the journal.
-    pub(crate) fn to_text(&self) -> io::Result<String> {
+    fn to_text(&self) -> io::Result<String> {
         let case = self.case.as_deref();
         let text = case.and_then(Path::to_str);
         let bytes = case.filter(|_| text.is_none()).map(sharing::path_bytes);
         let body = toml_edit::ser::to_string(&Body {
             written: self.written,
-            session: self.session.clone(),
             length: self.base_stamp.length,
             hash: format!("{:016x}", self.base_stamp.hash),
             case: text.map(str::to_owned),
@@ -117,116 +101,108 @@ impl Journal {
     ///
     /// # Errors
     /// Returns an error if the text is not, byte for byte, an output of [`Journal::to_text`].
-    pub fn from_text(text: &str) -> Result<Journal, JournalFault> {
-        let rest = text.strip_prefix(OPENING).ok_or(JournalFault::NotOne)?;
-        let (format, rest) = line_of(rest, FORMAT_KEY).ok_or(JournalFault::NotOne)?;
+    pub fn from_text(text: &str) -> Result<Journal, &'static str> {
+        let rest = text.strip_prefix(OPENING).ok_or(NOT_ONE)?;
+        let (format, rest) = line_of(rest, FORMAT_KEY).ok_or(NOT_ONE)?;
         match format.parse() {
             Ok(FORMAT) => {}
-            Ok(newer) if newer > FORMAT => return Err(JournalFault::NewerFormat(newer)),
-            _ => return Err(JournalFault::NotOne),
+            Ok(newer) if newer > FORMAT => return Err(NEWER),
+            _ => return Err(NOT_ONE),
         }
-        let (checksum, body) = line_of(rest, CHECKSUM_KEY).ok_or(JournalFault::Damaged)?;
+        let (checksum, body) = line_of(rest, CHECKSUM_KEY).ok_or(DAMAGED)?;
         if checksum != format!("\"{:016x}\"", hash(body.as_bytes())) {
-            return Err(JournalFault::Damaged);
+            return Err(DAMAGED);
         }
-        let body: Body = toml_edit::de::from_str(body).map_err(|_| JournalFault::Damaged)?;
-        let hash = u64::from_str_radix(&body.hash, 16).map_err(|_| JournalFault::Damaged)?;
+        let body: Body = toml_edit::de::from_str(body).map_err(|_| DAMAGED)?;
+        let hash = u64::from_str_radix(&body.hash, 16).map_err(|_| DAMAGED)?;
         let bytes = body.case_bytes.map(sharing::path_from_bytes);
         Ok(Journal {
             case: body.case.map(PathBuf::from).or(bytes),
             base_stamp: Stamp { length: body.length, hash },
             written: body.written,
-            session: body.session,
             changes: body.change,
         })
     }
-}
 
-/// The folders of journals and of session locks.
-#[derive(Debug, Clone)]
-pub(super) struct Journals {
-    journals: PathBuf,
-    sessions: PathBuf,
-}
-
-/// The journals of a case.
-#[derive(Debug, Default)]
-pub(super) struct Found {
-    /// Journals of ended sessions, the latest first.
-    pub(super) journals: Vec<(PathBuf, Journal)>,
-    /// A sentence for each damaged journal.
-    pub(super) notices: Vec<String>,
-}
-
-impl Journals {
-    /// The folders inside a state folder.
-    #[must_use]
-    pub(super) fn within(state: &Path) -> Journals {
-        Journals { journals: state.join("journals"), sessions: state.join("sessions") }
+    /// In seconds.
+    fn age(&self) -> u64 {
+        session::now().saturating_sub(self.written)
     }
 
-    /// Starts a session: its lock shows others that its journals are still in use.
+    fn is_missing(&self) -> bool {
+        self.case.as_ref().is_some_and(|path| !path.exists())
+    }
+
+    fn name(&self) -> String {
+        match &self.case {
+            Some(path) => shown(path),
+            None if self.base_stamp == store::built_in().stamp() => "the built-in case".to_owned(),
+            None => "a new case".to_owned(),
+        }
+    }
+}
+
+/// The folder of journals.
+#[derive(Debug, Clone)]
+pub(super) struct Journals(PathBuf);
+
+impl Journals {
+    /// The folder inside a state folder.
+    #[must_use]
+    pub(super) fn within(folder: &Path) -> Journals {
+        Journals(folder.join(state::JOURNALS))
+    }
+
+    /// Creates the folder.
     ///
     /// # Errors
-    /// Returns an error if the disk is full, or if another user could change the folders.
-    pub(super) fn begin(&self) -> io::Result<(String, Lock)> {
-        for folder in [&self.journals, &self.sessions] {
-            state::make(folder)?;
-            state::require_private(folder)?;
-        }
-        Lock::create(&self.sessions)
+    /// Returns an error if the disk is full, or if another user could change the folder.
+    pub(super) fn create(&self) -> io::Result<()> {
+        state::make(&self.0)?;
+        state::require_private(&self.0)
     }
 
     /// The path of the journal of a case in a session; `number` distinguishes cases without a file.
     #[must_use]
     pub(super) fn place(&self, case: Option<&Path>, session: &str, number: usize) -> PathBuf {
-        self.journals.join(format!("{}{session}-{number}.{ENDING}", stem(case)))
+        self.0.join(format!("{}{session}-{number}.{ENDING}", stem(case)))
     }
 
-    /// Replaces a journal; a `lasting` write survives a power failure.
-    ///
-    /// # Errors
-    /// Returns an error if the journal cannot be written; the previous one then remains.
-    pub(super) fn write(path: &Path, journal: &Journal, lasting: bool) -> io::Result<()> {
-        let folder = path.parent().unwrap_or(Path::new("."));
-        let mut file = tempfile::Builder::new().prefix(".").tempfile_in(folder)?;
-        file.write_all(journal.to_text()?.as_bytes())?;
-        if lasting {
-            file.as_file().sync_data()?;
-        }
-        file.persist(path).map(drop).map_err(|error| error.error)
-    }
-
-    /// The journals of a case from ended sessions. A case without a file is identified by the stamp
-    /// of its text. Damaged journals are moved, never deleted.
-    #[must_use]
-    pub(super) fn left_behind(&self, case: Option<&Path>, stamp: Stamp) -> Found {
-        let mut found = Found::default();
+    /// The journals of a case from ended sessions, the latest first, and a sentence for each damaged
+    /// one. A case without a file is identified by the stamp of its text. Damaged journals are
+    /// moved, never deleted.
+    pub(super) fn left_behind(
+        &self,
+        case: Option<&Path>,
+        stamp: Stamp,
+    ) -> (Vec<(PathBuf, Journal)>, Vec<String>) {
+        let (mut journals, mut notices) = (Vec::new(), Vec::new());
         for path in self.named(&stem(case)) {
             match read_file(&path) {
-                Ok(Ok(journal)) if !journal.is_of(case, stamp) || self.is_written(&journal) => {}
-                Ok(Ok(journal)) => found.journals.push((path, journal)),
-                Ok(Err(fault)) => found.notices.push(set_aside(&path, &fault)),
-                Err(error) => found
-                    .notices
-                    .push(format!("unsaved edits in {} cannot be read: {error}", shown(&path))),
+                Ok(Some(Ok(journal))) if journal.is_of(case, stamp) => {
+                    journals.push((path, journal))
+                }
+                Ok(Some(Err(fault))) => notices.push(set_aside(&path, fault)),
+                Ok(_) => {}
+                Err(error) => {
+                    let path = shown(&path);
+                    notices.push(format!("unsaved edits in {path} cannot be read: {error}"));
+                }
             }
         }
-        found.journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
-        found
+        journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
+        (journals, notices)
     }
 
     /// The journals of every case from ended sessions, each with its case, its number of edits and
     /// its age.
     pub(super) fn list(&self) -> Vec<(PathBuf, String)> {
-        let journals = self.all_left_behind();
-        let described = journals.map(|(path, journal)| {
+        let described = self.all_left_behind().map(|(path, journal)| {
             let count = journal.changes.len();
             let edits = if count == 1 { "edit" } else { "edits" };
-            let missing = if is_missing(&journal) { ", no such file" } else { "" };
-            let age = session::age(age_of(&journal));
-            let words = format!("{}: {count} {edits}, {age} old{missing}", name_of(&journal));
-            (path, words)
+            let missing = if journal.is_missing() { ", no such file" } else { "" };
+            let age = session::age(journal.age());
+            (path, format!("{}: {count} {edits}, {age} old{missing}", journal.name()))
         });
         described.collect()
     }
@@ -234,9 +210,9 @@ impl Journals {
     /// Reports recent journals of existing cases other than this one.
     pub(super) fn report(&self, case: Option<&Path>, stamp: Stamp) -> Option<String> {
         let others = self.all_left_behind().filter(|(_, journal)| {
-            !journal.is_of(case, stamp) && !is_missing(journal) && age_of(journal) < RECENT
+            !journal.is_of(case, stamp) && !journal.is_missing() && journal.age() < RECENT
         });
-        let mut names: BTreeSet<String> = others.map(|(_, journal)| name_of(&journal)).collect();
+        let mut names: BTreeSet<String> = others.map(|(_, journal)| journal.name()).collect();
         let name = match names.len() {
             0 | 1 => names.pop_first()?,
             count => format!("{count} other cases"),
@@ -245,28 +221,21 @@ impl Journals {
     }
 
     fn all_left_behind(&self) -> impl Iterator<Item = (PathBuf, Journal)> {
-        let journals = self.named("").into_iter().filter_map(|path| {
-            let journal = read_file(&path).ok()?.ok()?;
+        self.named("").into_iter().filter_map(|path| {
+            let journal = read_file(&path).ok()??.ok()?;
             Some((path, journal))
-        });
-        journals.filter(|(_, journal)| !self.is_written(journal))
-    }
-
-    fn is_written(&self, journal: &Journal) -> bool {
-        let is_a_name = journal.session.chars().all(|letter| letter.is_ascii_alphanumeric());
-        is_a_name && Lock::is_held(&self.sessions.join(&journal.session))
+        })
     }
 
     fn named(&self, start: &str) -> Vec<PathBuf> {
-        let entries =
-            fs::read_dir(&self.journals).into_iter().flatten().flatten().map(|entry| entry.path());
+        let entries = fs::read_dir(&self.0).into_iter().flatten().flatten();
         let fits = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             !name.starts_with('.')
                 && name.starts_with(start)
                 && path.extension().is_some_and(|ending| ending == ENDING)
         };
-        let mut paths: Vec<_> = entries.filter(fits).collect();
+        let mut paths: Vec<_> = entries.map(|entry| entry.path()).filter(fits).collect();
         paths.sort();
         paths
     }
@@ -275,10 +244,18 @@ impl Journals {
 /// The requested journals, shared by the threads that may write them.
 #[derive(Debug, Default)]
 pub struct JournalWriter {
-    entries: Mutex<Entries>,
-    bell: Condvar,
+    entries: Mutex<BTreeMap<PathBuf, Entry>>,
     /// Locked during a write.
     write_lock: Mutex<()>,
+    /// Wakes the thread.
+    bell: Option<Sender<()>>,
+}
+
+#[derive(Debug, Default)]
+struct Entry {
+    wanted: Option<Journal>,
+    /// The content of the file, and the file with its lock.
+    written: Option<(Journal, File)>,
 }
 
 impl JournalWriter {
@@ -288,27 +265,36 @@ impl JournalWriter {
     /// # Errors
     /// Returns an error if the system cannot start a thread.
     pub fn open(tell: impl Fn(String) + Send + 'static) -> io::Result<Arc<JournalWriter>> {
-        let journal_writer = Arc::new(JournalWriter::default());
-        let theirs = Arc::clone(&journal_writer);
-        thread::Builder::new().name(THREAD.to_owned()).spawn(move || {
-            while theirs.wait() {
-                if let Err(error) = theirs.write(true) {
+        let (bell, rings) = channel();
+        let writer = Arc::new(JournalWriter { bell: Some(bell), ..JournalWriter::default() });
+        let theirs = Arc::downgrade(&writer);
+        thread::Builder::new().name("journal".to_owned()).spawn(move || {
+            for () in rings {
+                let Some(writer) = theirs.upgrade() else { return };
+                if let Err(error) = writer.write(true) {
                     tell(format!("a crash would lose unsaved edits: {error}: save soon"));
                 }
             }
         })?;
-        Ok(journal_writer)
+        Ok(writer)
     }
 
-    /// Sets the content of a journal; `None` removes it.
-    pub(crate) fn put(&self, path: &Path, journal: Option<Journal>) {
-        self.entries().by_path.entry(path.to_owned()).or_default().wanted = journal;
+    /// Sets the content of a journal.
+    pub(crate) fn put(&self, path: &Path, journal: Journal) {
+        locked(&self.entries).entry(path.to_owned()).or_default().wanted = Some(journal);
+    }
+
+    /// Deletes a journal.
+    pub(crate) fn delete(&self, path: &Path) {
+        locked(&self.entries).entry(path.to_owned()).or_default().wanted = None;
+        self.ring();
     }
 
     /// Wakes the thread, which writes every changed journal.
     pub(crate) fn ring(&self) {
-        self.entries().is_due = true;
-        self.bell.notify_all();
+        if let Some(bell) = &self.bell {
+            let _ = bell.send(());
+        }
     }
 
     /// Writes every changed journal now. A journal survives the end of the process; a `lasting`
@@ -317,102 +303,94 @@ impl JournalWriter {
     /// # Errors
     /// The first error; the other journals are written nevertheless.
     pub fn write(&self, lasting: bool) -> io::Result<()> {
-        let write_lock = self.write_lock.lock().unwrap_or_else(PoisonError::into_inner);
-        let changed: Vec<_> = self.entries().changed();
+        let _one_at_a_time = locked(&self.write_lock);
+        let entries = locked(&self.entries);
+        let changed: Vec<_> = entries
+            .iter()
+            .filter(|(_, entry)| {
+                entry.wanted.as_ref() != entry.written.as_ref().map(|(own, _)| own)
+            })
+            .map(|(path, entry)| (path.clone(), entry.wanted.clone()))
+            .collect();
+        drop(entries);
         let mut result = Ok(());
         for (path, wanted) in changed {
-            let written = match &wanted {
-                Some(journal) => Journals::write(
-                    &path,
-                    &Journal { written: session::now(), ..journal.clone() },
-                    lasting,
-                ),
-                None => fs::remove_file(&path).or_else(|error| {
-                    if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) }
-                }),
+            let written = match wanted {
+                Some(journal) => {
+                    write_file(&path, &journal, lasting).map(|file| Some((journal, file)))
+                }
+                None => match fs::remove_file(&path) {
+                    Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+                    _ => Ok(None),
+                },
             };
-            if written.is_ok() {
-                self.entries().settle(&path, wanted);
+            match written {
+                Ok(written) => {
+                    let mut entries = locked(&self.entries);
+                    entries.entry(path).or_default().written = written;
+                    entries.retain(|_, entry| entry.wanted.is_some() || entry.written.is_some());
+                }
+                Err(error) => result = result.and(Err(error)),
             }
-            result = result.and(written);
         }
-        drop(write_lock);
         result
     }
 
     /// Whether any journal contains edits that no file has.
     #[must_use]
     pub fn is_needed(&self) -> bool {
-        self.entries().by_path.values().any(|entry| entry.wanted.is_some())
+        locked(&self.entries).values().any(|entry| entry.wanted.is_some())
     }
+}
 
-    /// Ends the thread.
-    pub(crate) fn close(&self) {
-        self.entries().is_closed = true;
-        self.bell.notify_all();
-    }
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
-    fn entries(&self) -> MutexGuard<'_, Entries> {
-        self.entries.lock().unwrap_or_else(PoisonError::into_inner)
+// Replaces a journal; on an error the previous one remains. The lock is taken before other sessions
+// can see the file; in a file system without locks they offer the edits too early.
+fn write_file(path: &Path, journal: &Journal, lasting: bool) -> io::Result<File> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut file = tempfile::Builder::new().prefix(".").tempfile_in(folder)?;
+    drop(file.as_file().try_lock());
+    let journal = Journal { written: session::now(), ..journal.clone() };
+    file.write_all(journal.to_text()?.as_bytes())?;
+    if lasting {
+        file.as_file().sync_data()?;
     }
-
-    // Returns false at the end.
-    fn wait(&self) -> bool {
-        let mut entries = self.entries();
-        while !entries.is_due && !entries.is_closed {
-            entries = self.bell.wait(entries).unwrap_or_else(PoisonError::into_inner);
-        }
-        entries.is_due = false;
-        !entries.is_closed
-    }
+    file.persist(path).map_err(|error| error.error)
 }
 
 fn line_of<'t>(text: &'t str, key: &str) -> Option<(&'t str, &'t str)> {
     text.strip_prefix(key)?.split_once('\n')
 }
 
-/// Reads a journal; the inner error if the file is none.
-fn read_file(path: &Path) -> io::Result<Result<Journal, JournalFault>> {
+/// Reads a journal; `None` if a running session writes it, the inner error if the file is none.
+fn read_file(path: &Path) -> io::Result<Option<Result<Journal, &'static str>>> {
     if !fs::symlink_metadata(path)?.is_file() {
-        return Ok(Err(JournalFault::NotOne));
+        return Ok(Some(Err(NOT_ONE)));
+    }
+    let file = File::open(path)?;
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        return Ok(None);
     }
     let mut bytes = Vec::new();
-    File::open(path)?.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > MOST_BYTES {
-        return Ok(Err(JournalFault::NotOne));
+        return Ok(Some(Err(NOT_ONE)));
     }
-    let text = String::from_utf8(bytes).map_err(|_| JournalFault::Damaged);
-    Ok(text.and_then(|text| Journal::from_text(&text)))
+    let text = String::from_utf8(bytes).map_err(|_| DAMAGED);
+    Ok(Some(text.and_then(|text| Journal::from_text(&text))))
 }
 
 // Returns the message. A journal that cannot be moved remains and is reported again.
-fn set_aside(path: &Path, fault: &JournalFault) -> String {
+fn set_aside(path: &Path, fault: &str) -> String {
     let free = (1..100)
         .map(|number| path.with_extension(format!("damaged-{number}")))
         .find(|name| fs::symlink_metadata(name).is_err());
-    let moved = free.and_then(|name| fs::rename(path, &name).ok().map(|()| name));
-    let place = moved.unwrap_or_else(|| path.to_owned());
-    format!(
-        "unsaved edits of this case cannot be restored: {fault}; the file is now {}",
-        shown(&place)
-    )
-}
-
-fn is_missing(journal: &Journal) -> bool {
-    journal.case.as_ref().is_some_and(|path| !path.exists())
-}
-
-/// In seconds.
-fn age_of(journal: &Journal) -> u64 {
-    session::now().saturating_sub(journal.written)
-}
-
-fn name_of(journal: &Journal) -> String {
-    match &journal.case {
-        Some(path) => shown(path),
-        None if journal.base_stamp == store::built_in().stamp() => "the built-in case".to_owned(),
-        None => "a new case".to_owned(),
-    }
+    let moved = free.filter(|name| fs::rename(path, name).is_ok());
+    let place = shown(moved.as_deref().unwrap_or(path));
+    format!("unsaved edits of this case cannot be restored: {fault}; the file is now {place}")
 }
 
 fn shown(path: &Path) -> String {
@@ -431,37 +409,6 @@ fn stem(case: Option<&Path>) -> String {
     format!("case-{letters}-{:016x}-", hash(sharing::path_bytes(case)))
 }
 
-#[derive(Debug, Default)]
-struct Entries {
-    by_path: BTreeMap<PathBuf, Entry>,
-    is_due: bool,
-    is_closed: bool,
-}
-
-#[derive(Debug, Default)]
-struct Entry {
-    wanted: Option<Journal>,
-    written: Option<Journal>,
-}
-
-impl Entries {
-    fn changed(&self) -> Vec<(PathBuf, Option<Journal>)> {
-        let differs = |(_, entry): &(&PathBuf, &Entry)| entry.wanted != entry.written;
-        self.by_path
-            .iter()
-            .filter(differs)
-            .map(|(path, entry)| (path.clone(), entry.wanted.clone()))
-            .collect()
-    }
-
-    // If the case was closed during the write, its entry is gone. The entry is added again, so that
-    // the next write deletes the file.
-    fn settle(&mut self, path: &Path, written: Option<Journal>) {
-        self.by_path.entry(path.to_owned()).or_default().written = written;
-        self.by_path.retain(|_, entry| entry.wanted.is_some() || entry.written.is_some());
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -476,7 +423,6 @@ mod tests {
             case: Some("/home/me/äöü \"quoted\"\n\u{1b}[2J.toml".into()),
             base_stamp: Stamp::of(b"format = 1\n"),
             written: 1_795_265_502,
-            session: "abc123".to_owned(),
             changes: vec![
                 change("pair.module", Some("5 mm"), Some("1 in")),
                 change("title", Some("'''\"\"\"\\"), Some("\u{0}\u{7f}\u{9b}\r\n\u{202e}")),
@@ -525,26 +471,26 @@ mod tests {
     #[test]
     fn a_newer_journal_is_refused_by_its_version() {
         let newer = journal().to_text().expect("TOML").replace("format = 1", "format = 2");
-        assert_eq!(Journal::from_text(&newer), Err(JournalFault::NewerFormat(2)));
-        assert_eq!(Journal::from_text("format = 1\n"), Err(JournalFault::NotOne));
+        assert_eq!(Journal::from_text(&newer), Err(NEWER));
+        assert_eq!(Journal::from_text("format = 1\n"), Err(NOT_ONE));
     }
 
     #[test]
     fn only_recent_journals_of_existing_cases_are_reported_and_all_are_listed() {
         let folder = tempfile::tempdir().expect("a folder");
         let journals = Journals::within(folder.path());
-        drop(journals.begin().expect("our own folder"));
+        journals.create().expect("our own folder");
         let leave = |name: &str, age: u64| {
             let case = folder.path().join(name);
             let journal = Journal {
                 case: Some(case.clone()),
                 base_stamp: Stamp::of(b""),
-                written: session::now() - age,
-                session: "ended".to_owned(),
+                written: 0,
                 changes: Vec::new(),
             };
             let place = journals.place(Some(&case), "ended", 0);
-            Journals::write(&place, &journal, false).expect("room on the disk");
+            let text = Journal { written: session::now() - age, ..journal }.to_text();
+            fs::write(&place, text.expect("TOML")).expect("room on the disk");
             case
         };
         let report =
@@ -563,16 +509,6 @@ mod tests {
         assert!(list[0].1.ends_with("deleted.toml: 0 edits, 1 min old, no such file"));
     }
 
-    fn journal_of(session: &str) -> Journal {
-        Journal {
-            case: None,
-            base_stamp: Stamp::of(b""),
-            written: 0,
-            session: session.to_owned(),
-            changes: Vec::new(),
-        }
-    }
-
     #[test]
     fn no_journal_stays_of_a_case_closed_during_a_write() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -581,7 +517,7 @@ mod tests {
         for round in 0..20 {
             let writer = JournalWriter::default();
             for path in &paths {
-                writer.put(path, Some(journal_of("one")));
+                writer.put(path, journal());
             }
             std::thread::scope(|scope| {
                 let first = scope.spawn(|| writer.write(false));
@@ -589,7 +525,7 @@ mod tests {
                     std::thread::yield_now();
                 }
                 for path in &paths {
-                    writer.put(path, None);
+                    writer.delete(path);
                 }
                 first.join().expect("no panic").expect("a write");
             });
@@ -597,5 +533,19 @@ mod tests {
             let left = fs::read_dir(folder.path()).expect("the folder").count();
             assert_eq!(left, 0, "round {round}");
         }
+    }
+
+    #[test]
+    fn a_journal_is_of_an_ended_session_once_its_writer_is_gone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("one.toml");
+        let writer = JournalWriter::default();
+        for edits in [journal(), Journal { changes: Vec::new(), ..journal() }] {
+            writer.put(&path, edits);
+            writer.write(false).expect("room on the disk");
+            assert!(matches!(read_file(&path), Ok(None)), "it is in use");
+        }
+        drop(writer);
+        assert!(matches!(read_file(&path), Ok(Some(Ok(_)))));
     }
 }

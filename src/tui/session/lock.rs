@@ -5,7 +5,6 @@ use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
@@ -16,15 +15,13 @@ use crate::tui::session;
 
 /// Attempts to lock: another process may delete the lock file between opening and locking it.
 const ATTEMPTS: usize = 5;
-/// Age above which an unlocked file of a session is certainly abandoned.
-const STALE: Duration = Duration::from_secs(600);
 
 /// Greatest size of a lock file.
 const MOST_BYTES: u64 = 4096;
 
 /// A lock; dropping it releases the lock.
 #[derive(Debug)]
-pub(crate) struct Lock {
+struct Lock {
     file: File,
     path: PathBuf,
 }
@@ -36,7 +33,7 @@ impl Lock {
     /// # Errors
     /// Returns an error if the lock file cannot be created or is not a regular file, or if the file
     /// system has no locks.
-    pub(crate) fn take(path: &Path) -> io::Result<Result<Lock, Holder>> {
+    fn take(path: &Path) -> io::Result<Result<Lock, Holder>> {
         for _ in 0..ATTEMPTS {
             let mut file = open(path)?;
             let held = file.try_lock();
@@ -53,34 +50,6 @@ impl Lock {
             }
         }
         Err(io::Error::other("changes too often"))
-    }
-
-    /// A new lock with a unique name. No process looks for the name before it is in a journal, or
-    /// clears the file before it is old.
-    ///
-    /// # Errors
-    /// Returns an error if the disk is full.
-    pub(super) fn create(folder: &Path) -> io::Result<(String, Lock)> {
-        clear(folder);
-        let hidden = tempfile::Builder::new().prefix("").rand_bytes(10).tempfile_in(folder)?;
-        let (file, path) = hidden.keep().map_err(|error| error.error)?;
-        // Without locks in the file system, the text alone shows that the process runs.
-        drop(file.try_lock());
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut lock = Lock { file, path };
-        lock.sign();
-        Ok((name, lock))
-    }
-
-    /// Whether a running process has the lock.
-    pub(crate) fn is_held(path: &Path) -> bool {
-        look_at(path).is_ok_and(|mut file| match file.try_lock() {
-            Ok(()) => false,
-            Err(TryLockError::WouldBlock) => true,
-            Err(TryLockError::Error(_)) => {
-                Holder::read(&mut file).is_some_and(|holder| holder.is_running())
-            }
-        })
     }
 
     // The text only names the process: a lock without it still works.
@@ -114,7 +83,7 @@ impl Drop for Lock {
 
 /// The holder of a lock; the process is 0 if the file does not name it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub(crate) struct Holder {
+struct Holder {
     /// The host name.
     host: String,
     /// The process id.
@@ -125,28 +94,18 @@ pub(crate) struct Holder {
 
 impl Holder {
     /// This process.
-    #[must_use]
     fn ourselves() -> Holder {
         Holder { host: sharing::host(), process: std::process::id(), since: session::now() }
     }
 
     /// The holder as text for a message.
-    #[must_use]
-    pub(crate) fn words(&self, now: u64) -> String {
-        if self.process == 0 {
-            return "an unknown process".to_owned();
+    fn words(&self) -> String {
+        let Holder { host, process, since } = self;
+        let age = session::age(session::now().saturating_sub(*since));
+        match process {
+            0 => "an unknown process".to_owned(),
+            _ => format!("process {process} on {host} for {age}"),
         }
-        format!(
-            "process {} on {} for {}",
-            self.process,
-            self.host,
-            session::age(now.saturating_sub(self.since))
-        )
-    }
-
-    /// Whether a process of this machine has the number.
-    fn is_running(&self) -> bool {
-        self.host == sharing::host() && sharing::is_running(self.process)
     }
 
     fn to_text(&self) -> String {
@@ -162,26 +121,27 @@ impl Holder {
     }
 }
 
-/// The locks by the canonical places of the cases.
+/// The locks by the names of the lock files; the path of a lock is that of its folder without links,
+/// because two names may lead to one file.
 #[derive(Debug, Default)]
-pub(super) struct Locks(BTreeMap<PathBuf, Held>);
+pub(super) struct Locks(BTreeMap<PathBuf, Lock>);
 
 impl Locks {
     /// Takes the lock of a case. Returns the process that has the case open, or `None` if this
     /// session now has the lock. The error is the reason why the case has no lock.
-    pub(super) fn take(&mut self, path: &Path) -> Result<Option<Holder>, String> {
+    pub(super) fn take(&mut self, path: &Path) -> Result<Option<String>, String> {
         let Some(named) = lock_of(path).filter(|named| !self.0.contains_key(named)) else {
             return Ok(None);
         };
         let whole = followed(path).ok().and_then(|path| lock_of(&path));
         let place = whole.unwrap_or_else(|| named.clone());
-        if self.0.values().any(|held| held.place == place) {
+        if self.0.values().any(|lock| lock.path == place) {
             return Ok(None);
         }
         match Lock::take(&place).map_err(|error| unlocked(path, &place, &error))? {
-            Err(holder) => Ok(Some(holder)),
+            Err(holder) => Ok(Some(holder.words())),
             Ok(lock) => {
-                self.0.insert(named, Held { place, _lock: lock });
+                self.0.insert(named, lock);
                 Ok(None)
             }
         }
@@ -199,46 +159,15 @@ impl Locks {
     }
 }
 
-/// Deletes the files of killed processes.
-fn clear(folder: &Path) {
-    for file in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let age = file.metadata().and_then(|about| about.modified());
-        let is_old = age.is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE));
-        if is_old && !Lock::is_held(&file.path()) {
-            drop(fs::remove_file(file.path()));
-        }
-    }
-}
-
-fn open(path: &Path) -> io::Result<File> {
-    let ours = regular(sharing::open_or_create_lock(path), path);
-    // A lock file of another user may be readable only, which is enough to lock it.
-    ours.or_else(|error| {
-        if error.kind() == io::ErrorKind::PermissionDenied { look_at(path) } else { Err(error) }
-    })
-}
-
-fn look_at(path: &Path) -> io::Result<File> {
-    regular(sharing::open_lock(path), path)
-}
-
 // Another user may have created a link or a pipe with that name: the link is not followed, and the
 // pipe does not block.
-fn regular(file: io::Result<File>, path: &Path) -> io::Result<File> {
+fn open(path: &Path) -> io::Result<File> {
     let is_link = || fs::symlink_metadata(path).is_ok_and(|about| about.is_symlink());
-    match file {
+    match sharing::open_lock(path) {
         Err(_) if is_link() => Err(io::Error::other("is a symbolic link")),
         Ok(file) if !file.metadata()?.is_file() => Err(io::Error::other("is not a regular file")),
         other => other,
     }
-}
-
-/// A lock of this session.
-#[derive(Debug)]
-struct Held {
-    /// The lock file, with the full path of its folder: two paths may name one file.
-    place: PathBuf,
-    _lock: Lock,
 }
 
 // The lock file is beside the case, so that other users and other machines also see it: whoever may
@@ -283,20 +212,8 @@ fn name_of(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use std::os::unix::fs::PermissionsExt;
-    use std::sync::atomic::{AtomicBool, Ordering};
-    use std::thread;
-    use std::time::SystemTime;
 
     use super::*;
-
-    /// Ends a thread even if the test fails.
-    struct End<'a>(&'a AtomicBool);
-
-    impl Drop for End<'_> {
-        fn drop(&mut self) {
-            self.0.store(true, Ordering::Relaxed);
-        }
-    }
 
     fn place() -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().expect("a folder");
@@ -312,12 +229,10 @@ mod tests {
     fn one_session_has_a_lock_which_names_it_and_is_deleted_at_the_end() {
         let (_folder, path) = place();
         let lock = ours(&path);
-        assert!(Lock::is_held(&path));
         let holder = Lock::take(&path).expect("a lock").expect_err("a holder");
-        assert!(holder.is_running() && !holder.host.is_empty());
         assert_eq!((holder.process, holder.host), (std::process::id(), sharing::host()));
         drop(lock);
-        assert!(!path.exists() && !Lock::is_held(&path));
+        assert!(!path.exists());
         drop(ours(&path));
     }
 
@@ -337,7 +252,6 @@ mod tests {
         // Nobody has locked the file, so that even the text of a running process has no effect.
         let ourselves = Holder::ourselves();
         let dead = Holder { process: u32::MAX / 4, ..ourselves.clone() };
-        assert!(ourselves.is_running() && !dead.is_running());
         let texts = [dead, ourselves].map(|holder| holder.to_text());
         for text in texts.iter().map(String::as_str).chain(["", "\0\u{1b}[2J", "process = -1"]) {
             let (_folder, path) = place();
@@ -352,7 +266,7 @@ mod tests {
         let other = folder.path().join("other");
         fs::write(&other, "mine").expect("room on the disk");
         std::os::unix::fs::symlink(&other, &path).expect("a link");
-        assert!(Lock::take(&path).is_err() && !Lock::is_held(&path));
+        assert!(Lock::take(&path).is_err());
         assert_eq!(fs::read_to_string(&other).expect("it is there"), "mine");
         let pipe = folder.path().join("pipe");
         assert!(
@@ -361,48 +275,8 @@ mod tests {
                 .status()
                 .is_ok_and(|status| status.success())
         );
-        assert!(Lock::take(&pipe).is_err() && !Lock::is_held(&pipe));
+        assert!(Lock::take(&pipe).is_err());
         assert!(Lock::take(&folder.path().join("none/lock")).is_err());
-    }
-
-    #[test]
-    fn a_starting_session_is_never_deleted_by_another() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let is_over = AtomicBool::new(false);
-        thread::scope(|scope| {
-            let _end = End(&is_over);
-            scope.spawn(|| {
-                while !is_over.load(Ordering::Relaxed) {
-                    clear(folder.path());
-                }
-            });
-            for number in 0..1000 {
-                let (name, lock) = Lock::create(folder.path()).expect("a session of its own");
-                assert!(Lock::is_held(&folder.path().join(name)), "session {number}");
-                drop(lock);
-            }
-        });
-        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
-    }
-
-    #[test]
-    fn the_file_of_a_killed_session_is_deleted() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let old = SystemTime::now() - 2 * STALE;
-        for (name, is_old) in [("killed", true), ("begins", false)] {
-            let path = folder.path().join(name);
-            let file = File::create(path).expect("room on the disk");
-            if is_old {
-                file.set_modified(old).expect("our own file");
-            }
-        }
-        clear(folder.path());
-        let left: Vec<_> = fs::read_dir(folder.path())
-            .expect("a folder")
-            .flatten()
-            .map(|entry| entry.file_name())
-            .collect();
-        assert_eq!(left, ["begins"]);
     }
 
     #[test]

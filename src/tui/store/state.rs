@@ -2,73 +2,63 @@
 //!
 //! Only a folder that no other user can change is used; otherwise a private folder replaces it.
 
-use std::collections::VecDeque;
 use std::env;
-use std::ffi::OsString;
-use std::fmt;
 use std::fs;
 use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
 
 use crate::case::sanitize::sanitize;
 use crate::system::sharing::{self, Access};
 
-/// Folders inside the state folder.
-const INSIDE: [&str; 2] = ["journals", "sessions"];
-/// Greatest number of symbolic links to follow.
-const MOST_LINKS: usize = 40;
+/// The folder of journals inside the state folder.
+pub(in crate::tui) const JOURNALS: &str = "journals";
 const STICKY: u32 = 0o1000;
 const OWN_FOLDER: &str = "set XDG_STATE_HOME to a folder of your own";
 const NO_FOLDER: &str = "HOME and XDG_STATE_HOME name no folder: set one of them";
 
-/// The state folders that only this user can change.
+/// The state folder that only this user can change.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// The folder of this session.
+    /// The folder; `None` if no folder is private.
     pub folder: Option<PathBuf>,
-    /// Folders in which earlier sessions may have written.
-    pub others: Vec<PathBuf>,
     /// Why the usual folder is not used, and which folder replaces it.
     pub notice: Option<String>,
 }
 
-/// Why a folder is not private.
-#[derive(Debug)]
-enum Exposed {
-    Owner(PathBuf, u32),
-    Writable(PathBuf),
-    Unknown(PathBuf, io::Error),
-}
-
 impl State {
-    /// The folders that the environment names.
+    /// The folder that the environment names, otherwise a replacement.
     #[must_use]
     pub(crate) fn find() -> State {
-        State::choose(usual(), private())
+        let within = |variable: &str| absolute(variable).map(|path| path.join("tipstrike"));
+        let usual = within("XDG_STATE_HOME").or_else(|| {
+            let folders = ProjectDirs::from("", "", "tipstrike")?;
+            Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
+        });
+        let temporary = env::temp_dir().join(format!("tipstrike-{}", sharing::user()));
+        State::choose(usual, within("XDG_RUNTIME_DIR").into_iter().chain([temporary]))
     }
 
     /// Selects the first private folder of the usual one and its replacements.
     #[must_use]
-    pub fn choose(usual: Option<PathBuf>, private: Vec<PathBuf>) -> State {
-        let user = sharing::user();
-        let problem = match &usual {
-            None => Some(NO_FOLDER.to_owned()),
-            Some(folder) => check(folder, user).err().map(|why| why.to_string()),
+    pub fn choose(
+        usual: Option<PathBuf>,
+        replacements: impl IntoIterator<Item = PathBuf>,
+    ) -> State {
+        let checked = usual.ok_or_else(|| NO_FOLDER.to_owned()).and_then(check);
+        let Err(problem) = checked else {
+            return State { folder: checked.ok(), notice: None };
         };
-        let is_usual = problem.is_none();
-        let mut safe: VecDeque<PathBuf> =
-            private.into_iter().filter(|folder| check(folder, user).is_ok()).collect();
-        let folder = usual.filter(|_| is_usual).or_else(|| safe.pop_front());
-        let notice = problem.map(|problem| match &folder {
+        let folder = replacements.into_iter().find_map(|folder| check(folder).ok());
+        let notice = match &folder {
             Some(place) => format!(
                 "{problem}. Until then the journals are in {}, and a restart deletes them",
                 shown(place)
             ),
             None => format!("{problem}; until then, a crash loses unsaved edits"),
-        });
-        State { folder, others: safe.into(), notice }
+        };
+        State { folder, notice: Some(notice) }
     }
 }
 
@@ -79,79 +69,47 @@ pub(in crate::tui) fn make(folder: &Path) -> io::Result<()> {
 
 /// Refuses a state folder that another user can change.
 pub(in crate::tui) fn require_private(folder: &Path) -> io::Result<()> {
-    let user = sharing::user();
-    check(folder, user).map_err(|why| io::Error::other(why.to_string()))
-}
-
-fn usual() -> Option<PathBuf> {
-    let own = absolute("XDG_STATE_HOME").map(|path| path.join("tipstrike"));
-    own.or_else(|| {
-        let folders = ProjectDirs::from("", "", "tipstrike")?;
-        Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
-    })
-}
-
-fn private() -> Vec<PathBuf> {
-    let user = sharing::user();
-    let runtime = absolute("XDG_RUNTIME_DIR").map(|path| path.join("tipstrike"));
-    let temporary = env::temp_dir().join(format!("tipstrike-{user}"));
-    runtime.into_iter().chain([temporary]).collect()
+    is_private(folder).map_err(io::Error::other)
 }
 
 fn absolute(variable: &str) -> Option<PathBuf> {
     env::var_os(variable).map(PathBuf::from).filter(|path| path.is_absolute())
 }
 
-/// A missing folder is accepted, because it is created as private.
-fn check(folder: &Path, user: u32) -> Result<(), Exposed> {
-    is_private(folder, user)?;
-    INSIDE.iter().try_for_each(|name| is_private(&folder.join(name), user))
+/// Returns the folder if it is private, with its folder of journals. A missing folder is accepted,
+/// because it is created as private.
+fn check(folder: PathBuf) -> Result<PathBuf, String> {
+    is_private(&folder)?;
+    is_private(&folder.join(JOURNALS))?;
+    Ok(folder)
 }
 
-/// Checks that every link and folder of the path belongs to the user or the system, that nobody
-/// else may replace any of them, and that nobody else may write into the last folder.
-fn is_private(folder: &Path, user: u32) -> Result<(), Exposed> {
-    let mut at = PathBuf::from("/");
+/// Checks that the folders of the path and of its target belong to the user or the system, that
+/// nobody else may replace any of them, and that nobody else may write into the last folder.
+fn is_private(folder: &Path) -> Result<(), String> {
+    let user = sharing::user();
     // In a container the files of the system may belong to another user than 0.
-    let system = fs::metadata(&at).map_or(0, |root| Access::of(&root).owner);
-    let mut links = 0;
-    let mut parts = parts_of(folder);
-    while let Some(part) = parts.pop_front() {
-        if part == ".." {
-            at.pop();
-            continue;
-        }
-        let next = at.join(part);
-        let about = match fs::symlink_metadata(&next) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            about => about.map_err(|error| Exposed::Unknown(next.clone(), error))?,
+    let system = fs::metadata("/").map_or(0, |root| Access::of(&root).owner);
+    let unknown = |error: io::Error| format!("{}: {error}: {OWN_FOLDER}", shown(folder));
+    let is_there = |error: &io::Error| error.kind() != io::ErrorKind::NotFound;
+    let target = match fs::canonicalize(folder) {
+        Err(error) if is_there(&error) => return Err(unknown(error)),
+        target => target.ok(),
+    };
+    for place in folder.ancestors().chain(target.iter().flat_map(|target| target.ancestors())) {
+        let about = match fs::symlink_metadata(place) {
+            Err(error) if is_there(&error) => return Err(unknown(error)),
+            Err(_) => continue,
+            Ok(about) => about,
         };
-        let owner = Access::of(&about).owner;
-        if ![user, 0, system].contains(&owner) {
-            return Err(Exposed::Owner(next, owner));
+        let (access, is_last) = (Access::of(&about), target.as_deref() == Some(place));
+        if about.is_dir() && others_may_write(access, is_last) {
+            return Err(format!("others may write in {}: chmod go-w it", shown(place)));
         }
-        if about.is_symlink() {
-            links += 1;
-            let target = fs::read_link(&next).and_then(|target| {
-                (links <= MOST_LINKS)
-                    .then_some(target)
-                    .ok_or_else(|| io::Error::other("too many symbolic links"))
-            });
-            let target = target.map_err(|error| Exposed::Unknown(next, error))?;
-            if target.is_absolute() {
-                at = PathBuf::from("/");
-            }
-            parts = parts_of(&target).into_iter().chain(parts).collect();
-            continue;
+        if access.owner != user && (is_last || ![0, system].contains(&access.owner)) {
+            let (place, owner) = (shown(place), access.owner);
+            return Err(format!("{place} belongs to user {owner}: {OWN_FOLDER}"));
         }
-        let is_last = parts.is_empty();
-        if about.is_dir() && others_may_write(Access::of(&about), is_last) {
-            return Err(Exposed::Writable(next));
-        }
-        if is_last && owner != user {
-            return Err(Exposed::Owner(next, owner));
-        }
-        at = next;
     }
     Ok(())
 }
@@ -163,31 +121,6 @@ fn others_may_write(Access { owner, group, mode }: Access, is_last: bool) -> boo
     let by_group = mode & 0o020 != 0 && !is_own_group;
     let by_all = mode & 0o002 != 0;
     (by_group || by_all) && (is_last || mode & STICKY == 0)
-}
-
-fn parts_of(path: &Path) -> VecDeque<OsString> {
-    let part = |part: Component<'_>| match part {
-        Component::Normal(name) => Some(name.to_owned()),
-        Component::ParentDir => Some("..".into()),
-        Component::RootDir | Component::CurDir | Component::Prefix(_) => None,
-    };
-    path.components().filter_map(part).collect()
-}
-
-impl fmt::Display for Exposed {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Exposed::Owner(path, user) => {
-                write!(f, "{} belongs to user {user}: {OWN_FOLDER}", shown(path))
-            }
-            Exposed::Writable(path) => {
-                write!(f, "others may write in {}: chmod go-w it", shown(path))
-            }
-            Exposed::Unknown(path, error) => {
-                write!(f, "{}: {error}: {OWN_FOLDER}", shown(path))
-            }
-        }
-    }
 }
 
 fn shown(path: &Path) -> String {
@@ -217,15 +150,11 @@ mod tests {
     #[test]
     fn a_private_folder_is_used_whether_or_not_it_exists() {
         let (_folder, path) = folder_with(&["there"]);
-        for name in ["there", "new/deeper"] {
-            let state = State::choose(Some(path.join(name)), vec![path.join("other")]);
-            assert_eq!(state.folder, Some(path.join(name)));
-            assert_eq!(state.others, [path.join("other")]);
-            assert_eq!(state.notice, None);
-        }
         symlink("there", path.join("own-link")).expect("a link");
-        let state = State::choose(Some(path.join("own-link")), Vec::new());
-        assert_eq!((state.folder, state.notice), (Some(path.join("own-link")), None));
+        for name in ["there", "new/deeper", "own-link"] {
+            let state = State::choose(Some(path.join(name)), [path.join("other")]);
+            assert_eq!((state.folder, state.notice), (Some(path.join(name)), None));
+        }
     }
 
     #[test]
@@ -233,16 +162,15 @@ mod tests {
         for exposed in ["state", "state/journals", "above"] {
             let (_folder, path) = folder_with(&["state/journals", "above/state"]);
             open_to_all(&path.join(exposed));
-            let usual = path.join(exposed.split('/').next().unwrap_or_default());
-            let usual = if exposed == "above" { usual.join("state") } else { usual };
-            let state = State::choose(Some(usual.clone()), vec![path.join("run")]);
+            let usual = path.join(if exposed == "above" { "above/state" } else { "state" });
+            let state = State::choose(Some(usual.clone()), [path.join("run")]);
             assert_eq!(state.folder, Some(path.join("run")), "{exposed}");
             let notice = state.notice.expect("a notice");
             let place = path.join(exposed);
             let fix = format!("others may write in {}: chmod go-w it", place.display());
             assert!(notice.starts_with(&fix), "{notice}");
             assert!(notice.contains(&format!("are in {}", path.join("run").display())));
-            let nowhere = State::choose(Some(usual), Vec::new());
+            let nowhere = State::choose(Some(usual), []);
             assert_eq!(nowhere.folder, None);
             assert!(
                 nowhere.notice.is_some_and(|notice| notice.contains("a crash loses unsaved edits"))
@@ -261,7 +189,7 @@ mod tests {
             return;
         }
         for usual in ["state", "theirs"] {
-            let state = State::choose(Some(path.join(usual)), vec![path.join("run")]);
+            let state = State::choose(Some(path.join(usual)), [path.join("run")]);
             assert_eq!(state.folder, Some(path.join("run")), "{usual}");
             let notice = state.notice.expect("a notice");
             assert!(notice.contains("belongs to user 65534"), "{notice}");
@@ -272,7 +200,7 @@ mod tests {
     fn a_circle_of_links_is_refused() {
         let (_folder, path) = folder_with(&[]);
         symlink("circle", path.join("circle")).expect("a link");
-        let state = State::choose(Some(path.join("circle/state")), Vec::new());
+        let state = State::choose(Some(path.join("circle/state")), []);
         assert!(state.folder.is_none() && state.notice.is_some());
     }
 }
