@@ -19,7 +19,7 @@ use crate::numeric::polynomial::Polynomial;
 use crate::numeric::{quadrature, root};
 use sharing::Couplings;
 use sharing::Sharing;
-pub use sharing::{Line, Meeting, Of, Shares};
+pub use sharing::{Meeting, Of, Shares};
 use zones::{GAP, LEVER, SLIDING, STIFFNESS, Zone};
 
 /// The mesh as a function of s, the path of the incoming pair along the line of action since E, in

@@ -90,7 +90,7 @@ pub struct Earlier<'a> {
 /// method.
 ///
 /// # Errors
-/// Those of [`solve_after`](super::solve_after).
+/// Those of [`solve_after`].
 pub(crate) fn solve_by_method(
     inputs: &Inputs,
     wanted: Stages,

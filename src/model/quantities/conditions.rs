@@ -28,11 +28,6 @@ pub fn shared_load(inputs: &Inputs) -> bool {
     inputs.method.shares_load()
 }
 
-/// Method `auto`, which can choose any other method.
-pub fn auto(inputs: &Inputs) -> bool {
-    inputs.method == Method::Auto
-}
-
 /// The case gives the power.
 pub fn power_given(inputs: &Inputs) -> bool {
     matches!(inputs.drive, Drive::Power(_))
