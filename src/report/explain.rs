@@ -127,13 +127,13 @@ pub fn write_json(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()
         "meaning": page.meaning,
         "beside": page.beside,
         "derivation": page.derivation.iter().map(Work::json).collect::<Vec<_>>(),
-        "with": page.leaves.iter().map(Leaf::json).collect::<Vec<_>>(),
+        "with": page.leaves,
         "source": page.source,
         "corrections": page.corrections,
         "assumptions": page.assumptions,
         "validity": validity.collect::<Vec<_>>(),
         "accuracy": page.accuracy,
-        "sensitivity": page.effects.iter().map(Effect::json).collect::<Vec<_>>(),
+        "sensitivity": page.effects,
     });
     write_line(&line, out)
 }

@@ -1,5 +1,6 @@
 //! The formula of a quantity and of each step before it, with the numbers of a case.
 
+use std::collections::VecDeque;
 use std::sync::LazyLock;
 
 use crate::case::fields::{Kind, index_of};
@@ -12,6 +13,7 @@ use crate::model::{QUANTITIES, Quantity};
 use crate::numeric::decimal::significant;
 use crate::report::json::{Json, json};
 use crate::report::{Shown, shown, value};
+use serde::Serialize;
 
 /// Significant digits of a step.
 const STEP_DIGITS: usize = 5;
@@ -60,20 +62,19 @@ pub enum How {
 }
 
 /// A symbol of a formula whose value comes from another page or from the form.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Leaf {
     /// The symbol.
     pub symbol: &'static str,
-    /// Its value as text.
-    pub shown: String,
-    /// Its value in SI.
-    pub value: Option<f64>,
-    /// Its meaning.
-    pub meaning: &'static str,
     /// The key of the quantity or of the field.
     pub key: &'static str,
-    /// Whether it is a quantity, with a page of its own.
-    pub is_quantity: bool,
+    /// Its value as text.
+    pub shown: String,
+    /// Its meaning.
+    pub meaning: &'static str,
+    /// Its value in SI.
+    #[serde(skip)]
+    pub value: Option<f64>,
 }
 
 impl Work {
@@ -118,13 +119,6 @@ impl Work {
     }
 }
 
-impl Leaf {
-    pub(super) fn json(&self) -> Json {
-        let Leaf { symbol, key, shown, meaning, .. } = self;
-        json!({"symbol": symbol, "key": key, "shown": shown, "meaning": meaning})
-    }
-}
-
 /// The derivation of a quantity, and the symbols that its formulas read from elsewhere.
 pub(super) fn derivation_of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
     let own = known.quantity(quantity);
@@ -139,11 +133,9 @@ pub(super) fn derivation_of(quantity: &'static Quantity, known: &Known) -> (Vec<
     );
     let mut seen = vec![own.symbol];
     let mut leaves = Vec::new();
-    let mut open = symbols_of(quantity.formula, known);
-    let mut next = 0;
-    while let Some(symbol) = open.get(next) {
-        next += 1;
-        let source = known.source(symbol).filter(|source| !seen.contains(&source.symbol));
+    let mut open = VecDeque::from(symbols_of(quantity.formula, known));
+    while let Some(symbol) = open.pop_front() {
+        let source = known.source(&symbol).filter(|source| !seen.contains(&source.symbol));
         let Some(source) = source else { continue };
         seen.push(source.symbol);
         let Source { symbol, meaning, value, unit, origin } = source;
@@ -154,21 +146,14 @@ pub(super) fn derivation_of(quantity: &'static Quantity, known: &Known) -> (Vec<
                 continue;
             }
             Origin::Quantity(quantity) => {
-                let text = value.map(|value| shown(quantity, value));
-                (quantity.key, text.map(|text| with_unit(&text.number, text.unit)))
+                (quantity.key, value.map(|value| shown(quantity, value).to_string()))
             }
             Origin::Field(field) => {
                 (FIELDS[field].key, value.map(|value| known.field_text(field, value)))
             }
         };
-        leaves.push(Leaf {
-            symbol,
-            shown: text.unwrap_or_else(|| "no value".to_owned()),
-            value,
-            meaning,
-            key,
-            is_quantity: matches!(origin, Origin::Quantity(_)),
-        });
+        let shown = text.unwrap_or_else(|| "no value".to_owned());
+        leaves.push(Leaf { symbol, key, shown, meaning, value });
     }
     (work, leaves)
 }

@@ -11,33 +11,28 @@ use crate::model::impact::StiffnessModels;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::numeric::decimal::significant;
-use crate::report::json::{Json, json};
 use crate::report::{shown, value, value_as_in};
+use serde::Serialize;
 
 /// The tolerance of the motion at which a small step is distinguishable.
 const FINE: f64 = 1e-6;
 
 /// A field and the change of the quantity for a small step of the field.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Effect {
     /// The field's key.
     pub key: &'static str,
     /// The field's symbol.
+    #[serde(skip)]
     pub symbol: &'static str,
     /// The field's text.
     pub text: String,
     /// The step; empty for a choice or a field without a value.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub step: String,
     /// The change of the quantity; empty without a change.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub change: String,
-}
-
-impl Effect {
-    pub(super) fn json(&self) -> Json {
-        let given = |text: &'_ String| Some(text.clone()).filter(|text| !text.is_empty());
-        let (step, change) = (given(&self.step), given(&self.change));
-        json!({"key": self.key, "text": self.text, "step": step, "change": change})
-    }
 }
 
 /// The fields behind a quantity, in the order of the form. For method `auto`, the tolerance follows
@@ -84,8 +79,7 @@ fn effect(
     noise: f64,
 ) -> Effect {
     let (case, field) = (known.case, &FIELDS[dependence.field]);
-    let text = case.effective(dependence.field).map(sanitize);
-    let text = text.unwrap_or_default();
+    let text = case.effective(dependence.field).map(sanitize).unwrap_or_default();
     let step = dependence.step.as_ref();
     let change = own.zip(step).map(|(own, step)| change(quantity, own, step.value, noise));
     Effect {
@@ -104,11 +98,8 @@ fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> Stri
     };
     let change = found - own;
     if quantity.is_flag() {
-        return if change == 0.0 {
-            String::new()
-        } else {
-            format!("becomes {}", shown(quantity, found))
-        };
+        let becomes = || format!("becomes {}", shown(quantity, found));
+        return if change == 0.0 { String::new() } else { becomes() };
     }
     if change.abs() <= noise * own.abs() {
         return String::new();
