@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
+use super::axis::with_unit;
 use crate::case::{Evaluator, Problem, violated_rule};
 use crate::model::{Inputs, Outcome, Quantity, Stages};
 use serde::{Deserialize, Serialize};
@@ -24,8 +25,11 @@ pub trait Points: Sync {
     fn count(&self) -> usize;
 
     /// A point as settings, such as `operation.speed = 500 rpm, driven.tip_relief = 16 um`.
-    fn point(&self, _index: usize) -> String {
-        String::new()
+    fn point(&self, index: usize) -> String {
+        let values = self.columns().into_iter().zip(self.cells(index));
+        let settings =
+            values.map(|((key, unit), value)| format!("{key} = {}", with_unit(&value, unit)));
+        settings.collect::<Vec<_>>().join(", ")
     }
 
     /// The columns that describe a point: name and unit, which is empty for texts.

@@ -93,12 +93,6 @@ impl Points for Grid {
         self.axes.iter().map(|axis| axis.points.len()).product()
     }
 
-    fn point(&self, index: usize) -> String {
-        let setting =
-            |(axis, at): (&Axis, usize)| format!("{} = {}", axis.key(), axis.with_unit(at));
-        self.places(index).map(setting).collect::<Vec<_>>().join(", ")
-    }
-
     /// The varied fields in their units.
     fn columns(&self) -> Vec<(String, &str)> {
         self.axes.iter().map(|axis| (axis.key().to_owned(), axis.unit.as_str())).collect()
