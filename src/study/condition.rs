@@ -64,18 +64,22 @@ impl Condition {
     /// Returns an error if the quantity, the sign, the value or the outcome is unknown.
     pub fn parse(text: &str) -> Result<Condition, Problem> {
         let text = text.trim();
-        let kind = if let Some(at) = text.find(['<', '>']) {
+        let (name, relation, value) = if let Some(at) = text.find(['<', '>']) {
             let (is_upper, limit) = (text[at..].starts_with('<'), &text[at + 1..]);
             let (is_strict, limit) =
                 limit.strip_prefix('=').map_or((true, limit), |limit| (false, limit));
-            compared(&text[..at], Relation { is_upper, is_strict }, limit.trim())?
+            (&text[..at], Some(Relation { is_upper, is_strict }), limit.trim())
         } else if let Some((name, value)) = text.split_once('=') {
-            let value = value.strip_prefix('=').unwrap_or(value).trim();
-            if name.trim() == "outcome" { outcome(value)? } else { flag(name, value)? }
+            (name, None, value.strip_prefix('=').unwrap_or(value).trim())
         } else {
             let fix = "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or \
                 outcome=no-corner-contact";
             return Err(Problem::new(text, "this is not a condition", fix));
+        };
+        let kind = if relation.is_none() && name.trim() == "outcome" {
+            outcome(value)?
+        } else {
+            compared(name, relation, value)?
         };
         Ok(Condition { text: text.to_owned(), kind })
     }
@@ -144,18 +148,27 @@ impl Condition {
     }
 }
 
-fn named(name: &str) -> Result<&'static Quantity, Problem> {
-    Quantity::named(name.trim()).ok_or_else(|| unknown_quantity(name, name))
-}
-
-fn compared(name: &str, relation: Relation, limit: &str) -> Result<Kind, Problem> {
-    let quantity = named(name)?;
+/// A quantity compared with a limit, or a flag with its value.
+fn compared(name: &str, relation: Option<Relation>, value: &str) -> Result<Kind, Problem> {
+    let quantity = Quantity::named(name.trim()).ok_or_else(|| unknown_quantity(name, name))?;
     let key = quantity.key;
-    if quantity.is_flag() {
-        let cause = format!("{key} is true or false and has no order");
-        return Err(Problem::new(key, cause, format!("write {key}=true or {key}=false")));
-    }
-    Ok(Kind::Compared(key, relation, Limit::new(key, limit)?.value))
+    let flags = format!("write {key}=true or {key}=false");
+    let (cause, fix) = match (quantity.is_flag(), relation) {
+        (false, Some(relation)) => {
+            return Ok(Kind::Compared(key, relation, Limit::new(key, value)?.value));
+        }
+        (false, None) => {
+            let cause = format!("= compares only flags and outcomes, and {key} is a number");
+            (cause, format!("write {key}<={value}"))
+        }
+        (true, Some(_)) => (format!("{key} is true or false and has no order"), flags),
+        (true, None) => match value {
+            "true" | "yes" => return Ok(Kind::Compared(key, AT_LEAST, 1.0)),
+            "false" | "no" => return Ok(Kind::Compared(key, AT_MOST, 0.0)),
+            other => (format!("{} is neither true nor false", quoted(other)), flags),
+        },
+    };
+    Err(Problem::new(key, cause, fix))
 }
 
 fn outcome(name: &str) -> Result<Kind, Problem> {
@@ -166,23 +179,6 @@ fn outcome(name: &str) -> Result<Kind, Problem> {
         let cause = format!("unknown outcome {}", quoted(name));
         Problem::new("outcome", cause, format!("write {names}"))
     })
-}
-
-fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
-    let quantity = named(name)?;
-    let key = quantity.key;
-    if !quantity.is_flag() {
-        let cause = format!("= compares only flags and outcomes, and {key} is a number");
-        return Err(Problem::new(key, cause, format!("write {key}<={value}")));
-    }
-    match value {
-        "true" | "yes" => Ok(Kind::Compared(key, AT_LEAST, 1.0)),
-        "false" | "no" => Ok(Kind::Compared(key, AT_MOST, 0.0)),
-        other => {
-            let cause = format!("{} is neither true nor false", quoted(other));
-            Err(Problem::new(key, cause, format!("write {key}=true or {key}=false")))
-        }
-    }
 }
 
 /// The limited quantities of a case, otherwise the impact force; each with its counterparts in the
