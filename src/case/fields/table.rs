@@ -138,10 +138,10 @@ pub static FIELDS: [Field; COUNT] = {
 };
 
 macro_rules! gear {
-    ($gear:ident, $i:literal) => {
+    ($gear:ident, $table:literal, $i:literal) => {
         [
             count(
-                concat!(stringify!($gear), ".teeth"),
+                concat!($table, ".teeth"),
                 concat!("z", $i),
                 "number of teeth",
                 (5, 1000),
@@ -151,7 +151,7 @@ macro_rules! gear {
             )
             .with_example("20"),
             number!(
-                concat!(stringify!($gear), ".profile_shift"),
+                concat!($table, ".profile_shift"),
                 concat!("x", $i),
                 "profile shift",
                 Number,
@@ -163,7 +163,7 @@ macro_rules! gear {
                 "Profile shift coefficient, times the module."
             ),
             number!(
-                concat!(stringify!($gear), ".addendum"),
+                concat!($table, ".addendum"),
                 concat!("ha*", $i),
                 "addendum",
                 Number,
@@ -174,13 +174,13 @@ macro_rules! gear {
                 |inputs, value| (inputs.$gear.addendum, inputs.$gear.tip_diameter) = (value, None),
                 "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x)."
             )
-            .instead_of(concat!(stringify!($gear), ".tip_diameter"), |inputs| {
+            .instead_of(concat!($table, ".tip_diameter"), |inputs| {
                 has_size(inputs, &inputs.$gear)
                     .then(|| inputs.$gear.addendum_coefficient(inputs.module))
             })
             .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(
-                concat!(stringify!($gear), ".tip_diameter"),
+                concat!($table, ".tip_diameter"),
                 concat!("da", $i),
                 "tip diameter",
                 Length,
@@ -193,12 +193,10 @@ macro_rules! gear {
                         coefficient."
             )
             .with_example("110 mm")
-            .instead_of(concat!(stringify!($gear), ".addendum"), |inputs| {
-                tip_diameter(inputs, &inputs.$gear)
-            })
+            .instead_of(concat!($table, ".addendum"), |inputs| tip_diameter(inputs, &inputs.$gear))
             .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(
-                concat!(stringify!($gear), ".dedendum"),
+                concat!($table, ".dedendum"),
                 concat!("hf*", $i),
                 "dedendum",
                 Number,
@@ -210,13 +208,13 @@ macro_rules! gear {
                 "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 \
                     - hf* + x)."
             )
-            .instead_of(concat!(stringify!($gear), ".root_diameter"), |inputs| {
+            .instead_of(concat!($table, ".root_diameter"), |inputs| {
                 has_size(inputs, &inputs.$gear)
                     .then(|| inputs.$gear.dedendum_coefficient(inputs.module))
             })
             .reasons(&ROOT),
             number!(
-                concat!(stringify!($gear), ".root_diameter"),
+                concat!($table, ".root_diameter"),
                 concat!("df", $i),
                 "root diameter",
                 Length,
@@ -229,12 +227,10 @@ macro_rules! gear {
                         coefficient."
             )
             .with_example("87.5 mm")
-            .instead_of(concat!(stringify!($gear), ".dedendum"), |inputs| {
-                root_diameter(inputs, &inputs.$gear)
-            })
+            .instead_of(concat!($table, ".dedendum"), |inputs| root_diameter(inputs, &inputs.$gear))
             .reasons(&ROOT),
             number!(
-                concat!(stringify!($gear), ".face_width"),
+                concat!($table, ".face_width"),
                 concat!("b", $i),
                 "face width",
                 Length,
@@ -253,7 +249,7 @@ macro_rules! gear {
                     mass",
             )]),
             number!(
-                concat!(stringify!($gear), ".bore_radius"),
+                concat!($table, ".bore_radius"),
                 concat!("rh", $i),
                 "bore radius",
                 Length,
@@ -266,7 +262,7 @@ macro_rules! gear {
             )
             .reasons(&BORE),
             number!(
-                concat!(stringify!($gear), ".young"),
+                concat!($table, ".young"),
                 concat!("E", $i),
                 "Young's modulus",
                 Pressure,
@@ -278,7 +274,7 @@ macro_rules! gear {
                 "Young's modulus of the gear's material."
             ),
             number!(
-                concat!(stringify!($gear), ".poisson"),
+                concat!($table, ".poisson"),
                 concat!("ν", $i),
                 "Poisson's ratio",
                 Number,
@@ -290,7 +286,7 @@ macro_rules! gear {
                 "Poisson's ratio of the gear's material."
             ),
             number!(
-                concat!(stringify!($gear), ".density"),
+                concat!($table, ".density"),
                 concat!("ρ", $i),
                 "density",
                 Density,
@@ -303,7 +299,7 @@ macro_rules! gear {
             )
             .reasons(&MASS),
             number!(
-                concat!(stringify!($gear), ".inertia"),
+                concat!($table, ".inertia"),
                 concat!("J", $i),
                 "moment of inertia",
                 Inertia,
@@ -319,7 +315,7 @@ macro_rules! gear {
             .with_example("0.0006 kg m2")
             .reasons(&MASS),
             number!(
-                concat!(stringify!($gear), ".tip_relief"),
+                concat!($table, ".tip_relief"),
                 concat!("Ca", $i),
                 "tip relief",
                 Length,
@@ -333,7 +329,7 @@ macro_rules! gear {
             )
             .reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             number!(
-                concat!(stringify!($gear), ".root_relief"),
+                concat!($table, ".root_relief"),
                 concat!("Cf", $i),
                 "root relief",
                 Length,
@@ -347,7 +343,7 @@ macro_rules! gear {
             )
             .reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             number!(
-                concat!(stringify!($gear), ".tip_relief_length"),
+                concat!($table, ".tip_relief_length"),
                 concat!("La", $i),
                 "tip relief length",
                 Length,
@@ -362,7 +358,7 @@ macro_rules! gear {
             .with_example("1 mm")
             .reasons(&WHOLE_RELIEF),
             number!(
-                concat!(stringify!($gear), ".root_relief_length"),
+                concat!($table, ".root_relief_length"),
                 concat!("Lf", $i),
                 "root relief length",
                 Length,
@@ -377,7 +373,7 @@ macro_rules! gear {
             .with_example("1 mm")
             .reasons(&WHOLE_RELIEF),
             number!(
-                concat!(stringify!($gear), ".tip_chamfer"),
+                concat!($table, ".tip_chamfer"),
                 concat!("hk", $i),
                 "tip chamfer",
                 Length,
@@ -391,7 +387,7 @@ macro_rules! gear {
             )
             .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(
-                concat!(stringify!($gear), ".tip_radius"),
+                concat!($table, ".tip_radius"),
                 concat!("re", $i),
                 "tip edge radius",
                 Length,
@@ -409,7 +405,7 @@ macro_rules! gear {
                 Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER),
             ]),
             number!(
-                concat!(stringify!($gear), ".base_pitch"),
+                concat!($table, ".base_pitch"),
                 concat!("f_pb", $i),
                 "own pitch deviation",
                 Length,
@@ -427,7 +423,7 @@ macro_rules! gear {
                     .then(|| inputs.base_pitch_of(&inputs.$gear).0)
             }),
             count(
-                concat!(stringify!($gear), ".grade"),
+                concat!($table, ".grade"),
                 concat!("A", $i),
                 "ISO 1328-1 class",
                 (1, 11),
@@ -442,8 +438,8 @@ macro_rules! gear {
     };
 }
 
-const DRIVER: &[Field] = &gear!(driver, "1");
-const DRIVEN: &[Field] = &gear!(driven, "2");
+const DRIVER: &[Field] = &gear!(driver, "driver", "1");
+const DRIVEN: &[Field] = &gear!(driven, "driven", "2");
 
 const OPERATION: &[Field] = &[
     number!(
