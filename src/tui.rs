@@ -5,10 +5,8 @@
 //! the worker arrive through one channel. The loop takes all waiting events, changes the state,
 //! draws once and sleeps.
 
-mod actions;
 mod app;
 mod ascii;
-mod commands;
 mod dialogs;
 mod events;
 mod form_aids;
@@ -44,7 +42,7 @@ use std::sync::Arc;
 
 use crate::system::terminal::{die_of, hold};
 
-use actions::Action;
+use app::actions::Action;
 use events::Events;
 use session::journal::JournalWriter;
 use terminal::{Screen, TERMINAL_LOST};

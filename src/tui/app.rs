@@ -1,15 +1,17 @@
-//! The state of the workbench: plain data that only `update` changes, its requests to the solver,
-//! and the panes with the state that they show.
+//! The state of the workbench: plain data that only `update` changes, its requests to the solver and
+//! to other work, and the panes with the state that they show.
 
+pub(crate) mod actions;
+
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use ratatui::layout::Size;
 
-use super::actions::Progress;
-use super::commands::{Command, key_in};
 use super::dialogs::cursor_to::CursorScope;
 use super::dialogs::{Prompt, Surroundings};
-use super::jobs::{RunningExport, TradeView, Traded};
+use super::jobs::{Job, Slot, TradeView};
 use super::keys::Place;
 use super::layout::{Layout, Pane};
 use super::panes::Title;
@@ -32,6 +34,9 @@ use crate::case::{Case, Document, Problem};
 use crate::model::{Stage, Stages};
 use crate::report;
 use crate::report::graphs::GRAPHS;
+use crate::study::trade::STEADY;
+
+use actions::{Effect, Work};
 
 /// The whole state of the screen.
 #[derive(Debug, Clone)]
@@ -69,18 +74,20 @@ pub struct App {
     pub first_variant: Option<usize>,
     /// The state of the study pane.
     pub study: StudyState,
-    /// The serial of the running study.
-    pub(crate) studying: Option<u64>,
-    /// The running export.
-    pub(crate) exporting: Option<RunningExport>,
+    /// The file of the running export.
+    pub(crate) exporting: Option<PathBuf>,
     /// The serial of the case whose variants the worker solves.
     pub(crate) comparing: Option<u64>,
+    /// The message before the present key.
+    pub(super) last_message: Option<Message>,
     /// Whether the animation runs.
     pub is_playing: bool,
-    /// Progress of running work.
-    pub progress: Option<Progress>,
-    /// The serial of the running benchmark; its tab may be closed.
-    pub measuring: Option<u64>,
+    /// How long a benchmark measures each setting.
+    pub patience: Duration,
+    /// The running work of each slot, by its number.
+    running: BTreeMap<Slot, u64>,
+    /// The effects of the present action.
+    pub(super) effects: Effects,
     /// The dialogs over the panes, the topmost last.
     pub prompts: Vec<Prompt>,
     /// Whether the focused row of form or results may be outside the visible lines.
@@ -91,6 +98,17 @@ pub struct App {
     pub settings: Settings,
     /// The capabilities of the terminal.
     pub look: Look,
+}
+
+/// Effects that wait for the end of the action.
+#[derive(Debug, Default)]
+pub(super) struct Effects(pub(super) Vec<Effect>);
+
+/// A copy of the state, for a test, requests nothing.
+impl Clone for Effects {
+    fn clone(&self) -> Effects {
+        Effects::default()
+    }
 }
 
 /// A message, shown until the next key.
@@ -138,15 +156,16 @@ impl App {
             chart: ChartPane::default(),
             first_variant: None,
             study: StudyState::default(),
-            studying: None,
             exporting: None,
             comparing: None,
             is_playing: false,
-            progress: None,
-            measuring: None,
+            patience: STEADY,
+            running: BTreeMap::new(),
+            effects: Effects::default(),
             prompts: Vec::new(),
             needs_scroll: false,
             message: None,
+            last_message: None,
             settings: Settings::default(),
             look,
         };
@@ -154,7 +173,7 @@ impl App {
             app.complain(NEWER);
         }
         app.follow();
-        if let Some(answer) = app.request().and_then(|request| answer(&request)) {
+        if let Some(answer) = app.checked().and_then(|request| answer(&request)) {
             app.take(answer);
         }
         app
@@ -194,11 +213,6 @@ impl App {
             None if self.is_fresh() => Place::TEXT.or(Place::FRESH),
             None => Place::TEXT,
         }
-    }
-
-    /// The key of a command in the present place, see [`key_in`].
-    pub(super) fn key_of(&self, command: Command) -> String {
-        key_in(self.place(), command)
     }
 
     fn place_of_pane(&self) -> Place {
@@ -285,7 +299,7 @@ impl App {
     /// The visible charts and the pane in which the cursor moves.
     pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
         let plan = self.layout.plan();
-        let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
+        let is_alone = !plan.shows(Pane::Chart) && plan.shows(Pane::Teeth);
         CursorScope {
             charts: self.charts(),
             is_in_teeth: self.layout.focus() == Pane::Teeth || is_alone,
@@ -317,7 +331,7 @@ impl App {
             ending: self.ending(),
             look: self.look,
             title: self.title(Pane::Form),
-            area: self.layout.plan().form,
+            area: self.layout.plan().area(Pane::Form),
         }
     }
 
@@ -336,21 +350,17 @@ impl App {
             problems: &tab.problems,
             case: &tab.case,
             shows_cost: self.shows_cost,
-            next_fault: key_in(Place::FORM, Command::NextFault),
-            notes_key: self.notes_key()(),
+            notes_key: self.notes_key(),
             units: self.settings.units,
             look: self.look,
             title: self.title(Pane::Results),
-            area: self.layout.plan().results,
+            area: self.layout.plan().area(Pane::Results),
         }
     }
 
-    fn notes_key(&self) -> fn() -> String {
-        if self.has_line() {
-            || key_in(Place::FORM, Command::Notes)
-        } else {
-            || key_in(Place::FIELD, Command::Notes)
-        }
+    /// The key of the notes. A field takes letters as text.
+    fn notes_key(&self) -> &'static str {
+        if self.has_line() { "Esc n" } else { "n" }
     }
 
     /// The trade pane with its benchmark.
@@ -362,7 +372,7 @@ impl App {
             view: self.trade_view,
             look: self.look,
             title: self.title(Pane::Trade),
-            area: self.layout.plan().trade,
+            area: self.layout.plan().area(Pane::Trade),
         }
     }
 
@@ -385,7 +395,7 @@ impl App {
             marker: self.settings.marker,
             look: self.look,
             title: self.title(Pane::Study),
-            area: self.layout.plan().study,
+            area: self.layout.plan().area(Pane::Study),
         }
     }
 
@@ -405,7 +415,7 @@ impl App {
             units: self.settings.units,
             marker: self.settings.marker,
             look: self.look,
-            area: self.layout.plan().chart,
+            area: self.layout.plan().area(Pane::Chart),
         }
     }
 
@@ -432,7 +442,7 @@ impl App {
             return Stages::EVERY;
         }
         let plan = self.layout.plan();
-        let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
+        let seen = Pane::ALL.into_iter().filter(|&pane| plan.shows(pane));
         // The verdict with its notes is visible even if only the chart is: it needs all stages
         // except the stiffness spread and the late stages.
         let verdict = Pane::Results.needs().without(Stage::Band).except(Stages::LATE);
@@ -441,20 +451,85 @@ impl App {
 
     /// Whether the chart of the mesh stiffness is visible.
     fn wants_stiffness(&self) -> bool {
-        let is_visible = !self.layout.plan().area(Pane::Chart).is_empty();
+        let is_visible = self.layout.plan().shows(Pane::Chart);
         is_visible && GRAPHS[self.chart.graph].by_model.is_some()
     }
 
-    /// Replaces the case of the form and returns the request for its results.
-    pub(super) fn replace_case(&mut self, case: Case, focus: usize) -> Option<Request> {
+    /// Requests an effect.
+    pub(super) fn want(&mut self, effect: Effect) {
+        self.effects.0.push(effect);
+    }
+
+    /// Starts work, which replaces other work of its slot, and returns its number.
+    pub(super) fn start(&mut self, work: Work) -> u64 {
+        let number = self.number_of_work(work.slot);
+        self.want(Effect::Work(number, work));
+        number
+    }
+
+    /// Starts a job as work.
+    pub(super) fn start_job(&mut self, job: Job) {
+        let number = self.number_of_work(job.slot());
+        self.want(Effect::Job(number, job));
+    }
+
+    fn number_of_work(&mut self, slot: Slot) -> u64 {
+        self.last_serial += 1;
+        self.running.insert(slot, self.last_serial);
+        self.last_serial
+    }
+
+    /// Stops the work of a slot and ignores its further results. Returns whether it ran.
+    pub(super) fn cancel(&mut self, slot: Slot) -> bool {
+        let has_run = self.running.remove(&slot).is_some();
+        if has_run {
+            self.want(Effect::Cancel(slot));
+        }
+        has_run
+    }
+
+    /// Marks work as ended.
+    pub(super) fn end_work(&mut self, slot: Slot, number: u64) {
+        if self.runs(slot, number) {
+            self.running.remove(&slot);
+        }
+    }
+
+    /// Whether the work with this number is the running work of its slot.
+    #[must_use]
+    pub(crate) fn runs(&self, slot: Slot, number: u64) -> bool {
+        self.running.get(&slot) == Some(&number)
+    }
+
+    /// Whether the benchmark of the current case runs.
+    #[must_use]
+    pub(crate) fn is_measuring(&self) -> bool {
+        let traded = self.tab.traded.as_ref();
+        traded.is_some_and(|traded| self.runs(Slot::Benchmark, traded.work))
+    }
+
+    /// Whether work of a slot runs.
+    #[must_use]
+    pub fn is_busy(&self, slot: Slot) -> bool {
+        self.running.contains_key(&slot)
+    }
+
+    /// Replaces the case of the form and solves it.
+    pub(super) fn replace_case(&mut self, case: Case, focus: usize) {
         self.tab.case = case;
-        let request = self.request();
+        self.solve();
         self.focus_on(focus);
-        request
+    }
+
+    /// Checks the form and solves it if it is valid.
+    pub(super) fn solve(&mut self) {
+        if let Some(request) = self.checked() {
+            self.want(Effect::Solve(Box::new(request)));
+        }
     }
 
     /// Checks the form and returns the request for its results if the form is valid.
-    pub(super) fn request(&mut self) -> Option<Request> {
+    fn checked(&mut self) -> Option<Request> {
         let (stages, wants_stiffness) = (self.wanted(), self.wants_stiffness());
         let (inputs, problems) = self.tab.case.read();
         self.tab.inputs_so_far = inputs.clone();
@@ -489,14 +564,16 @@ impl App {
             answer.stages != requested || (lacks_stiffness && answer.stiffness.is_none())
         };
         let waits = !self.tab.is_settled || self.tab.answer.as_ref().is_some_and(is_partial);
-        if waits { self.request() } else { None }
+        if waits { self.checked() } else { None }
     }
 
-    /// A request for the stages that became visible after the last request.
-    pub(super) fn catch_up(&mut self) -> Option<Request> {
+    /// Solves the stages that became visible after the last request.
+    pub(super) fn catch_up(&mut self) {
         let lacks = !self.wanted().iter().all(|stage| self.tab.requested.has(stage));
         let lacks = lacks || (self.wants_stiffness() && !self.tab.requested_stiffness);
-        if lacks && self.tab.problems.is_empty() { self.request() } else { None }
+        if lacks && self.tab.problems.is_empty() {
+            self.solve();
+        }
     }
 
     /// Shows an answer in its tab, unless a later request is running.
@@ -507,10 +584,9 @@ impl App {
         self.follow();
     }
 
-    /// The benchmark with this serial.
-    pub(super) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
-        let all = std::iter::once(&mut self.tab).chain(&mut self.others);
-        all.filter_map(|tab| tab.traded.as_mut()).find(|traded| traded.serial == serial)
+    /// The open case with this id.
+    pub(super) fn tab_with(&mut self, id: usize) -> Option<&mut Tab> {
+        std::iter::once(&mut self.tab).chain(&mut self.others).find(|tab| tab.id == id)
     }
 
     /// The tab that waits for the answer with this serial.

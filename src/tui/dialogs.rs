@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
-use super::actions::{Action, Effect};
+use super::jobs::Job;
 use super::keys::Place;
 use super::line::Line;
 use super::session::save::Next;
@@ -46,18 +46,13 @@ pub(crate) trait Dialog {
     /// Handles Enter.
     fn accept(&mut self, around: &Surroundings<'_>) -> Outcome;
 
-    /// Handles Esc; the dialog then closes.
-    fn close(&mut self) -> Vec<Effect> {
-        Vec::new()
-    }
-
     /// The edited line of text.
     fn input(&mut self) -> Option<&mut Line> {
         None
     }
 
     /// Handles a change of the edited line.
-    fn typed(&mut self) -> Vec<Effect> {
+    fn typed(&mut self) -> Vec<Job> {
         Vec::new()
     }
 
@@ -85,11 +80,8 @@ pub(crate) trait Dialog {
     /// Selects another field behind an explained result.
     fn select_field(&mut self, _by: isize, _around: &Surroundings<'_>) {}
 
-    /// Handles the result of a job.
-    fn receive(&mut self, _result: Action) {}
-
     /// The job that previews the selection, once for each selection.
-    fn preview(&mut self, _units: System) -> Option<Effect> {
+    fn preview(&mut self, _units: System) -> Option<Job> {
         None
     }
 }
@@ -108,8 +100,8 @@ pub(crate) struct Surroundings<'a> {
 /// The decision of the user in a dialog.
 #[derive(Debug, Clone)]
 pub(crate) enum Outcome {
-    /// No decision yet; effects of the dialog itself.
-    Effects(Vec<Effect>),
+    /// No decision yet; jobs of the dialog itself.
+    Jobs(Vec<Job>),
     /// Open a file.
     Open(PathBuf),
     /// An answer to a question.
@@ -132,7 +124,7 @@ impl Outcome {
     /// No effect.
     #[must_use]
     pub(crate) fn none() -> Outcome {
-        Outcome::Effects(Vec::new())
+        Outcome::Jobs(Vec::new())
     }
 }
 

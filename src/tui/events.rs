@@ -9,12 +9,13 @@ use std::time::{Duration, Instant};
 use crossterm::event::{Event as Input, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Position;
 
-use super::actions::{self, Action};
+use super::app::actions::Action;
 use super::input;
 use super::keys::Place;
+use super::update::commands::of_key;
 
 /// An event from outside the state.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub enum Event {
     /// Input from the terminal.
     Input(Input),
@@ -113,7 +114,7 @@ pub fn take_action(
     place: Place,
 ) -> Option<Action> {
     match inputs.next()? {
-        Event::Input(Input::Key(key)) => match actions::of_key(key, place)? {
+        Event::Input(Input::Key(key)) => match of_key(key, place)? {
             Action::Insert(letter) if place.is_line() => Some(typed(letter, inputs, place)),
             action => Some(action),
         },
@@ -152,7 +153,7 @@ fn letter_of(event: &Event, place: Place) -> Option<char> {
     let Event::Input(Input::Key(key)) = event else {
         return None;
     };
-    match actions::of_key(*key, place)? {
+    match of_key(*key, place)? {
         Action::Insert(letter) => Some(letter),
         _ => None,
     }

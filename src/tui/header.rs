@@ -9,7 +9,6 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
-use super::commands::Command;
 use super::tab::{Origin, Tab};
 use super::text;
 
@@ -32,7 +31,7 @@ pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
     let last = if app.tab.origin == Origin::LastCase {
-        format!(" (last case; {}: Table 1)", app.key_of(Command::BuiltIn))
+        " (last case; Alt-T: Table 1)".to_owned()
     } else {
         String::new()
     };

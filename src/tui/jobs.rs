@@ -1,56 +1,74 @@
-//! Jobs that must not delay the screen: reading folders and files, explaining and exporting
-//! results.
+//! Work beside the loop: its kinds, the jobs of the dialogs, and the results that panes show.
 
+use std::fmt;
 use std::path::PathBuf;
 
-use super::solver::VariantsRequest;
 use super::store::folder::Viewport;
+use crate::case::Document;
 use crate::case::units::System;
-use crate::case::{Case, Document};
-use crate::model::{Inputs, Quantity};
-use crate::report::Report;
+use crate::model::Inputs;
 use crate::report::chart::Chart;
 use crate::report::charts;
-use crate::report::explain::Page;
 use crate::report::pictures::Picture;
-use crate::study::relief::{Demand, Specification};
+use crate::study::relief::Demand;
 use crate::study::trade::{Setting, Trade};
 
-/// A job of the worker. Its result is an action.
-#[derive(Debug, Clone)]
-pub enum Job {
-    /// List a folder: the folder of the browser, and the folders typed after it.
-    Folder(PathBuf, String),
-    /// Find the cases below a folder.
-    Search(PathBuf, String),
-    /// Preview a file or a folder.
-    Preview(Viewport, System),
-    /// Read a model of another program as a case; the heaviest takes longer than a frame.
-    Model(PathBuf),
-    /// List the recent cases.
+/// A kind of work beside the loop. It has a thread, in which the latest request wins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "each is named after its work")]
+pub enum Slot {
+    Folder,
+    Search,
+    Preview,
     Recents,
-    /// Solve the examples for their digests.
-    Examples(System),
-    /// Explain a result.
-    Explain(Box<Explaining>),
-    /// Export results to a file.
-    Export(Box<Exporting>),
-    /// Solve the variants.
-    Variants(Box<VariantsRequest>),
-    /// Find the tip relief to specify.
-    Relief(Box<ReliefRequest>),
-    /// Write the report of the results as Markdown.
-    Markdown(Box<Reporting>),
+    Model,
+    Examples,
+    Explanation,
+    Report,
+    Export,
+    Variants,
+    Relief,
+    Study,
+    Chart,
+    Benchmark,
 }
 
-/// A request to explain a result.
+impl fmt::Display for Slot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&format!("{self:?}").to_lowercase())
+    }
+}
+
+impl Job {
+    /// The kind of work.
+    #[must_use]
+    pub fn slot(&self) -> Slot {
+        match self {
+            Job::Folder(..) => Slot::Folder,
+            Job::Search(..) => Slot::Search,
+            Job::Preview(..) => Slot::Preview,
+            Job::Recents => Slot::Recents,
+            Job::Relief(_) => Slot::Relief,
+            Job::Export(_) => Slot::Export,
+        }
+    }
+}
+
+/// Work that a dialog requests, as data: a test redirects its files.
 #[derive(Debug, Clone)]
-pub struct Explaining {
-    /// The result.
-    pub(crate) quantity: &'static Quantity,
-    pub(crate) case: Case,
-    /// The pair.
-    pub(crate) inputs: Inputs,
+pub enum Job {
+    /// List a folder: the folder of the browser with the folders typed after it, and its path.
+    Folder((PathBuf, String), PathBuf),
+    /// Find the cases below such a folder.
+    Search((PathBuf, String), PathBuf),
+    /// Preview a file or a folder.
+    Preview(Viewport, System),
+    /// List the recent cases.
+    Recents,
+    /// Find the tip relief to specify.
+    Relief(Box<ReliefRequest>),
+    /// Export results to a file.
+    Export(Box<Exporting>),
 }
 
 /// A search for the tip relief to specify.
@@ -60,18 +78,6 @@ pub struct ReliefRequest {
     pub(crate) demand: Demand,
     /// The pair.
     pub(crate) inputs: Inputs,
-}
-
-/// A search and its specification, or the reason of its failure.
-pub(crate) type ReliefAnswer = (ReliefRequest, Result<Box<Specification>, String>);
-
-/// Results for a report.
-#[derive(Debug, Clone)]
-pub struct Reporting {
-    /// The solved case.
-    pub report: Report,
-    /// The text of the case file.
-    pub file: String,
 }
 
 /// A request to export results to a file.
@@ -91,94 +97,11 @@ pub struct Exporting {
     pub(crate) picture: Option<Picture>,
 }
 
-/// A running export.
-#[derive(Debug, Clone)]
-pub(crate) struct RunningExport {
-    pub(crate) path: PathBuf,
-    /// The picture, unless it is a report.
-    pub(crate) picture: Option<Picture>,
-}
-
-/// Why an export failed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ExportFault {
-    /// The file exists.
-    Exists,
-    /// Another fault, as a sentence.
-    Failed(String),
-}
-
-/// The explanation of a result, or the reason of its absence.
-#[derive(Debug, Clone)]
-pub struct Explained {
-    /// The result.
-    pub(crate) quantity: &'static Quantity,
-    pub(crate) page: Result<Box<Page>, String>,
-}
-
-impl Job {
-    /// Number of kinds.
-    pub(super) const KINDS: usize = 11;
-
-    /// The kind of the search for the tip relief.
-    pub(super) const RELIEF: usize = 8;
-
-    /// The kind and its name. A new job replaces a waiting job of the same kind.
-    pub(super) const fn kind(&self) -> (usize, &'static str) {
-        match self {
-            Job::Folder(..) => (0, "folders"),
-            Job::Preview(..) => (1, "previews"),
-            Job::Recents => (2, "recents"),
-            Job::Examples(_) => (3, "examples"),
-            Job::Explain(_) => (4, "explain"),
-            Job::Search(..) => (5, "search"),
-            Job::Export(_) => (6, "export"),
-            Job::Variants(_) => (7, "variants"),
-            Job::Relief(_) => (Job::RELIEF, "relief"),
-            Job::Markdown(_) => (9, "report"),
-            Job::Model(_) => (10, "model"),
-        }
-    }
-}
-
-/// A request for a benchmark.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measuring {
-    /// The serial of the request.
-    pub serial: u64,
-    /// The pair.
-    pub inputs: Inputs,
-    /// How long each setting is timed.
-    pub patience: std::time::Duration,
-}
-
-/// Results of a running or finished benchmark.
-#[derive(Debug, Clone)]
-pub struct BenchmarkProgress {
-    /// The serial of the benchmark.
-    pub serial: u64,
-    /// The results so far; `None` if they have not changed.
-    pub trade: Option<Box<Trade>>,
-    /// How the benchmark ended, if it has ended.
-    pub end: Option<End>,
-}
-
-/// How a benchmark ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum End {
-    /// All settings are measured.
-    Whole,
-    /// The user stopped it.
-    Stopped,
-    /// The model refuses the case, or the program failed.
-    Failed(String),
-}
-
 /// The benchmark of a case, with error and time of every setting.
 #[derive(Debug, Clone)]
 pub struct Traded {
-    /// The serial of the benchmark.
-    pub(crate) serial: u64,
+    /// The number of its work.
+    pub(crate) work: u64,
     /// The pair at the time of the request.
     pub(crate) inputs: Inputs,
     /// The results so far.
@@ -301,8 +224,6 @@ impl WorkerChart {
 /// A request for a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChartRequest {
-    /// Unique serial of the request.
-    pub serial: u64,
     /// The chart.
     pub chart: WorkerChart,
     /// The pair.
@@ -312,17 +233,6 @@ pub struct ChartRequest {
 /// The chart, or the reason why there is none.
 pub(super) type ChartValues = Result<Chart, String>;
 
-/// A part of the result of a request.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ChartPart {
-    /// The serial of the request.
-    pub serial: u64,
-    /// The values so far; `None` if the computation ends without values.
-    pub found: Option<ChartValues>,
-    /// Whether the computation has ended.
-    pub is_over: bool,
-}
-
 /// The chart of a case: the last request and its values.
 #[derive(Debug, Clone, Default)]
 pub struct ChartWork {
@@ -330,23 +240,13 @@ pub struct ChartWork {
     pub request: Option<ChartRequest>,
     /// The values; those of an earlier request until the first values of the last one arrive.
     pub found: Option<(WorkerChart, ChartValues)>,
-    /// Whether the worker still computes the last request.
+    /// Whether the last request is not computed yet.
     pub is_running: bool,
+    /// The number of its work.
+    pub(crate) work: u64,
 }
 
 impl ChartWork {
-    /// Adds a part of the result of the last request.
-    pub fn take(&mut self, part: ChartPart) {
-        let Some(request) = self.request.as_ref().filter(|request| request.serial == part.serial)
-        else {
-            return;
-        };
-        if let Some(found) = part.found {
-            self.found = Some((request.chart, found));
-        }
-        self.is_running = !part.is_over;
-    }
-
     /// The computed part of the chart.
     #[must_use]
     pub fn drawn(&self, chart: WorkerChart) -> Option<&Chart> {

@@ -6,6 +6,9 @@ pub(in crate::tui) const CTRL: KeyModifiers = KeyModifiers::CONTROL;
 pub(in crate::tui) const ALT: KeyModifiers = KeyModifiers::ALT;
 pub(in crate::tui) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
 
+/// The key of the command that goes to the next error.
+pub(in crate::tui) const NEXT_FAULT: &str = "Alt-E";
+
 /// A set of places that receive keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place(u32);

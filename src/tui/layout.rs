@@ -1,6 +1,7 @@
 //! The visible panes and their areas.
 
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::Constraint::{Fill, Length};
+use ratatui::layout::{Layout as Layouts, Rect, Size};
 
 use super::keys::Place;
 use crate::model::{Stage, Stages};
@@ -195,18 +196,8 @@ impl Layout {
 pub struct Plan {
     /// The name of the case.
     pub(crate) header: Rect,
-    /// The form, its title and its scroll bar.
-    pub(crate) form: Rect,
-    /// The results and their title.
-    pub(crate) results: Rect,
-    /// The chart and its title.
-    pub(crate) chart: Rect,
-    /// The teeth and their title.
-    pub(crate) teeth: Rect,
-    /// Accuracy against run time with its title.
-    pub trade: Rect,
-    /// The study and its title.
-    pub(crate) study: Rect,
+    /// The areas of the panes with their titles, in the order of [`Pane::ALL`].
+    panes: [Rect; Pane::ALL.len()],
     /// The hint of the focused field, and messages.
     pub(crate) hint: Rect,
     pub(crate) keys: Rect,
@@ -221,20 +212,18 @@ impl Plan {
     /// The area of a pane; empty if the pane is hidden.
     #[must_use]
     pub fn area(&self, pane: Pane) -> Rect {
-        match pane {
-            Pane::Form => self.form,
-            Pane::Results => self.results,
-            Pane::Chart => self.chart,
-            Pane::Teeth => self.teeth,
-            Pane::Trade => self.trade,
-            Pane::Study => self.study,
-        }
+        self.panes[pane as usize]
+    }
+
+    /// Whether a pane is visible.
+    #[must_use]
+    pub(crate) fn shows(&self, pane: Pane) -> bool {
+        !self.area(pane).is_empty()
     }
 
     /// The hidden panes.
-    pub(crate) fn hidden(&self) -> impl Iterator<Item = Pane> {
-        let plan = *self;
-        Pane::ALL.into_iter().filter(move |&pane| plan.area(pane).is_empty())
+    pub(crate) fn hidden(self) -> impl Iterator<Item = Pane> {
+        Pane::ALL.into_iter().filter(move |&pane| !self.shows(pane))
     }
 
     /// The pane whose title lists the hidden panes: the lowest visible pane whose area they can
@@ -242,49 +231,41 @@ impl Plan {
     pub(crate) fn names_hidden(&self) -> Option<Pane> {
         let lowest =
             [Pane::Study, Pane::Trade, Pane::Chart, Pane::Teeth, Pane::Results, Pane::Form];
-        lowest.into_iter().find(|&pane| !self.area(pane).is_empty())
+        lowest.into_iter().find(|&pane| self.shows(pane))
     }
 
-    fn area_mut(&mut self, pane: Pane) -> &mut Rect {
-        match pane {
-            Pane::Form => &mut self.form,
-            Pane::Results => &mut self.results,
-            Pane::Chart => &mut self.chart,
-            Pane::Teeth => &mut self.teeth,
-            Pane::Trade => &mut self.trade,
-            Pane::Study => &mut self.study,
+    fn place<const COUNT: usize>(&mut self, panes: [(Pane, Rect); COUNT]) {
+        for (pane, area) in panes {
+            self.panes[pane as usize] = area;
         }
     }
 
     fn split_upper(&mut self, area: Rect) {
-        let form = (area.width * 57 / 100).clamp(34, WIDEST);
-        [self.form, self.results] = side_by_side(area, form);
+        let width = (area.width * 57 / 100).clamp(34, WIDEST);
+        let [form, results] = area.layout(&Layouts::horizontal([Length(width), Fill(1)]));
+        self.place([(Pane::Form, form), (Pane::Results, results)]);
     }
 
     fn two_rows(&mut self, body: Rect, panes: Panes, has_teeth_beside: bool) {
-        let lower = (body.height.saturating_add(4) / 3).clamp(7, 20);
-        let upper = body.height - lower;
-        self.split_upper(Rect { height: upper, ..body });
-        let area = Rect { y: body.y + upper, height: lower, ..body };
+        let height = (body.height.saturating_add(4) / 3).clamp(7, 20);
+        let [upper, lower] = body.layout(&Layouts::vertical([Fill(1), Length(height)]));
+        self.split_upper(upper);
         if !has_teeth_beside {
-            *self.area_mut(panes.lower) = area;
-            return;
+            return self.place([(panes.lower, lower)]);
         }
-        let left = area.width * 60 / 100;
-        let [beside, teeth] = side_by_side(area, left);
-        (*self.area_mut(beside_teeth(panes)), self.teeth) = (beside, teeth);
+        let left = Length(lower.width * 60 / 100);
+        let [beside, teeth] = lower.layout(&Layouts::horizontal([left, Fill(1)]));
+        self.place([(beside_teeth(panes), beside), (Pane::Teeth, teeth)]);
     }
 
     fn three_columns(&mut self, body: Rect, panes: Panes) {
         let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
-        let right = FORM_OF_THREE + results;
-        self.form = Rect { width: FORM_OF_THREE, ..body };
-        self.results = Rect { x: FORM_OF_THREE, width: results, ..body };
-        let area = Rect { x: right, width: body.width - right, ..body };
-        let upper = area.height / 2;
-        self.teeth = Rect { height: upper, ..area };
-        *self.area_mut(beside_teeth(panes)) =
-            Rect { y: area.y + upper, height: area.height - upper, ..area };
+        let columns = [Length(FORM_OF_THREE), Length(results), Fill(1)];
+        let [form, results, right] = body.layout(&Layouts::horizontal(columns));
+        let rows = [Length(right.height / 2), Fill(1)];
+        let [teeth, below] = right.layout(&Layouts::vertical(rows));
+        self.place([(Pane::Form, form), (Pane::Results, results), (Pane::Teeth, teeth)]);
+        self.place([(beside_teeth(panes), below)]);
     }
 }
 
@@ -310,18 +291,12 @@ fn plan(size: Size, panes: Panes) -> Plan {
     if is_too_small(size) {
         return Plan::default();
     }
-    let Size { width, height } = size;
-    let row = |y, height| Rect::new(0, y, width, height);
-    let mut plan = Plan {
-        header: row(0, 1),
-        hint: row(height - 3, 2),
-        keys: row(height - 1, 1),
-        ..Plan::default()
-    };
-    let body = row(1, height - 4);
-    if panes.is_zoomed || (height < LOWER_FROM && panes.focus.is_lower()) {
-        *plan.area_mut(panes.focus) = body;
-    } else if height < LOWER_FROM {
+    let rows = Layouts::vertical([Length(1), Fill(1), Length(2), Length(1)]);
+    let [header, body, hint, keys] = Rect::from(size).layout(&rows);
+    let mut plan = Plan { header, hint, keys, ..Plan::default() };
+    if panes.is_zoomed || (size.height < LOWER_FROM && panes.focus.is_lower()) {
+        plan.place([(panes.focus, body)]);
+    } else if size.height < LOWER_FROM {
         plan.split_upper(body);
     } else if holds(size, THREE_FROM) {
         plan.three_columns(body, panes);
@@ -343,20 +318,13 @@ fn beside_teeth(panes: Panes) -> Pane {
     }
 }
 
-/// The left part of an area with a width, and the rest.
-fn side_by_side(area: Rect, width: u16) -> [Rect; 2] {
-    let left = Rect { width, ..area };
-    let right = Rect { x: area.x + width, width: area.width - width, ..area };
-    [left, right]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn seen(width: u16, height: u16, panes: Panes) -> Vec<Pane> {
         let plan = plan(Size { width, height }, panes);
-        Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty()).collect()
+        Pane::ALL.into_iter().filter(|&pane| plan.shows(pane)).collect()
     }
 
     #[test]
@@ -378,25 +346,18 @@ mod tests {
 
     #[test]
     fn at_every_size_the_areas_are_on_the_screen_and_apart() {
+        const WIDTHS: [u16; 12] = [0, 59, 60, 61, 80, 119, 120, 140, 199, 200, 240, 261];
+        const HEIGHTS: [u16; 13] = [0, 15, 16, 19, 20, 24, 35, 36, 45, 49, 50, 70, 81];
         for (width, height) in
-            (0..=260).flat_map(|width| (0..=80).map(move |height| (width, height)))
+            WIDTHS.iter().flat_map(|width| HEIGHTS.iter().map(move |height| (*width, *height)))
         {
             for focus in Pane::ALL {
                 for (lower, is_zoomed) in
                     Pane::LOWER.into_iter().flat_map(|lower| [(lower, false), (lower, true)])
                 {
                     let plan = plan(Size { width, height }, Panes { focus, lower, is_zoomed });
-                    let areas = [
-                        plan.header,
-                        plan.form,
-                        plan.results,
-                        plan.chart,
-                        plan.teeth,
-                        plan.trade,
-                        plan.study,
-                        plan.hint,
-                        plan.keys,
-                    ];
+                    let parts = [plan.header, plan.hint, plan.keys];
+                    let areas: Vec<Rect> = plan.panes.into_iter().chain(parts).collect();
                     let used: u32 = areas.iter().map(|area| area.area()).sum();
                     let screen = Rect::new(0, 0, width, height);
                     assert!(

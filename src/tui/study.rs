@@ -1,10 +1,7 @@
 //! A study of the case in the form: a result over the range of a field, a map over two fields, or
 //! the tolerance.
 
-use ratatui::layout::Rect;
-
 use crate::case::Case;
-use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity};
 use crate::study::axis::Axis;
@@ -13,10 +10,10 @@ use crate::study::batch::{PointOutcome, Refusals};
 /// Samples of a tolerance study in the workbench.
 pub(crate) const SAMPLES: usize = 10_000;
 
-/// A request of a study to the worker.
+/// A requested study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyRequest {
-    /// The serial of the request.
+    /// The number of its work.
     pub serial: u64,
     /// The study.
     pub parameters: StudyParameters,
@@ -73,28 +70,6 @@ pub struct ToleranceParameters {
     pub(crate) quantity: &'static str,
 }
 
-/// The next results of a study.
-#[derive(Debug, Clone)]
-pub struct StudyPart {
-    /// The serial of the request.
-    pub serial: u64,
-    /// The results.
-    pub found: Found,
-    /// How the study ended, if it has ended.
-    pub end: Option<End>,
-}
-
-/// Results of a study.
-#[derive(Debug, Clone)]
-pub enum Found {
-    /// The next points of a layer.
-    Points(LayerFound, usize),
-    /// The page of the tolerance so far, and the solved part.
-    Page(Vec<String>, f64),
-    /// Nothing new.
-    Nothing,
-}
-
 /// How a study ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
@@ -117,38 +92,9 @@ pub struct LayerFound {
     pub(crate) refusals: Refusals,
 }
 
-/// The state that decides which study is requested.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StudyKey {
-    /// The serial of the case.
-    pub serial: u64,
-    /// Whether the form is valid.
-    pub is_valid: bool,
-    /// The focused row of the form.
-    pub row: usize,
-    /// The key of the selected result.
-    pub quantity: Option<&'static str>,
-    /// The method of the displayed results.
-    pub solved_by: Option<Method>,
-    /// The serial of the baseline.
-    pub baseline: Option<u64>,
-    /// The second field of a map.
-    pub second: Option<usize>,
-    /// The zoom of the ranges.
-    pub zoom: i32,
-    /// The display units.
-    pub units: System,
-    /// Whether the pane shows the tolerance.
-    pub is_tolerance: bool,
-    /// The area of the pane.
-    pub area: Rect,
-}
-
 /// The study of an open case.
 #[derive(Debug, Clone, Default)]
 pub struct Study {
-    /// The state behind the present request or obstacle.
-    pub key: Option<StudyKey>,
     /// The present request.
     pub request: Option<StudyRequest>,
     /// The point of the cursor on the first and on the second axis.
@@ -205,13 +151,6 @@ impl StudyParameters {
 }
 
 impl Study {
-    /// Whether the present request has this serial.
-    #[must_use]
-    pub fn runs(&self, serial: u64) -> bool {
-        let request = self.request.as_ref();
-        request.is_some_and(|request| request.serial == serial)
-    }
-
     /// Starts a request. The cursor does not move on unchanged axes.
     pub fn start(&mut self, request: StudyRequest) {
         let shown = self.shown.as_ref().map(|shown| &shown.request);
@@ -222,18 +161,24 @@ impl Study {
         self.request = Some(request);
     }
 
-    /// Adds results; ignores those of another request.
-    pub(crate) fn take(&mut self, part: StudyPart) {
-        let Some(request) = self.request.as_ref().filter(|_| self.runs(part.serial)) else {
-            return;
-        };
-        let is_shown = |shown: &StudyResults| shown.request.serial == part.serial;
-        if !self.shown.as_ref().is_some_and(is_shown) {
-            self.shown = Some(StudyResults::of(request.clone()));
+    /// The results of the present request.
+    pub(crate) fn results(&mut self) -> Option<&mut StudyResults> {
+        if !self.is_shown() {
+            self.shown = Some(StudyResults::of(self.request.clone()?));
         }
-        if let Some(shown) = self.shown.as_mut() {
-            shown.add(part);
-        }
+        self.shown.as_mut()
+    }
+
+    /// Whether the present request has ended.
+    #[must_use]
+    pub(crate) fn is_over(&self) -> bool {
+        self.is_shown() && self.shown.as_ref().is_some_and(|shown| shown.end.is_some())
+    }
+
+    fn is_shown(&self) -> bool {
+        let serial = |request: &StudyRequest| request.serial;
+        let shown = self.shown.as_ref().map(|shown| shown.request.serial);
+        shown.is_some() && shown == self.request.as_ref().map(serial)
     }
 }
 
@@ -255,18 +200,12 @@ impl StudyResults {
         StudyResults { request, layers, page: Vec::new(), part: 0.0, end: None }
     }
 
-    fn add(&mut self, part: StudyPart) {
-        match part.found {
-            Found::Points(found, layer) => {
-                if let Some(known) = self.layers.get_mut(layer) {
-                    known.outcomes.extend(found.outcomes);
-                    known.values.extend(found.values);
-                    known.refusals = found.refusals;
-                }
-            }
-            Found::Page(lines, part) => (self.page, self.part) = (lines, part),
-            Found::Nothing => {}
+    /// Adds points to a layer.
+    pub(crate) fn add(&mut self, layer: usize, found: LayerFound) {
+        if let Some(known) = self.layers.get_mut(layer) {
+            known.outcomes.extend(found.outcomes);
+            known.values.extend(found.values);
+            known.refusals = found.refusals;
         }
-        self.end = part.end.or(self.end.take());
     }
 }

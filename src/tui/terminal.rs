@@ -1,6 +1,5 @@
 //! The terminal: its modes, and their restoration on every exit.
 
-use std::cell::Cell;
 use std::ffi::OsString;
 use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
 use std::panic::{self, PanicHookInfo};
@@ -21,9 +20,9 @@ use crossterm::style::{ResetColor, force_color_output};
 use crossterm::terminal::{
     Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
-use ratatui::backend::{Backend, ClearType as Clearing, CrosstermBackend, WindowSize};
-use ratatui::layout::{Position, Size};
-use ratatui::{Terminal, buffer};
+use ratatui::backend::{Backend, CrosstermBackend};
+use ratatui::layout::Size;
+use ratatui::{Terminal, TerminalOptions, Viewport};
 
 use super::app::App;
 use super::events::Event;
@@ -50,15 +49,11 @@ pub(super) const TERMINAL_LOST: u8 = 5;
 
 /// The largest drawn area.
 const LARGEST: Size = Size { width: 1000, height: 500 };
-/// The smallest drawn area if memory is short.
-const SMALLEST: Size = Size { width: 80, height: 24 };
-/// Memory that must be free for a frame, in buffers of all its cells: two buffers, twice while they
-/// grow, and a reserve for the threads that start later.
-const BUFFERS: usize = 12;
 
 /// The screen of the terminal. Dropping it restores the terminal.
 pub(super) struct Screen {
-    terminal: Terminal<CappedBackend<CrosstermBackend<BufWriter<Stdout>>>>,
+    terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
+    drawn: Size,
     /// The signal of our own suspension has not arrived yet.
     is_back: bool,
     /// Whether mouse reports are on.
@@ -102,19 +97,22 @@ impl Screen {
         // Otherwise NO_COLOR would also remove bold and reverse; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
+        let drawn = capped(backend.size()?);
+        let viewport = Viewport::Fixed(drawn.into());
         Ok(Screen {
-            terminal: Terminal::new(CappedBackend::new(backend))?,
+            terminal: Terminal::with_options(backend, TerminalOptions { viewport })?,
+            drawn,
             is_back: false,
             has_mouse: false,
         })
     }
 
-    /// The size of the terminal.
+    /// The size of the drawn part of the terminal.
     ///
     /// # Errors
     /// Returns an error if the terminal does not report its size.
     pub(super) fn size(&self) -> io::Result<Size> {
-        self.terminal.size()
+        Ok(capped(self.terminal.size()?))
     }
 
     /// Draws the state.
@@ -124,6 +122,9 @@ impl Screen {
     pub(super) fn draw(&mut self, app: &App) -> io::Result<()> {
         if !IS_TAKEN.load(Ordering::Relaxed) {
             return Ok(());
+        }
+        if self.size()? != self.drawn {
+            self.clear()?;
         }
         self.terminal.draw(|frame| {
             if let Some(cursor) = view::draw(app, frame.area(), frame.buffer_mut()) {
@@ -139,8 +140,8 @@ impl Screen {
     /// Returns an error if the terminal is closed.
     pub(super) fn clear(&mut self) -> io::Result<()> {
         // `Terminal::clear` would request the cursor position and wait for the reply.
-        let size = self.terminal.size()?;
-        self.terminal.resize(size.into())
+        self.drawn = self.size()?;
+        self.terminal.resize(self.drawn.into())
     }
 
     /// Restores the terminal and stops the process until the shell continues it.
@@ -231,7 +232,7 @@ impl Screen {
     }
 
     fn output(&mut self) -> &mut impl Write {
-        &mut self.terminal.backend_mut().backend
+        self.terminal.backend_mut()
     }
 }
 
@@ -253,7 +254,7 @@ pub(super) fn listen(
 ) -> io::Result<()> {
     let last_words: LastWords = Arc::new(last_words);
     let (words, to_end) = (Arc::clone(&last_words), sender.clone());
-    signals.for_each_deadly(move |signal| end(&words, &to_end, &Event::Signal(signal)))?;
+    signals.for_each_deadly(move |signal| end(&words, &to_end, Some(signal)))?;
     let to_pass = sender.clone();
     // A separate thread, because a blocked main loop takes no events and must still end.
     signals.for_each_passing(move |signal| to_pass.send(Event::Signal(signal)).is_ok())?;
@@ -261,22 +262,10 @@ pub(super) fn listen(
     // A process outside the session of the terminal receives no signal when the terminal closes.
     thread::Builder::new().name("line".to_owned()).spawn(move || {
         if wait_for_hang_up(&io::stdin()) {
-            end(&last_words, &gone, &Event::Lost);
+            end(&last_words, &gone, None);
         }
     })?;
     Ok(())
-}
-
-/// A backend with the last size of its terminal and the drawn part.
-pub(super) struct CappedBackend<B> {
-    pub(super) backend: B,
-    last: Cell<Option<(Size, Size)>>,
-}
-
-impl<B> CappedBackend<B> {
-    pub(super) fn new(backend: B) -> CappedBackend<B> {
-        CappedBackend { backend, last: Cell::new(None) }
-    }
 }
 
 /// Marks that a signal will end the process soon.
@@ -324,91 +313,21 @@ type LastWords = Arc<dyn Fn() + Send + Sync>;
 
 // The main loop ends by itself, unless it is blocked, such as in a write to a terminal that accepts
 // no more bytes.
-fn end(last_words: &LastWords, sender: &SyncSender<Event>, cause: &Event) -> ! {
+fn end(last_words: &LastWords, sender: &SyncSender<Event>, signal: Option<i32>) -> ! {
     expect_end();
     last_words();
-    drop(sender.try_send(cause.clone()));
+    drop(sender.try_send(signal.map_or(Event::Lost, Event::Signal)));
     thread::sleep(GRACE);
     force_restore();
-    match cause {
-        Event::Signal(signal) => die_of(*signal),
-        _ => process::exit(TERMINAL_LOST.into()),
+    match signal {
+        Some(signal) => die_of(signal),
+        None => process::exit(TERMINAL_LOST.into()),
     }
 }
 
 /// The drawn part of a terminal of a size: a failed allocation of its cells would end the process.
-fn capped(size: Size, has_room: impl Fn(Size) -> bool) -> Size {
-    let mut drawn =
-        Size { width: size.width.min(LARGEST.width), height: size.height.min(LARGEST.height) };
-    while !has_room(drawn) && (drawn.width > SMALLEST.width || drawn.height > SMALLEST.height) {
-        drawn = Size {
-            width: (drawn.width / 2).max(SMALLEST.width.min(drawn.width)),
-            height: (drawn.height / 2).max(SMALLEST.height.min(drawn.height)),
-        };
-    }
-    drawn
-}
-
-fn has_memory(size: Size) -> bool {
-    let cells = usize::from(size.width) * usize::from(size.height);
-    Vec::<buffer::Cell>::new().try_reserve_exact(cells * BUFFERS).is_ok()
-}
-
-impl<B: Backend<Error = io::Error>> Backend for CappedBackend<B> {
-    type Error = io::Error;
-
-    fn size(&self) -> io::Result<Size> {
-        let size = self.backend.size()?;
-        let drawn = match self.last.get() {
-            Some((last, drawn)) if last == size => drawn,
-            _ => capped(size, has_memory),
-        };
-        self.last.set(Some((size, drawn)));
-        Ok(drawn)
-    }
-
-    fn draw<'a, I>(&mut self, content: I) -> io::Result<()>
-    where
-        I: Iterator<Item = (u16, u16, &'a buffer::Cell)>,
-    {
-        self.backend.draw(content)
-    }
-
-    fn append_lines(&mut self, count: u16) -> io::Result<()> {
-        self.backend.append_lines(count)
-    }
-
-    fn hide_cursor(&mut self) -> io::Result<()> {
-        self.backend.hide_cursor()
-    }
-
-    fn show_cursor(&mut self) -> io::Result<()> {
-        self.backend.show_cursor()
-    }
-
-    fn get_cursor_position(&mut self) -> io::Result<Position> {
-        self.backend.get_cursor_position()
-    }
-
-    fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> io::Result<()> {
-        self.backend.set_cursor_position(position)
-    }
-
-    fn clear(&mut self) -> io::Result<()> {
-        self.backend.clear()
-    }
-
-    fn clear_region(&mut self, region: Clearing) -> io::Result<()> {
-        self.backend.clear_region(region)
-    }
-
-    fn window_size(&mut self) -> io::Result<WindowSize> {
-        self.backend.window_size()
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.backend.flush()
-    }
+fn capped(size: Size) -> Size {
+    Size { width: size.width.min(LARGEST.width), height: size.height.min(LARGEST.height) }
 }
 
 #[cfg(test)]
@@ -422,18 +341,10 @@ mod tests {
     }
 
     #[test]
-    fn the_drawn_area_fits_the_terminal_its_cap_and_the_memory() {
-        let drawn = |width, height, most: u32| {
-            let has_room = |size: Size| u32::from(size.width) * u32::from(size.height) <= most;
-            let size = capped(Size { width, height }, has_room);
-            (size.width, size.height)
-        };
-        assert_eq!(drawn(140, 45, u32::MAX), (140, 45));
-        assert_eq!(drawn(u16::MAX, u16::MAX, u32::MAX), (1000, 500));
-        assert_eq!(drawn(1500, 1500, 200_000), (500, 250));
-        assert_eq!(drawn(1500, 10, 1000), (80, 10));
-        assert_eq!(drawn(300, 300, 0), (80, 24));
-        assert_eq!(drawn(0, 0, 0), (0, 0));
-        assert!(has_memory(LARGEST));
+    fn the_drawn_area_fits_the_terminal_and_its_cap() {
+        for (size, drawn) in [((140, 45), (140, 45)), ((u16::MAX, 9), (1000, 9)), ((0, 0), (0, 0))]
+        {
+            assert_eq!(capped(Size::from(size)), Size::from(drawn));
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! Parts of the workbench for the tests of the screens, which are separate programs.
 
 pub mod actions {
-    pub use crate::tui::actions::{Action, Effect, Progress, of_key};
+    pub use crate::tui::app::actions::{Action, Effect, Work};
+    pub use crate::tui::update::commands::of_key;
 }
 
 pub mod app {
@@ -12,12 +13,8 @@ pub mod ascii {
     pub use crate::tui::ascii::{finish, is_safe, written_out};
 }
 
-pub mod benchmark {
-    pub use crate::tui::jobs::{BenchmarkProgress, End, Measuring};
-}
-
 pub mod commands {
-    pub use crate::tui::commands::{BINDINGS, Command, commands};
+    pub use crate::tui::update::commands::{BINDINGS, named};
 }
 
 pub mod dialogs {
@@ -36,11 +33,12 @@ pub mod events {
 }
 
 pub mod help {
-    pub use crate::tui::commands::help as lines;
+    pub use crate::tui::update::commands::help as lines;
 }
 
 pub mod jobs {
-    pub use crate::tui::jobs::Job;
+    pub use crate::tui::jobs::{Job, Slot};
+    pub use crate::tui::update::work_of;
 }
 
 pub mod pane {
@@ -99,7 +97,7 @@ pub mod store {
 }
 
 pub mod study {
-    pub use crate::tui::study::{End, Found, StudyParameters, StudyPart, StudyRequest};
+    pub use crate::tui::study::{End, StudyParameters};
 }
 
 pub mod tab {
@@ -119,17 +117,9 @@ pub mod view {
 }
 
 pub mod worker_chart {
-    pub use crate::tui::jobs::{ChartPart, ChartRequest};
+    pub use crate::tui::jobs::ChartRequest;
 }
 
 pub mod worker {
-    pub use crate::tui::worker::Running;
     pub use crate::tui::worker::Workers;
-    pub use crate::tui::worker::studying::draw_chart;
-    pub use crate::tui::worker::studying::measure;
-    pub use crate::tui::worker::studying::study;
-
-    pub mod jobs {
-        pub use crate::tui::worker::jobs::perform;
-    }
 }

@@ -7,10 +7,8 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::actions::Progress;
 use super::app::App;
 use super::ascii::{self, symbol};
-use super::commands::{BINDINGS, Binding};
 use super::form_aids::materials;
 use super::keys::Chord;
 use super::layout::{self, Pane, SMALLEST};
@@ -21,6 +19,7 @@ use super::panes::study::{self, StudyPane};
 use super::panes::teeth;
 use super::panes::trade::{self, TradePane};
 use super::rows::{self, Row};
+use super::update::commands::BINDINGS;
 use super::{header, text};
 use crate::case::fields::{Absent, Field, Kind};
 use crate::case::units::System;
@@ -28,6 +27,7 @@ use crate::case::{Acting, FIELDS, Limit, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
+use crate::study::trade::Trade;
 
 /// Width of a progress bar.
 const BAR: usize = 20;
@@ -44,37 +44,26 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     cursor.filter(|&cursor| area.contains(cursor))
 }
 
-/// Draws a message or the progress of long work, otherwise the hint of the focused item.
+/// Draws a message, the progress of long work, and the hint of the focused item, as far as there is
+/// room.
 pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
-    let width = usize::from(area.width);
-    let (mut lines, mut is_long) = (Vec::new(), false);
-    if let Some(progress) = app.progress.clone().or_else(|| solving(app)) {
-        // Esc first leaves the field.
-        let cancel = if app.has_line() { "Ctrl-C" } else { "Esc" };
-        let bar = format!("{}; {cancel} cancels", bar(&progress));
-        lines.push(Line::styled(text::cut(&bar, width), theme.note));
-    }
+    let mut parts = Vec::new();
     if let Some(message) = &app.message {
         let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
-        let wrapped = text::wrap(&format!("{mark}{}", message.text), width);
-        // The fix is at the end of a message: a long message replaces the hint.
-        is_long = wrapped.len() > 1;
-        if is_long {
-            lines.clear();
-        }
-        lines.splice(0..0, wrapped.into_iter().map(|line| Line::styled(line, style)));
+        parts.push((format!("{mark}{}", message.text), style));
     }
-    let room = usize::from(area.height);
-    if !is_long {
-        let left = room.saturating_sub(lines.len());
-        lines.extend(text::fitted(&focused(app), width, left).into_iter().map(Line::raw));
+    if let Some((what, part)) = progress(app) {
+        // Esc first leaves the field.
+        let cancel = if app.has_line() { "Ctrl-C" } else { "Esc" };
+        parts.push((format!("{}; {cancel} cancels", bar(&what, part)), theme.note));
     }
-    if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
-        lines[at] = Line::styled(
-            text::cut(&format!("{} {}", lines[at], lines[room]), width),
-            lines[at].style,
-        );
+    parts.push((focused(app), Style::new()));
+    let mut lines = Vec::new();
+    for (words, style) in parts {
+        let room = usize::from(area.height).saturating_sub(lines.len());
+        let fitted = text::fitted(&words, area.width.into(), room);
+        lines.extend(fitted.into_iter().map(|line| Line::styled(line, style)));
     }
     text::draw_lines(&lines, area, buffer);
 }
@@ -89,7 +78,7 @@ pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     for binding in
         BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.footer.meets(place))
     {
-        let key = short(binding);
+        let key = binding.chords.first().map(Chord::short_name).unwrap_or_default();
         let used = key.width() + binding.name.width() + 3;
         if used > left + 2 {
             break;
@@ -127,35 +116,19 @@ pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
     format!("{}{bounds}{absent}. {}", name.trim_start(), field.help)
 }
 
-// Shows the longest message that fits.
 fn too_small(area: Rect, buffer: &mut Buffer) {
-    let needed = format!("{}x{}", SMALLEST.width, SMALLEST.height);
-    let needs = format!("tipstrike needs {needed};");
-    let this = format!("this is {}x{}.", area.width, area.height);
-    let width = usize::from(area.width);
-    let sayings = [
-        vec![needs, this, "Nothing is lost.".to_owned()],
-        vec![format!("needs {needed}")],
-        vec![needed],
-    ];
-    let wrapped = |lines: &Vec<String>| {
-        lines.iter().flat_map(|line| text::wrap(line, width)).collect::<Vec<_>>()
-    };
-    let is_whole = |lines: &Vec<String>| {
-        lines.iter().flat_map(|line| line.split(' ')).all(|word| word.len() <= width)
-    };
-    let fits =
-        |lines: &&Vec<String>| is_whole(lines) && wrapped(lines).len() <= usize::from(area.height);
-    let lines = sayings.iter().find(fits).or(sayings.last()).map(wrapped).unwrap_or_default();
-    for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
-        buffer.set_stringn(area.x, y, line, area.width.into(), Style::new());
-    }
+    let words = format!(
+        "tipstrike needs {}x{}; this is {}x{}. Nothing is lost.",
+        SMALLEST.width, SMALLEST.height, area.width, area.height
+    );
+    let lines = text::wrap(&words, area.width.into()).into_iter().map(Line::raw);
+    text::draw_lines(&lines.collect::<Vec<_>>(), area, buffer);
 }
 
 fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let plan = app.layout.plan_on(area.as_size());
     header::draw(app, plan.header, buffer);
-    let in_form = form::draw(&Form { area: plan.form, ..app.form() }, buffer);
+    let in_form = form::draw(&Form { area: plan.area(Pane::Form), ..app.form() }, buffer);
     for pane in Pane::ALL {
         let area = plan.area(pane);
         if !area.is_empty() {
@@ -173,20 +146,11 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 fn draw_pane(app: &App, pane: Pane, area: Rect, buffer: &mut Buffer) {
     match pane {
         Pane::Form => (),
-        Pane::Results => {
-            let results = app.results();
-            results::draw(&Results { area, ..results }, buffer);
-        }
+        Pane::Results => results::draw(&Results { area, ..app.results() }, buffer),
         Pane::Chart => draw_charts(app, area, buffer),
         Pane::Teeth => draw_teeth(app, area, buffer),
-        Pane::Trade => {
-            let trade = app.trade();
-            trade::draw(&TradePane { area, ..trade }, buffer);
-        }
-        Pane::Study => {
-            let study = app.study();
-            study::draw(&StudyPane { area, ..study }, buffer);
-        }
+        Pane::Trade => trade::draw(&TradePane { area, ..app.trade() }, buffer),
+        Pane::Study => study::draw(&StudyPane { area, ..app.study() }, buffer),
     }
 }
 
@@ -326,19 +290,19 @@ fn at_cursor(app: &App) -> String {
     }
 }
 
-// Progress of a slow solve.
-fn solving(app: &App) -> Option<Progress> {
+// The name of running work and its completed part: of a benchmark or of a slow solve.
+fn progress(app: &App) -> Option<(String, f64)> {
+    if app.is_measuring() {
+        let trade = app.tab.traded.as_ref().and_then(|traded| traded.trade.as_ref());
+        return Some(("measuring".to_owned(), trade.map_or(0.0, Trade::part)));
+    }
     let method = app.tab.answer.as_ref().and_then(|answer| answer.pending).map_or("", Method::name);
-    app.tab.solving.map(|part| Progress { what: format!("solving {method}"), part })
+    app.tab.solving.map(|part| (format!("solving {method}"), part))
 }
 
-fn bar(progress: &Progress) -> String {
-    let part = if progress.part.is_finite() { progress.part.clamp(0.0, 1.0) } else { 0.0 };
+fn bar(what: &str, part: f64) -> String {
+    let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 };
     let full = (part * BAR as f64).floor() as usize;
     let bar = "█".repeat(full) + &"░".repeat(BAR - full);
-    format!("{bar} {:3.0} % {}", part * 100.0, progress.what)
-}
-
-fn short(binding: &Binding) -> String {
-    binding.chords.first().map(Chord::short_name).unwrap_or_default()
+    format!("{bar} {:3.0} % {what}", part * 100.0)
 }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::actions::{Action, Effect};
 use super::app::App;
+use super::app::actions::{Action, Effect};
 use super::events::{self, Event, Events};
 use super::session::autosave::Autosave;
 use super::session::journal::JournalWriter;
@@ -18,7 +18,7 @@ use super::store::{self, Opening, Trouble};
 use super::tab::Origin;
 use super::terminal::Screen;
 use super::theme::Look;
-use super::update::{self, update};
+use super::update::{self, update, work_of};
 use super::worker::{self, Workers};
 use crate::system::terminal::{SIGCONT, SIGTSTP, SIGWINCH};
 
@@ -48,7 +48,8 @@ pub(super) fn session(
     let look = Look::of(|name| std::env::var_os(name));
     let look =
         settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
-    let mut app = App { settings, ..App::at_start(document, path, look, screen.size()?) };
+    let mut app = App::at_start(document, path, look, screen.size()?);
+    app.settings = settings;
     if is_last_case && app.tab.path.is_some() {
         app.tab.origin = Origin::LastCase;
     }
@@ -99,22 +100,7 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
             None
         }
         Effect::Journals => Some(Action::Journals(autosave.ended_sessions())),
-        Effect::Solve(_)
-        | Effect::Job(_)
-        | Effect::Copy(_)
-        | Effect::Mouse(_)
-        | Effect::Play(_)
-        | Effect::Measure(_)
-        | Effect::CancelWork
-        | Effect::CancelSolve
-        | Effect::Study(_)
-        | Effect::CancelStudy
-        | Effect::Chart(_)
-        | Effect::CancelChart
-        | Effect::CancelRelief
-        | Effect::Redraw
-        | Effect::Suspend
-        | Effect::Quit => None,
+        _ => None,
     }
 }
 
@@ -225,15 +211,10 @@ impl Workbench {
                     }
                     Effect::Suspend => self.suspend()?,
                     Effect::Solve(request) => self.workers.solve(*request),
-                    Effect::Measure(measuring) => self.workers.measure(*measuring)?,
-                    Effect::CancelWork => self.workers.stop_benchmark(),
-                    Effect::Study(request) => self.workers.study(*request)?,
-                    Effect::CancelStudy => self.workers.stop_study(),
-                    Effect::Chart(request) => self.workers.chart(*request)?,
-                    Effect::CancelChart => self.workers.stop_chart(),
-                    Effect::CancelRelief => self.workers.stop_relief(),
                     Effect::CancelSolve => self.workers.stop_solve(),
-                    Effect::Job(job) => self.workers.job(job)?,
+                    Effect::Work(number, work) => self.workers.work(number, work)?,
+                    Effect::Job(number, job) => self.workers.work(number, work_of(job))?,
+                    Effect::Cancel(slot) => self.workers.cancel(slot),
                     Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,

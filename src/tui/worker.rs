@@ -1,32 +1,26 @@
-//! Long work, each kind in its own thread: solving, the benchmark, studies, charts and jobs.
+//! Threads beside the loop: the solver, the watcher of files, and one for each kind of work.
 
-pub(crate) mod jobs;
 pub(crate) mod solving;
-pub(crate) mod studying;
 mod watching;
 
+use std::collections::BTreeMap;
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-use super::actions::Action;
-use super::jobs::{ChartRequest, Job, Measuring};
+use super::app::actions::{Action, Work};
+use super::jobs::Slot;
 use super::solver::Request;
 use super::store::WatchedFile;
-use super::study::StudyRequest;
 
 use watching::Watcher;
 
 /// The worker threads. The solver and the file watcher start at once, the others with their first
-/// request.
+/// work.
 pub struct Workers {
     send: Send,
     solver: Worker<Request>,
-    benchmark: Option<Worker<Measuring>>,
-    study: Option<Worker<StudyRequest>>,
-    charts: Option<Worker<ChartRequest>>,
-    jobs: [Option<Worker<Job>>; Job::KINDS],
+    others: BTreeMap<Slot, Worker<(u64, Work)>>,
     watcher: Watcher,
 }
 
@@ -38,10 +32,7 @@ impl Workers {
     pub fn start(send: Send) -> io::Result<Workers> {
         Ok(Workers {
             solver: solving::start(Send::clone(&send))?,
-            benchmark: None,
-            study: None,
-            charts: None,
-            jobs: [const { None }; Job::KINDS],
+            others: BTreeMap::new(),
             watcher: Watcher::start(Send::clone(&send))?,
             send,
         })
@@ -52,7 +43,7 @@ impl Workers {
         self.solver.request(request);
     }
 
-    /// Stops the running solve.
+    /// Stops the running solve. A waiting request still runs.
     pub(crate) fn stop_solve(&self) {
         self.solver.stop_running();
     }
@@ -62,73 +53,29 @@ impl Workers {
         self.watcher.watch(files);
     }
 
-    /// Requests a benchmark; replaces the running one.
+    /// Runs work with a number; it replaces other work of its slot.
     ///
     /// # Errors
     /// Returns an error if the system cannot start a thread.
-    pub(crate) fn measure(&mut self, measuring: Measuring) -> io::Result<()> {
-        let worker = match &self.benchmark {
-            Some(worker) => worker,
-            None => self.benchmark.insert(studying::start_benchmark(Send::clone(&self.send))?),
-        };
-        worker.request(measuring);
+    pub fn work(&mut self, number: u64, work: Work) -> io::Result<()> {
+        let slot = work.slot;
+        if !self.others.contains_key(&slot) {
+            let send = Send::clone(&self.send);
+            let worker =
+                Worker::start(&slot.to_string(), send, |(number, work), is_wanted, send| {
+                    Work::run(work, number, is_wanted, send);
+                })?;
+            self.others.insert(slot, worker);
+        }
+        self.others[&slot].request((number, work));
         Ok(())
     }
 
-    /// Requests a study; replaces the running one.
-    ///
-    /// # Errors
-    /// Returns an error if the system cannot start a thread.
-    pub(crate) fn study(&mut self, request: StudyRequest) -> io::Result<()> {
-        let worker = match &self.study {
-            Some(worker) => worker,
-            None => self.study.insert(studying::start(Send::clone(&self.send))?),
-        };
-        worker.request(request);
-        Ok(())
-    }
-
-    /// Requests a chart; replaces the running one.
-    ///
-    /// # Errors
-    /// Returns an error if the system cannot start a thread.
-    pub fn chart(&mut self, request: ChartRequest) -> io::Result<()> {
-        let worker = match &self.charts {
-            Some(worker) => worker,
-            None => self.charts.insert(studying::start_charts(Send::clone(&self.send))?),
-        };
-        worker.request(request);
-        Ok(())
-    }
-
-    pub(crate) fn stop_chart(&self) {
-        self.charts.iter().for_each(Worker::stop);
-    }
-
-    pub(crate) fn stop_relief(&self) {
-        self.jobs[Job::RELIEF].iter().for_each(Worker::stop);
-    }
-
-    pub(crate) fn stop_study(&self) {
-        self.study.iter().for_each(Worker::stop);
-    }
-
-    pub(crate) fn stop_benchmark(&self) {
-        self.benchmark.iter().for_each(Worker::stop);
-    }
-
-    /// Requests a job; replaces a waiting job of its kind.
-    ///
-    /// # Errors
-    /// Returns an error if the system cannot start a thread.
-    pub fn job(&mut self, job: Job) -> io::Result<()> {
-        let (kind, name) = job.kind();
-        let worker = match &self.jobs[kind] {
-            Some(worker) => worker,
-            None => self.jobs[kind].insert(jobs::start(name, Send::clone(&self.send))?),
-        };
-        worker.request(job);
-        Ok(())
+    /// Stops the work of a slot.
+    pub(crate) fn cancel(&self, slot: Slot) {
+        if let Some(worker) = self.others.get(&slot) {
+            worker.stop();
+        }
     }
 }
 
@@ -141,27 +88,15 @@ pub(crate) struct Worker<R> {
     requests: Arc<LatestRequest<R>>,
 }
 
-/// The running request, for the work.
-#[derive(Clone, Copy)]
-pub struct Running<'a> {
-    /// Returns whether the request is still wanted: nobody has stopped it, and there is no later
-    /// request.
-    pub is_wanted: &'a dyn Fn() -> bool,
-    /// Sends an action, such as an intermediate result.
-    pub send: &'a dyn Fn(Action),
-}
-
 impl<R: std::marker::Send + 'static> Worker<R> {
-    /// Starts the thread. `work` serves a request and sends its results. If `work` panics, the
-    /// thread sends the action of `failed`.
+    /// Starts the thread. `work` serves a request while it is wanted, and sends its results.
     ///
     /// # Errors
     /// Returns an error if the system cannot start a thread.
     pub(crate) fn start(
-        name: &'static str,
+        name: &str,
         send: Send,
-        mut work: impl FnMut(&R, Running<'_>) + std::marker::Send + 'static,
-        failed: fn(&R) -> Action,
+        mut work: impl FnMut(R, &dyn Fn() -> bool, &dyn Fn(Action)) + std::marker::Send + 'static,
     ) -> io::Result<Worker<R>> {
         let requests = Arc::new(LatestRequest::default());
         let theirs: Arc<LatestRequest<R>> = Arc::clone(&requests);
@@ -172,14 +107,7 @@ impl<R: std::marker::Send + 'static> Worker<R> {
                 }
             };
             while let Some(request) = theirs.take() {
-                let running = Running { is_wanted: &|| theirs.is_wanted(), send: &send };
-                let done = catch_unwind(AssertUnwindSafe(|| {
-                    on_demand(name);
-                    work(&request, running);
-                }));
-                if done.is_err() {
-                    send(failed(&request));
-                }
+                work(request, &|| theirs.is_wanted(), &send);
             }
         };
         thread::Builder::new().name(name.to_owned()).spawn(serve)?;
@@ -196,10 +124,10 @@ impl<R: std::marker::Send + 'static> Worker<R> {
         self.requests.state().is_stopped = true;
     }
 
-    /// Stops every request so far. A waiting request still starts, but is not wanted.
+    /// Stops the running request and drops a waiting one.
     pub(crate) fn stop(&self) {
         let mut state = self.requests.state();
-        (state.is_stopped, state.is_next_stopped) = (true, true);
+        (state.is_stopped, state.next) = (true, None);
     }
 }
 
@@ -235,7 +163,6 @@ struct LatestRequest<R> {
 #[derive(Debug)]
 struct RequestState<R> {
     next: Option<R>,
-    is_next_stopped: bool,
     /// Whether the running request is no longer wanted.
     is_stopped: bool,
     is_closed: bool,
@@ -244,12 +171,7 @@ struct RequestState<R> {
 impl<R> Default for LatestRequest<R> {
     fn default() -> LatestRequest<R> {
         LatestRequest {
-            state: Mutex::new(RequestState {
-                next: None,
-                is_next_stopped: false,
-                is_stopped: false,
-                is_closed: false,
-            }),
+            state: Mutex::new(RequestState { next: None, is_stopped: false, is_closed: false }),
             bell: Condvar::new(),
         }
     }
@@ -257,8 +179,7 @@ impl<R> Default for LatestRequest<R> {
 
 impl<R> LatestRequest<R> {
     fn put(&self, request: R) {
-        let mut state = self.state();
-        (state.next, state.is_next_stopped) = (Some(request), false);
+        self.state().next = Some(request);
         self.bell.notify_one();
     }
 
@@ -275,7 +196,7 @@ impl<R> LatestRequest<R> {
                 return None;
             }
             if let Some(request) = state.next.take() {
-                state.is_stopped = state.is_next_stopped;
+                state.is_stopped = false;
                 return Some(request);
             }
             state = self.bell.wait(state).unwrap_or_else(PoisonError::into_inner);
@@ -299,22 +220,20 @@ mod tests {
     use super::*;
 
     /// A worker that starts each request when the test permits, and sends its number back if it is
-    /// wanted. Request 0 panics.
+    /// wanted.
     fn worker() -> (Worker<u64>, Receiver<u64>, Sender<()>, Receiver<Action>) {
         let (begun, has_begun) = channel();
         let (go, gate) = channel::<()>();
         let (sender, actions) = channel();
-        let work = move |request: &u64, running: Running<'_>| {
-            begun.send(*request).expect("the test listens");
+        let work = move |request: u64, is_wanted: &dyn Fn() -> bool, send: &dyn Fn(Action)| {
+            begun.send(request).expect("the test listens");
             gate.recv().expect("the test goes on");
-            assert!(*request != 0, "planted");
-            if (running.is_wanted)() {
-                (running.send)(Action::Solving(*request, 1.0));
+            if is_wanted() {
+                send(Action::Solving(request, 1.0));
             }
         };
         let send: Send = Arc::new(move |action| sender.send(action).is_ok());
-        let failed = |_: &u64| Action::SolverFailed(0);
-        let worker = Worker::start("test", send, work, failed).expect("a thread");
+        let worker = Worker::start("test", send, work).expect("a thread");
         (worker, has_begun, go, actions)
     }
 
@@ -334,18 +253,6 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_reported_and_the_next_request_is_served() {
-        let (worker, _begun, go, actions) = worker();
-        for (request, is_expected) in [(0, false), (2, true)] {
-            worker.request(request);
-            go.send(()).expect("the worker listens");
-            let action = actions.recv().expect("an answer");
-            assert_eq!(is_answer(&action, 2), is_expected);
-            assert_eq!(matches!(action, Action::SolverFailed(0)), !is_expected);
-        }
-    }
-
-    #[test]
     fn a_stop_ends_the_running_request_and_optionally_the_waiting_one() {
         let (worker, has_begun, go, actions) = worker();
         worker.request(1);
@@ -358,10 +265,26 @@ mod tests {
         assert_eq!((has_begun.recv(), has_begun.recv()), (Ok(2), Ok(3)));
         worker.request(4);
         worker.stop();
-        (0..2).for_each(|_| go.send(()).expect("the worker listens"));
-        assert_eq!(has_begun.recv(), Ok(4));
         worker.request(5);
-        go.send(()).expect("the worker listens");
+        (0..2).for_each(|_| go.send(()).expect("the worker listens"));
+        assert_eq!(has_begun.recv(), Ok(5));
         assert!(is_answer(&actions.recv().expect("an answer"), 5));
+    }
+
+    #[test]
+    fn work_that_panics_sends_its_fault_and_its_end() {
+        let (sender, actions) = channel();
+        let send: Send = Arc::new(move |action| sender.send(action).is_ok());
+        let mut workers = Workers::start(send).expect("threads");
+        for (number, panics) in [(1, true), (2, false)] {
+            let work = Work::in_steps(Slot::Folder, move |_| assert!(!panics, "planted"));
+            workers.work(number, work).expect("a thread");
+            let mut sent = actions.recv().expect("an action");
+            if panics {
+                assert!(matches!(sent, Action::Worked(Slot::Folder, 1, _)), "{sent:?}");
+                sent = actions.recv().expect("an action");
+            }
+            assert!(matches!(sent, Action::WorkEnded(Slot::Folder, of) if of == number));
+        }
     }
 }

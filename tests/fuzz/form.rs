@@ -18,21 +18,20 @@ use tipstrike::case::fields::Kind;
 use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::Method;
 use tipstrike::tui::testing::actions::Action;
-use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::actions::{Effect, Work};
 use tipstrike::tui::testing::app::App;
 use tipstrike::tui::testing::dialogs::Prompt;
 use tipstrike::tui::testing::events::{Event, take_action};
-use tipstrike::tui::testing::jobs::Job;
+use tipstrike::tui::testing::jobs::{Job, Slot, work_of};
 use tipstrike::tui::testing::session::Autosave;
 use tipstrike::tui::testing::session::JournalWriter;
 use tipstrike::tui::testing::solver::{self, Request};
 use tipstrike::tui::testing::store::State;
 use tipstrike::tui::testing::store::Viewport;
-use tipstrike::tui::testing::store::recents;
-use tipstrike::tui::testing::store::{self, case_search, folder};
+use tipstrike::tui::testing::store::{self, recents};
 use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::{effects, rows, update, view, worker};
+use tipstrike::tui::testing::{effects, rows, update, view};
 
 use crate::values::{HOSTILE, field_and_text};
 use crate::{hold, is_hostile, texts};
@@ -186,8 +185,15 @@ fn ctrl(letter: char) -> KeyEvent {
     KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)
 }
 
-fn done(job: Job) -> Option<Action> {
-    worker::jobs::perform(job, &|_| true)
+fn keys(key: KeyEvent, times: usize) -> Vec<Event> {
+    (0..times).map(|_| Event::Input(Input::Key(key))).collect()
+}
+
+/// All results of work, which runs at once.
+fn results(number: u64, work: Work) -> Vec<Action> {
+    let sent = RefCell::new(Vec::new());
+    work.run(number, &|| true, &|action| sent.borrow_mut().push(action));
+    sent.into_inner()
 }
 
 impl Bench {
@@ -228,14 +234,14 @@ impl Bench {
                 .collect::<Vec<_>>()
         };
         match happening {
-            Happening::Key(key, times) => self.feed(vec![Event::Input(Input::Key(key)); times]),
+            Happening::Key(key, times) => self.feed(keys(key, times)),
             Happening::Type(text) => self.feed(letters(text)),
             Happening::Paste(text) => self.feed([Event::Input(Input::Paste(text))]),
             Happening::Resize(width, height) => {
                 self.feed([Event::Input(Input::Resize(width, height))]);
             }
             Happening::Fill(field, text) => {
-                let steps = vec![Event::Input(Input::Key(key(KeyCode::Down))); field];
+                let steps = keys(key(KeyCode::Down), field);
                 self.feed([Event::Input(Input::Key(KeyEvent::new(
                     KeyCode::Home,
                     KeyModifiers::CONTROL,
@@ -319,7 +325,7 @@ impl Bench {
         self.seen.insert(seen);
     }
 
-    fn perform(&mut self, effect: Effect, was_asked: bool) -> Option<Action> {
+    fn perform(&mut self, effect: Effect, was_asked: bool) -> Vec<Action> {
         match effect {
             Effect::Solve(request) => {
                 assert_eq!(
@@ -328,77 +334,62 @@ impl Bench {
                     "only valid cases reach the model"
                 );
                 self.waiting = Some(*request);
-                None
+                Vec::new()
             }
             Effect::Quit => {
                 let is_unsaved = self.app.tabs().any(tipstrike::tui::testing::tab::Tab::is_unsaved);
                 assert!(was_asked || !is_unsaved, "edits are not lost without a question");
                 self.seen.insert("quit");
-                None
+                Vec::new()
             }
-            Effect::Load(path) => {
-                effects::perform(Effect::Load(self.within(&path)), &mut self.autosave)
-            }
+            Effect::Load(path) => self.outside(Effect::Load(self.within(&path))),
             Effect::Save(mut saving, next) => {
                 saving.path = self.within(&saving.path);
-                effects::perform(Effect::Save(saving, next), &mut self.autosave)
+                self.outside(Effect::Save(saving, next))
             }
-            Effect::Job(Job::Folder(base, typed)) => {
-                let mut listing =
-                    folder::list(self.within(&folder::beneath(&base, &typed)), String::new());
-                listing.asked = (base, typed);
-                Some(Action::Listed(Box::new(listing)))
-            }
-            Effect::Job(Job::Recents) => Some(Action::Recents(recents::looked_at(vec![
-                self.folder.path().join("case.toml"),
-            ]))),
-            Effect::Job(Job::Preview(sight, units)) => match sight {
-                Viewport::File(path) => {
-                    done(Job::Preview(Viewport::File(self.within(&path)), units))
+            Effect::Job(_, Job::Recents) => {
+                if let Some(Prompt::Browse(browser)) = self.app.prompts.last_mut() {
+                    let recent = self.folder.path().join("case.toml");
+                    browser.remember(recents::looked_at(vec![recent]));
                 }
-                Viewport::Example(_) => done(Job::Preview(sight, units)),
-                Viewport::Folder(_) => None,
-            },
-            Effect::Job(Job::Search(base, typed)) => {
-                let mut below = case_search::find(
-                    self.within(&folder::beneath(&base, &typed)),
-                    String::new(),
-                    &|_| true,
-                )?;
-                below.asked = (base, typed);
-                Some(Action::Found(Box::new(below)))
-            }
-            Effect::Job(Job::Export(mut exporting)) => {
-                exporting.path = self.within(&exporting.path);
-                done(Job::Export(exporting))
+                Vec::new()
             }
             // A search for a relief takes seconds, and no key needs its result.
-            Effect::Job(job) if !matches!(job, Job::Relief(_)) => done(job),
+            Effect::Job(_, Job::Relief(_) | Job::Preview(Viewport::Folder(_), _)) => Vec::new(),
+            Effect::Job(number, job) => results(number, work_of(self.job_within(job))),
+            Effect::Work(number, work) => match work.slot {
+                Slot::Study | Slot::Chart | Slot::Benchmark => Vec::new(),
+                _ => results(number, work),
+            },
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
-                None
+                Vec::new()
             }
             Effect::Copy(text) => {
                 assert!(!text.is_empty() && text.len() <= 48 * 1024);
-                None
+                Vec::new()
             }
-            Effect::Job(_)
-            | Effect::Remember(_)
-            | Effect::Adopt(_)
-            | Effect::Forget(_)
-            | Effect::Journals
-            | Effect::Keep(_)
-            | Effect::Mouse(_)
-            | Effect::CancelWork
-            | Effect::CancelSolve
-            | Effect::Redraw
-            | Effect::Suspend
-            | Effect::Measure(_)
-            | Effect::Study(_)
-            | Effect::CancelStudy
-            | Effect::Chart(_)
-            | Effect::CancelRelief
-            | Effect::CancelChart => None,
+            _ => Vec::new(),
+        }
+    }
+
+    fn outside(&mut self, effect: Effect) -> Vec<Action> {
+        effects::perform(effect, &mut self.autosave).into_iter().collect()
+    }
+
+    /// A job whose files are in the folder.
+    fn job_within(&self, job: Job) -> Job {
+        match job {
+            Job::Folder(asked, place) => Job::Folder(asked, self.within(&place)),
+            Job::Search(asked, place) => Job::Search(asked, self.within(&place)),
+            Job::Preview(Viewport::File(path), units) => {
+                Job::Preview(Viewport::File(self.within(&path)), units)
+            }
+            Job::Export(mut exporting) => {
+                exporting.path = self.within(&exporting.path);
+                Job::Export(exporting)
+            }
+            job => job,
         }
     }
 
@@ -475,7 +466,7 @@ impl Bench {
 
     /// Undoes all edits and expects the first case; redoes them and expects the last one.
     fn assert_undone(&mut self) {
-        self.feed(vec![Event::Input(Input::Key(key(KeyCode::Esc))); self.app.prompts.len()]);
+        self.feed(keys(key(KeyCode::Esc), self.app.prompts.len()));
         self.repeat(ctrl('y'), "nothing to redo");
         let last = self.app.tab.case.clone();
         self.repeat(ctrl('z'), "nothing to undo");

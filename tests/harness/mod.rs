@@ -3,10 +3,11 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
@@ -16,25 +17,18 @@ use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
 use tipstrike::study::trade::Time;
-use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::actions::{self, Action};
+use tipstrike::tui::testing::actions::{self, Action, Effect, Work};
 use tipstrike::tui::testing::app::App;
-use tipstrike::tui::testing::benchmark::Measuring;
-use tipstrike::tui::testing::jobs::Job;
+use tipstrike::tui::testing::commands::named as command;
+use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::jobs::{Job, Slot, work_of};
 use tipstrike::tui::testing::session::Autosave;
 use tipstrike::tui::testing::session::JournalWriter;
 use tipstrike::tui::testing::settings::Settings;
 use tipstrike::tui::testing::store::State;
 use tipstrike::tui::testing::store::recents;
-use tipstrike::tui::testing::study::StudyRequest;
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::worker::Running;
-use tipstrike::tui::testing::worker::draw_chart;
-use tipstrike::tui::testing::worker::jobs;
-use tipstrike::tui::testing::worker::measure;
-use tipstrike::tui::testing::worker::study;
-use tipstrike::tui::testing::worker_chart::ChartRequest;
 use tipstrike::tui::testing::{effects, solver, store, update, view};
 
 pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
@@ -78,7 +72,9 @@ impl Desk {
         Desk::in_folder(app, tempfile::tempdir().expect("a folder"))
     }
 
-    fn in_folder(app: App, folder: TempDir) -> Desk {
+    fn in_folder(mut app: App, folder: TempDir) -> Desk {
+        // Each setting of a benchmark runs once.
+        app.patience = Duration::ZERO;
         let state = tempfile::tempdir().expect("a folder");
         Desk {
             app,
@@ -162,38 +158,38 @@ impl Desk {
         update(&mut self.app, action)
     }
 
+    /// Runs the command with a name.
+    pub(crate) fn run(&mut self, name: &str) {
+        self.act(run(name));
+    }
+
+    /// Applies the results of work.
+    pub(crate) fn take(&mut self, results: Vec<Action>) {
+        for action in results {
+            self.act(action);
+        }
+    }
+
     /// Applies an action and carries out its effects immediately.
     pub(crate) fn act(&mut self, action: Action) {
-        let mut actions = vec![action];
-        while let Some(action) = actions.pop() {
+        let mut actions = VecDeque::from([action]);
+        while let Some(action) = actions.pop_front() {
             for effect in update(&mut self.app, action) {
                 match effect {
                     Effect::Solve(request) => {
-                        actions.push(Action::Solved(Box::new(solver::answer(&request))));
+                        actions.push_back(Action::Solved(Box::new(solver::answer(&request))));
                     }
-                    Effect::Measure(measuring) => actions.extend(measured(*measuring)),
-                    Effect::Study(request) => actions.extend(studied(&request)),
-                    Effect::Chart(request) => actions.extend(charted(&request)),
+                    Effect::Work(number, work) => actions.extend(results(number, work)),
+                    Effect::Job(_, Job::Recents) => show_recents(&mut self.app, &self.recents),
+                    Effect::Job(number, job) => actions.extend(results(number, work_of(job))),
                     Effect::Quit => self.has_quit = true,
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
                     Effect::Play(plays) => self.ticks = plays,
-                    Effect::CancelWork
-                    | Effect::CancelSolve
-                    | Effect::CancelStudy
-                    | Effect::CancelRelief
-                    | Effect::CancelChart => {
-                        self.has_cancelled = true;
-                    }
+                    Effect::CancelSolve | Effect::Cancel(_) => self.has_cancelled = true,
                     Effect::Redraw => self.has_redrawn = true,
                     Effect::Suspend => self.is_suspended = true,
                     Effect::Keep(settings) => self.kept = Some(settings),
-                    Effect::Job(Job::Recents) => {
-                        actions.push(Action::Recents(recents::looked_at(self.recents.clone())));
-                    }
-                    Effect::Job(job) => {
-                        actions.extend(jobs::perform(job, &|_| true));
-                    }
                     Effect::Remember(_) => (),
                     other => actions.extend(effects::perform(other, &mut self.autosave)),
                 }
@@ -293,35 +289,32 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
     traded.marked = trade.recommended().map(|measured| measured.setting);
 }
 
-/// All messages of a benchmark, the last first; each setting runs once.
-fn measured(measuring: Measuring) -> Vec<Action> {
-    let sent = RefCell::new(Vec::new());
-    let once = Measuring { patience: std::time::Duration::ZERO, ..measuring };
-    let running = Running { is_wanted: &|| true, send: &|action| sent.borrow_mut().push(action) };
-    measure(&once, running);
-    let mut sent = sent.into_inner();
-    sent.reverse();
-    sent
+/// Shows recent cases in the open browser.
+pub(crate) fn show_recents(app: &mut App, paths: &[PathBuf]) {
+    if let Some(Prompt::Browse(browser)) = app.prompts.last_mut() {
+        browser.remember(recents::looked_at(paths.to_vec()));
+    }
 }
 
-/// All messages of a study, the last first.
-fn studied(request: &StudyRequest) -> Vec<Action> {
-    let sent = RefCell::new(Vec::new());
-    let running = Running { is_wanted: &|| true, send: &|action| sent.borrow_mut().push(action) };
-    study(request, running);
-    let mut sent = sent.into_inner();
-    sent.reverse();
-    sent
+/// The action that runs the command with a name.
+pub(crate) fn run(name: &str) -> Action {
+    Action::Do(command(name).next().expect("a command of that name"))
 }
 
-/// All messages of the worker of the charts, the last first.
-fn charted(request: &ChartRequest) -> Vec<Action> {
+/// All results of work, which runs at once.
+pub(crate) fn results(number: u64, work: Work) -> Vec<Action> {
     let sent = RefCell::new(Vec::new());
-    let running = Running { is_wanted: &|| true, send: &|action| sent.borrow_mut().push(action) };
-    draw_chart(request, running);
-    let mut sent = sent.into_inner();
-    sent.reverse();
-    sent
+    work.run(number, &|| true, &|action| sent.borrow_mut().push(action));
+    sent.into_inner()
+}
+
+/// The requested work of a slot, with its number.
+pub(crate) fn requested(effects: Vec<Effect>, slot: Slot) -> Option<(u64, Work)> {
+    effects.into_iter().find_map(|effect| match effect {
+        Effect::Work(number, work) if work.slot == slot => Some((number, work)),
+        Effect::Job(number, job) if job.slot() == slot => Some((number, work_of(job))),
+        _ => None,
+    })
 }
 
 /// An autosave with its state in a folder, and without a writer thread.

@@ -17,7 +17,6 @@ use tipstrike::case::file::SaveError;
 use tipstrike::case::{Document, fields};
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::commands::Command as Do;
 use tipstrike::tui::testing::session::SaveFault;
 use tipstrike::tui::testing::session::{Found, Next};
 use tipstrike::tui::testing::update::update;
@@ -168,7 +167,7 @@ fn a_failed_save_changes_nothing_and_skips_the_next_step() {
 #[test]
 fn text_typed_during_a_save_remains_unsaved() {
     let mut desk = edited();
-    let effects = update(&mut desk.app, Action::Do(Do::Save));
+    let effects = update(&mut desk.app, harness::run("save"));
     let save =
         effects.into_iter().find(|effect| matches!(effect, Effect::Save(..))).expect("a save");
     desk.keys(&["Ctrl-U", "1600 rpm"]);

@@ -8,9 +8,7 @@ use std::time::{Duration, Instant};
 
 use ratatui::layout::Size;
 use tipstrike::case::Document;
-use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::commands::Command;
 use tipstrike::tui::testing::rows;
 use tipstrike::tui::testing::session::Journal;
 use tipstrike::tui::testing::theme::Look;
@@ -295,7 +293,7 @@ fn values_of_file(path: &Path) -> Vec<String> {
     let lines = 0..rows::count(&app.tab.case);
     let copied = lines.filter_map(|line| {
         app.tab.form.focus = line;
-        let effects = update(&mut app, Action::Do(Command::CopyValue));
+        let effects = update(&mut app, crate::harness::run("copy value"));
         effects
             .into_iter()
             .find_map(|effect| if let Effect::Copy(text) = effect { Some(text) } else { None })

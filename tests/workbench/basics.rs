@@ -14,10 +14,8 @@ use tipstrike::model::compliance::ElasticGear;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::actions::Progress;
-use tipstrike::tui::testing::actions::{self, Action};
+use tipstrike::tui::testing::actions::{self, Action, of_key};
 use tipstrike::tui::testing::app::App;
-use tipstrike::tui::testing::commands::Command;
 use tipstrike::tui::testing::dialogs::Item;
 use tipstrike::tui::testing::dialogs::Prompt;
 use tipstrike::tui::testing::pane::Pane;
@@ -343,7 +341,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
         !late.iter().any(|effect| matches!(effect, Effect::Solve(_))),
         "an invalid case is not solved"
     );
-    let effects = update(&mut desk.app, Action::Do(Command::Undo));
+    let effects = update(&mut desk.app, harness::run("undo"));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {
         panic!("it asks for a solve")
     };
@@ -359,7 +357,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
 fn a_request_that_another_case_put_aside_is_asked_for_again() {
     let mut desk = three_cases(LARGE);
     desk.keys(&["Alt-1"]).go_to("operation.speed");
-    update(&mut desk.app, Action::Do(Command::ToggleMethod));
+    update(&mut desk.app, harness::run("method"));
     desk.keys(&["Alt-2", "Alt-1"]);
     assert!(desk.shows("▸static") && desk.app.tab.is_settled);
 }
@@ -550,20 +548,6 @@ fn notes_are_never_off_the_screen() {
     }
 }
 
-#[test]
-fn long_work_shows_its_progress_and_esc_stops_it() {
-    let mut desk = Desk::new(SMALL);
-    desk.act(Action::Progress(Some(Progress { what: "trade".to_owned(), part: 0.25 })));
-    assert!(desk.shows("█████░") && desk.shows("25 % trade; Ctrl-C cancels"));
-    desk.keys(&["Esc"]);
-    assert!(!desk.has_cancelled && !desk.app.has_line());
-    assert!(desk.shows("25 % trade; Esc cancels"));
-    desk.keys(&["Esc"]);
-    assert!(desk.has_cancelled);
-    desk.act(Action::Progress(None));
-    assert!(!desk.shows("25 %"));
-}
-
 /// The required relief of a method that shares the load arrives after the other results: until then
 /// a placeholder is shown, and no figure of another method or of an earlier edit.
 #[test]
@@ -574,7 +558,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         "{}",
         desk.screen()
     );
-    let effects = update(&mut desk.app, Action::Do(Command::ToggleMethod));
+    let effects = update(&mut desk.app, harness::run("method"));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {
         panic!("it asks for a solve")
     };
@@ -594,7 +578,8 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         desk.screen()
     );
     let mut stopped = desk.app.clone();
-    let effects = update(&mut stopped, Action::Do(Command::Cancel));
+    let cancel = of_key(harness::event("Ctrl-C"), stopped.place()).expect("a key");
+    let effects = update(&mut stopped, cancel);
     assert!(matches!(effects[..], [Effect::CancelSolve]) && stopped.message.is_some());
     assert!(
         stopped.tab.answer.as_ref().is_some_and(|answer| !answer.lacks(Stage::Clearing)),
@@ -611,7 +596,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
 #[test]
 fn a_slow_solve_shows_its_progress_and_esc_stops_it() {
     let mut desk = three_cases(LARGE);
-    let effects = update(&mut desk.app, Action::Do(Command::ToggleMethod));
+    let effects = update(&mut desk.app, harness::run("method"));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {
         panic!("it asks for a solve")
     };

@@ -6,21 +6,17 @@ use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::symlink;
+use std::path::PathBuf;
 use std::process::Command;
-use std::sync::Arc;
-use std::sync::mpsc::channel;
-use std::time::Duration;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1, name};
+use harness::{Desk, LARGE, SMALL, TABLE_1, name, requested, results};
 use insta::assert_snapshot;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::actions::{self, Action};
 use tipstrike::tui::testing::ascii::is_safe;
-use tipstrike::tui::testing::jobs::Job;
-use tipstrike::tui::testing::store::{case_search, folder};
+use tipstrike::tui::testing::jobs::Slot;
+use tipstrike::tui::testing::store::case_search;
 use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::worker::Workers;
-use tipstrike::tui::testing::worker::jobs;
 
 /// Five cases and a folder; the second case is open.
 fn shelf(desk: &mut Desk) {
@@ -283,10 +279,11 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
         asked.extend(update(&mut desk.app, action));
         desk.screen();
     }
-    let previews =
-        asked.iter().filter(|effect| matches!(effect, Effect::Job(Job::Preview(..)))).count();
-    let searches =
-        asked.iter().filter(|effect| matches!(effect, Effect::Job(Job::Search(..)))).count();
+    let count = |slot| {
+        let is_it = |effect: &&Effect| matches!(effect, Effect::Job(_, job) if job.slot() == slot);
+        asked.iter().filter(is_it).count()
+    };
+    let (previews, searches) = (count(Slot::Preview), count(Slot::Search));
     assert!(
         previews + searches == asked.len() && previews <= keys.len() && searches == 1,
         "{asked:?}"
@@ -301,43 +298,16 @@ fn keys_work_during_the_reading_of_a_folder_and_a_late_result_is_dropped() {
         let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
         update(&mut desk.app, action)
     };
-    let effects = press(&mut desk, "Ctrl-O");
-    let Some(Effect::Job(Job::Folder(base, typed))) = effects.into_iter().next() else {
-        panic!("it asks for the folder")
-    };
-    let late = folder::list(base, typed);
+    let (number, work) = requested(press(&mut desk, "Ctrl-O"), Slot::Folder).expect("a listing");
+    let late = results(number, work);
     assert!(desk.shows("reading ..."));
     for letter in ["s", "u", "b", "/"] {
         press(&mut desk, letter);
     }
-    update(&mut desk.app, Action::Listed(Box::new(late)));
+    desk.take(late);
     assert!(desk.shows("reading ...") && !desk.shows("a-strikes.toml"), "that was another folder");
     press(&mut desk, "Esc");
     assert!(desk.app.prompts.is_empty());
-}
-
-#[test]
-fn the_threads_answer_and_the_latest_wish_counts() {
-    let (sender, replies) = channel();
-    let mut workers =
-        Workers::start(Arc::new(move |action| sender.send(action).is_ok())).expect("a thread");
-    let folder = tempfile::tempdir().expect("a folder");
-    for name in ["one", "two", "three"] {
-        fs::create_dir(folder.path().join(name)).expect("a folder");
-        workers.job(Job::Folder(folder.path().to_owned(), format!("{name}/"))).expect("a thread");
-    }
-    let mut last = String::new();
-    while last != "three/" {
-        let Ok(Action::Listed(listing)) = replies.recv_timeout(Duration::from_secs(20)) else {
-            panic!("an answer is expected")
-        };
-        assert!(listing.entries.is_ok());
-        last = listing.asked.1;
-    }
-    workers.job(Job::Examples(tipstrike::case::units::System::Metric)).expect("a thread");
-    assert!(
-        matches!(replies.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8)
-    );
 }
 
 #[test]
@@ -426,27 +396,24 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
     fs::create_dir_all(desk.path(deep)).expect("folders");
     desk.write("1/2/3/near.toml", TABLE_1);
     desk.write(&format!("{deep}/far.toml"), TABLE_1);
-    let below = case_search::find(desk.folder.path().to_owned(), String::new(), &|_| true)
-        .expect("it is wanted");
+    let find = |folder: PathBuf, go_on: &dyn Fn(f64) -> bool| {
+        case_search::find((folder.clone(), String::new()), &folder, go_on)
+    };
+    let below = find(desk.folder.path().to_owned(), &|_| true).expect("it is wanted");
     let names: Vec<&str> = below.cases.iter().map(|case| case.name.as_str()).collect();
     assert_eq!((names, below.is_cut), (vec!["sub/deep.toml", "1/2/3/near.toml"], true));
-    assert_eq!(case_search::find(desk.folder.path().to_owned(), String::new(), &|_| false), None);
-    assert_eq!(
-        case_search::find("/no/such/folder".into(), String::new(), &|_| true)
-            .expect("wanted")
-            .cases,
-        []
-    );
+    assert_eq!(find(desk.folder.path().to_owned(), &|_| false), None);
+    assert_eq!(find("/no/such/folder".into(), &|_| true).expect("wanted").cases, []);
     desk.keys(&["Ctrl-O"]);
-    let mut asked = 0;
+    let mut asked = Vec::new();
     for letter in "near".chars() {
-        let effects = update(&mut desk.app, Action::Insert(letter));
-        asked +=
-            effects.iter().filter(|effect| matches!(effect, Effect::Job(Job::Search(..)))).count();
+        asked.extend(requested(update(&mut desk.app, Action::Insert(letter)), Slot::Search));
     }
-    assert_eq!(asked, 1);
+    assert_eq!(asked.len(), 1);
     assert!(desk.shows("Searching below ..."), "{}", desk.screen());
-    desk.act(Action::Found(Box::new(case_search::SearchResult { cases: Vec::new(), ..below })));
+    fs::remove_dir_all(desk.path("1")).expect("our own folder");
+    let (number, work) = asked.remove(0);
+    desk.take(results(number, work));
     assert!(desk.shows("No match here or below."), "{}", desk.screen());
 }
 
@@ -460,10 +427,7 @@ fn enter_waits_for_the_listing_of_the_typed_folder() {
     }
     desk.effects("Enter");
     assert!(!desk.app.prompts.is_empty(), "it is not listed yet");
-    for effect in asked {
-        if let Effect::Job(job @ Job::Folder(..)) = effect {
-            desk.act(jobs::perform(job, &|_| true).expect("a listing"));
-        }
-    }
+    let (number, work) = requested(asked, Slot::Folder).expect("a listing");
+    desk.take(results(number, work));
     assert!(desk.app.prompts.is_empty() && desk.shows("sub/deep.toml"), "{}", desk.screen());
 }

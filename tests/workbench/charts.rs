@@ -3,7 +3,7 @@ use crate::harness;
 
 use std::fs;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1, requested, results};
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use ratatui::backend::{Backend, CrosstermBackend};
@@ -18,12 +18,13 @@ use tipstrike::tui::testing::actions::{self, Action, Effect};
 use tipstrike::tui::testing::chart;
 use tipstrike::tui::testing::chart::Frame;
 use tipstrike::tui::testing::chart::curves::{self, CurveSource};
+use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::pane::Pane;
 use tipstrike::tui::testing::solver::{self, Answer};
 use tipstrike::tui::testing::teeth::readings;
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
-use tipstrike::tui::testing::worker_chart::{ChartPart, ChartRequest};
+use tipstrike::tui::testing::worker_chart::ChartRequest;
 
 const HUGE: Size = Size { width: 240, height: 70 };
 const MIDDLE: Size = Size { width: 120, height: 40 };
@@ -217,49 +218,39 @@ fn a_harmonic_without_amplitude_has_no_bar() {
 #[test]
 fn the_latest_request_for_a_chart_of_the_worker_wins() {
     let mut desk = at_method(SMALL, "exact");
-    let press = |desk: &mut Desk, key| {
-        let place = desk.app.place();
-        let action = actions::of_key(harness::event(key), place).expect("a key of the table");
-        update(&mut desk.app, action)
-    };
-    let request = |effects: Vec<Effect>| {
-        effects.into_iter().find_map(|effect| match effect {
-            Effect::Chart(request) => Some(request),
-            _ => None,
-        })
-    };
-    let first = request(press(&mut desk, "k")).expect("a request");
+    let (number, work) = requested(desk.effects("k"), Slot::Chart).expect("a request");
     assert!(desk.shows("Computing"), "{}", desk.screen());
-    assert!(request(press(&mut desk, "l")).is_none(), "the same pair");
-    let part =
-        |serial, found, is_over| Action::Charted(Box::new(ChartPart { serial, found, is_over }));
-    let curve = speeds(&first.inputs, &mut |_| true).expect("a curve");
-    let mut so_far = curve.clone();
-    so_far.up[60..].fill(None);
-    so_far.down.fill(None);
-    let found = speed_chart(&[("", &so_far)]);
-    update(&mut desk.app, part(first.serial, Some(found), false));
-    assert!(desk.shows("computing: Dynamic factor"), "{}", desk.screen());
-    update(&mut desk.app, part(first.serial + 1000, None, true));
-    assert!(desk.app.tab.chart_work.is_running);
-    let found = speed_chart(&[("", &curve)]);
-    update(&mut desk.app, part(first.serial, Some(found), true));
+    assert!(requested(desk.effects("l"), Slot::Chart).is_none(), "the same pair");
+    let all = results(number, work);
+    desk.fill("operation.speed", "1900 rpm");
+    desk.keys(&["Esc", "3"]);
+    let shown = desk.app.tab.chart_work.found.clone();
+    desk.take(all);
+    assert_eq!(desk.app.tab.chart_work.found, shown, "a late value");
     assert!(!desk.shows("computing") && desk.shows("N=1") && desk.shows("present"));
-    let stopped = press(&mut desk, "j");
-    assert!(request(stopped).is_none());
+    assert!(requested(desk.effects("j"), Slot::Chart).is_none());
+}
+
+#[test]
+fn a_growing_curve_is_marked_as_unfinished() {
+    let mut desk = at_method(SMALL, "exact");
+    desk.keys(&["k"]);
+    let inputs = desk.app.tab.case.inputs().expect("a valid case");
+    let mut curve = speeds(&inputs, &mut |_| true).expect("a curve");
+    curve.up[60..].fill(None);
+    curve.down.fill(None);
+    let work = &mut desk.app.tab.chart_work;
+    work.found.as_mut().expect("a curve").1 = speed_chart(&[("", &curve)]);
+    work.is_running = true;
+    assert!(desk.shows("computing: Dynamic factor"), "{}", desk.screen());
 }
 
 #[test]
 fn a_chart_of_the_worker_interrupted_by_another_tab_is_requested_again() {
     let mut desk = at_method(SMALL, "exact");
-    let press = |desk: &mut Desk, key| {
-        let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
-        update(&mut desk.app, action)
-    };
-    let is_request = |effect: &Effect| matches!(effect, Effect::Chart(_));
-    assert!(press(&mut desk, "k").iter().any(is_request));
+    assert!(requested(desk.effects("k"), Slot::Chart).is_some());
     desk.keys(&["Ctrl-N"]);
-    assert!(press(&mut desk, "Alt-1").iter().any(is_request));
+    assert!(requested(desk.effects("Alt-1"), Slot::Chart).is_some());
 }
 
 #[test]

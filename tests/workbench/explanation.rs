@@ -11,6 +11,7 @@ use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::ascii::written_out;
 use tipstrike::tui::testing::dialogs::Explanation;
 use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::theme::{Look, MONO};
 
 /// The lines inside the box on the screen.
@@ -110,20 +111,12 @@ fn the_fields_behind_a_result_lead_to_the_form() {
 fn an_unfinished_page_is_marked_and_a_late_page_is_dropped() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2"]);
-    let event = harness::event("Enter");
-    let action = tipstrike::tui::testing::actions::of_key(event, desk.app.place()).expect("a key");
-    let effects = tipstrike::tui::testing::update::update(&mut desk.app, action);
+    let (number, work) =
+        harness::requested(desk.effects("Enter"), Slot::Explanation).expect("work");
     assert!(desk.shows("computing: each field") && of(&desk).quantity.key == "impact_force");
     desk.keys(&["Esc", "j", "Enter"]);
     let before = desk.screen();
-    for effect in effects {
-        let tipstrike::tui::testing::actions::Effect::Job(job) = effect else {
-            continue;
-        };
-        let late =
-            tipstrike::tui::testing::worker::jobs::perform(job, &|_| true).expect("an answer");
-        desk.act(late);
-    }
+    desk.take(harness::results(number, work));
     assert_eq!(desk.screen(), before);
 }
 

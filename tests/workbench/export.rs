@@ -106,7 +106,7 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
     // The export is requested and not carried out.
     let accept = of_key(harness::event("Enter"), desk.app.place()).expect("an action");
     let effects = update(&mut desk.app, accept);
-    assert!(matches!(effects.first(), Some(Effect::Job(Job::Export(_)))));
+    assert!(matches!(effects.first(), Some(Effect::Job(_, Job::Export(_)))));
     desk.keys(&["Enter"]);
     assert!(desk.shows("still runs: wait for its end"), "{}", desk.screen());
     desk.keys(&["Esc", "Esc", "Ctrl-S", "Ctrl-Q"]);

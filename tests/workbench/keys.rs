@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use tipstrike::model::Stages;
-use tipstrike::tui::testing::actions::{Action, Progress};
+use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::rows;
 use tipstrike::tui::testing::solver::Request;
 
@@ -511,8 +511,10 @@ fn keys_of_hints_work_from_a_field_also_while_work_runs() {
     for runs in [false, true] {
         let mut desk = Desk::new(SMALL);
         let before = desk.app.tab.case.clone();
-        let progress = Progress { what: "trade".to_owned(), part: 0.25 };
-        desk.act(Action::Progress(Some(progress).filter(|_| runs)));
+        if runs {
+            desk.keys(&["Esc", "5"]).effects("m");
+            desk.keys(&["1", "Enter"]);
+        }
         assert!(desk.shows("notes (Esc n)"), "{}", desk.screen());
         desk.keys(&["Esc"]);
         assert!(desk.shows("notes (n)"), "{}", desk.screen());

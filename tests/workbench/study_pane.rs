@@ -2,16 +2,14 @@
 //! variants saved from the edits.
 use crate::harness;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1, requested, results};
 use insta::assert_snapshot;
 use ratatui::layout::{Position, Size};
 use tipstrike::case::Document;
 use tipstrike::case::fields::index_of;
-use tipstrike::model::inputs::Method;
 use tipstrike::tui::testing::actions::{Action, Effect};
-use tipstrike::tui::testing::commands::Command;
-use tipstrike::tui::testing::jobs::Job;
-use tipstrike::tui::testing::study::{End, Found, StudyParameters, StudyPart, StudyRequest};
+use tipstrike::tui::testing::jobs::Slot;
+use tipstrike::tui::testing::study::{End, StudyParameters};
 use tipstrike::tui::testing::update::update;
 
 const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n\"operation.power\" = { \
@@ -123,24 +121,22 @@ fn the_tolerance_fills_its_page_and_needs_distributions() {
     assert!(!desk.shows("10000 samples"));
 }
 
+fn is_stop(effect: &Effect) -> bool {
+    matches!(effect, Effect::Cancel(Slot::Study))
+}
+
 #[test]
 fn escape_stops_the_study_and_its_results_stay() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "z"]);
-    let effects = desk.effects("d");
-    let Some(Effect::Study(request)) =
-        effects.into_iter().find(|effect| matches!(effect, Effect::Study(_)))
-    else {
-        panic!("a study is asked for");
-    };
-    let part = |found, end| StudyPart { serial: request.serial, found, end };
-    let page = Found::Page(vec!["half of the samples".to_owned()], 0.5);
-    update(&mut desk.app, Action::Studied(Box::new(part(page, None))));
-    assert!(desk.shows("50 % solved") && desk.shows("half of the samples"), "{}", desk.screen());
-    let effects = desk.effects("Esc");
-    assert!(effects.iter().any(|effect| matches!(effect, Effect::CancelStudy)));
-    update(&mut desk.app, Action::Studied(Box::new(part(Found::Nothing, Some(End::Stopped)))));
-    assert!(desk.shows("stopped") && desk.shows("half of the samples"), "{}", desk.screen());
+    let (number, work) = requested(desk.effects("d"), Slot::Study).expect("a study");
+    let mut all = results(number, work).into_iter();
+    desk.act(all.next().expect("a page"));
+    assert!(desk.shows("P50"), "{}", desk.screen());
+    assert!(desk.effects("Esc").iter().any(is_stop));
+    all.for_each(|action| desk.act(action));
+    assert!(desk.shows("the study is stopped") && desk.shows("P50"), "{}", desk.screen());
+    assert!(requested(desk.effects("j"), Slot::Study).is_none());
 }
 
 #[test]
@@ -148,15 +144,13 @@ fn a_hidden_study_is_not_computed_and_a_late_result_is_ignored() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "2100 rpm");
     assert!(desk.app.tab.study.request.is_none());
-    desk.keys(&["Esc", "6"]);
-    let shown = desk.app.tab.study.shown.clone().expect("a study");
-    let late = StudyPart {
-        serial: shown.request.serial - 1,
-        found: Found::Page(vec!["late".to_owned()], 1.0),
-        end: None,
-    };
-    update(&mut desk.app, Action::Studied(Box::new(late)));
-    assert!(desk.app.tab.study.shown.as_ref().is_some_and(|shown| shown.page.is_empty()));
+    desk.keys(&["Esc"]);
+    let (number, work) = requested(desk.effects("6"), Slot::Study).expect("a study");
+    let late = results(number, work);
+    assert!(desk.effects("5").iter().any(is_stop));
+    desk.take(late);
+    assert!(desk.app.tab.study.shown.is_none());
+    assert!(requested(desk.effects("6"), Slot::Study).is_some());
     desk.fill("operation.speed", "2 kg");
     assert_eq!(
         desk.app.tab.study.obstacle.as_deref(),
@@ -206,27 +200,17 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
     assert!(desk.shows("the case has no variants"), "{}", desk.screen());
 }
 
-/// The effects that request a study.
-fn requested(effects: Vec<Effect>) -> Option<Box<StudyRequest>> {
-    effects.into_iter().find_map(|effect| match effect {
-        Effect::Study(request) => Some(request),
-        _ => None,
-    })
-}
-
 #[test]
 fn a_study_interrupted_by_another_tab_is_requested_again() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.keys(&["Ctrl-N"]);
-    desk.act(Action::Do(Command::Tab(0)));
-    desk.keys(&["Esc", "Esc"]);
-    let first = requested(desk.effects("6")).expect("a study of the first tab");
-    let answers = update(&mut desk.app, Action::Do(Command::Tab(1)));
-    assert!(answers.iter().any(|effect| matches!(effect, Effect::CancelStudy)));
-    let again = update(&mut desk.app, Action::Do(Command::Tab(0)));
-    let again = requested(again).expect("the study of the first tab again");
-    assert!(again.serial > first.serial);
-    assert_eq!(again.parameters, first.parameters);
+    desk.keys(&["Ctrl-N", "Alt-1", "Esc", "Esc"]);
+    let parameters =
+        |desk: &Desk| desk.app.tab.study.request.as_ref().map(|request| request.parameters.clone());
+    assert!(requested(desk.effects("6"), Slot::Study).is_some());
+    let first = parameters(&desk);
+    assert!(desk.effects("Alt-2").iter().any(is_stop));
+    assert!(requested(desk.effects("Alt-1"), Slot::Study).is_some());
+    assert_eq!(parameters(&desk), first);
 }
 
 #[test]
@@ -251,14 +235,10 @@ fn the_labels_of_a_map_are_round_and_whole() {
 #[test]
 fn a_tolerance_that_fails_shows_the_reason() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
-    desk.keys(&["Esc", "6", "z"]);
-    let request = requested(desk.effects("d")).expect("a study");
-    let part = StudyPart {
-        serial: request.serial,
-        found: Found::Nothing,
-        end: Some(End::Failed("the spread is too wide: narrow it".to_owned())),
-    };
-    update(&mut desk.app, Action::Studied(Box::new(part)));
+    desk.keys(&["Esc", "6", "z", "d"]);
+    let shown = desk.app.tab.study.shown.as_mut().expect("a study");
+    shown.page.clear();
+    shown.end = Some(End::Failed("the spread is too wide: narrow it".to_owned()));
     desk.keys(&["j"]);
     assert!(!desk.shows("Sampling."), "{}", desk.screen());
     assert!(desk.shows("the spread is too wide: narrow it"));
@@ -269,14 +249,13 @@ fn escape_in_a_field_leaves_the_field_while_a_study_runs() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.go_to("operation.speed").keys(&["Esc", "6", "1", "Enter"]);
     assert!(desk.app.has_line());
-    assert!(requested(desk.effects("3")).is_some());
+    assert!(requested(desk.effects("3"), Slot::Study).is_some());
     // The digit is undone, then the field is left.
     desk.effects("5");
     desk.effects("Esc");
     assert!(!desk.app.has_line());
     let effects = desk.effects("Esc");
-    let stops = |effect: &Effect| matches!(effect, Effect::CancelStudy);
-    assert!(!effects.iter().any(stops));
+    assert!(!effects.iter().any(is_stop));
 }
 
 #[test]
@@ -284,7 +263,7 @@ fn the_baseline_of_another_method_has_its_own_quantity() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", "6", "b"]);
     desk.fill("operation.power", "20 kW").keys(&["Esc"]);
-    desk.act(Action::Do(Command::Method(Method::Dynamic)));
+    desk.run("method dynamic");
     assert!(desk.shows("+ baseline"), "{}", desk.screen());
 }
 
@@ -340,19 +319,16 @@ fn the_wheel_scrolls_the_tolerance_and_the_zoom_keys_keep_the_hidden_range() {
 fn variants_lost_to_another_tab_are_requested_again() {
     let variants = "\n[variants.relieved]\n\"driven.tip_relief\" = \"30 um\"\n";
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{variants}"));
-    let requests = |effects: &[Effect]| {
-        let of = |effect: &&Effect| matches!(effect, Effect::Job(Job::Variants(_)));
-        effects.iter().filter(of).count()
-    };
+    let requests = |effects: Vec<Effect>| usize::from(requested(effects, Slot::Variants).is_some());
     desk.keys(&["Esc", "2"]);
-    assert_eq!(requests(&desk.effects("v")), 1);
-    assert_eq!(requests(&desk.effects("j")), 0, "one is enough");
+    assert_eq!(requests(desk.effects("v")), 1);
+    assert_eq!(requests(desk.effects("j")), 0, "one is enough");
     let path = desk.write("other.toml", &format!("{TABLE_1}{variants}"));
     let loaded = Document::read(&path).expect("a good case");
     let effects = update(&mut desk.app, Action::Loaded(path, Ok(Box::new(loaded))));
-    assert_eq!(requests(&effects), 1);
-    let effects = update(&mut desk.app, Action::Do(Command::Tab(0)));
-    assert_eq!(requests(&effects), 1, "the job of the other tab replaced the first one");
+    assert_eq!(requests(effects), 1);
+    let effects = desk.effects("Alt-1");
+    assert_eq!(requests(effects), 1, "the job of the other tab replaced the first one");
 }
 
 #[test]

@@ -1,15 +1,14 @@
 //! The trade pane: benchmark, stop, selection of a setting, and its use in the case.
 use crate::harness;
 
-use harness::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
+use harness::{Desk, LARGE, SMALL, TABLE_1, requested, results, time_evenly};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
 use tipstrike::study::trade::Setting;
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
-use tipstrike::tui::testing::actions::Progress;
-use tipstrike::tui::testing::benchmark::{BenchmarkProgress, End, Measuring};
+use tipstrike::tui::testing::jobs::Slot;
 use tipstrike::tui::testing::update::update;
 
 fn measured(size: Size) -> Desk {
@@ -117,94 +116,60 @@ fn another_case_makes_the_benchmark_outdated() {
     assert!(!desk.shows("OUTDATED"), "{}", desk.screen());
 }
 
+/// The settings that are measured so far.
+fn count(desk: &Desk) -> usize {
+    let trade = desk.app.tab.traded.as_ref().and_then(|traded| traded.trade.as_ref());
+    trade.map_or(0, |trade| trade.settings.len())
+}
+
 #[test]
 fn esc_stops_a_benchmark_and_keeps_its_results() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    let effects = desk.effects("m");
-    let serial = match &effects[..] {
-        [Effect::Measure(measuring)] => {
-            let Measuring { serial, .. } = **measuring;
-            serial
-        }
-        other => panic!("{other:?}"),
-    };
-    assert_eq!(desk.app.progress, Some(Progress { what: "measuring".to_owned(), part: 0.0 }));
-    assert!(matches!(desk.effects("Esc")[..], [Effect::CancelWork]));
-    update(
-        &mut desk.app,
-        Action::Measured(Box::new(BenchmarkProgress {
-            serial,
-            trade: None,
-            end: Some(End::Stopped),
-        })),
-    );
-    assert!(desk.app.progress.is_none() && desk.shows("the benchmark is stopped"));
+    let (number, work) = requested(desk.effects("m"), Slot::Benchmark).expect("a benchmark");
+    assert!(desk.shows("0 % measuring; Esc cancels"), "{}", desk.screen());
+    let mut all = results(number, work).into_iter();
+    all.by_ref().take(3).for_each(|action| desk.act(action));
+    assert_eq!(count(&desk), 3);
+    assert!(matches!(desk.effects("Esc")[..], [Effect::Cancel(Slot::Benchmark)]));
+    assert!(desk.shows("the benchmark is stopped") && !desk.shows("measuring"));
+    all.for_each(|action| desk.act(action));
+    assert_eq!(count(&desk), 3, "a late result is ignored");
 }
 
 #[test]
 fn a_measurement_out_of_sight_stops() {
+    let stops = |effects: &[Effect]| {
+        effects.iter().any(|effect| matches!(effect, Effect::Cancel(Slot::Benchmark)))
+    };
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
-    assert!(matches!(desk.effects("m")[..], [Effect::Measure(_)]));
-    assert!(
-        desk.effects("2").iter().all(|effect| !matches!(effect, Effect::CancelWork)),
-        "it is in sight"
-    );
-    assert!(matches!(desk.effects("3")[..], [Effect::CancelWork]), "the chart replaces it");
+    desk.effects("m");
+    assert!(!stops(&desk.effects("2")), "it is in sight");
+    assert!(stops(&desk.effects("3")), "the chart replaces it");
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
     desk.effects("m");
     let tiny = ratatui::layout::Size::new(20, 5);
     let effects = update(&mut desk.app, Action::Resize(tiny));
-    assert!(
-        !matches!(effects[..], [.., Effect::CancelWork]),
-        "a briefly too small window does not stop the benchmark"
-    );
-}
-
-#[test]
-fn the_results_of_a_replaced_benchmark_are_ignored() {
-    let mut desk = Desk::new(LARGE);
-    desk.keys(&["Esc", "5", "z"]);
-    let first = desk.effects("m");
-    let second = desk.effects("m");
-    let serials = [&first, &second].map(|effects| match &effects[..] {
-        [Effect::Measure(measuring)] => measuring.serial,
-        other => panic!("{other:?}"),
-    });
-    assert!(serials[0] < serials[1]);
-    let late = BenchmarkProgress { serial: serials[0], trade: None, end: Some(End::Stopped) };
-    update(&mut desk.app, Action::Measured(Box::new(late)));
-    assert!(desk.app.progress.is_some(), "the second one runs");
-    let failed = BenchmarkProgress {
-        serial: serials[1],
-        trade: None,
-        end: Some(End::Failed("no mesh".to_owned())),
-    };
-    update(&mut desk.app, Action::Measured(Box::new(failed)));
-    assert!(desk.app.progress.is_none() && desk.shows("no benchmark: no mesh"));
-}
-
-#[test]
-fn a_measurement_ends_although_its_case_was_closed() {
+    assert!(!stops(&effects), "a briefly too small window does not stop the benchmark");
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Alt-T", "Esc", "5"]);
-    let serial = match &desk.effects("m")[..] {
-        [Effect::Measure(measuring)] => measuring.serial,
-        other => panic!("{other:?}"),
-    };
+    desk.effects("m");
     desk.keys(&["Alt-W"]);
-    assert!(desk.app.progress.is_some() && desk.has_cancelled, "{}", desk.screen());
-    update(
-        &mut desk.app,
-        Action::Measured(Box::new(BenchmarkProgress {
-            serial,
-            trade: None,
-            end: Some(End::Stopped),
-        })),
-    );
-    assert!(desk.app.progress.is_none() && desk.app.measuring.is_none(), "{}", desk.screen());
+    assert!(desk.has_cancelled && !desk.shows("measuring"), "{}", desk.screen());
+}
+
+#[test]
+fn the_results_of_a_replaced_benchmark_are_ignored_and_a_refusal_is_shown() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    let (number, work) = requested(desk.effects("m"), Slot::Benchmark).expect("a benchmark");
+    assert!(requested(desk.effects("m"), Slot::Benchmark).is_some());
+    desk.take(results(number, work));
+    assert!(count(&desk) == 0 && desk.shows("measuring"), "the second one runs");
+    desk.fill("pair.centre_distance", "10 mm").keys(&["Esc", "5", "m"]);
+    assert!(desk.shows("no benchmark: ") && !desk.shows("measuring"), "{}", desk.screen());
 }
 
 #[test]
@@ -297,7 +262,7 @@ fn every_mark_is_on_the_right_side_of_the_tolerance() {
     for (width, height) in sizes {
         let mut desk = timed(SMALL);
         desk.app.layout.resize(Size { width, height });
-        let area = desk.app.layout.plan().trade;
+        let area = desk.app.layout.plan().area(Pane::Trade);
         let screen = desk.screen();
         let rows: Vec<Vec<char>> =
             screen.lines().map(|line| line.chars().skip(area.x.into()).collect()).collect();

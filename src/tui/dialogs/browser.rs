@@ -12,7 +12,6 @@ use super::picker::Pick;
 use super::{Dialog, Outcome, Surroundings, boxes};
 use crate::case::units::System;
 use crate::case::{EXAMPLES, Example};
-use crate::tui::actions::{Action, Effect};
 use crate::tui::jobs::Job;
 use crate::tui::keys::Place;
 use crate::tui::line::Line as Text;
@@ -29,13 +28,16 @@ const RECENTS: usize = 6;
 impl Browser {
     /// The job that lists the folder.
     #[must_use]
-    pub(crate) fn list(&self) -> Effect {
-        let (base, typed) = self.asks();
-        Effect::Job(Job::Folder(base, typed))
+    pub(crate) fn list(&self) -> Job {
+        Job::Folder(self.asks(), self.place())
+    }
+
+    fn place(&self) -> PathBuf {
+        folder::place_of(&self.base, &self.typed_folder)
     }
 
     /// Enters the selected folder, or writes the selected name into the line.
-    pub(crate) fn complete(&mut self) -> Vec<Effect> {
+    pub(crate) fn complete(&mut self) -> Vec<Job> {
         match self.marked_sight() {
             Some(Viewport::Folder(folder)) => {
                 self.enter(folder);
@@ -118,7 +120,7 @@ impl Browser {
     }
 
     /// Shows the cases in the folders below; a selection before them does not change.
-    fn take_below(&mut self, below: SearchResult) {
+    pub(crate) fn take_below(&mut self, below: SearchResult) {
         self.below = Some(below);
         let marked = self.marked;
         let is_above = marked < self.count_of_folder() && !self.fitting.is_empty();
@@ -127,7 +129,7 @@ impl Browser {
     }
 
     /// Shows the recent cases.
-    pub(crate) fn remember(&mut self, recents: Vec<Recent>) {
+    pub fn remember(&mut self, recents: Vec<Recent>) {
         self.recents = recents;
         self.refit();
     }
@@ -337,11 +339,10 @@ impl Dialog for Browser {
         Some(&mut self.input)
     }
 
-    fn typed(&mut self) -> Vec<Effect> {
+    fn typed(&mut self) -> Vec<Job> {
         self.is_accepting = false;
         let list = self.follow().then(|| self.list());
-        let below = self.seek();
-        let below = below.map(|(base, typed)| Effect::Job(Job::Search(base, typed)));
+        let below = self.seek().map(|asked| Job::Search(asked, self.place()));
         list.into_iter().chain(below).collect()
     }
 
@@ -365,7 +366,7 @@ impl Dialog for Browser {
             return Outcome::none();
         }
         match self.marked_sight() {
-            Some(Viewport::Folder(_)) => Outcome::Effects(self.complete()),
+            Some(Viewport::Folder(_)) => Outcome::Jobs(self.complete()),
             Some(Viewport::File(path)) => Outcome::Open(path),
             Some(Viewport::Example(example)) => Outcome::Pick(Pick::Begin(example)),
             None if self.input.value().is_empty() => Outcome::none(),
@@ -373,18 +374,8 @@ impl Dialog for Browser {
         }
     }
 
-    fn receive(&mut self, result: Action) {
-        match result {
-            Action::Listed(listing) => self.take(*listing),
-            Action::Found(below) => self.take_below(*below),
-            Action::Previewed(sight, preview) => self.show(sight, *preview),
-            Action::Recents(recents) => self.remember(recents),
-            _ => (),
-        }
-    }
-
-    fn preview(&mut self, units: System) -> Option<Effect> {
-        Some(Effect::Job(Job::Preview(self.look()?, units)))
+    fn preview(&mut self, units: System) -> Option<Job> {
+        Some(Job::Preview(self.look()?, units))
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {

@@ -11,9 +11,7 @@ use crate::case::fields::index_of;
 use crate::model::Quantity;
 use crate::report::Shown;
 use crate::report::explain::{Kind, Line, Page as ExplanationPage, lines};
-use crate::tui::actions::Action;
 use crate::tui::ascii::written_out;
-use crate::tui::jobs::Explained;
 use crate::tui::keys::Place;
 use crate::tui::text;
 use crate::tui::theme::Theme;
@@ -94,13 +92,6 @@ impl Explanation {
         Explanation { quantity, case, value, page: None, top: 0, marked: None }
     }
 
-    /// Shows the page if it belongs to this explanation.
-    pub(crate) fn take(&mut self, explained: Explained) {
-        if self.page.is_none() && explained.quantity.key == self.quantity.key {
-            self.page = Some(explained.page);
-        }
-    }
-
     /// The keys of the fields that the result depends on, in the order of the page.
     #[must_use]
     pub fn fields(&self) -> Vec<&'static str> {
@@ -170,12 +161,6 @@ impl Dialog for Explanation {
         }
         self.select_field(1, around);
         Outcome::none()
-    }
-
-    fn receive(&mut self, result: Action) {
-        if let Action::Explained(explained) = result {
-            self.take(*explained);
-        }
     }
 
     fn draw(

@@ -14,15 +14,12 @@ use crate::case::{EXAMPLES, Example, FIELDS};
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::digest::Digest;
 use crate::report::graphs::{GRAPHS, Graph};
-use crate::tui::actions::{Action, Effect};
 use crate::tui::ascii::symbol;
-use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::{search, search_results};
-use crate::tui::jobs::WorkerChart;
+use crate::tui::jobs::{Job, WorkerChart};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
-use crate::tui::panes::chart::ChartCommand;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -57,7 +54,7 @@ impl Dialog for Picker {
         Some(&mut self.input)
     }
 
-    fn typed(&mut self) -> Vec<Effect> {
+    fn typed(&mut self) -> Vec<Job> {
         self.marked = 0;
         Vec::new()
     }
@@ -79,12 +76,6 @@ impl Dialog for Picker {
         item.map_or_else(Outcome::none, |item| Outcome::Pick(item.pick))
     }
 
-    fn receive(&mut self, result: Action) {
-        if let (List::Examples(digests), Action::Examples(found)) = (&mut self.list, result) {
-            *digests = found;
-        }
-    }
-
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         draw(self, area, around.look.theme, buffer)
     }
@@ -93,7 +84,10 @@ impl Dialog for Picker {
 /// The effect of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pick {
-    Run(Command),
+    /// Run the command with this name.
+    Run(&'static str),
+    /// Show the chart with this index.
+    Chart(usize),
     /// Go to a field.
     Go(usize),
     /// Go to a result, by its key.
@@ -145,10 +139,8 @@ pub(crate) struct Context {
     pub(crate) are_results_first: bool,
     /// The fields without effect in the case.
     pub(crate) idle: Vec<usize>,
-    /// Commands of the focused pane and field, which are listed first.
-    pub(crate) own: Vec<Command>,
-    /// Commands of other panes, which are listed last.
-    pub(crate) elsewhere: Vec<Command>,
+    /// The commands, those of the focused pane and field first.
+    pub(crate) commands: Vec<Item>,
 }
 
 /// The contents of a list.
@@ -291,12 +283,6 @@ impl Picker {
         places
     }
 
-    // The order in which commands are listed.
-    fn distance(&self, command: Command) -> usize {
-        let Context { own, elsewhere, .. } = &self.context;
-        if own.contains(&command) { 0 } else { 1 + usize::from(elsewhere.contains(&command)) }
-    }
-
     /// Moves the selection, within the list.
     pub(crate) fn mark(&mut self, by: isize) {
         let last = self.fitting().len().saturating_sub(1);
@@ -306,11 +292,9 @@ impl Picker {
     fn items(&self) -> Vec<Item> {
         match &self.list {
             List::Commands => {
-                let mut listed: Vec<_> = commands::commands().collect();
-                listed.sort_by_key(|binding| self.distance(binding.command));
                 let of_worker = (GRAPHS.len()..).zip(WorkerChart::ALL).map(worker_chart);
                 let charts = GRAPHS.iter().enumerate().map(graph).chain(of_worker);
-                listed.into_iter().map(command).chain(charts).collect()
+                self.context.commands.iter().cloned().chain(charts).collect()
             }
             List::Places => Vec::new(),
             List::Materials(gears) => {
@@ -439,15 +423,6 @@ fn say_if_none(items: &[Item], area: Rect, theme: &Theme, buffer: &mut Buffer) {
     }
 }
 
-fn command(binding: &commands::Binding) -> Item {
-    Item {
-        pick: Pick::Run(binding.command),
-        name: binding.name.to_owned(),
-        about: binding.sentence.to_owned(),
-        keys: commands::keys_of(binding.command),
-    }
-}
-
 fn variant(name: &str) -> Item {
     Item {
         pick: Pick::Variant,
@@ -460,7 +435,7 @@ fn variant(name: &str) -> Item {
 fn graph((place, graph): (usize, &Graph)) -> Item {
     let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
     Item {
-        pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
+        pick: Pick::Chart(place),
         name: format!("chart: {}", graph.label.to_lowercase()),
         about: format!("Show {} over the driver's roll angle.", symbols.join(", ")),
         keys: String::new(),
@@ -470,7 +445,7 @@ fn graph((place, graph): (usize, &Graph)) -> Item {
 fn worker_chart((place, chart): (usize, WorkerChart)) -> Item {
     let [name, about, _] = chart.words();
     Item {
-        pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
+        pick: Pick::Chart(place),
         name: format!("chart: {}", name.to_lowercase()),
         about: about.to_owned(),
         keys: String::new(),
@@ -560,9 +535,17 @@ impl MatchPlace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::store;
+    use crate::tui::theme::Look;
+    use crate::tui::update::{commands, opened};
+
+    fn context() -> Context {
+        let app = opened(store::built_in(), None, Look::FULL, Size::new(80, 24));
+        Context { commands: commands::items(&app), ..Context::default() }
+    }
 
     fn first(list: List, typed: &str) -> Option<String> {
-        let picker = Picker { input: typed.into(), ..Picker::new(list) };
+        let picker = Picker { input: typed.into(), ..Picker::over(list, context()) };
         picker.fitting().into_iter().next().map(|item| item.name)
     }
 
@@ -590,7 +573,7 @@ mod tests {
                 input: typed.into(),
                 ..Picker::over(
                     List::Commands,
-                    Context { results, are_results_first: true, ..Context::default() },
+                    Context { results, are_results_first: true, ..context() },
                 )
             };
             let found =
@@ -691,9 +674,9 @@ mod tests {
 
     #[test]
     fn an_empty_filter_shows_the_whole_list() {
-        let all = Picker::new(List::Commands).fitting();
+        let all = Picker::over(List::Commands, context()).fitting();
         let charts = GRAPHS.len() + WorkerChart::ALL.len();
-        assert_eq!(all.len(), commands::commands().count() + charts);
+        assert_eq!(all.len(), context().commands.len() + charts);
         assert_eq!(Picker::new(List::Places).fitting().len(), FIELDS.len());
     }
 }

@@ -10,7 +10,6 @@ use super::{Dialog, Outcome, Surroundings};
 use crate::model::Inputs;
 use crate::report::relief::{ReliefReport, settings};
 use crate::study::relief::{Demand, Specification};
-use crate::tui::actions::{Action, Effect};
 use crate::tui::ascii::printable;
 use crate::tui::jobs::{Job, ReliefRequest};
 use crate::tui::keys::Place;
@@ -52,20 +51,32 @@ impl ReliefDialog {
     }
 
     /// Searches for the typed demand.
-    pub(crate) fn search(&mut self) -> Vec<Effect> {
+    pub(crate) fn search(&mut self) -> Vec<Job> {
         self.top = 0;
         match Demand::parse(self.input.value()) {
             Ok(demand) => {
                 (self.searched, self.answer, self.problem) = (Some(demand), None, None);
                 self.lines.clear();
                 let inputs = self.inputs.clone();
-                vec![Effect::Job(Job::Relief(Box::new(ReliefRequest { demand, inputs })))]
+                vec![Job::Relief(Box::new(ReliefRequest { demand, inputs }))]
             }
             Err(problem) => {
                 self.problem = Some(problem);
                 Vec::new()
             }
         }
+    }
+
+    /// Shows the result of the search for a demand.
+    pub(crate) fn take(&mut self, demand: Demand, found: Result<Box<Specification>, String>) {
+        if Some(demand) != self.searched {
+            return;
+        }
+        self.lines = match &found {
+            Ok(found) => ReliefReport { method: self.inputs.method, found }.without_title(),
+            Err(reason) => vec![reason.clone()],
+        };
+        self.answer = Some(found);
     }
 
     /// The specification for the typed demand.
@@ -118,14 +129,9 @@ impl Dialog for ReliefDialog {
         Some(&mut self.input)
     }
 
-    fn typed(&mut self) -> Vec<Effect> {
+    fn typed(&mut self) -> Vec<Job> {
         self.problem = None;
         Vec::new()
-    }
-
-    fn close(&mut self) -> Vec<Effect> {
-        let is_searching = self.searched.is_some() && self.answer.is_none();
-        is_searching.then_some(Effect::CancelRelief).into_iter().collect()
     }
 
     fn step(&mut self, by: isize, around: &Surroundings<'_>) {
@@ -145,22 +151,7 @@ impl Dialog for ReliefDialog {
         if typed.is_some() && typed == self.searched {
             return Outcome::none();
         }
-        Outcome::Effects(self.search())
-    }
-
-    fn receive(&mut self, result: Action) {
-        let Action::Relieved(answer) = result else {
-            return;
-        };
-        let (request, found) = *answer;
-        if Some(request.demand) != self.searched || request.inputs != self.inputs {
-            return;
-        }
-        self.lines = match &found {
-            Ok(found) => ReliefReport { method: self.inputs.method, found }.without_title(),
-            Err(reason) => vec![reason.clone()],
-        };
-        self.answer = Some(found);
+        Outcome::Jobs(self.search())
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -184,26 +175,5 @@ impl Dialog for ReliefDialog {
             ..inner
         };
         text::edited(&self.input, line, theme.focus, buffer)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::sample::standard_pair;
-
-    #[test]
-    fn esc_ends_a_running_search_and_has_no_effect_after_its_result() {
-        let pair = standard_pair(20, 30, 5e-3);
-        let mut dialog = ReliefDialog::new(pair);
-        assert!(dialog.close().is_empty(), "nothing is searched");
-        let effects = dialog.search();
-        let Some(Effect::Job(Job::Relief(request))) = effects.into_iter().next() else {
-            panic!("a search");
-        };
-        assert!(matches!(dialog.close()[..], [Effect::CancelRelief]));
-        let answer = (*request, Err("no relief".to_owned()));
-        dialog.receive(Action::Relieved(Box::new(answer)));
-        assert!(dialog.close().is_empty());
     }
 }

@@ -82,7 +82,7 @@ impl ChartPane {
 
 /// A command of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ChartCommand {
+pub(crate) enum ChartCommand {
     /// Selects the chart `by` places further, wrapping around.
     Step(isize),
     /// Selects the chart with an index of the table, or after the table a chart of the worker.
@@ -113,7 +113,7 @@ pub struct Charts<'a> {
     /// Whether the results are older than the form.
     pub(crate) is_stale: bool,
     /// The key that shows the notes.
-    pub(crate) notes_key: fn() -> String,
+    pub(crate) notes_key: &'static str,
     /// The chart that the worker computes for the case.
     pub work: &'a ChartWork,
     /// The first request after the last undo.
@@ -375,7 +375,7 @@ impl Charts<'_> {
                 format!("No corner contact: {}; no impact.", without_contact(solution))
             }
             Some(_) => {
-                format!("No {label} between D and E; {} shows the reason.", (self.notes_key)())
+                format!("No {label} between D and E; {} shows the reason.", self.notes_key)
             }
         })
     }

@@ -57,10 +57,8 @@ pub struct Results<'a> {
     pub(crate) case: &'a Case,
     /// Whether the title shows the cost of the solve.
     pub(crate) shows_cost: bool,
-    /// The key that goes to the next invalid row.
-    pub(crate) next_fault: String,
     /// The key that shows the outcome and every note in full.
-    pub(crate) notes_key: String,
+    pub(crate) notes_key: &'static str,
     pub(crate) units: System,
     pub(crate) look: Look,
     pub(crate) title: Title,

@@ -52,27 +52,6 @@ pub struct StudyState {
     pub(crate) top: usize,
 }
 
-/// A command of the pane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StudyCommand {
-    /// Moves the cursor horizontally and vertically.
-    Move(isize, isize),
-    /// Scrolls the tolerance by lines.
-    Scroll(isize),
-    /// Scrolls the tolerance by pages.
-    Page(isize),
-    /// Halves or doubles the range.
-    Zoom(i32),
-    /// Restores the default range.
-    Reset,
-    /// Chooses a second field, or leaves the map.
-    Second,
-    /// Shows the tolerance, or the curve again.
-    Tolerance,
-    /// Writes the values at the cursor into the form.
-    Take,
-}
-
 /// The pane with the study that it shows.
 #[derive(Debug, Clone)]
 pub(crate) struct StudyPane<'a> {

@@ -67,7 +67,7 @@ const LETTERS: [(char, &str); 14] = [
 
 /// A command of the pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TeethCommand {
+pub(crate) enum TeethCommand {
     /// Zooms in by steps; zooms out if negative.
     Zoom(i32),
     /// Restores the initial view.

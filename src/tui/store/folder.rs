@@ -124,7 +124,7 @@ pub enum Viewport {
 
 /// The preview of a file or a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Preview {
+pub(crate) enum Preview {
     /// A case, and whether it has a newer format.
     Case(Digest, bool),
     /// The required values that are missing from a case.
@@ -137,12 +137,11 @@ pub enum Preview {
 
 /// Lists a folder.
 #[must_use]
-pub fn list(base: PathBuf, typed: String) -> Listing {
-    let place = place_of(&base, &typed);
+pub fn list(asked: (PathBuf, String), place: PathBuf) -> Listing {
     let folder = fs::canonicalize(&place).or_else(|_| std::path::absolute(&place)).unwrap_or(place);
     let found = entries(&folder);
     let is_cut = found.as_ref().is_ok_and(|entries| entries.len() >= MOST);
-    Listing { asked: (base, typed), folder, entries: found, is_cut }
+    Listing { asked, folder, entries: found, is_cut }
 }
 
 /// The typed folder; by default the present folder.
@@ -173,8 +172,11 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
 /// Searches for cases; returns `None` if `go_on` returns false. Skips hidden folders and does not
 /// follow links.
 #[must_use]
-pub fn find(base: PathBuf, typed: String, go_on: &dyn Fn(f64) -> bool) -> Option<SearchResult> {
-    let top = place_of(&base, &typed);
+pub fn find(
+    asked: (PathBuf, String),
+    top: &Path,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Option<SearchResult> {
     let (began, mut entries) = (Instant::now(), 0);
     let (mut cases, mut is_cut) = (Vec::new(), false);
     let mut ahead = VecDeque::from([(PathBuf::new(), 0)]);
@@ -199,7 +201,7 @@ pub fn find(base: PathBuf, typed: String, go_on: &dyn Fn(f64) -> bool) -> Option
     }
     cases.sort();
     cases.truncate(MOST_CASES);
-    Some(SearchResult { asked: (base, typed), cases, is_cut })
+    Some(SearchResult { asked, cases, is_cut })
 }
 
 /// Computes a preview; returns `None` if `go_on` returns false.

@@ -5,19 +5,22 @@ use std::borrow::Cow;
 
 use tui_input::InputRequest;
 
-use super::{browse_up, is_in_empty_line, solve};
+use super::dialogs::{browse_up, is_in_empty_line, line_changed};
 use crate::case::fields::{Absent, Kind, index_of};
-use crate::case::{Case, FIELDS, Field, Limit};
+use crate::case::{Case, EXAMPLES, FIELDS, Field, Limit, changes};
 use crate::model::Quantity;
+use crate::model::inputs::Method;
 use crate::report;
-use crate::tui::actions::Effect;
+use crate::report::digest::Digest;
+use crate::report::solve;
 use crate::tui::app::App;
+use crate::tui::app::actions::{Running, Work};
 use crate::tui::ascii::{self, symbol};
 use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::dialogs::{Prompt, ReliefDialog};
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::step_limit;
-use crate::tui::jobs::Job;
+use crate::tui::jobs::Slot;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
 use crate::tui::rows::{self, Row};
@@ -27,55 +30,54 @@ use crate::tui::session::save;
 const LONGEST: usize = 4096;
 
 /// Inserts a typed character.
-pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
+pub(super) fn insert(app: &mut App, letter: char) {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
     let before = (letter.is_ascii_digit() && app.starts_new_edit())
         .then(|| rows::text(&app.tab.case, app.tab.form.focus).map(str::to_owned));
-    let effects = paste(app, letter.encode_utf8(&mut [0; 4]));
+    paste(app, letter.encode_utf8(&mut [0; 4]));
     if let Some(before) = before {
         announce(app, letter, before.as_deref());
     }
-    effects
 }
 
 /// Inserts a pasted text into a line of text, without control characters. Several lines become one.
-pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
+pub(super) fn paste(app: &mut App, text: &str) {
     let editing_case = app.prompts.is_empty();
     let takes_text = app.has_line() && names(app).is_empty();
     let line = match app.prompts.last_mut() {
         Some(prompt) => prompt.dialog_mut().input(),
         None => Some(&mut app.tab.form.input).filter(|_| takes_text),
     };
-    let Some(line) = line else { return Vec::new() };
+    let Some(line) = line else { return };
     let room = LONGEST.saturating_sub(line.kept());
     let text = in_a_line(text);
     let mut letters = text.chars().filter(|&letter| ascii::is_safe(letter)).take(room).peekable();
     if letters.peek().is_none() {
-        return Vec::new();
+        return;
     }
     let typed: String = letters.collect();
     line.insert(&typed);
-    if editing_case { write(app) } else { line_changed(app) }
+    if editing_case {
+        write(app);
+    } else {
+        line_changed(app);
+    }
 }
 
 /// Handles a key that moves the cursor or deletes text.
-pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
+pub(super) fn handle(app: &mut App, request: InputRequest) {
     if request == InputRequest::DeletePrevChar && is_in_empty_line(app) {
         return browse_up(app);
     }
     if let Some(prompt) = app.prompts.last_mut() {
         let changed = prompt.dialog_mut().input().and_then(|input| input.handle(request));
-        return if changed.is_some_and(|changed| changed.value) {
-            line_changed(app)
-        } else {
-            Vec::new()
-        };
-    }
-    match app.tab.form.input.handle(request) {
-        Some(changed) if changed.value => write(app),
-        _ => Vec::new(),
+        if changed.is_some_and(|changed| changed.value) {
+            line_changed(app);
+        }
+    } else if app.tab.form.input.handle(request).is_some_and(|changed| changed.value) {
+        write(app);
     }
 }
 
@@ -87,32 +89,28 @@ pub(super) fn begin(app: &mut App) {
 }
 
 /// Selects the next or the previous choice of the focused field.
-pub(super) fn cycle(app: &mut App, by: isize) -> Vec<Effect> {
-    choose(app, app.tab.form.focus, names(app), by)
+pub(super) fn cycle(app: &mut App, by: isize) {
+    choose(app, app.tab.form.focus, names(app), by);
 }
 
 /// Selects the choice beside the present one, in any field with choices.
-pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> Vec<Effect> {
+pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) {
     let now = names.iter().position(|name| *name == chosen(app, field));
     let count = names.len().max(1);
     let next = now.map_or(0, |now| (now + count).saturating_add_signed(by) % count);
-    let Some(name) = names.get(next) else {
-        return Vec::new();
-    };
-    set(app, field, name)
+    if let Some(name) = names.get(next) {
+        set(app, field, name);
+    }
 }
 
 /// Steps the value of the focused row by units of its last digit.
-pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
+pub(super) fn step(app: &mut App, by: i32) {
     let Some(text) = rows::stepped(&app.tab.case, app.tab.form.focus, by) else {
-        app.say(format!(
-            "{} has no step here",
-            rows::full_label(&app.tab.case, app.tab.form.focus)
-        ));
-        return Vec::new();
+        let label = rows::full_label(&app.tab.case, app.tab.form.focus);
+        return app.say(format!("{label} has no step here"));
     };
     app.tab.form.input = Line::whole(text);
-    write(app)
+    write(app);
 }
 
 /// The choice of a field that applies.
@@ -124,16 +122,16 @@ pub(super) fn chosen(app: &App, field: usize) -> &str {
 }
 
 /// Selects a choice, in any field with choices.
-pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
+pub(super) fn set(app: &mut App, field: usize, name: &str) {
     if chosen(app, field) == name {
-        return Vec::new();
+        return;
     }
     app.tab.before_edit(field);
     app.tab.case.write(field, name);
     if field == app.tab.form.focus {
         app.tab.form.input = name.into();
     }
-    checked(app)
+    checked(app);
 }
 
 /// The end of the message about an edit that replaces the case of the form.
@@ -142,14 +140,53 @@ pub(super) fn undone_by(app: &App, case: &Case) -> &'static str {
 }
 
 /// Replaces the case of the form as one edit.
-pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
+pub(super) fn replace(app: &mut App, case: Case) {
     if case == app.tab.case {
-        return Vec::new();
+        return;
     }
     app.tab.history.end_visit();
     let focus = app.tab.form.focus;
     app.tab.before_edit(focus);
-    solve(app.replace_case(case, focus))
+    app.replace_case(case, focus);
+}
+
+pub(super) fn undo(app: &mut App) {
+    let state = app.tab.history.undo(&app.tab.case, app.tab.form.focus);
+    travel(app, state, "undo");
+}
+
+pub(super) fn redo(app: &mut App) {
+    let state = app.tab.history.redo(&app.tab.case, app.tab.form.focus);
+    travel(app, state, "redo");
+}
+
+fn travel(app: &mut App, state: Option<(Case, usize)>, verb: &str) {
+    let Some((case, focus)) = state else {
+        return app.say(format!("nothing to {verb}"));
+    };
+    app.tab.remember();
+    let summary = save::summary(&changes::between(&app.tab.case, &case));
+    app.replace_case(case, focus);
+    app.tab.undone = app.tab.serial;
+    app.say(format!("{verb}: {summary}"));
+}
+
+/// Selects the next method.
+pub(super) fn next_method(app: &mut App) {
+    let field = index_of("model.method").unwrap_or_default();
+    choose(app, field, &Method::ALL.map(Method::name), 1);
+    say_method(app, field);
+}
+
+pub(super) fn set_method(app: &mut App, method: Method) {
+    let field = index_of("model.method").unwrap_or_default();
+    set(app, field, method.name());
+    say_method(app, field);
+}
+
+fn say_method(app: &mut App, field: usize) {
+    let waits = if app.tab.is_stale() { ", solved once every field is valid" } else { "" };
+    app.say(format!("method {}{waits}", chosen(app, field)));
 }
 
 /// Opens the list of materials for the gear of the focused field, otherwise for both gears.
@@ -163,80 +200,85 @@ pub(super) fn ask_material(app: &mut App) {
 }
 
 /// Opens the list of examples.
-pub(super) fn ask_example(app: &mut App) -> Vec<Effect> {
+pub(super) fn ask_example(app: &mut App) {
     app.prompts.push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
-    vec![Effect::Job(Job::Examples(app.settings.units))]
+    let system = app.settings.units;
+    let digests = move |running: &Running<'_>| {
+        let digest = |case: &Case| match case.inputs() {
+            Ok(inputs) => solve::digest(case, &inputs, system, &|_| running.is_wanted()),
+            Err(_) => Some(Digest::default()),
+        };
+        EXAMPLES.iter().map(|example| digest(&example.document().case)).collect()
+    };
+    app.start(Work::new(Slot::Examples, digests, |app, found: Vec<Digest>| {
+        if let Some(Prompt::Pick(Picker { list: List::Examples(digests), .. })) =
+            app.prompts.last_mut()
+        {
+            *digests = found;
+        }
+    }));
 }
 
 /// Sets the material of the gears as one edit, which undo reverts.
-pub(super) fn make_of_material(app: &mut App, gears: &[&str], material: &Material) -> Vec<Effect> {
+pub(super) fn make_of_material(app: &mut App, gears: &[&str], material: &Material) {
     let mut case = app.tab.case.clone();
     let made = gears.iter().try_for_each(|gear| materials::apply(&mut case, gear, material));
     if let Err(problem) = made {
-        app.complain(problem.for_form().to_string());
-        return Vec::new();
+        return app.complain(problem.for_form().to_string());
     }
     let is_other = case != app.tab.case;
-    let effects = replace(app, case);
+    replace(app, case);
     let whose = if let [gear] = gears { gear } else { "both gears" };
     let verb = if is_other { "from" } else { "unchanged, from" };
     app.say(format!("{whose}: {} {verb} {}", assignments(app, material), material.name));
-    effects
 }
 
 /// Sets a limit on the selected result if the results have the focus, otherwise opens the list of
 /// results.
-pub(super) fn ask_limit(app: &mut App) -> Vec<Effect> {
+pub(super) fn ask_limit(app: &mut App) {
     if let Some(quantity) = app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
         return hold_limit(app, quantity);
     }
     app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));
-    Vec::new()
 }
 
 /// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.
-pub(super) fn hold_limit(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
-    let mut effects = Vec::new();
+pub(super) fn hold_limit(app: &mut App, quantity: &'static Quantity) {
     if rows::of_limit(&app.tab.case, quantity.key).is_none() {
         let mut case = app.tab.case.clone();
         case.write_limit(quantity.key, &beginning_of_limit(app, quantity));
-        effects = replace(app, case);
+        replace(app, case);
     }
     app.layout.focus_on(Pane::Form);
     app.is_editing = true;
     let row = rows::of_limit(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
     app.focus_on(row.unwrap_or(app.tab.form.focus));
-    effects
 }
 
 /// Opens the dialog and starts the search with the default demand.
-pub(super) fn ask_relief(app: &mut App) -> Vec<Effect> {
+pub(super) fn ask_relief(app: &mut App) {
     let Some(inputs) = app.tab.inputs().cloned() else {
-        app.complain("no search: fix the fields marked with ! first");
-        return Vec::new();
+        return app.complain("no search: fix the fields marked with ! first");
     };
     let mut dialog = ReliefDialog::new(inputs);
-    let effects = dialog.search();
+    dialog.search().into_iter().for_each(|job| app.start_job(job));
     app.prompts.push(Prompt::Relief(Box::new(dialog)));
-    effects
 }
 
 /// Writes the relief into the form as one edit.
-pub(super) fn take_relief(app: &mut App, values: &[(&'static str, String)]) -> Vec<Effect> {
+pub(super) fn take_relief(app: &mut App, values: &[(&'static str, String)]) {
     app.prompts.pop();
     let mut case = app.tab.case.clone();
     for (key, text) in values {
         if let Err(problem) = case.set(key, text) {
-            app.complain(problem.to_string());
-            return Vec::new();
+            return app.complain(problem.to_string());
         }
     }
-    let effects = replace(app, case);
+    replace(app, case);
     let amounts = values.iter().filter(|(key, _)| key.ends_with(".tip_relief"));
     let words: Vec<String> =
         amounts.map(|(key, text)| format!("{} {text}", key.replace(['.', '_'], " "))).collect();
     app.say(format!("{}; Ctrl-Z undoes", words.join(", ")));
-    effects
 }
 
 // Reports the effect of a digit, because outside a field the same digit shows a pane.
@@ -274,20 +316,19 @@ fn names(app: &App) -> &'static [&'static str] {
     rows::names(&app.tab.case, app.tab.form.focus)
 }
 
-fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
+fn choose_by_letter(app: &mut App, letter: char) {
     let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
     match (name, Pane::of_digit(letter)) {
-        (Some(name), _) => return set(app, app.tab.form.focus, name),
+        (Some(name), _) => set(app, app.tab.form.focus, name),
         (None, Some(pane)) => app.say(format!(
             "no choice begins with {letter}. Esc leaves the field; then {letter} shows {}",
             pane.name()
         )),
         (None, None) => (),
     }
-    Vec::new()
 }
 
-fn write(app: &mut App) -> Vec<Effect> {
+fn write(app: &mut App) {
     let focus = app.tab.form.focus;
     let text = completed(app);
     let is_other = rows::text(&app.tab.case, focus).unwrap_or_default() != text;
@@ -298,7 +339,9 @@ fn write(app: &mut App) -> Vec<Effect> {
     if let Some(other) = rows::field(&app.tab.case, focus).and_then(Field::partner) {
         take_turns(app, focus, other);
     }
-    if is_other { checked(app) } else { Vec::new() }
+    if is_other {
+        checked(app);
+    }
 }
 
 // The typed text, a number with its unit; blanks around a number are removed.
@@ -327,16 +370,9 @@ fn take_turns(app: &mut App, field: usize, other: usize) {
     }
 }
 
-fn checked(app: &mut App) -> Vec<Effect> {
-    let request = app.request();
+fn checked(app: &mut App) {
+    app.solve();
     app.follow();
-    solve(request)
-}
-
-// Handles a change of the line of a dialog.
-fn line_changed(app: &mut App) -> Vec<Effect> {
-    let prompt = app.prompts.last_mut();
-    prompt.map_or_else(Vec::new, |prompt| prompt.dialog_mut().typed())
 }
 
 // The values that a material sets, with their symbols.

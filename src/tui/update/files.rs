@@ -3,70 +3,68 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{edit, export, solve, variants};
+use super::{edit, export, key_of, variants};
 use crate::case::file::Saved;
 use crate::case::{Case, Document, Example, rexs};
 use crate::model::Stages;
-use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::commands::Command;
+use crate::tui::app::actions::{Effect, Work};
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::page::Page;
 use crate::tui::dialogs::path::SaveAs;
 use crate::tui::dialogs::question::{Choice, Question};
-use crate::tui::jobs::Job;
+use crate::tui::jobs::Slot;
 use crate::tui::layout::Pane;
 use crate::tui::line::{CASE_ENDING, Line};
 use crate::tui::session::save::{
     Access, Claim, NEWER, Next, Offer, Over, SaveFault, Saving, Written,
 };
-use crate::tui::solver::Request;
 use crate::tui::tab::{Origin, Tab};
 use crate::tui::{ascii, rows, store};
 
 /// Quits, or asks if there are unsaved edits.
-pub(super) fn quit(app: &mut App) -> Vec<Effect> {
-    let unsaved: Vec<_> =
-        app.tabs().enumerate().filter(|(_, tab)| tab.is_unsaved()).map(|(at, _)| at).collect();
-    match unsaved[..] {
-        [] => leave(app),
-        [only] => {
+pub(super) fn quit(app: &mut App) {
+    let count = app.tabs().filter(|tab| tab.is_unsaved()).count();
+    let first = app.tabs().position(Tab::is_unsaved);
+    match (count, first) {
+        (1, Some(only)) => {
             go_to_tab(app, only);
-            app.prompts.push(Prompt::Ask(Question::unsaved(&app.tab.name(), &Next::Quit)));
-            Vec::new()
+            let question = Question::unsaved(&app.tab.name(), &Next::Quit);
+            ask(app, question);
         }
+        (_, None) => leave(app),
         _ => {
             let names: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
-            app.prompts.push(Prompt::Ask(Question::all_unsaved(&names)));
-            Vec::new()
+            ask(app, Question::all_unsaved(&names));
         }
     }
 }
 
 /// Closes the current case, or asks if it has unsaved edits.
-pub(super) fn close(app: &mut App) -> Vec<Effect> {
+pub(super) fn close(app: &mut App) {
     if app.tab.is_unsaved() {
-        app.prompts.push(Prompt::Ask(Question::unsaved(&app.tab.name(), &Next::Close)));
-        return Vec::new();
+        let question = Question::unsaved(&app.tab.name(), &Next::Close);
+        ask(app, question);
+        return;
     }
-    go(app, Next::Close)
+    go(app, Next::Close);
 }
 
 /// Saves to the file of the case, or asks for a path.
-pub(super) fn save(app: &mut App, next: Next) -> Vec<Effect> {
+pub(super) fn save(app: &mut App, next: Next) {
     if refuse_faulty(app) {
-        return Vec::new();
+        return;
     }
     match app.tab.path.clone() {
-        Some(path) => vec![saving(app, path, Over::Own, next)],
+        Some(path) => write(app, path, Over::Own, next),
         None => ask_where(app, next),
     }
 }
 
 /// Asks for a path to save to.
-pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
+pub(super) fn ask_where(app: &mut App, next: Next) {
     if refuse_faulty(app) {
-        return Vec::new();
+        return;
     }
     let path = app
         .tab
@@ -75,55 +73,47 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
         .map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
     let input = Line::named(path);
     app.prompts.push(Prompt::SaveAs(SaveAs { input, next }));
-    Vec::new()
 }
 
 /// Carries out the answer to a question.
-pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
+pub(super) fn choose(app: &mut App, choice: Choice) {
     app.prompts.pop();
     match choice {
-        Choice::Cancel => Vec::new(),
+        Choice::Cancel => (),
         Choice::Save(next) => save(app, next),
         Choice::Proceed(next) => go(app, next),
-        Choice::Overwrite(path, seen, next) => vec![saving(app, path, Over::Seen(seen), next)],
-        Choice::Leave => vec![Effect::Quit],
+        Choice::Overwrite(path, seen, next) => write(app, path, Over::Seen(seen), next),
+        Choice::Leave => app.want(Effect::Quit),
         Choice::ExportOver(path) => export::begin(app, path, true),
         Choice::Recover(offer) => recover(app, &offer),
-        Choice::Forget(journals) => vec![Effect::Forget(journals)],
+        Choice::Forget(journals) => app.want(Effect::Forget(journals)),
         Choice::SaveAs(next) => {
             if !app.prompts.last().is_some_and(Prompt::is_save_as) {
-                return ask_where(app, next);
+                ask_where(app, next);
             }
-            Vec::new()
         }
     }
 }
 
 /// Opens a file that was read; reports its faults, if any.
-pub(super) fn loaded(
-    app: &mut App,
-    path: PathBuf,
-    result: Result<Box<Document>, Vec<String>>,
-) -> Vec<Effect> {
+pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>, Vec<String>>) {
     match result {
-        Ok(document) if is_open_as_another(app, &document, &path) => Vec::new(),
+        Ok(document) if is_open_as_another(app, &document, &path) => (),
         Ok(document) => {
             app.prompts.clear();
             let case_path = rexs::case_path(&path);
-            let mut effects = vec![Effect::Remember(path)];
-            effects.extend(solve(show_tab(app, *document, case_path)));
+            app.want(Effect::Remember(path));
+            show_tab(app, *document, case_path);
             if app.tab.access == Access::Newer {
                 app.complain(NEWER);
             } else {
                 app.say(format!("opened {}", ascii::printable(&app.tab.name())));
             }
-            effects
         }
         Err(faults) => {
             app.message = None;
             let title = format!("{} cannot be opened", path.display());
             app.prompts.push(Prompt::Read(Page::new(title, faults)));
-            Vec::new()
         }
     }
 }
@@ -134,7 +124,7 @@ pub(super) fn saved(
     path: PathBuf,
     next: Next,
     result: Result<Box<Written>, SaveFault>,
-) -> Vec<Effect> {
+) {
     let asked = app.tab.saving.take();
     match result {
         Ok(written) => {
@@ -164,50 +154,47 @@ pub(super) fn saved(
             app.say(format!("saved {}{how}{missing}", path.display()));
             app.tab.path = Some(path.clone());
             variants::rename_baseline(app);
-            let mut effects = vec![Effect::Remember(path)];
-            effects.extend(go(app, next));
-            return effects;
+            app.want(Effect::Remember(path));
+            go(app, next);
         }
-        Err(SaveFault::Exists(found)) => {
-            app.prompts.push(Prompt::Ask(Question::exists(&path, found, &next)));
-        }
-        Err(SaveFault::Changed(found)) => {
-            app.prompts.push(Prompt::Ask(Question::changed(&path, found, &next)));
-        }
-        Err(SaveFault::Held(holder)) => {
-            app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next)));
-        }
+        Err(SaveFault::Exists(found)) => ask(app, Question::exists(&path, found, &next)),
+        Err(SaveFault::Changed(found)) => ask(app, Question::changed(&path, found, &next)),
+        Err(SaveFault::Held(holder)) => ask(app, Question::held(&path, &holder, &next)),
         Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
     }
-    Vec::new()
 }
 
 /// Opens a file. If the case is already open, goes to its tab with its unsaved edits.
-pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
-    let Some(at) = place_of(app, &path) else {
-        if !rexs::is_model(&path) {
-            return vec![Effect::Load(path)];
-        }
+pub(super) fn open(app: &mut App, path: PathBuf) {
+    if let Some(at) = place_of(app, &path) {
+        app.prompts.clear();
+        go_to_tab(app, at);
+        app.say(format!("{} is open already", ascii::printable(&app.tab.name())));
+    } else if rexs::is_model(&path) {
         app.prompts.clear();
         app.say(format!("reading {}", ascii::printable(&path.display().to_string())));
-        return vec![Effect::Job(Job::Model(path))];
-    };
-    app.prompts.clear();
-    go_to_tab(app, at);
-    app.say(format!("{} is open already", ascii::printable(&app.tab.name())));
-    Vec::new()
+        let path = store::at_home(&path);
+        let own = path.clone();
+        // The heaviest model takes longer than a frame.
+        app.start(Work::new(
+            Slot::Model,
+            move |_| Some(store::load(&path)),
+            move |app, result| loaded(app, own, result),
+        ));
+    } else {
+        app.want(Effect::Load(path));
+    }
 }
 
 /// Saves under the typed name.
-pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
+pub(super) fn save_under(app: &mut App, name: &str, next: Next) {
     if name.trim().is_empty() {
-        app.complain("type a name for the file");
-        return Vec::new();
+        return app.complain("type a name for the file");
     }
     let is_own = app.tab.path.as_deref() == Some(Path::new(name));
     let (path, over) =
         if is_own { (PathBuf::from(name), Over::Own) } else { (named(name.trim()), Over::Nothing) };
-    vec![saving(app, path, over, next)]
+    write(app, path, over, next);
 }
 
 /// Switches to the tab with an index, if it exists.
@@ -239,43 +226,29 @@ pub(super) fn step_tab(app: &mut App, by: isize) {
 }
 
 /// Shows the built-in case, in a new tab if another case is in use.
-pub(super) fn built_in(app: &mut App) -> Option<Request> {
+pub(super) fn built_in(app: &mut App) {
     let at = app.tabs().position(Tab::is_built_in);
-    if let Some(at) = at {
-        go_to_tab(app, at);
-        return None;
+    match at {
+        Some(at) => go_to_tab(app, at),
+        None => add_tab(app, Origin::Given, store::built_in()),
     }
-    let replaces = app.tab.is_untouched();
-    put_tab(app, Tab::new(store::built_in(), None), replaces)
 }
 
 /// Starts an empty case in a new tab.
-pub(super) fn fresh_tab(app: &mut App) -> Option<Request> {
-    let replaces = app.tab.is_untouched();
-    let request = put_tab(
-        app,
-        Tab { origin: Origin::New, ..Tab::new(Document::new(Case::fresh()), None) },
-        replaces,
-    );
+pub(super) fn fresh_tab(app: &mut App) {
+    add_tab(app, Origin::New, Document::new(Case::fresh()));
     let missing = app.tab.problems.len();
     app.say(format!(
         "new case: {missing} required fields are empty, the others show their defaults; \
          {} starts from an example",
-        app.key_of(Command::Example)
+        key_of(app, "from example")
     ));
-    request
 }
 
 /// Starts a case from an example in a new tab.
-pub(super) fn begin_example(app: &mut App, example: &'static Example) -> Option<Request> {
-    let replaces = app.tab.is_untouched();
-    let request = put_tab(
-        app,
-        Tab { origin: Origin::Example(example.name), ..Tab::new(example.document(), None) },
-        replaces,
-    );
+pub(super) fn begin_example(app: &mut App, example: &'static Example) {
+    add_tab(app, Origin::Example(example.name), example.document());
     app.say(format!("new case from {}; it has no file yet", example.name));
-    request
 }
 
 /// Shows the result of opening a case.
@@ -311,12 +284,12 @@ pub(super) fn list_journals(app: &mut App, journals: Vec<(PathBuf, String)>) {
     if journals.is_empty() {
         app.say("no ended session left unsaved edits");
     } else {
-        app.prompts.push(Prompt::Ask(Question::journals(journals)));
+        ask(app, Question::journals(journals));
     }
 }
 
 /// Restores the kept edits into the form as one edit, which undo reverts.
-pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
+pub(super) fn recover(app: &mut App, offer: &Offer) {
     let mut case = app.tab.case.clone();
     let refused: Vec<_> = offer
         .changes
@@ -325,40 +298,33 @@ pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
         .collect();
     app.tab.history.end_visit();
     app.tab.before_edit(app.tab.form.focus);
-    let mut effects = solve(app.replace_case(case, app.tab.form.focus));
+    app.replace_case(case, app.tab.form.focus);
     if let Some(problem) = refused.first() {
         app.complain(format!("some edits are not restored, and the journal stays: {problem}"));
     } else {
         app.say("the edits are restored, not saved yet");
-        effects.push(Effect::Adopt(offer.journal.clone()));
+        app.want(Effect::Adopt(offer.journal.clone()));
     }
-    effects
 }
 
 /// Reads the file again, or asks if edits would be discarded.
-pub(super) fn ask_reload(app: &mut App) -> Vec<Effect> {
+pub(super) fn ask_reload(app: &mut App) {
     let Some(path) = app.tab.path.clone() else {
-        app.say("this case has no file to read again");
-        return Vec::new();
+        return app.say("this case has no file to read again");
     };
-    let next = Next::Load(path.clone());
     if app.tab.is_unsaved() {
-        let question = Question::unsaved(&app.tab.name(), &next);
-        app.prompts.push(Prompt::Ask(question));
-        return Vec::new();
+        let question = Question::unsaved(&app.tab.name(), &Next::Load(path));
+        ask(app, question);
+    } else {
+        app.want(Effect::Load(path));
     }
-    vec![Effect::Load(path)]
 }
 
 /// Handles a possible change of the file of an open case: a case without edits is replaced.
-pub(super) fn file_changed(
-    app: &mut App,
-    path: &Path,
-    found: Result<Box<Document>, Vec<String>>,
-) -> Vec<Effect> {
+pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Document>, Vec<String>>) {
     let mut tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
     let Some(tab) = tabs.find(|tab| tab.path.as_deref() == Some(path)) else {
-        return Vec::new();
+        return;
     };
     let (id, name) = (tab.id, ascii::printable(&tab.short_name()).into_owned());
     tab.is_outdated = true;
@@ -366,22 +332,22 @@ pub(super) fn file_changed(
         Ok(document) if document.stamp() == tab.document.stamp() => {
             // A link may lead to a copy now.
             (tab.document, tab.is_outdated) = (*document, false);
-            return Vec::new();
+            return;
         }
         Ok(document) => document,
         Err(faults) => {
             let fault = faults.into_iter().next().unwrap_or_default();
             let fault = ascii::printable(&fault).into_owned();
             app.complain(format!("{name} changed on disk and cannot be read: {fault}"));
-            return Vec::new();
+            return;
         }
     };
     if tab.is_unsaved() {
-        let reload = app.key_of(Command::Reload);
+        let reload = key_of(app, "reload");
         app.complain(format!(
             "{name} changed on disk: {reload} reads it and asks about your edits"
         ));
-        return Vec::new();
+        return;
     }
     app.say(format!("read {name} again: it changed on disk"));
     if app.tab.id == id {
@@ -394,37 +360,34 @@ pub(super) fn file_changed(
     if let Some(tab) = app.others.iter_mut().find(|tab| tab.id == id) {
         replace_unseen(tab, *document, serial);
     }
-    Vec::new()
 }
 
 /// Ends the workbench, or asks if an export is running.
-fn leave(app: &mut App) -> Vec<Effect> {
-    let Some(running) = &app.exporting else {
-        return vec![Effect::Quit];
-    };
-    let question = Question::export_runs(&running.path);
-    app.prompts.push(Prompt::Ask(question));
-    Vec::new()
+fn leave(app: &mut App) {
+    match app.exporting.as_deref().map(Question::export_runs) {
+        Some(question) => ask(app, question),
+        None => app.want(Effect::Quit),
+    }
 }
 
 /// Carries out the step after a save.
-fn go(app: &mut App, next: Next) -> Vec<Effect> {
+fn go(app: &mut App, next: Next) {
     match next {
-        Next::Stay => Vec::new(),
+        Next::Stay => (),
         Next::Quit => leave(app),
-        Next::Load(path) => vec![Effect::Load(path)],
-        Next::Close => solve(close_tab(app)),
+        Next::Load(path) => app.want(Effect::Load(path)),
+        Next::Close => close_tab(app),
         Next::SaveRest => save_rest(app),
     }
 }
 
-fn save_rest(app: &mut App) -> Vec<Effect> {
+fn save_rest(app: &mut App) {
     let unsaved = app.tabs().position(Tab::is_unsaved);
     let Some(unsaved) = unsaved else {
         return leave(app);
     };
     go_to_tab(app, unsaved);
-    save(app, Next::SaveRest)
+    save(app, Next::SaveRest);
 }
 
 // A path through a link names the same file, and hence the same case.
@@ -463,10 +426,14 @@ fn refuse_faulty(app: &mut App) -> bool {
     true
 }
 
-fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
+fn write(app: &mut App, path: PathBuf, over: Over, next: Next) {
     let document = app.tab.as_edited();
     app.tab.saving = Some(app.tab.case.clone());
-    Effect::Save(Box::new(Saving { document, path, over }), next)
+    app.want(Effect::Save(Box::new(Saving { document, path, over }), next));
+}
+
+fn ask(app: &mut App, question: Question) {
+    app.prompts.push(Prompt::Ask(question));
 }
 
 // The list of cases in a folder shows only names with the extension.
@@ -483,36 +450,39 @@ fn named(name: &str) -> PathBuf {
 
 /// Shows a document: in the tab of its path, instead of the unchanged built-in case, or in a new
 /// tab.
-fn show_tab(app: &mut App, document: Document, path: PathBuf) -> Option<Request> {
+fn show_tab(app: &mut App, document: Document, path: PathBuf) {
     let own = app.tabs().position(|tab| tab.path.as_ref() == Some(&path));
     if let Some(own) = own {
         go_to_tab(app, own);
     }
     let replaces = own.is_some() || app.tab.is_untouched();
     let before = own.map(|_| app.tab.id);
-    let request = put_tab(app, Tab::new(document, Some(path)), replaces);
+    put_tab(app, Tab::new(document, Some(path)), replaces);
     // A file that is read again keeps its tab.
     app.tab.id = before.unwrap_or(app.tab.id);
-    request
 }
 
 /// Closes the current case; after the last one the built-in case is shown.
-fn close_tab(app: &mut App) -> Option<Request> {
+fn close_tab(app: &mut App) {
     let name = app.tab.name();
     if app.others.is_empty() {
-        let request = put_tab(app, Tab::new(store::built_in(), None), true);
-        app.say(format!("closed {name}: this is the built-in Table 1"));
-        return request;
+        put_tab(app, Tab::new(store::built_in(), None), true);
+        return app.say(format!("closed {name}: this is the built-in Table 1"));
     }
     let closed = app.place_of_tab;
     go_to_tab(app, if closed == 0 { 1 } else { closed - 1 });
     app.others.remove(if closed == 0 { 0 } else { closed - 1 });
     app.place_of_tab = closed.saturating_sub(1);
     app.say(format!("closed {name}"));
-    None
 }
 
-fn put_tab(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
+/// Shows a new case in a new tab, or instead of the unchanged built-in case.
+fn add_tab(app: &mut App, origin: Origin, document: Document) {
+    let replaces = app.tab.is_untouched();
+    put_tab(app, Tab { origin, ..Tab::new(document, None) }, replaces);
+}
+
+fn put_tab(app: &mut App, tab: Tab, replaces: bool) {
     let focus = app.tab.form.focus;
     app.last_id += 1;
     let before = std::mem::replace(&mut app.tab, Tab { id: app.last_id, ..tab });
@@ -522,9 +492,8 @@ fn put_tab(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
     }
     app.layout.focus_on(Pane::Form);
     app.cursor = None;
-    let request = app.request();
+    app.solve();
     app.focus_on(focus);
-    request
 }
 
 /// Replaces document and saved case by the content of the file.

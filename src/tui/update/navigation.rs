@@ -6,46 +6,26 @@ use ratatui::layout::Position;
 use super::{dialogs, edit, files, panes, study, trade};
 use crate::case::Case;
 use crate::model::Stage;
-use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::commands::Command;
+use crate::tui::app::actions::Effect;
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{ChartCommand, angle_at};
 use crate::tui::panes::form;
-use crate::tui::panes::study::{self as study_pane, StudyCommand};
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::tab::Tab;
 use crate::tui::{header, rows};
 
 /// Message of Ctrl-C if there is nothing to cancel and nothing unsaved.
-pub(super) const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again to \
+const LEAVING: &str = "no running work and no unsaved edits: press Ctrl-C again to \
     quit";
-
-/// Carries out a command that moves the focus or the selection; ignores other commands.
-pub(super) fn walk(app: &mut App, command: Command) {
-    match command {
-        Command::Next => step(app, 1),
-        Command::Previous => step(app, -1),
-        Command::NextGroup => leap(app, 1),
-        Command::PreviousGroup => leap(app, -1),
-        Command::First if app.layout.focus() == Pane::Results => mark(app, isize::MIN),
-        Command::Last if app.layout.focus() == Pane::Results => mark(app, isize::MAX),
-        Command::First | Command::FirstField => field(app, 0),
-        Command::Last | Command::LastField => field(app, usize::MAX),
-        Command::NextFault => fault(app),
-        Command::ResultsUp => turn(app, -page(app)),
-        Command::ResultsDown => turn(app, page(app)),
-        _ => (),
-    }
-}
 
 /// Handles a click on a field, a result, the chart, the name of a case or of a hidden pane, a line
 /// of a list, or a button. A second click on the selection is Enter.
-pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
+pub(super) fn click(app: &mut App, at: Position) {
     match dialogs::with(app, |dialog, around| dialog.click(at, around.screen)) {
         None => in_panes(app, at),
         Some(true) => dialogs::accept(app),
-        Some(false) => Vec::new(),
+        Some(false) => (),
     }
 }
 
@@ -60,31 +40,25 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Pane::Results) => app.tab.results.top = app.results().scrolled(by),
         Some(Pane::Chart) => panes::run_chart(app, ChartCommand::Zoom(nearer)),
         Some(Pane::Teeth) => panes::run_teeth(app, TeethCommand::Zoom(nearer)),
-        Some(Pane::Study) if app.study.is_tolerance => {
-            app.study.top = study_pane::scrolled(&app.study(), by);
-        }
-        Some(Pane::Study) => drop(study::run(app, StudyCommand::Zoom(nearer))),
+        Some(Pane::Study) if app.study.is_tolerance => study::scroll(app, by),
+        Some(Pane::Study) => study::zoom(app, nearer),
         Some(Pane::Trade) | None => (),
     }
 }
 
 /// Esc: closes a dialog, leaves the field, or stops the work; no edit is lost.
-pub(super) fn leave(app: &mut App) -> Vec<Effect> {
-    if let Some(mut prompt) = app.prompts.pop() {
-        return prompt.dialog_mut().close();
+pub(super) fn leave(app: &mut App) {
+    if dialogs::close(app) {
+        return;
     }
     // Hints such as `Esc n` rely on one Esc to leave the field, also while work runs.
     if app.has_line() {
         app.tab.history.end_visit();
         app.is_editing = false;
-        return Vec::new();
+        return;
     }
-    let stopped = stop(app, app.layout.focus() == Pane::Study);
-    if !stopped.is_empty() {
-        return stopped;
-    }
-    if app.is_playing {
-        return panes::stop_playing(app);
+    if stop(app, app.layout.focus() == Pane::Study) || panes::stop_playing(app) {
+        return;
     }
     if app.cursor.is_some() && app.layout.focus().is_lower() {
         app.cursor = None;
@@ -93,36 +67,30 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     } else {
         panes::show(app, Pane::Form);
     }
-    Vec::new()
 }
 
 /// Ctrl-C: closes or stops the topmost item. If there is none, the second press quits, because
 /// other programs copy with this key.
-pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
-    if let Some(mut prompt) = app.prompts.pop() {
-        return prompt.dialog_mut().close();
+pub(super) fn cancel(app: &mut App) {
+    let is_again = app.last_message.as_ref().is_some_and(|message| message.text == LEAVING);
+    if !is_again && (dialogs::close(app) || stop(app, true) || panes::stop_playing(app)) {
+        return;
     }
-    let stopped = stop(app, true);
-    if !stopped.is_empty() {
-        return stopped;
+    if is_again || app.tabs().any(Tab::is_unsaved) {
+        files::quit(app);
+    } else {
+        app.say(LEAVING);
     }
-    if app.is_playing {
-        return panes::stop_playing(app);
-    }
-    if app.tabs().any(Tab::is_unsaved) {
-        return files::quit(app);
-    }
-    app.say(LEAVING);
-    Vec::new()
 }
 
-fn field(app: &mut App, field: usize) {
+/// Goes to a field of the form.
+pub(super) fn field(app: &mut App, field: usize) {
     app.layout.focus_on(Pane::Form);
     app.focus_on(field);
 }
 
-// Goes to the next invalid field, wrapping around.
-fn fault(app: &mut App) {
+/// Goes to the next invalid field, wrapping around.
+pub(super) fn fault(app: &mut App) {
     let rows = || {
         let problems = app.tab.problems.iter().map(|(row, _)| *row);
         problems.chain(app.tab.refused_row())
@@ -133,7 +101,8 @@ fn fault(app: &mut App) {
     }
 }
 
-fn step(app: &mut App, by: isize) {
+/// Goes to the next or previous line.
+pub(super) fn step(app: &mut App, by: isize) {
     if dialogs::with(app, |dialog, around| dialog.step(by, around)).is_some() {
         return;
     }
@@ -144,13 +113,22 @@ fn step(app: &mut App, by: isize) {
     }
 }
 
-fn leap(app: &mut App, by: isize) {
+/// Goes to the next or previous group or page.
+pub(super) fn leap(app: &mut App, by: isize) {
     if dialogs::with(app, |dialog, around| dialog.turn(by, around)).is_some() {
         return;
     }
     match app.layout.focus() {
-        Pane::Results => turn(app, by * page(app)),
+        Pane::Results => turn(app, by),
         _ => app.focus_on(group_beside(&app.tab.case, app.tab.form.focus, by)),
+    }
+}
+
+/// Goes to the first line, or to the last one if `way` is positive.
+pub(super) fn go_to_end(app: &mut App, way: isize) {
+    match app.layout.focus() {
+        Pane::Results => mark(app, way.saturating_mul(isize::MAX)),
+        _ => field(app, if way > 0 { usize::MAX } else { 0 }),
     }
 }
 
@@ -159,13 +137,11 @@ fn mark(app: &mut App, by: isize) {
     app.follow();
 }
 
-fn turn(app: &mut App, by: isize) {
-    app.tab.results = app.results().turned(by);
+/// Scrolls the results by pages.
+pub(super) fn turn(app: &mut App, by: isize) {
+    let page = app.results().page().max(2).cast_signed() - 1;
+    app.tab.results = app.results().turned(by * page);
     app.follow();
-}
-
-fn page(app: &App) -> isize {
-    app.results().page().max(2).cast_signed() - 1
 }
 
 // The first field of the next group, of this one, or of the previous one.
@@ -179,29 +155,28 @@ fn group_beside(case: &Case, focus: usize, by: isize) -> usize {
     found.copied().unwrap_or(if by > 0 { rows::count(case) - 1 } else { 0 })
 }
 
-fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
+fn in_panes(app: &mut App, at: Position) {
     let plan = app.layout.plan();
     if let Some(tab) = header::tab_at(app, plan.header, at) {
         files::go_to_tab(app, tab);
     } else if let Some(pane) = hidden_at(app, at) {
         panes::show(app, pane);
     } else if let Some(pane) = pane_at(app, at) {
-        return in_pane(app, pane, at);
+        in_pane(app, pane, at);
     }
-    Vec::new()
 }
 
-fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
+fn in_pane(app: &mut App, pane: Pane, at: Position) {
     let had_focus = app.layout.focus() == pane;
     match pane {
-        Pane::Form => return in_form(app, form::field_at(&app.form(), at)),
+        Pane::Form => in_form(app, form::field_at(&app.form(), at)),
         Pane::Results => {
             panes::show(app, pane);
             if let Some(key) = app.results().key_at(at) {
                 let was_selected = app.results().marked().is_some_and(|known| known.key == key);
                 app.tab.results.selected = Some(key);
                 if was_selected && had_focus {
-                    return dialogs::explain(app);
+                    dialogs::explain(app);
                 }
             }
         }
@@ -209,16 +184,15 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
             panes::show(app, pane);
             if let Some(angle) = angle_at(&app.charts(), at) {
                 app.cursor = Some(angle);
-                return panes::stop_playing(app);
+                panes::stop_playing(app);
             }
         }
         Pane::Teeth | Pane::Trade | Pane::Study => panes::show(app, pane),
     }
-    Vec::new()
 }
 
 // The first click focuses a field, the second one edits it.
-fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
+fn in_form(app: &mut App, field: Option<usize>) {
     let is_marked = app.layout.focus() == Pane::Form && field == Some(app.tab.form.focus);
     match field {
         Some(_) if is_marked && app.has_line() => app.tab.form.input.select_all(),
@@ -228,7 +202,6 @@ fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
             app.focus_on(field.unwrap_or(app.tab.form.focus));
         }
     }
-    Vec::new()
 }
 
 fn hidden_at(app: &App, at: Position) -> Option<Pane> {
@@ -242,35 +215,39 @@ fn pane_at(app: &App, at: Position) -> Option<Pane> {
     Pane::ALL.into_iter().find(|&pane| plan.area(pane).contains(at))
 }
 
-/// Stops long work, with the study on request. Its results so far stay.
-fn stop(app: &mut App, has_study: bool) -> Vec<Effect> {
-    let measuring = app.progress.as_ref().map(|_| Effect::CancelWork);
-    let solving = app.tab.solving.take().map(|_| {
-        app.tab.is_settled = true;
-        app.is_pinning = false;
-        if let Some(method) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
-            app.say(format!(
-                "method {} is stopped; the closed form is shown until the next edit",
-                method.name()
-            ));
-        }
-        Effect::CancelSolve
-    });
-    measuring
-        .into_iter()
-        .chain(has_study.then(|| study::stop(app)).flatten())
-        .chain(solving.or_else(|| stop_seeking(app)))
-        .collect()
+/// Stops long work, with the study on request. Its results so far stay. Returns whether any ran.
+fn stop(app: &mut App, has_study: bool) -> bool {
+    let has_measured = trade::stop(app);
+    let has_studied = has_study && study::stop(app);
+    let has_solved = stop_solve(app) || stop_seeking(app);
+    has_measured || has_studied || has_solved
+}
+
+fn stop_solve(app: &mut App) -> bool {
+    if app.tab.solving.take().is_none() {
+        return false;
+    }
+    app.tab.is_settled = true;
+    app.is_pinning = false;
+    if let Some(method) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
+        app.say(format!(
+            "method {} is stopped; the closed form is shown until the next edit",
+            method.name()
+        ));
+    }
+    app.want(Effect::CancelSolve);
+    true
 }
 
 // Stops the search for the required relief, which starts after the other results are shown.
-fn stop_seeking(app: &mut App) -> Option<Effect> {
-    let answer = app
-        .tab
-        .answer
-        .as_mut()
-        .filter(|answer| answer.strikes() && answer.lacks(Stage::Clearing))?;
+fn stop_seeking(app: &mut App) -> bool {
+    let answer = app.tab.answer.as_mut();
+    let Some(answer) = answer.filter(|answer| answer.strikes() && answer.lacks(Stage::Clearing))
+    else {
+        return false;
+    };
     answer.requested = answer.stages;
     app.say("the search for the required relief is stopped until the next edit");
-    Some(Effect::CancelSolve)
+    app.want(Effect::CancelSolve);
+    true
 }

@@ -1,16 +1,27 @@
-//! The panes: focus and layout, the commands of charts and teeth, the selection of the results, and
-//! the cursor on the driver's roll angle.
+//! The panes: focus and layout, the commands of charts and teeth, the charts that are computed beside
+//! the loop, the selection of the results, and the cursor on the driver's roll angle.
+
+use std::time::{Duration, Instant};
 
 use super::edit;
-use crate::tui::actions::Effect;
+use crate::model::compliance::model_of;
+use crate::model::inputs::Method;
+use crate::model::solve::speeds;
+use crate::model::{Inputs, Refusal, Stage, Stages, solve_while};
+use crate::report::charts::{chart_of_spectra, spectra, speed_chart, tooth_chart};
+use crate::study::stiffness::{FLANK_POINTS, compare_flanks};
 use crate::tui::app::App;
+use crate::tui::app::actions::{Effect, Running, Work};
 use crate::tui::ascii;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::cursor_to::{CursorTo, Reach, cursor_range};
-use crate::tui::jobs::{ChartPart, ChartRequest};
+use crate::tui::jobs::{ChartRequest, ChartValues, Slot, WorkerChart};
 use crate::tui::layout::Pane;
 use crate::tui::panes::chart::{self, ChartCommand, first_contact};
 use crate::tui::panes::teeth::TeethCommand;
+
+/// Time between two messages of a growing curve.
+const CHART_STEP: Duration = Duration::from_millis(150);
 
 /// Moves the focus to a pane and makes it visible. In the form, letters are commands until the user
 /// enters a field.
@@ -18,7 +29,7 @@ pub(super) fn show(app: &mut App, pane: Pane) {
     app.tab.history.end_visit();
     app.layout.focus_on(pane);
     app.is_editing = false;
-    if pane.is_lower() && app.layout.plan().area(pane).is_empty() {
+    if pane.is_lower() && !app.layout.plan().shows(pane) {
         app.layout.show_below(pane);
     }
     app.follow();
@@ -34,8 +45,8 @@ pub(super) fn cycle_lower(app: &mut App) {
     let plan = app.layout.plan();
     let now = Pane::LOWER.iter().position(|&pane| pane == app.layout.lower()).unwrap_or(0);
     let others = (1..=Pane::LOWER.len()).map(|by| Pane::LOWER[(now + by) % Pane::LOWER.len()]);
-    let next = others.into_iter().find(|&pane| plan.area(pane).is_empty()).unwrap_or(Pane::Chart);
-    let has_room = Pane::LOWER.iter().any(|&pane| !plan.area(pane).is_empty());
+    let next = others.into_iter().find(|&pane| !plan.shows(pane)).unwrap_or(Pane::Chart);
+    let has_room = Pane::LOWER.iter().any(|&pane| plan.shows(pane));
     if app.layout.focus().is_lower() || !has_room {
         app.layout.show_below(next);
         show(app, next);
@@ -99,6 +110,11 @@ pub(super) fn run_chart(app: &mut App, command: ChartCommand) {
     }
 }
 
+/// Shows the chart with an index.
+pub(super) fn select_chart(app: &mut App, at: usize) {
+    run_chart(app, ChartCommand::Select(at));
+}
+
 /// Fits the axes to the visible curves.
 pub(super) fn fit_chart(app: &mut App) {
     (app.tab.fitted, app.tab.scale) = app.charts().fitted(app.tab.fitted);
@@ -112,22 +128,22 @@ pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
 }
 
 /// Moves the cursor by columns towards E.
-pub(super) fn step_cursor(app: &mut App, columns: i16) -> Vec<Effect> {
+pub(super) fn step_cursor(app: &mut App, columns: i16) {
     match range_of_cursor(app) {
         Some(reach) => app.cursor = Some(reach.moved(app.cursor, columns)),
         None => app.complain("no valid results for a cursor"),
     }
-    stop_playing(app)
+    stop_playing(app);
 }
 
 /// Moves the cursor to the first contact.
-pub(super) fn cursor_to_start(app: &mut App) -> Vec<Effect> {
+pub(super) fn cursor_to_start(app: &mut App) {
     let start = app.charts().solution().and_then(first_contact);
     match start {
         Some(angle) => app.cursor = Some(angle),
         None => app.complain("no corner contact, so no D"),
     }
-    stop_playing(app)
+    stop_playing(app);
 }
 
 /// Asks for an angle, a time or a point.
@@ -140,13 +156,13 @@ pub(super) fn ask_cursor(app: &mut App) {
 }
 
 /// Moves the cursor to the typed angle. Shows the chart if neither charts nor teeth are visible.
-pub(super) fn move_cursor(app: &mut App, typed: Result<f64, String>) -> Vec<Effect> {
+pub(super) fn move_cursor(app: &mut App, typed: Result<f64, String>) {
     match typed {
         Err(reason) => app.complain(reason),
         Ok(angle) => {
             app.prompts.pop();
             let plan = app.layout.plan();
-            if plan.chart.is_empty() && plan.teeth.is_empty() {
+            if !plan.shows(Pane::Chart) && !plan.shows(Pane::Teeth) {
                 show(app, Pane::Chart);
             }
             app.cursor = Some(angle);
@@ -154,91 +170,140 @@ pub(super) fn move_cursor(app: &mut App, typed: Result<f64, String>) -> Vec<Effe
             app.say(format!("cursor at {reading}"));
         }
     }
-    stop_playing(app)
+    stop_playing(app);
 }
 
 /// Moves the cursor to E.
-pub(super) fn cursor_to_end(app: &mut App) -> Vec<Effect> {
+pub(super) fn cursor_to_end(app: &mut App) {
     app.cursor = Some(0.0);
-    stop_playing(app)
+    stop_playing(app);
+}
+
+pub(super) fn hide_cursor(app: &mut App) {
+    app.cursor = None;
+    stop_playing(app);
 }
 
 /// Starts or stops the animation. At its end it starts again.
-pub(super) fn play(app: &mut App) -> Vec<Effect> {
-    if app.is_playing {
-        return stop_playing(app);
+pub(super) fn play(app: &mut App) {
+    if stop_playing(app) {
+        return;
     }
     let Some(reach) = range_of_cursor(app).filter(|reach| reach.run_from > reach.run_to) else {
-        app.complain("no corner contact, so nothing to play");
-        return Vec::new();
+        return app.complain("no corner contact, so nothing to play");
     };
     if app.cursor.is_none_or(|cursor| cursor <= reach.run_to || cursor > reach.run_from) {
         app.cursor = Some(reach.run_from);
     }
     app.is_playing = true;
-    vec![Effect::Play(true)]
+    app.want(Effect::Play(true));
 }
 
 /// Moves to the next frame of the animation.
-pub(super) fn tick(app: &mut App) -> Vec<Effect> {
+pub(super) fn tick(app: &mut App) {
     if !app.is_playing {
-        return vec![Effect::Play(false)];
+        return app.want(Effect::Play(false));
     }
     let reach = range_of_cursor(app);
     let next = reach.zip(app.cursor).and_then(|(reach, cursor)| reach.played(cursor));
     app.cursor = Some(next.unwrap_or(reach.map_or(0.0, |reach| reach.run_to)));
-    if next.is_none() { stop_playing(app) } else { Vec::new() }
+    if next.is_none() {
+        stop_playing(app);
+    }
 }
 
-/// Stops the animation.
-pub(super) fn stop_playing(app: &mut App) -> Vec<Effect> {
-    if std::mem::take(&mut app.is_playing) { vec![Effect::Play(false)] } else { Vec::new() }
+/// Stops the animation. Returns whether it ran.
+pub(super) fn stop_playing(app: &mut App) -> bool {
+    let has_run = std::mem::take(&mut app.is_playing);
+    if has_run {
+        app.want(Effect::Play(false));
+    }
+    has_run
 }
 
 /// Requests the visible chart, unless it is the last request; stops a hidden one.
-pub(super) fn request_chart(app: &mut App) -> Vec<Effect> {
-    let is_visible = !app.layout.plan().area(Pane::Chart).is_empty();
-    let Some(chart) = app.chart.worker_chart.filter(|_| is_visible) else {
-        return stop_chart(app);
+pub(super) fn request_chart(app: &mut App) {
+    let is_visible = app.layout.plan().shows(Pane::Chart);
+    let chart = app.chart.worker_chart.filter(|_| is_visible);
+    let Some((chart, inputs)) = chart.zip(app.tab.inputs().cloned()) else {
+        if app.cancel(Slot::Chart) {
+            let work = &mut app.tab.chart_work;
+            (work.request, work.is_running) = (None, false);
+        }
+        return;
     };
-    let Some(inputs) = app.tab.inputs().cloned() else {
-        return stop_chart(app);
-    };
-    let last = app.tab.chart_work.request.as_ref();
-    if last.is_some_and(|last| last.chart == chart && last.inputs == inputs) {
-        return Vec::new();
+    let last = &app.tab.chart_work;
+    // Another tab may have replaced the work.
+    let is_known = !last.is_running || app.runs(Slot::Chart, last.work);
+    let request = ChartRequest { chart, inputs };
+    if is_known && last.request.as_ref() == Some(&request) {
+        return;
     }
-    forget_running_chart(app);
-    app.last_serial += 1;
-    let request = ChartRequest { serial: app.last_serial, chart, inputs };
-    app.tab.chart_work.request = Some(request.clone());
-    app.tab.chart_work.is_running = true;
-    vec![Effect::Chart(Box::new(request))]
+    let (tab, own) = (app.tab.id, request.clone());
+    let work = Work::in_steps(Slot::Chart, move |running| compute(tab, &own, running));
+    let failed = Err("internal error".to_owned());
+    let work = app.start(work.or(move |app| take_chart(app, tab, Some(failed), true)));
+    let chart = &mut app.tab.chart_work;
+    (chart.request, chart.is_running, chart.work) = (Some(request), true, work);
 }
 
-/// Adds the next values.
-pub(super) fn take_chart(app: &mut App, part: &ChartPart) {
-    let tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
-    tabs.for_each(|tab| tab.chart_work.take(part.clone()));
+/// Computes a chart for a tab and sends its values as they arrive.
+fn compute(tab: usize, request: &ChartRequest, running: &Running<'_>) {
+    let found = match request.chart {
+        WorkerChart::ToothCompliance(gear) => tooth_compliance(gear, &request.inputs),
+        WorkerChart::Spectrum => spectrum(&request.inputs, running),
+        WorkerChart::Speed => over_speed(tab, request, running),
+    };
+    let found = match found {
+        Ok(found) => Some(found),
+        Err(Refusal::Stopped) => None,
+        Err(refusal) => Some(Err(format!("{refusal}: {}", refusal.fix()))),
+    };
+    running.send(move |app| take_chart(app, tab, found, true));
+}
+
+fn take_chart(app: &mut App, tab: usize, found: Option<ChartValues>, is_over: bool) {
+    let Some(work) = app.tab_with(tab).map(|tab| &mut tab.chart_work) else { return };
+    if let Some((request, found)) = work.request.as_ref().zip(found) {
+        work.found = Some((request.chart, found));
+    }
+    work.is_running = !is_over;
+}
+
+fn tooth_compliance(gear: usize, inputs: &Inputs) -> Result<ChartValues, Refusal> {
+    Ok(tooth_chart(gear, &compare_flanks(inputs, FLANK_POINTS)?, model_of(inputs)))
+}
+
+/// The spectra at rest and, for method `dynamic`, in steady motion. A closed form has no mesh;
+/// method `static` replaces it.
+fn spectrum(inputs: &Inputs, running: &Running<'_>) -> Result<ChartValues, Refusal> {
+    let method = match inputs.method {
+        Method::Dynamic => Method::Dynamic,
+        _ => Method::Static,
+    };
+    let inputs = Inputs { method, ..inputs.clone() };
+    let late = Stages::of(Stage::StaticSpectrum).and(Stages::of(Stage::SteadyMotion));
+    let solution = solve_while(&inputs, late, &|_| running.is_wanted())?;
+    Ok(Ok(chart_of_spectra(spectra("", &solution))))
+}
+
+fn over_speed(
+    tab: usize,
+    request: &ChartRequest,
+    running: &Running<'_>,
+) -> Result<ChartValues, Refusal> {
+    let mut sent = Instant::now();
+    let curve = speeds(&request.inputs, &mut |curve| {
+        if sent.elapsed() >= CHART_STEP {
+            sent = Instant::now();
+            let so_far = speed_chart(&[("", curve)]).ok().map(Ok);
+            running.send(move |app| take_chart(app, tab, so_far, false));
+        }
+        running.is_wanted()
+    })?;
+    Ok(speed_chart(&[("", &curve)]))
 }
 
 fn range_of_cursor(app: &App) -> Option<Reach> {
     cursor_range(&app.cursor_scope())
-}
-
-/// Stops the computation; the request is repeated once the chart is visible.
-fn stop_chart(app: &mut App) -> Vec<Effect> {
-    if forget_running_chart(app) { vec![Effect::CancelChart] } else { Vec::new() }
-}
-
-/// Forgets the running request of any tab: the computation ends, and the tab requests it again.
-fn forget_running_chart(app: &mut App) -> bool {
-    let mut has_run = false;
-    for tab in std::iter::once(&mut app.tab).chain(&mut app.others) {
-        if std::mem::take(&mut tab.chart_work.is_running) {
-            tab.chart_work.request = None;
-            has_run = true;
-        }
-    }
-    has_run
 }

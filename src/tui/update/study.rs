@@ -1,97 +1,66 @@
-//! The study pane: its requests to the worker, its cursor, range and second field.
+//! The study pane: its requests, their computation, its cursor, range and second field.
+
+use std::time::{Duration, Instant};
 
 use super::edit;
+use crate::case::Problem;
 use crate::case::fields::FIELDS;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
+use crate::report::tolerance::ToleranceReport;
+use crate::study::batch::{self, Batch, Control, Points, Refusals, Row, Stopped, solve_all};
+use crate::study::sample::Design;
 use crate::study::sweep::Grid;
-use crate::tui::actions::Effect;
+use crate::study::tolerance::{Samples, Size, Tolerance};
 use crate::tui::app::App;
+use crate::tui::app::actions::{Running, Work};
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
+use crate::tui::jobs::Slot;
 use crate::tui::layout::Pane;
 use crate::tui::panes::study::range::{MOST_ZOOM, RangeOf, Steps};
-use crate::tui::panes::study::{self, CURVE_POINTS, StudyCommand, map_points};
+use crate::tui::panes::study::{self, CURVE_POINTS, map_points};
 use crate::tui::rows::{self, Row};
 use crate::tui::study::{
-    End, GridParameters, Layer, LayerSource, StudyKey, StudyParameters, StudyPart, StudyRequest,
-    ToleranceParameters,
+    End, GridParameters, Layer, LayerFound, LayerSource, SAMPLES, StudyParameters, StudyRequest,
+    StudyResults, ToleranceParameters,
 };
-use crate::tui::tab::Tab;
+
+/// Time between two messages of a grid.
+const STEP: Duration = Duration::from_millis(40);
+/// Time between two messages of a tolerance study, whose summary takes longer.
+const PAGE_STEP: Duration = Duration::from_millis(250);
 
 /// The methods of the overlaid curves.
 const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Method::Dynamic];
 
 /// Requests the visible study if it differs from the last one; stops a hidden one.
-pub(super) fn request(app: &mut App) -> Vec<Effect> {
-    if app.layout.plan().area(Pane::Study).is_empty() {
-        return stop_running(app);
+pub(super) fn request(app: &mut App) {
+    if !app.layout.plan().shows(Pane::Study) {
+        app.cancel(Slot::Study);
+        return;
     }
-    let quantity = quantity(app);
-    let key = key(app, quantity);
-    if app.tab.study.key.as_ref() == Some(&key) {
-        return Vec::new();
-    }
-    let parameters = match parameters(app, quantity) {
+    let parameters = match parameters(app, quantity(app)) {
         Ok(parameters) => parameters,
         Err(obstacle) => {
-            let effects = stop_running(app);
-            (app.tab.study.obstacle, app.tab.study.key) = (Some(obstacle), Some(key));
-            return effects;
+            app.cancel(Slot::Study);
+            app.tab.study.obstacle = Some(obstacle);
+            return;
         }
     };
-    (app.tab.study.obstacle, app.tab.study.key) = (None, Some(key));
-    let request = app.tab.study.request.as_ref();
-    if request.is_some_and(|request| request.parameters == parameters) {
-        return Vec::new();
+    app.tab.study.obstacle = None;
+    // A hidden study, or one that another tab replaced, was stopped before its end.
+    if let Some(request) = &app.tab.study.request
+        && request.parameters == parameters
+        && (app.tab.study.is_over() || app.runs(Slot::Study, request.serial))
+    {
+        return;
     }
-    forget_running(app);
-    app.last_serial += 1;
-    let serial = app.last_serial;
-    let request = StudyRequest { serial, parameters };
-    app.tab.study.start(request.clone());
-    app.studying = Some(serial);
-    vec![Effect::Study(Box::new(request))]
-}
-
-/// The state that decides the study.
-fn key(app: &App, quantity: Option<&Quantity>) -> StudyKey {
-    let tab = &app.tab;
-    StudyKey {
-        serial: tab.serial,
-        is_valid: tab.problems.is_empty(),
-        row: tab.form.focus,
-        quantity: quantity.map(|quantity| quantity.key),
-        solved_by: tab.answer.as_ref().map(|answer| answer.active),
-        baseline: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
-        second: app.study.second,
-        zoom: app.study.zoom,
-        units: app.settings.units,
-        is_tolerance: app.study.is_tolerance,
-        area: app.layout.plan().area(Pane::Study),
-    }
-}
-
-fn stop_running(app: &mut App) -> Vec<Effect> {
-    if forget_running(app) { vec![Effect::CancelStudy] } else { Vec::new() }
-}
-
-/// Forgets the running study, so that its tab requests it again once it is visible. Returns whether
-/// a study was running.
-fn forget_running(app: &mut App) -> bool {
-    let Some(serial) = app.studying.take() else {
-        return false;
-    };
-    if let Some(tab) = tab_of(app, serial) {
-        (tab.study.request, tab.study.key) = (None, None);
-    }
-    true
-}
-
-/// The tab of a study.
-fn tab_of(app: &mut App, serial: u64) -> Option<&mut Tab> {
-    let mut tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
-    tabs.find(|tab| tab.study.runs(serial))
+    let (tab, requested) = (app.tab.id, parameters.clone());
+    let failed = End::Failed("internal error: the study failed".to_owned());
+    let work = Work::in_steps(Slot::Study, move |running| compute(tab, &requested, running));
+    let serial = app.start(work.or(move |app| ended(app, tab, failed)));
+    app.tab.study.start(StudyRequest { serial, parameters });
 }
 
 fn quantity(app: &App) -> Option<&'static Quantity> {
@@ -107,7 +76,7 @@ fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyPar
     let inputs = tab.inputs().ok_or("No study: a field has an error. Alt-E goes to that field.")?;
     let quantity = quantity.ok_or("No result is selected.")?;
     if app.study.is_tolerance {
-        return tolerance(app, inputs, quantity);
+        return tolerance_parameters(app, inputs, quantity);
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.layout.plan().area(Pane::Study));
@@ -133,7 +102,11 @@ fn parameters(app: &App, quantity: Option<&'static Quantity>) -> Result<StudyPar
     Ok(StudyParameters::Grid(GridParameters { axes, layers }))
 }
 
-fn tolerance(app: &App, inputs: &Inputs, quantity: &Quantity) -> Result<StudyParameters, String> {
+fn tolerance_parameters(
+    app: &App,
+    inputs: &Inputs,
+    quantity: &Quantity,
+) -> Result<StudyParameters, String> {
     if app.tab.case.spread.is_empty() {
         return Err("The case has no [spread]: add a line [spread] and below it lines such as \
             \"deviations.base_pitch\" = { normal = \"4 um\" } to its file, and open it again. d in this pane shows the field over its range."
@@ -197,55 +170,53 @@ fn counterpart(
     }
 }
 
-/// Adds the next results.
-pub(super) fn take(app: &mut App, part: StudyPart) {
-    let is_over = part.end.is_some();
-    let failed = match &part.end {
-        Some(End::Failed(reason)) => Some(reason.clone()),
-        _ => None,
-    };
-    if is_over && app.studying == Some(part.serial) {
-        app.studying = None;
-        if let Some(reason) = failed {
-            app.complain(reason);
-        }
+/// Esc: stops the running study. Returns whether it ran.
+pub(super) fn stop(app: &mut App) -> bool {
+    let has_run = app.cancel(Slot::Study);
+    if has_run {
+        ended(app, app.tab.id, End::Stopped);
+        app.say("the study is stopped; its results stay");
     }
-    if let Some(tab) = tab_of(app, part.serial) {
-        tab.study.take(part);
+    has_run
+}
+
+pub(super) fn scroll(app: &mut App, by: isize) {
+    app.study.top = study::scrolled(&app.study(), by);
+}
+
+pub(super) fn page(app: &mut App, by: isize) {
+    app.study.top = study::paged(&app.study(), by);
+}
+
+pub(super) fn move_cursor(app: &mut App, across: isize, up: isize) {
+    let cursor = study::moved(&app.study(), across, up);
+    app.tab.study.cursor = cursor.or(app.tab.study.cursor);
+}
+
+/// Halves or doubles the range.
+pub(super) fn zoom(app: &mut App, by: i32) {
+    if app.study.is_tolerance {
+        app.say("the tolerance has no range to zoom");
+    } else {
+        app.study.zoom = (app.study.zoom + by).clamp(-MOST_ZOOM, MOST_ZOOM);
     }
 }
 
-/// Esc: stops the running study.
-pub(super) fn stop(app: &mut App) -> Option<Effect> {
-    app.studying.take()?;
-    app.say("the study is stopped; its results stay");
-    Some(Effect::CancelStudy)
+pub(super) fn reset_range(app: &mut App) {
+    zoom(app, -app.study.zoom);
 }
 
-pub(super) fn run(app: &mut App, command: StudyCommand) -> Vec<Effect> {
-    match command {
-        StudyCommand::Scroll(by) => app.study.top = study::scrolled(&app.study(), by),
-        StudyCommand::Page(by) => app.study.top = study::paged(&app.study(), by),
-        StudyCommand::Move(across, up) => {
-            let cursor = study::moved(&app.study(), across, up);
-            app.tab.study.cursor = cursor.or(app.tab.study.cursor);
-        }
-        StudyCommand::Zoom(_) | StudyCommand::Reset if app.study.is_tolerance => {
-            app.say("the tolerance has no range to zoom");
-        }
-        StudyCommand::Zoom(by) => {
-            app.study.zoom = (app.study.zoom + by).clamp(-MOST_ZOOM, MOST_ZOOM);
-        }
-        StudyCommand::Reset => app.study.zoom = 0,
-        StudyCommand::Second if app.study.second.take().is_some() => (),
-        StudyCommand::Second => app.prompts.push(Prompt::Pick(Picker::new(List::SecondField))),
-        StudyCommand::Tolerance => {
-            app.study.is_tolerance = !app.study.is_tolerance;
-            app.study.top = 0;
-        }
-        StudyCommand::Take => return accept(app),
+/// Chooses a second field, or leaves the map.
+pub(super) fn second(app: &mut App) {
+    if app.study.second.take().is_none() {
+        app.prompts.push(Prompt::Pick(Picker::new(List::SecondField)));
     }
-    Vec::new()
+}
+
+/// Shows the tolerance, or the curve again.
+pub(super) fn tolerance(app: &mut App) {
+    app.study.is_tolerance = !app.study.is_tolerance;
+    app.study.top = 0;
 }
 
 /// Selects the second field of the map.
@@ -258,21 +229,18 @@ pub(super) fn choose(app: &mut App, field: usize) {
 }
 
 /// Writes the values at the cursor into the form, as one edit.
-fn accept(app: &mut App) -> Vec<Effect> {
+pub(super) fn take(app: &mut App) {
     let values = study::at_cursor(&app.study());
     if values.is_empty() || app.study.is_tolerance {
-        app.say("no value under the cursor");
-        return Vec::new();
+        return app.say("no value under the cursor");
     }
     if app.tab.study.cursor.is_none() {
-        app.say("the cursor is at the present value: move it to another one");
-        return Vec::new();
+        return app.say("the cursor is at the present value: move it to another one");
     }
     let mut case = app.tab.case.clone();
     for (field, text) in &values {
         if let Err(problem) = case.set(FIELDS[*field].key, text) {
-            app.complain(problem.for_form().to_string());
-            return Vec::new();
+            return app.complain(problem.for_form().to_string());
         }
     }
     let worded: Vec<String> = values
@@ -281,7 +249,161 @@ fn accept(app: &mut App) -> Vec<Effect> {
         .collect();
     app.tab.study.cursor = None;
     let outcome = edit::undone_by(app, &case);
-    let effects = edit::replace(app, case);
+    edit::replace(app, case);
     app.say(format!("{}{outcome}", worded.join(", ")));
-    effects
+}
+
+enum Unfinished {
+    Stopped,
+    Refused(Problem),
+}
+
+impl From<Stopped> for Unfinished {
+    fn from(_: Stopped) -> Unfinished {
+        Unfinished::Stopped
+    }
+}
+
+/// Changes the results of the study of a tab.
+fn change(app: &mut App, tab: usize, change: impl FnOnce(&mut StudyResults)) {
+    if let Some(results) = app.tab_with(tab).and_then(|tab| tab.study.results()) {
+        change(results);
+    }
+}
+
+fn ended(app: &mut App, tab: usize, end: End) {
+    if let End::Failed(reason) = &end {
+        app.complain(reason.clone());
+    }
+    change(app, tab, |results| results.end = Some(end));
+}
+
+/// Computes a study for a tab and sends its results as they arrive.
+fn compute(tab: usize, parameters: &StudyParameters, running: &Running<'_>) {
+    let done = match parameters {
+        StudyParameters::Grid(grid) => solve_grid(tab, grid, running),
+        StudyParameters::Tolerance(tolerance) => sample(tab, tolerance, running),
+    };
+    let end = match done {
+        Ok(()) => End::Whole,
+        Err(Unfinished::Stopped) => return,
+        Err(Unfinished::Refused(problem)) => {
+            End::Failed(format!("{}: {}", problem.cause, problem.fix))
+        }
+    };
+    running.send(move |app| ended(app, tab, end));
+}
+
+/// Solves the points of a study while it is wanted.
+fn solve(
+    batch: &Batch,
+    count: usize,
+    running: &Running<'_>,
+    take: &mut dyn FnMut(usize, &[Row]) -> bool,
+) -> Result<(), Stopped> {
+    // One core stays free for the main loop and the solver.
+    let cores = batch::jobs(None);
+    let jobs = Some(cores.saturating_sub(1).max(1));
+    solve_all(batch, 0..count, &Control { jobs, go_on: &|_, _| running.is_wanted() }, take)
+}
+
+fn solve_grid(
+    tab: usize,
+    parameters: &GridParameters,
+    running: &Running<'_>,
+) -> Result<(), Unfinished> {
+    let grid = Grid::of(parameters.axes.clone()).map_err(Unfinished::Refused)?;
+    for (at, layer) in parameters.layers.iter().enumerate() {
+        solve_layer(&grid, layer, running, &mut |found| {
+            running.send(move |app| change(app, tab, |results| results.add(at, found)));
+        })?;
+    }
+    Ok(())
+}
+
+fn solve_layer(
+    grid: &Grid,
+    layer: &Layer,
+    running: &Running<'_>,
+    send: &mut dyn FnMut(LayerFound),
+) -> Result<(), Stopped> {
+    let quantities: Vec<&'static Quantity> = layer.quantity().into_iter().collect();
+    let inputs = &layer.inputs.clone().needing(quantities.iter().map(|of| of.stage));
+    let batch = Batch { inputs, points: grid, quantities: &quantities };
+    let (mut waiting, mut refusals) = (LayerFound::default(), Refusals::default());
+    let mut sent = Instant::now();
+    let solved = solve(&batch, grid.count(), running, &mut |first, rows| {
+        refusals.count(first, rows);
+        waiting.outcomes.extend(rows.iter().map(|row| row.outcome));
+        waiting.values.extend(rows.iter().map(|row| row.values.first().copied().flatten()));
+        if sent.elapsed() > STEP {
+            sent = Instant::now();
+            waiting.refusals = refusals.clone();
+            send(std::mem::take(&mut waiting));
+        }
+        true
+    });
+    waiting.refusals = refusals;
+    send(waiting);
+    solved
+}
+
+fn sample(
+    tab: usize,
+    parameters: &ToleranceParameters,
+    running: &Running<'_>,
+) -> Result<(), Unfinished> {
+    let size = Size { samples: SAMPLES, seed: 1, ranked: None };
+    let only: Vec<&'static Quantity> = Quantity::find(parameters.quantity).into_iter().collect();
+    let study = Tolerance::of(&parameters.case, &parameters.inputs, &only, size)
+        .map_err(Unfinished::Refused)?;
+    let inputs = &parameters.inputs.clone().needing(only.iter().map(|of| of.stage));
+    let batch = Batch { inputs, points: &study.design, quantities: &study.quantities };
+    let (mut samples, mut sent) = (Samples::of(&study), Instant::now());
+    let count = study.design.count();
+    let solved = solve(&batch, count, running, &mut |first, rows| {
+        samples.add(first, rows);
+        let is_due = sent.elapsed() > PAGE_STEP && samples.outcomes.len() > 1;
+        if is_due {
+            sent = Instant::now();
+            send_page(tab, sampled(parameters, &study, &samples), running);
+        }
+        true
+    });
+    if samples.outcomes.len() > 1 {
+        send_page(tab, sampled(parameters, &study, &samples), running);
+    }
+    Ok(solved?)
+}
+
+fn send_page(tab: usize, (lines, part): (Vec<String>, f64), running: &Running<'_>) {
+    let page = move |results: &mut StudyResults| (results.page, results.part) = (lines, part);
+    running.send(move |app| change(app, tab, page));
+}
+
+/// The page of the samples so far, and the solved part; the ranking needs all samples.
+fn sampled(
+    parameters: &ToleranceParameters,
+    study: &Tolerance,
+    samples: &Samples,
+) -> (Vec<String>, f64) {
+    let (solved, count) = (samples.outcomes.len(), study.design.count());
+    let so_far = Tolerance {
+        design: Design {
+            samples: solved.min(study.design.samples),
+            ranked: if solved < count { 0 } else { study.design.ranked },
+            ..study.design.clone()
+        },
+        ..study.clone()
+    };
+    let report = ToleranceReport {
+        case: &parameters.case,
+        method: parameters.inputs.method,
+        study: &so_far,
+        samples,
+    };
+    let mut lines = report.lines_for_screen();
+    let refused = samples.refusals.0.iter().map(|refused| refused.sentence(&so_far.design));
+    lines.extend(refused);
+    (lines, solved as f64 / count as f64)
 }

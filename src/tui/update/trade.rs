@@ -1,70 +1,56 @@
 //! Accuracy against run time: the benchmark, the selection of a setting, and its use in the case.
 
 use super::edit;
+use crate::model::Refusal;
 use crate::report::trade::conclusion;
-use crate::study::trade::STEADY;
-use crate::tui::actions::{Effect, Progress};
+use crate::study::trade::{Trade, trade};
 use crate::tui::app::App;
-use crate::tui::jobs::{BenchmarkProgress, End, Measuring, Traded};
+use crate::tui::app::actions::Work;
+use crate::tui::jobs::{Slot, Traded};
 use crate::tui::layout::{Pane, is_too_small};
 use crate::tui::panes::trade::{nearest, stepped};
 
-/// The name of the work in the progress.
-const MEASURING: &str = "measuring";
-
 /// Starts the benchmark of every method on the case of the form.
-pub(super) fn measure(app: &mut App) -> Vec<Effect> {
+pub(super) fn measure(app: &mut App) {
     let Some(inputs) = app.tab.inputs().cloned() else {
-        app.complain("no benchmark: fix the fields marked with ! first");
-        return Vec::new();
+        return app.complain("no benchmark: fix the fields marked with ! first");
     };
-    app.last_serial += 1;
-    let serial = app.last_serial;
-    app.tab.traded = Some(Traded { serial, inputs: inputs.clone(), trade: None, marked: None });
-    app.measuring = Some(serial);
-    app.progress = Some(Progress { what: MEASURING.to_owned(), part: 0.0 });
-    vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: STEADY }))]
+    let (tab, own) = (app.tab.id, inputs.clone());
+    let patience = app.patience;
+    let work = Work::in_steps(Slot::Benchmark, move |running| {
+        let mut report = |sofar: &Trade| {
+            let sofar = sofar.clone();
+            running.send(move |app| take_measured(app, tab, sofar));
+        };
+        match trade(&own, patience, &|| running.is_wanted(), &mut report) {
+            Ok(trade) => running.send(move |app| {
+                take_measured(app, tab, trade);
+                if let Some(words) = conclude(app, tab) {
+                    app.say(words);
+                }
+            }),
+            Err(Refusal::Stopped) => (),
+            Err(refusal) => running.send(move |app| failed(app, tab, &refusal.to_string())),
+        }
+    });
+    let work = app.start(work.or(move |app| failed(app, tab, "internal error")));
+    app.tab.traded = Some(Traded { work, inputs, trade: None, marked: None });
+}
+
+/// Stops the benchmark; its results so far stay. Returns whether it ran.
+pub(super) fn stop(app: &mut App) -> bool {
+    let has_run = app.cancel(Slot::Benchmark);
+    if has_run && conclude(app, app.tab.id).is_some() {
+        app.say("the benchmark is stopped; its results stay");
+    }
+    has_run
 }
 
 /// Stops a hidden benchmark. A terminal that is briefly too small does not stop it.
-pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
-    let is_too_small = is_too_small(app.layout.size());
-    let Some(serial) = app.measuring.filter(|_| !is_too_small) else {
-        return Vec::new();
-    };
-    let is_own = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
-    let is_shown = is_own && !app.layout.plan().area(Pane::Trade).is_empty();
-    if is_shown { Vec::new() } else { vec![Effect::CancelWork] }
-}
-
-/// Adds results of the benchmark and reports its end.
-pub(super) fn measured(app: &mut App, measured: BenchmarkProgress) {
-    let BenchmarkProgress { serial, trade, end } = measured;
-    let is_shown = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
-    let is_latest = app.measuring == Some(serial);
-    if let Some(trade) = trade {
-        if is_latest {
-            app.progress = Some(Progress { what: MEASURING.to_owned(), part: trade.part() });
-        }
-        if let Some(traded) = app.traded_of(serial) {
-            traded.trade = Some(*trade);
-        }
-    }
-    let Some(end) = end else { return };
-    if is_latest {
-        (app.progress, app.measuring) = (None, None);
-    }
-    let recommended = app.traded_of(serial).and_then(|traded| {
-        let trade = traded.trade.as_ref()?;
-        let setting = trade.recommended().map(|measured| measured.setting);
-        traded.marked = traded.marked.or(setting);
-        Some(conclusion(trade))
-    });
-    match end {
-        _ if !is_shown => (),
-        End::Whole => app.say(recommended.unwrap_or_default()),
-        End::Stopped => app.say("the benchmark is stopped; its results stay"),
-        End::Failed(reason) => app.complain(format!("no benchmark: {reason}")),
+pub(super) fn stop_unseen(app: &mut App) {
+    let is_own = app.is_measuring() && app.layout.plan().shows(Pane::Trade);
+    if !is_own && !is_too_small(app.layout.size()) {
+        app.cancel(Slot::Benchmark);
     }
 }
 
@@ -85,19 +71,46 @@ pub(super) fn step(app: &mut App, by: isize) {
 }
 
 /// Writes the selected setting into the case.
-pub(super) fn take(app: &mut App) -> Vec<Effect> {
+pub(super) fn take(app: &mut App) {
     let Some(setting) = app.tab.traded.as_ref().and_then(|traded| traded.marked) else {
-        app.say(if app.tab.traded.is_some() {
+        return app.say(if app.tab.traded.is_some() {
             "no setting is selected: the arrow keys select one"
         } else {
             "no benchmark yet: m runs it"
         });
-        return Vec::new();
     };
     let mut case = app.tab.case.clone();
     setting.apply(&mut case);
     let outcome = edit::undone_by(app, &case);
-    let effects = edit::replace(app, case);
+    edit::replace(app, case);
     app.say(format!("method {setting}{outcome}"));
-    effects
+}
+
+fn traded(app: &mut App, tab: usize) -> Option<&mut Traded> {
+    app.tab_with(tab)?.traded.as_mut()
+}
+
+fn take_measured(app: &mut App, tab: usize, trade: Trade) {
+    if let Some(traded) = traded(app, tab) {
+        traded.trade = Some(trade);
+    }
+}
+
+/// Selects the recommended setting, unless the user has selected one. Returns the conclusion, empty
+/// without results, if the tab is the current one.
+fn conclude(app: &mut App, tab: usize) -> Option<String> {
+    let is_shown = app.tab.id == tab;
+    let traded = traded(app, tab)?;
+    let words = traded.trade.as_ref().map(|trade| {
+        let recommended = trade.recommended().map(|measured| measured.setting);
+        traded.marked = traded.marked.or(recommended);
+        conclusion(trade)
+    });
+    is_shown.then(|| words.unwrap_or_default())
+}
+
+fn failed(app: &mut App, tab: usize, reason: &str) {
+    if conclude(app, tab).is_some() {
+        app.complain(format!("no benchmark: {reason}"));
+    }
 }

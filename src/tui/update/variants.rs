@@ -1,31 +1,21 @@
 //! Comparisons: the variants of the case, saved from the edits and loaded into the form, and the
 //! baseline.
 
-use super::edit;
-use crate::case::{Case, Variant};
-use crate::model::{Inputs, Stage};
-use crate::tui::actions::Effect;
+use super::{edit, key_of};
+use crate::case::{Case, Evaluator, Variant};
+use crate::model::{Inputs, Refusal, Stage};
 use crate::tui::app::App;
-use crate::tui::commands::Command;
-use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::picker::{List, Picker, VARIANT};
-use crate::tui::jobs::Job;
+use crate::tui::app::actions::{Running, Work};
+use crate::tui::jobs::Slot;
 use crate::tui::layout::Pane;
-use crate::tui::solver::{Baseline, Variants, VariantsRequest};
-
-/// Asks for the name of the variant.
-pub(super) fn ask(app: &mut App) {
-    let picker =
-        Picker { input: format!("{VARIANT} ").as_str().into(), ..Picker::new(List::Commands) };
-    app.prompts.push(Prompt::Pick(picker));
-}
+use crate::tui::solver::{Baseline, Variants};
 
 /// Saves the edits since the last save as a variant and shows the case without them. Without edits,
 /// loads the variant with this name into the form.
-pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
+pub(super) fn keep(app: &mut App, name: &str) {
     if let Err(problem) = Variant::check_name(name) {
         app.complain(format!("{}: {}", problem.cause, problem.fix));
-        return Vec::new();
+        return;
     }
     let variant = Variant::between(name, &app.tab.saved, &app.tab.case);
     if variant.overrides.is_empty() {
@@ -33,25 +23,24 @@ pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
     }
     if !app.tab.problems.is_empty() {
         app.complain("a field has an error: correct it before the edits become a variant");
-        return Vec::new();
+        return;
     }
     let count = variant.overrides.len();
     let edits = if count == 1 { "edit" } else { "edits" };
     let mut case = app.tab.saved.clone();
     case.variants.clone_from(&app.tab.case.variants);
     case.keep_variant(variant);
-    let effects = edit::replace(app, case);
+    edit::replace(app, case);
     app.say(format!(
         "variant {name} now has {count} {edits}; the form shows the case without them; Ctrl-Z undoes"
     ));
-    effects
 }
 
 /// Shows the variants beside the case, the next variants, or the methods again.
 pub(super) fn next(app: &mut App) {
     let count = app.tab.case.variants.len();
     if count == 0 {
-        let key = app.key_of(Command::Variant);
+        let key = key_of(app, "variant");
         app.say(format!("the case has no variants: {key} NAME saves the edits as one"));
         return;
     }
@@ -63,33 +52,46 @@ pub(super) fn next(app: &mut App) {
     };
 }
 
-/// A request for the visible variants, unless they are solved or requested already.
-pub(super) fn request(app: &mut App) -> Option<Effect> {
-    let is_shown = !app.layout.plan().area(Pane::Results).is_empty();
+/// Solves the visible variants, unless they are solved already.
+pub(super) fn request(app: &mut App) {
+    let is_shown = app.layout.plan().shows(Pane::Results);
     app.first_variant = app.first_variant.filter(|first| *first < app.tab.case.variants.len());
-    app.first_variant.filter(|_| is_shown)?;
-    let tab = &mut app.tab;
-    let is_known = tab.variants.as_ref().is_some_and(|found| found.serial == tab.serial);
+    let tab = &app.tab;
+    let (serial, id) = (tab.serial, tab.id);
+    let is_known = tab.variants.as_ref().is_some_and(|found| found.serial == serial);
     // A request of another tab replaces this request.
-    if is_known || app.comparing == Some(tab.serial) || !tab.problems.is_empty() {
-        return None;
+    let runs = app.comparing == Some(serial) && app.is_busy(Slot::Variants);
+    let is_wanted = is_shown && app.first_variant.is_some() && tab.problems.is_empty();
+    if !is_wanted || is_known || runs {
+        return;
     }
-    app.comparing = Some(tab.serial);
     let column = |variant: &Variant| (variant.name.clone(), inputs(&tab.case, variant));
-    let request = VariantsRequest {
-        serial: tab.serial,
-        columns: tab.case.variants.iter().map(column).collect(),
-        stages: Pane::Results.needs().without(Stage::Clearing),
+    let columns: Vec<_> = tab.case.variants.iter().map(column).collect();
+    app.comparing = Some(serial);
+    // As in `tipstrike compare`.
+    let stages = Pane::Results.needs().without(Stage::Clearing);
+    let solve = move |running: &Running<'_>| {
+        let solved = |inputs: &Inputs| {
+            let go_on = |_| running.is_wanted();
+            match Evaluator::default().solve(inputs, inputs.method, stages, &go_on) {
+                Err(Refusal::Stopped) => None,
+                found => Some(found.map_err(|refusal| format!("{refusal}: {}", refusal.fix()))),
+            }
+        };
+        let columns = columns.into_iter().map(|(name, inputs)| {
+            let found = match inputs {
+                Ok(inputs) => solved(&inputs)?,
+                Err(problem) => Err(problem),
+            };
+            Some((name, found))
+        });
+        Some(Variants { serial, columns: columns.collect::<Option<_>>()? })
     };
-    Some(Effect::Job(Job::Variants(Box::new(request))))
-}
-
-/// Shows the solved variants.
-pub(super) fn take(app: &mut App, found: Variants) {
-    app.comparing = app.comparing.filter(|serial| *serial != found.serial);
-    if let Some(tab) = app.tab_of(found.serial) {
-        tab.variants = Some(found);
-    }
+    app.start(Work::new(Slot::Variants, solve, move |app, found| {
+        if let Some(tab) = app.tab_with(id) {
+            tab.variants = Some(found);
+        }
+    }));
 }
 
 /// Pins the results of the current case, or unpins the pinned ones.
@@ -141,17 +143,16 @@ pub(super) fn rename_baseline(app: &mut App) {
     }
 }
 
-fn recall(app: &mut App, name: &str) -> Vec<Effect> {
+fn recall(app: &mut App, name: &str) {
     let Ok(variant) = app.tab.case.variant(name).cloned() else {
-        let key = app.key_of(Command::Variant);
+        let key = key_of(app, "variant");
         app.say(format!("no edits since the last save: change a field, then type {key} NAME"));
-        return Vec::new();
+        return;
     };
     let case = app.tab.case.with(&variant);
     let outcome = edit::undone_by(app, &case);
-    let effects = edit::replace(app, case);
+    edit::replace(app, case);
     app.say(format!("the form shows variant {name}{outcome}"));
-    effects
 }
 
 fn inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {

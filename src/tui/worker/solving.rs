@@ -3,12 +3,13 @@
 
 use std::cell::Cell;
 use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-use super::{Running, Send, Worker};
+use super::{Send, Worker, on_demand};
 use crate::case::Evaluator;
 use crate::model::Stage;
-use crate::tui::actions::Action;
+use crate::tui::app::actions::Action;
 use crate::tui::solver::{Answer, PATIENCE, Request, cleared, solved, with_stiffness};
 
 /// A solve that takes longer shows its progress.
@@ -22,38 +23,44 @@ const STEP: Duration = Duration::from_millis(200);
 /// Returns an error if the system cannot start a thread.
 pub(crate) fn start(send: Send) -> io::Result<Worker<Request>> {
     let mut evaluator = Evaluator::default();
-    Worker::start(
-        "solver",
-        send,
-        move |request: &Request, running| {
-            if let Some(answer) = solve(&mut evaluator, request, running) {
-                (running.send)(Action::Solved(Box::new(answer)));
-            }
-        },
-        |request| Action::SolverFailed(request.serial),
-    )
+    Worker::start("solver", send, move |request: Request, is_wanted, send| {
+        let found = catch_unwind(AssertUnwindSafe(|| {
+            on_demand("solver");
+            solve(&mut evaluator, &request, is_wanted, send)
+        }));
+        match found {
+            Ok(Some(answer)) => send(Action::Solved(Box::new(answer))),
+            Ok(None) => (),
+            Err(_) => send(Action::SolverFailed(request.serial)),
+        }
+    })
 }
 
 // Sends intermediate answers of a slow solve and returns the last one.
-fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> Option<Answer> {
+fn solve(
+    evaluator: &mut Evaluator,
+    request: &Request,
+    is_wanted: &dyn Fn() -> bool,
+    send: &dyn Fn(Action),
+) -> Option<Answer> {
     let begun = Instant::now();
     let (waiting, next_progress) = (Cell::new(Some(begun + PATIENCE)), Cell::new(begun + LONG));
     let go_on = |part: f64, at_once: &dyn Fn() -> Answer| {
         let now = Instant::now();
         if waiting.get().is_some_and(|until| now > until) {
             waiting.set(None);
-            (running.send)(Action::Solved(Box::new(at_once())));
+            send(Action::Solved(Box::new(at_once())));
         } else if now > next_progress.get() {
             next_progress.set(now + STEP);
-            (running.send)(Action::Solving(request.serial, part));
+            send(Action::Solving(request.serial, part));
         }
-        (running.is_wanted)()
+        is_wanted()
     };
     let answer = solved(evaluator, request, begun, &go_on)?;
     if request.stiffness {
         // The elastic fields of new gears are slow, and the results must not wait for them.
-        (running.send)(Action::Solved(Box::new(answer.clone())));
-        if !(running.is_wanted)() {
+        send(Action::Solved(Box::new(answer.clone())));
+        if !is_wanted() {
             return None;
         }
     }
@@ -65,9 +72,9 @@ fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> 
         if answer.stages.covers(stages) || answer.refusal().is_some() {
             continue;
         }
-        (running.send)(Action::Solved(Box::new(answer.clone())));
+        send(Action::Solved(Box::new(answer.clone())));
         let request = Request { stages, ..request.clone() };
-        answer = cleared(evaluator, &request, answer, begun, &|_| (running.is_wanted)())?;
+        answer = cleared(evaluator, &request, answer, begun, &|_| is_wanted())?;
     }
     Some(Answer { stages: request.stages, ..answer })
 }

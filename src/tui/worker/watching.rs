@@ -11,7 +11,7 @@ use std::time::{Duration, SystemTime};
 use super::Send;
 use crate::system::changes::{Bell, Changes, Places};
 use crate::system::files;
-use crate::tui::actions::Action;
+use crate::tui::app::actions::Action;
 use crate::tui::store::{self, WatchedFile};
 
 /// A file is read once its mark has not changed for this time, or after [`LOOKS`] checks.

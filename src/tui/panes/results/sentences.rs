@@ -11,6 +11,7 @@ use crate::report;
 use crate::report::digest::{self, differing, whine};
 use crate::report::verdict::{Verdict, verdicts};
 use crate::tui::ascii::symbol;
+use crate::tui::keys::NEXT_FAULT;
 use crate::tui::rows;
 use crate::tui::solver::Answer;
 
@@ -69,7 +70,7 @@ fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
 
 /// Why the results belong to an earlier state of the form: the cause, then the fix.
 fn faults(pane: &Results<'_>) -> Vec<String> {
-    let key = &pane.next_fault;
+    let key = NEXT_FAULT;
     if let Some(refusal) = pane.refusal {
         return vec![
             format!("! Not solved: {refusal}."),
