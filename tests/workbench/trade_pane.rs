@@ -9,6 +9,7 @@ use tipstrike::study::trade::Setting;
 use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::jobs::Slot;
+use tipstrike::tui::testing::pane::Pane;
 use tipstrike::tui::testing::update::update;
 
 fn measured(size: Size) -> Desk {
@@ -52,7 +53,7 @@ fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     assert_eq!(traded.marked.expect("a mark").method, Method::Dynamic);
     assert!(desk.shows("Within 5.0 %: dynamic with"), "{}", desk.screen());
     assert!(desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")), "{}", desk.screen());
-    assert!(desk.shows("P") && desk.shows("1 ms") && desk.app.progress.is_none());
+    assert!(desk.shows("P") && desk.shows("1 ms") && !desk.app.is_busy(Slot::Benchmark));
 }
 
 #[test]
