@@ -185,7 +185,7 @@ fn ctrl(letter: char) -> KeyEvent {
     KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)
 }
 
-fn keys(key: KeyEvent, times: usize) -> Vec<Event> {
+fn presses(key: KeyEvent, times: usize) -> Vec<Event> {
     (0..times).map(|_| Event::Input(Input::Key(key))).collect()
 }
 
@@ -234,14 +234,14 @@ impl Bench {
                 .collect::<Vec<_>>()
         };
         match happening {
-            Happening::Key(key, times) => self.feed(keys(key, times)),
+            Happening::Key(key, times) => self.feed(presses(key, times)),
             Happening::Type(text) => self.feed(letters(text)),
             Happening::Paste(text) => self.feed([Event::Input(Input::Paste(text))]),
             Happening::Resize(width, height) => {
                 self.feed([Event::Input(Input::Resize(width, height))]);
             }
             Happening::Fill(field, text) => {
-                let steps = keys(key(KeyCode::Down), field);
+                let steps = presses(key(KeyCode::Down), field);
                 self.feed([Event::Input(Input::Key(KeyEvent::new(
                     KeyCode::Home,
                     KeyModifiers::CONTROL,
@@ -466,7 +466,7 @@ impl Bench {
 
     /// Undoes all edits and expects the first case; redoes them and expects the last one.
     fn assert_undone(&mut self) {
-        self.feed(keys(key(KeyCode::Esc), self.app.prompts.len()));
+        self.feed(presses(key(KeyCode::Esc), self.app.prompts.len()));
         self.repeat(ctrl('y'), "nothing to redo");
         let last = self.app.tab.case.clone();
         self.repeat(ctrl('z'), "nothing to undo");

@@ -8,7 +8,7 @@ use crate::case::fields::FIELDS;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 use crate::report::tolerance::ToleranceReport;
-use crate::study::batch::{self, Batch, Control, Points, Refusals, Row, Stopped, solve_all};
+use crate::study::batch::{self, Batch, Control, Points, Refusals, Stopped, solve_all};
 use crate::study::sample::Design;
 use crate::study::sweep::Grid;
 use crate::study::tolerance::{Samples, Size, Tolerance};
@@ -299,7 +299,7 @@ fn solve(
     batch: &Batch,
     count: usize,
     running: &Running<'_>,
-    take: &mut dyn FnMut(usize, &[Row]) -> bool,
+    take: &mut dyn FnMut(usize, &[batch::Row]) -> bool,
 ) -> Result<(), Stopped> {
     // One core stays free for the main loop and the solver.
     let cores = batch::jobs(None);
