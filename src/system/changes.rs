@@ -1,12 +1,9 @@
-//! Waits for changes in the folders of the watched files without periodic wake-ups.
+//! Reports changes in the folders of the watched files, on Linux without periodic wake-ups.
 
 use std::collections::BTreeSet;
+use std::io;
 use std::path::PathBuf;
-
-#[cfg(target_os = "linux")]
-pub(crate) use linux::{Bell, Changes};
-#[cfg(not(target_os = "linux"))]
-pub(crate) use periodic::{Bell, Changes};
+use std::thread;
 
 /// The watched places.
 #[derive(Debug, Default)]
@@ -18,42 +15,47 @@ pub(crate) struct Places {
 }
 
 #[cfg(target_os = "linux")]
+pub(crate) use linux::Changes;
+#[cfg(not(target_os = "linux"))]
+pub(crate) use periodic::Changes;
+
+/// Starts a thread that runs `wait` and `report` until one of them returns false.
+fn start(
+    mut wait: impl FnMut() -> bool + Send + 'static,
+    report: impl Fn() -> bool + Send + 'static,
+) -> io::Result<()> {
+    let repeat = move || while wait() && report() {};
+    thread::Builder::new().name("changes".to_owned()).spawn(repeat).map(drop)
+}
+
+#[cfg(target_os = "linux")]
 mod linux {
     use std::collections::BTreeSet;
     use std::io;
     use std::os::fd::OwnedFd;
     use std::path::PathBuf;
+    use std::sync::Arc;
 
-    use rustix::event::{EventfdFlags, PollFd, PollFlags, eventfd, poll};
     use rustix::fs::inotify::{self, CreateFlags, WatchFlags};
+    use rustix::io::{read, retry_on_intr};
 
     use super::Places;
 
-    /// Ends a wait.
-    #[derive(Debug)]
-    pub(crate) struct Bell(OwnedFd);
-
-    impl Bell {
-        pub(crate) fn new() -> io::Result<Bell> {
-            Ok(Bell(eventfd(0, EventfdFlags::CLOEXEC)?))
-        }
-
-        pub(crate) fn ring(&self) {
-            // A full counter ends the wait as well.
-            let _ = rustix::io::write(&self.0, &1_u64.to_ne_bytes());
-        }
-    }
-
-    /// The changes that end a wait.
+    /// The watched places.
     #[derive(Debug)]
     pub(crate) struct Changes {
-        inotify: OwnedFd,
+        inotify: Arc<OwnedFd>,
         watches: BTreeSet<i32>,
     }
 
     impl Changes {
-        pub(crate) fn new() -> io::Result<Changes> {
-            Ok(Changes { inotify: inotify::init(CreateFlags::CLOEXEC)?, watches: BTreeSet::new() })
+        /// Runs `report` after each change, in a thread, until it returns false.
+        pub(crate) fn start(report: impl Fn() -> bool + Send + 'static) -> io::Result<Changes> {
+            let inotify = Arc::new(inotify::init(CreateFlags::CLOEXEC)?);
+            let events = Arc::clone(&inotify);
+            let wait = move || retry_on_intr(|| read(&events, &mut [0; 4096])).is_ok();
+            super::start(wait, report)?;
+            Ok(Changes { inotify, watches: BTreeSet::new() })
         }
 
         /// Watches these places and no others. Skips a place that cannot be watched.
@@ -74,69 +76,32 @@ mod linux {
             }
             self.watches = watches;
         }
-
-        /// Waits for a change in a folder, or for the bell.
-        pub(crate) fn wait(&self, bell: &Bell) {
-            let mut lines =
-                [PollFd::new(&self.inotify, PollFlags::IN), PollFd::new(&bell.0, PollFlags::IN)];
-            if poll(&mut lines, None).is_err() {
-                return;
-            }
-            let ready = lines.map(|line| !line.revents().is_empty());
-            let mut events = [0; 4096];
-            if ready[0] {
-                let _ = rustix::io::read(&self.inotify, &mut events);
-            }
-            if ready[1] {
-                let _ = rustix::io::read(&bell.0, &mut events[..8]);
-            }
-        }
     }
 }
 
 #[cfg(not(target_os = "linux"))]
 mod periodic {
     use std::io;
-    use std::sync::{Condvar, Mutex, PoisonError};
+    use std::thread;
     use std::time::Duration;
 
     /// Polling interval.
     const PERIOD: Duration = Duration::from_secs(1);
 
-    /// Ends a wait.
-    #[derive(Debug, Default)]
-    pub(crate) struct Bell {
-        rings: Mutex<bool>,
-        condition: Condvar,
-    }
-
-    impl Bell {
-        pub(crate) fn new() -> io::Result<Bell> {
-            Ok(Bell::default())
-        }
-
-        pub(crate) fn ring(&self) {
-            *self.rings.lock().unwrap_or_else(PoisonError::into_inner) = true;
-            self.condition.notify_one();
-        }
-    }
-
-    /// Without folder events, every wait ends after a second.
+    /// Without folder events, every second counts as a change.
     #[derive(Debug)]
     pub(crate) struct Changes;
 
     impl Changes {
-        pub(crate) fn new() -> io::Result<Changes> {
+        pub(crate) fn start(report: impl Fn() -> bool + Send + 'static) -> io::Result<Changes> {
+            let wait = || {
+                thread::sleep(PERIOD);
+                true
+            };
+            super::start(wait, report)?;
             Ok(Changes)
         }
 
         pub(crate) fn follow(&mut self, _: &super::Places) {}
-
-        pub(crate) fn wait(&self, bell: &Bell) {
-            let rings = bell.rings.lock();
-            let rings = rings.unwrap_or_else(PoisonError::into_inner);
-            let waited = bell.condition.wait_timeout_while(rings, PERIOD, |rings| !*rings);
-            *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
-        }
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use ratatui::layout::Size;
+use ratatui::layout::{Position, Rect, Size};
 
 use super::dialogs::cursor_to::CursorScope;
 use super::dialogs::{Prompt, Surroundings};
@@ -308,7 +308,7 @@ impl App {
 
     /// The context of a dialog.
     pub(crate) fn surroundings(&self) -> Surroundings<'_> {
-        Surroundings { screen: self.layout.size(), look: self.look, cursor: self.cursor_scope() }
+        Surroundings { screen: Rect::from((Position::ORIGIN, self.layout.size())), look: self.look, cursor: self.cursor_scope() }
     }
 
     /// The form with its case.

@@ -13,19 +13,20 @@ mod relief;
 use std::path::PathBuf;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Position, Rect};
 
 use super::jobs::Job;
 use super::keys::Place;
 use super::line::Line;
 use super::session::save::Next;
+use super::store::folder::{Preview, Target};
 use super::theme::Look;
 use crate::case::units::System;
 
 use browser::Browser;
 use cursor_to::{CursorScope, CursorTo};
 use page::{Explanation, Page};
-use path::{ExportTo, SaveAs};
+use path::PathDialog;
 use picker::{Pick, Picker};
 use question::{Choice, Question};
 pub(crate) use relief::ReliefDialog;
@@ -65,7 +66,9 @@ pub(crate) trait Dialog {
     fn step(&mut self, _by: isize, _around: &Surroundings<'_>) {}
 
     /// Moves by `by` pages.
-    fn turn(&mut self, _by: isize, _around: &Surroundings<'_>) {}
+    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
+        self.step(by * boxes::page_height(around.screen), around);
+    }
 
     /// Handles the mouse wheel.
     fn wheel(&mut self, by: isize, around: &Surroundings<'_>) {
@@ -73,7 +76,7 @@ pub(crate) trait Dialog {
     }
 
     /// Handles a mouse click. Returns whether it accepts.
-    fn click(&mut self, _at: Position, _screen: Size) -> bool {
+    fn click(&mut self, _at: Position, _screen: Rect) -> bool {
         false
     }
 
@@ -84,13 +87,15 @@ pub(crate) trait Dialog {
     fn preview(&mut self, _units: System) -> Option<Job> {
         None
     }
+
+    /// Shows a preview.
+    fn show(&mut self, _target: &Target, _preview: Preview) {}
 }
 
 /// The context of a dialog.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surroundings<'a> {
-    /// The size of the screen.
-    pub(crate) screen: Size,
+    pub(crate) screen: Rect,
     /// The capabilities of the terminal.
     pub(crate) look: Look,
     /// The visible charts and the pane in which the cursor moves.
@@ -133,10 +138,8 @@ impl Outcome {
 pub enum Prompt {
     /// The file browser.
     Browse(Box<Browser>),
-    /// The file to save to.
-    SaveAs(SaveAs),
-    /// The file to export to.
-    Export(ExportTo),
+    /// The file to save or to export to.
+    Path(PathDialog),
     /// The angle for the cursor.
     CursorTo(CursorTo),
     /// A question with buttons.
@@ -156,8 +159,7 @@ impl Prompt {
     pub(crate) fn dialog(&self) -> &dyn Dialog {
         match self {
             Prompt::Browse(dialog) => &**dialog,
-            Prompt::SaveAs(dialog) => dialog,
-            Prompt::Export(dialog) => dialog,
+            Prompt::Path(dialog) => dialog,
             Prompt::CursorTo(dialog) => dialog,
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
@@ -171,8 +173,7 @@ impl Prompt {
     pub(crate) fn dialog_mut(&mut self) -> &mut dyn Dialog {
         match self {
             Prompt::Browse(dialog) => &mut **dialog,
-            Prompt::SaveAs(dialog) => dialog,
-            Prompt::Export(dialog) => dialog,
+            Prompt::Path(dialog) => dialog,
             Prompt::CursorTo(dialog) => dialog,
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
@@ -192,7 +193,7 @@ impl Prompt {
 
     /// Whether it is the dialog for the path to save to.
     pub(crate) fn is_save_as(&self) -> bool {
-        matches!(self, Prompt::SaveAs(_))
+        matches!(self, Prompt::Path(dialog) if dialog.save.is_some())
     }
 
     /// Whether it is the question about a running export.
@@ -202,6 +203,6 @@ impl Prompt {
 
     /// Whether it is the dialog for the path to export to.
     pub(crate) fn is_export(&self) -> bool {
-        matches!(self, Prompt::Export(_))
+        matches!(self, Prompt::Path(dialog) if dialog.save.is_none())
     }
 }

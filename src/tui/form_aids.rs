@@ -11,7 +11,7 @@ use crate::model::Quantity;
 use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
 
-pub(crate) use search::{search, search_results};
+pub(crate) use search::{COMMAND, Entry, HELP, LABEL, query};
 
 /// Significant digits of the ends of a range that is not printed as in the table of fields.
 const RANGE_DIGITS: usize = 3;

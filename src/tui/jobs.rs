@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use super::store::folder::Viewport;
+use super::store::folder::Target;
 use crate::case::Document;
 use crate::case::units::System;
 use crate::model::Inputs;
@@ -22,7 +22,6 @@ pub enum Slot {
     Preview,
     Recents,
     Model,
-    Examples,
     Explanation,
     Report,
     Export,
@@ -62,7 +61,7 @@ pub enum Job {
     /// Find the cases below such a folder.
     Search((PathBuf, String), PathBuf),
     /// Preview a file or a folder.
-    Preview(Viewport, System),
+    Preview(Target, System),
     /// List the recent cases.
     Recents,
     /// Find the tip relief to specify.

@@ -5,6 +5,7 @@ pub(crate) mod folder;
 pub(crate) mod state;
 
 use std::env;
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -17,6 +18,7 @@ use crate::case::stamp::Stamp;
 use crate::case::{Document, rexs};
 use crate::system::sharing;
 
+use folder::{Entry, Target};
 use state::State;
 
 /// Greatest number of recent cases.
@@ -62,16 +64,6 @@ impl WatchedFile {
     pub(crate) fn is_of(&self, document: &Document) -> bool {
         document.stamp() == self.stamp && document.path() == Some(&self.target)
     }
-}
-
-/// A case that was opened before.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Recent {
-    pub(crate) path: PathBuf,
-    /// The path as text in lower case.
-    pub(crate) folded: String,
-    /// Whether the file is missing.
-    pub(crate) is_missing: bool,
 }
 
 /// The document of the built-in case.
@@ -127,13 +119,22 @@ pub(super) fn at_home(path: &Path) -> PathBuf {
     }
 }
 
-/// Checks which files still exist.
+/// Recent cases as lines of the browser, and whether their files still exist.
 #[must_use]
-pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
+pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Entry> {
     let look = |path: PathBuf| {
         let is_missing =
             fs::metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
-        Recent { folded: sanitize(&path.to_string_lossy()).to_lowercase(), is_missing, path }
+        let text = |name: &OsStr| name.to_string_lossy().into_owned();
+        let mut name = path.file_name().map(text).unwrap_or_default();
+        if is_missing {
+            name += "  (missing)";
+        }
+        if let Some(folder) = path.parent().and_then(Path::file_name) {
+            name += &format!("  in {}/", text(folder));
+        }
+        let whole = sanitize(&path.to_string_lossy());
+        Entry::new(name, &whole, Target::File(path))
     };
     paths.into_iter().map(look).collect()
 }

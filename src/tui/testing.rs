@@ -80,7 +80,7 @@ pub mod solver {
 
 pub mod store {
     pub use crate::tui::store::built_in;
-    pub use crate::tui::store::folder::Viewport;
+    pub use crate::tui::store::folder::Target;
     pub use crate::tui::store::state::State;
 
     pub mod case_search {

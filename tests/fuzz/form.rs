@@ -27,7 +27,7 @@ use tipstrike::tui::testing::session::Autosave;
 use tipstrike::tui::testing::session::JournalWriter;
 use tipstrike::tui::testing::solver::{self, Request};
 use tipstrike::tui::testing::store::State;
-use tipstrike::tui::testing::store::Viewport;
+use tipstrike::tui::testing::store::Target;
 use tipstrike::tui::testing::store::{self, recents};
 use tipstrike::tui::testing::theme::Look;
 use tipstrike::tui::testing::update::update;
@@ -86,7 +86,7 @@ fn any_typing_leaves_the_form_valid_and_the_screen_safe() {
         bench.assert_undone();
         seen.borrow_mut().append(&mut bench.seen);
     });
-    let prompts = ["browse", "save as", "ask", "page", "pick", "aim"];
+    let prompts = ["browse", "path", "ask", "page", "pick", "aim"];
     let ends = ["loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
     let all: BTreeSet<_> = prompts.into_iter().chain(ends).collect();
     assert_eq!(*seen.borrow(), all, "the keys get too seldom to all that the workbench does");
@@ -268,8 +268,7 @@ impl Bench {
     fn look_around(&mut self) {
         let prompt = self.app.prompts.last().map(|prompt| match prompt {
             Prompt::Browse(_) => "browse",
-            Prompt::SaveAs(_) => "save as",
-            Prompt::Export(_) => "export",
+            Prompt::Path(_) => "path",
             Prompt::CursorTo(_) => "aim",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) | Prompt::Explain(_) | Prompt::Relief(_) => "page",
@@ -355,7 +354,7 @@ impl Bench {
                 Vec::new()
             }
             // A search for a relief takes seconds, and no key needs its result.
-            Effect::Job(_, Job::Relief(_) | Job::Preview(Viewport::Folder(_), _)) => Vec::new(),
+            Effect::Job(_, Job::Relief(_) | Job::Preview(Target::Folder(_), _)) => Vec::new(),
             Effect::Job(number, job) => results(number, work_of(self.job_within(job))),
             Effect::Work(number, work) => match work.slot {
                 Slot::Study | Slot::Chart | Slot::Benchmark => Vec::new(),
@@ -382,8 +381,8 @@ impl Bench {
         match job {
             Job::Folder(asked, place) => Job::Folder(asked, self.within(&place)),
             Job::Search(asked, place) => Job::Search(asked, self.within(&place)),
-            Job::Preview(Viewport::File(path), units) => {
-                Job::Preview(Viewport::File(self.within(&path)), units)
+            Job::Preview(Target::File(path), units) => {
+                Job::Preview(Target::File(self.within(&path)), units)
             }
             Job::Export(mut exporting) => {
                 exporting.path = self.within(&exporting.path);

@@ -244,7 +244,7 @@ fn every_command_of_the_palette_works_on_every_screen() {
         for command in listed(&palette) {
             let mut desk = Desk::with(palette.app.clone());
             desk.act(Action::Paste(command.name.clone()));
-            let place = listed(&desk).iter().position(|one| *one == command);
+            let place = listed(&desk).iter().position(|one| one.name == command.name);
             for _ in 0..place.unwrap_or_else(|| panic!("{}", command.name)) {
                 desk.keys(&["Down"]);
             }

@@ -1,14 +1,17 @@
-//! A box in the middle of the screen, with its lists, and the digest of a case as lines.
+//! A box in the middle of the screen with its lists and lines of text.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Position, Rect, Size};
+use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::Style;
-use ratatui::text::Line;
-use ratatui::widgets::{Block, Clear, Widget};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders, Clear, Padding, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use crate::report::digest::Digest;
+use crate::case::units::System;
+use crate::tui::ascii::printable;
+use crate::tui::jobs::Job;
 use crate::tui::line::Line as Input;
+use crate::tui::store::folder::{Preview, Target};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -19,17 +22,19 @@ const NARROWEST: u16 = 52;
 
 /// The size inside the largest box.
 #[must_use]
-pub(super) fn room(screen: Size) -> Size {
-    Size {
-        width: screen.width.min(WIDEST).saturating_sub(4),
-        height: screen.height.saturating_sub(4),
-    }
+pub(super) fn room(screen: Rect) -> Size {
+    Size::new(screen.width.min(WIDEST).saturating_sub(4), screen.height.saturating_sub(4))
 }
 
 /// Number of lines of a page in the largest box.
 #[must_use]
-pub(super) fn page_height(screen: Size) -> isize {
-    isize::try_from(room(screen).height).unwrap_or(1).max(1)
+pub(super) fn page_height(screen: Rect) -> isize {
+    isize::from(room(screen).height.cast_signed()).max(1)
+}
+
+/// The first visible line after a scroll by `by` of the lines in the largest box.
+pub(super) fn scrolled(top: usize, by: isize, count: usize, screen: Rect) -> usize {
+    top.saturating_add_signed(by).min(count.saturating_sub(room(screen).height.into()))
 }
 
 /// Selects a line. Returns whether the line was already selected.
@@ -47,79 +52,86 @@ pub(super) fn frame(
 ) -> Rect {
     let area = outside(wanted, screen);
     Clear.render(area, buffer);
-    let title = Line::styled(
-        format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))),
-        theme.title,
-    );
+    let title = text::cut(title, usize::from(area.width).saturating_sub(6));
+    let title = Line::styled(format!(" {title} "), theme.title);
     Block::bordered().title(title).render(area, buffer);
     inside(wanted, screen)
-}
-
-/// A box with a line for a path and a sentence of help. Returns the position of the text cursor.
-pub(super) fn path_box(
-    title: &str,
-    how: &str,
-    input: &Input,
-    theme: &Theme,
-    (screen, buffer): (Rect, &mut Buffer),
-) -> Option<Position> {
-    let how = text::wrap(how, usize::from(room(screen.as_size()).width));
-    let size = Size::new(WIDEST, how.len() as u16 + 1);
-    let inner = frame(title, size, screen, theme, buffer);
-    for (line, y) in how.iter().zip(inner.top() + 1..inner.bottom()) {
-        buffer.set_stringn(inner.x, y, line, inner.width.into(), theme.faint);
-    }
-    let line = Rect { height: inner.height.min(1), ..inner };
-    text::edited(input, line, theme.focus, buffer)
 }
 
 /// The area inside a box.
 #[must_use]
 pub(super) fn inside(wanted: Size, screen: Rect) -> Rect {
-    let inner = Block::bordered().inner(outside(wanted, screen));
-    Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner }
+    Block::bordered().padding(Padding::horizontal(1)).inner(outside(wanted, screen))
 }
 
-/// Splits an area into a list on the left and its details on the right, with a rule between them.
-pub(super) fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
-    let left = area.width * 2 / 5;
-    for y in area.top()..area.bottom() {
-        buffer.set_stringn(area.x + left, y, "│", usize::from(area.width > left), Style::new());
-    }
-    parted(area)
+/// A box with an input line above other lines. Returns the input line and the position of the text
+/// cursor.
+pub(super) fn input_box(
+    title: &str,
+    width: u16,
+    input: &Input,
+    lines: &[Line<'_>],
+    theme: &Theme,
+    (screen, buffer): (Rect, &mut Buffer),
+) -> (Rect, Option<Position>) {
+    let size = Size::new(width, lines.len() as u16 + 1);
+    let [line, below] = input_above(frame(title, size, screen, theme, buffer));
+    text::draw_lines(lines, below, buffer);
+    (line, text::edited(input, line, theme.focus, buffer))
 }
 
-/// Both halves without the rule.
+/// The first line of an area, and the area below it.
 #[must_use]
-pub(super) fn parted(area: Rect) -> (Rect, Rect) {
-    let left = area.width * 2 / 5;
-    let right = area.width.saturating_sub(left + 2);
-    (
-        Rect { width: left.saturating_sub(1), ..area },
-        Rect { x: area.right() - right, width: right, ..area },
-    )
+pub(super) fn input_above(area: Rect) -> [Rect; 2] {
+    Layout::vertical([Constraint::Length(1), Constraint::Fill(1)]).areas(area)
+}
+
+/// A box that shows the lines from `top`, with a scroll bar if they do not fit.
+pub(super) fn page_box(
+    title: &str,
+    lines: &[Line<'_>],
+    top: usize,
+    theme: &Theme,
+    (screen, buffer): (Rect, &mut Buffer),
+) -> Rect {
+    let inner = frame(title, extent(lines), screen, theme, buffer);
+    text::draw_lines(lines.get(top..).unwrap_or_default(), inner, buffer);
+    text::scroll_bar_beside(top, lines.len(), inner, buffer);
+    inner
+}
+
+/// A list on the left and its details on the right.
+#[must_use]
+pub(super) fn halves(area: Rect) -> [Rect; 2] {
+    Layout::horizontal([Constraint::Percentage(40), Constraint::Fill(1)]).spacing(1).areas(area)
+}
+
+/// Draws the details on the right of a list.
+pub(super) fn draw_details(
+    lines: impl FnOnce(u16) -> Vec<Line<'static>>,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let beside = Block::new().borders(Borders::LEFT).padding(Padding::left(1));
+    let inner = beside.inner(area);
+    beside.render(area, buffer);
+    text::draw_lines(&lines(inner.width), inner, buffer);
 }
 
 /// Draws the lines of a list around the selected one; only visible lines are built.
 pub(super) fn draw_window(
     count: usize,
     line: impl Fn(usize) -> String,
-    marked: Option<usize>,
+    selected: Option<usize>,
     area: Rect,
     theme: &Theme,
     buffer: &mut Buffer,
 ) {
-    for (at, y) in (top_of(marked, area)..count).zip(area.top()..area.bottom()) {
-        let is_marked = marked == Some(at);
-        let line = format!("{} {}", if is_marked { "▸" } else { " " }, line(at));
-        let style = if is_marked { theme.focus } else { Style::new() };
-        buffer.set_stringn(
-            area.x,
-            y,
-            text::cut(&line, area.width.into()),
-            area.width.into(),
-            style,
-        );
+    for (at, row) in (top_of(selected, area)..count).zip(area.rows()) {
+        let (sign, style) =
+            if selected == Some(at) { ("▸", theme.focus) } else { (" ", Style::new()) };
+        let line = text::cut(&format!("{sign} {}", line(at)), area.width.into());
+        Span::styled(line, style).render(row, buffer);
     }
 }
 
@@ -127,60 +139,92 @@ pub(super) fn draw_window(
 #[must_use]
 pub(super) fn line_at(
     count: usize,
-    marked: Option<usize>,
+    selected: Option<usize>,
     area: Rect,
     at: Position,
 ) -> Option<usize> {
-    let line = area.contains(at).then(|| top_of(marked, area) + usize::from(at.y - area.y));
+    let line = area.contains(at).then(|| top_of(selected, area) + usize::from(at.y - area.y));
     line.filter(|&line| line < count)
 }
 
-/// The size of the lines with `more` additional lines.
-pub(super) fn extent(lines: &[String], more: usize) -> Size {
-    let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
+/// The size of lines of text.
+#[must_use]
+pub(super) fn extent(lines: &[Line<'_>]) -> Size {
+    let width = lines.iter().map(Line::width).max().unwrap_or(0);
     let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
-    Size { width: size(width), height: size(lines.len() + more) }
+    Size::new(size(width), size(lines.len()))
 }
 
-/// The lines in `width` columns, each with its style.
+/// The lines of a text in a width.
+pub(super) fn said(text: &str, style: Style, width: u16) -> impl Iterator<Item = Line<'static>> {
+    text::wrap(text, width.into()).into_iter().map(move |line| Span::styled(line, style).into())
+}
+
+/// A line in lines of a width; continuation lines begin below the second column of the line, if it
+/// has one.
 #[must_use]
-pub(super) fn digest_lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style)> {
-    let plain = Style::new();
-    let title = if digest.title.is_empty() { "without a title" } else { &digest.title };
-    let said = |text: &str, style: Style| {
-        text::wrap(text, width).into_iter().map(move |line| (line, style))
-    };
-    let empty = || std::iter::once((String::new(), plain));
-    let mut lines: Vec<_> = said(title, theme.title).collect();
-    lines.extend(
-        [&digest.pair, &digest.load, &format!("method {}", digest.method)]
-            .into_iter()
-            .flat_map(|text| said(text, plain)),
-    );
-    lines.extend(empty().chain(said(&digest.outcome, theme.focus)));
-    for (standing, text) in &digest.limits {
-        let style = if standing.holds() { plain } else { theme.problem };
-        lines.extend(said(&format!("{} {text}", standing.word()), style));
+pub(super) fn wrapped(line: &str, width: u16) -> Vec<String> {
+    let width = usize::from(width);
+    if line.width() <= width {
+        return vec![printable(line).into_owned()];
     }
-    if digest.limits.is_empty() {
-        lines.extend(said("No limits.", plain));
+    let lead = line.len() - line.trim_start().len();
+    let gap = line[lead..].find("  ").map(|at| lead + at);
+    let column = gap.map(|gap| line.len() - line[gap..].trim_start().len());
+    let (head, text) = line.split_at(column.filter(|_| line.is_ascii()).unwrap_or(lead));
+    let mut lines = text::wrap(text, width.saturating_sub(head.len()));
+    for (at, line) in lines.iter_mut().enumerate() {
+        let lead = if at == 0 { head } else { &" ".repeat(head.len()) };
+        line.insert_str(0, lead);
     }
-    lines.extend(
-        digest
-            .notes
-            .iter()
-            .flat_map(|note| empty().chain(said(&format!("Note: {note}"), theme.note))),
-    );
     lines
 }
 
+/// The preview of the selected line of a list.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PreviewPane {
+    /// The target of the last request.
+    target: Option<Target>,
+    /// The preview, once it is computed.
+    preview: Option<Preview>,
+}
+
+impl PreviewPane {
+    /// The job of the preview, once for each selection.
+    pub(super) fn request(&mut self, target: Option<Target>, units: System) -> Option<Job> {
+        if target == self.target {
+            return None;
+        }
+        (self.target, self.preview) = (target.clone(), None);
+        Some(Job::Preview(target?, units))
+    }
+
+    /// Shows a preview if it belongs to the last request.
+    pub(super) fn show(&mut self, target: &Target, preview: Preview) {
+        if self.target.as_ref() == Some(target) {
+            self.preview = Some(preview);
+        }
+    }
+
+    /// The lines of the preview in a width.
+    pub(super) fn lines(&self, width: u16, theme: &Theme) -> Vec<Line<'static>> {
+        match (&self.target, &self.preview) {
+            (None, _) => Vec::new(),
+            (_, None) => vec![Line::styled("reading ...", theme.faint)],
+            (_, Some(preview)) => {
+                preview.iter().flat_map(|(text, tone)| said(text, tone(theme), width)).collect()
+            }
+        }
+    }
+}
+
 fn outside(wanted: Size, screen: Rect) -> Rect {
-    let room = room(screen.as_size());
+    let room = room(screen);
     let height = wanted.height.clamp(1, room.height.max(1)) + 2;
     let width = wanted.width.max(NARROWEST).min(room.width) + 4;
     screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen)
 }
 
-fn top_of(marked: Option<usize>, area: Rect) -> usize {
-    marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()))
+fn top_of(selected: Option<usize>, area: Rect) -> usize {
+    selected.map_or(0, |selected| (selected + 1).saturating_sub(area.height.into()))
 }

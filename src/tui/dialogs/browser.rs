@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
-use ratatui::style::Style;
+use ratatui::text::Line as Words;
+use ratatui::widgets::{Clear, Widget};
 
+use super::boxes::{self, PreviewPane};
 use super::picker::Pick;
-use super::{Dialog, Outcome, Surroundings, boxes};
+use super::{Dialog, Outcome, Surroundings};
 use crate::case::units::System;
-use crate::case::{EXAMPLES, Example};
 use crate::tui::jobs::Job;
 use crate::tui::keys::Place;
-use crate::tui::line::Line as Text;
-use crate::tui::store::Recent;
-use crate::tui::store::folder::{self, Entry, Listing, Preview, SearchResult, Viewport, beneath};
+use crate::tui::line::Line;
+use crate::tui::store::folder::{Entry, Listing, Preview, SearchResult, Target, beneath, place_of};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -25,78 +25,76 @@ const SIZE: Size = Size { width: u16::MAX, height: 34 };
 /// Number of visible recent cases.
 const RECENTS: usize = 6;
 
+/// The sources of the lines, in their order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    /// The folder, with its parent.
+    Folder,
+    /// The cases in the folders below.
+    Below,
+    Examples,
+    Recents,
+}
+
+use Source::{Below, Examples, Folder, Recents};
+
+/// A folder and the recent cases.
+#[derive(Debug, Clone, Default)]
+pub struct Browser {
+    /// The typed text: a part of a name, or a path.
+    pub(crate) input: Line,
+    /// The start folder or the entered folder, relative to the working directory if possible.
+    base: PathBuf,
+    /// The folder part of the typed path, which the listing belongs to.
+    typed_folder: String,
+    /// The content of the folder; `None` while it is being read.
+    listing: Option<Listing>,
+    /// The folder of the requested search below, and its result.
+    sought: Option<(PathBuf, String)>,
+    below: Option<SearchResult>,
+    /// The lines of each source.
+    entries: [Vec<Entry>; 4],
+    /// The matching lines: their source and their index in it.
+    matches: Vec<(Source, usize)>,
+    /// The index of the selected line among the matches.
+    selected: usize,
+    /// Whether to select a recent case rather than one of the folder.
+    prefers_recents: bool,
+    /// The entry to select: the present case, or the folder from which the user went up.
+    came_from: Option<OsString>,
+    preview: PreviewPane,
+    /// Whether Enter waits for the listing of the typed folder.
+    is_accepting: bool,
+}
+
 impl Browser {
-    /// The job that lists the folder.
-    #[must_use]
-    pub(crate) fn list(&self) -> Job {
-        Job::Folder(self.asks(), self.place())
-    }
-
-    fn place(&self) -> PathBuf {
-        folder::place_of(&self.base, &self.typed_folder)
-    }
-
-    /// Enters the selected folder, or writes the selected name into the line.
-    pub(crate) fn complete(&mut self) -> Vec<Job> {
-        match self.marked_sight() {
-            Some(Viewport::Folder(folder)) => {
-                self.enter(folder);
-                return vec![self.list()];
-            }
-            Some(Viewport::File(path)) => self.input = path.display().to_string().into(),
-            Some(Viewport::Example(example)) => self.input = example.name.into(),
-            None => return Vec::new(),
-        }
-        self.typed()
-    }
-
     /// A browser in the folder of the present case; selects the recent cases if they are preferred.
     #[must_use]
     pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
         let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         let came_from = path.and_then(Path::file_name).map(ToOwned::to_owned);
-        Browser { base, prefers_recents, came_from, ..Browser::default() }
+        let entries = [Vec::new(), Vec::new(), Entry::examples(), Vec::new()];
+        Browser { base, prefers_recents, came_from, entries, ..Browser::default() }
     }
 
-    /// The folder and the typed part of the requested listing.
+    /// The job that lists the folder.
     #[must_use]
-    fn asks(&self) -> (PathBuf, String) {
-        (self.base.clone(), self.typed_folder.clone())
+    pub(crate) fn list(&self) -> Job {
+        Job::Folder(self.asked(), place_of(&self.base, &self.typed_folder))
     }
 
-    /// The typed path up to its last slash, and the rest. A lone `~` is the home folder.
-    #[must_use]
-    pub(crate) fn split(&self) -> (&str, &str) {
-        let typed = self.input.value();
-        if typed == "~" {
-            (typed, "")
-        } else {
-            typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1))
+    /// Enters the selected folder, or writes the selected name into the line.
+    pub(crate) fn complete(&mut self) -> Vec<Job> {
+        match self.target().cloned() {
+            Some(Target::Folder(folder)) => {
+                self.enter(folder);
+                return vec![self.list()];
+            }
+            Some(Target::File(path)) => self.input = path.display().to_string().into(),
+            Some(Target::Example(example)) => self.input = example.name.into(),
+            None => return Vec::new(),
         }
-    }
-
-    /// Updates the matches after typing. Returns whether the text names another folder.
-    pub(crate) fn follow(&mut self) -> bool {
-        let (folder, _) = self.split();
-        let is_other = folder != self.typed_folder;
-        if is_other {
-            folder.to_owned().clone_into(&mut self.typed_folder);
-            self.listing = None;
-        }
-        self.refit();
-        is_other
-    }
-
-    /// Shows a listing if it belongs to the present folder.
-    pub(crate) fn take(&mut self, listing: Listing) {
-        if listing.asked == self.asks() {
-            self.listing = Some(listing);
-            self.refit();
-            let came_from = self.came_from.take();
-            let is_it = |entry: &Entry| Some(&entry.file) == came_from.as_ref();
-            let at = self.entries().position(is_it).map(|at| at + usize::from(self.has_up()));
-            self.marked = at.filter(|_| !self.prefers_recents).unwrap_or(self.marked);
-        }
+        self.typed()
     }
 
     /// Whether the listing has arrived for which Enter waits; once.
@@ -104,229 +102,214 @@ impl Browser {
         self.listing.is_some() && std::mem::take(&mut self.is_accepting)
     }
 
-    /// The folder in which to search for cases below; at most one search for each folder.
-    fn seek(&mut self) -> Option<(PathBuf, String)> {
-        let is_sought = self.sought.as_ref() == Some(&self.asks());
-        if is_sought || self.wanted().is_none() {
-            return None;
-        }
-        self.sought = Some(self.asks());
-        self.sought.clone()
-    }
-
-    /// Whether the search in the folders below is still running.
-    fn is_seeking(&self) -> bool {
-        self.wanted().is_some() && self.own_below().is_none()
-    }
-
-    /// Shows the cases in the folders below; a selection before them does not change.
-    pub(crate) fn take_below(&mut self, below: SearchResult) {
-        self.below = Some(below);
-        let marked = self.marked;
-        let is_above = marked < self.count_of_folder() && !self.fitting.is_empty();
-        self.refit();
-        self.marked = if is_above { marked } else { self.marked };
-    }
-
-    /// Shows the recent cases.
-    pub fn remember(&mut self, recents: Vec<Recent>) {
-        self.recents = recents;
-        self.refit();
-    }
-
     /// Selects the first recent case, or goes back to the folder.
     pub(crate) fn select_recents(&mut self) {
-        self.prefers_recents = !self.marks_recent();
-        self.mark_first();
+        self.prefers_recents = self.source() != Some(Recents);
+        self.select_first();
     }
 
-    /// Whether the list includes the parent folder.
-    fn has_up(&self) -> bool {
-        self.listing.is_some() && self.split().1.is_empty()
+    /// Enters the parent folder, as a full path if known, and returns the job that lists it.
+    pub(crate) fn leave(&mut self) -> Job {
+        self.enter(self.above());
+        self.list()
     }
 
-    /// The matching entries of the folder.
-    pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
-        let entries = self.listing.as_ref().and_then(|listing| listing.entries.as_ref().ok());
-        self.fitting.iter().filter_map(move |&at| entries?.get(at))
-    }
-
-    /// The number of lines of the folder.
-    fn count_of_folder(&self) -> usize {
-        self.fitting.len()
-            + self.fitting_below.len()
-            + self.fitting_examples.len()
-            + usize::from(self.has_up())
-    }
-
-    /// The number of matching recent cases.
-    fn count_of_recents(&self) -> usize {
-        self.fitting_recents.len()
-    }
-
-    /// Whether a recent case is selected.
-    fn marks_recent(&self) -> bool {
-        self.count_of_recents() > 0 && self.marked >= self.count_of_folder()
-    }
-
-    /// A line by its index, those of the folder first.
-    #[must_use]
-    pub(crate) fn line(&self, at: usize) -> Option<Line<'_>> {
-        if self.has_up() && at == 0 {
-            return Some(Line::Up);
-        }
-        let in_folder = at - usize::from(self.has_up());
-        if let Some(&entry) = self.fitting.get(in_folder) {
-            return self.listing.as_ref()?.entries.as_ref().ok()?.get(entry).map(Line::Entry);
-        }
-        let beyond = in_folder - self.fitting.len();
-        if let Some(&case) = self.fitting_below.get(beyond) {
-            return self.below.as_ref()?.cases.get(case).map(Line::Found);
-        }
-        let beyond = beyond - self.fitting_below.len();
-        if let Some(&example) = self.fitting_examples.get(beyond) {
-            return EXAMPLES.get(example).map(Line::Example);
-        }
-        let recent = *self.fitting_recents.get(beyond - self.fitting_examples.len())?;
-        self.recents.get(recent).map(Line::Recent)
-    }
-
-    /// The preview target of a line.
-    #[must_use]
-    pub(crate) fn sight(&self, line: Line<'_>) -> Viewport {
-        match line {
-            Line::Up => Viewport::Folder(self.above()),
-            Line::Recent(recent) => Viewport::File(recent.path.clone()),
-            Line::Example(example) => Viewport::Example(example),
-            Line::Found(case) => Viewport::File(
-                self.below.as_ref().map_or_else(|| case.way.clone(), |below| below.path(case)),
-            ),
-            Line::Entry(entry) => {
-                let path = beneath(&self.base, &self.typed_folder).join(&entry.file);
-                if entry.is_folder { Viewport::Folder(path) } else { Viewport::File(path) }
-            }
+    fn above(&self) -> PathBuf {
+        match &self.listing {
+            Some(Listing { folder, .. }) => folder.parent().unwrap_or(folder).to_owned(),
+            None => beneath(&self.base, &self.typed_folder).join(".."),
         }
     }
 
-    /// The preview target of the selected line.
-    fn marked_sight(&self) -> Option<Viewport> {
-        self.line(self.marked).map(|line| self.sight(line))
-    }
-
-    /// The typed path.
-    fn typed_path(&self) -> PathBuf {
-        beneath(&self.base, self.input.value())
-    }
-
-    /// Moves the selection by `by` lines, within the list.
-    pub(crate) fn mark(&mut self, by: isize) {
-        let last = (self.count_of_folder() + self.count_of_recents()).saturating_sub(1);
-        self.marked = self.marked.saturating_add_signed(by).min(last);
-    }
-
-    /// Enters a folder.
-    pub(crate) fn enter(&mut self, folder: PathBuf) {
-        self.came_from = (folder == self.above())
-            .then(|| self.listing.as_ref()?.folder.file_name().map(ToOwned::to_owned))
-            .flatten();
+    fn enter(&mut self, folder: PathBuf) {
+        let left = self.listing.as_ref().filter(|_| folder == self.above());
+        self.came_from = left.and_then(|left| left.folder.file_name().map(ToOwned::to_owned));
         self.base = folder;
-        (self.input, self.typed_folder, self.listing) = (Text::default(), String::new(), None);
+        (self.input, self.typed_folder, self.listing) = (Line::default(), String::new(), None);
         (self.prefers_recents, self.is_accepting) = (false, false);
+        self.entries[Folder as usize].clear();
         self.refit();
     }
 
-    /// The parent folder, as a full path if known.
-    #[must_use]
-    pub(crate) fn above(&self) -> PathBuf {
-        let known = self
-            .listing
-            .as_ref()
-            .map(|listing| listing.folder.parent().unwrap_or(&listing.folder).to_owned());
-        known.unwrap_or_else(|| beneath(&self.base, &self.typed_folder).join(".."))
+    /// The folder and the typed part of the requested listing.
+    fn asked(&self) -> (PathBuf, String) {
+        (self.base.clone(), self.typed_folder.clone())
     }
 
-    /// The preview to request, once for each selection.
-    pub(crate) fn look(&mut self) -> Option<Viewport> {
-        let sight = self.marked_sight();
-        if sight == self.looked_at {
-            return None;
-        }
-        self.looked_at.clone_from(&sight);
-        sight
-    }
-
-    /// Shows a preview if it belongs to the last request.
-    pub(crate) fn show(&mut self, sight: Viewport, preview: Preview) {
-        if self.looked_at.as_ref() == Some(&sight) {
-            self.preview = Some((sight, preview));
-        }
-    }
-
-    // Hidden entries match only if the user types their dot.
-    fn refit(&mut self) {
-        let wanted = self.split().1.to_lowercase();
-        let fits = |entry: &Entry| {
-            (wanted.starts_with('.') || !entry.name.starts_with('.'))
-                && entry.folded.contains(&wanted)
-        };
-        let entries = self
-            .listing
-            .as_ref()
-            .and_then(|listing| listing.entries.as_ref().ok())
-            .map(Vec::as_slice);
-        let places = |fits: &mut dyn Iterator<Item = bool>| {
-            fits.enumerate().filter_map(|(at, fits)| fits.then_some(at)).collect()
-        };
-        let fitting = places(&mut entries.unwrap_or_default().iter().map(fits));
-        let typed = self.input.value().to_lowercase();
-        let fitting_recents =
-            places(&mut self.recents.iter().map(|recent| recent.folded.contains(&typed)));
-        let (fitting_below, fitting_examples) = match self.wanted() {
-            None => (Vec::new(), Vec::new()),
-            Some(wanted) => {
-                let cases =
-                    self.own_below().map(|below| below.cases.as_slice()).unwrap_or_default();
-                let below = places(&mut cases.iter().map(|case| case.folded.contains(&wanted)));
-                (below, places(&mut EXAMPLES.iter().map(|example| example.name.contains(&typed))))
-            }
-        };
-        (self.fitting, self.fitting_recents) = (fitting, fitting_recents);
-        (self.fitting_below, self.fitting_examples) = (fitting_below, fitting_examples);
-        self.mark_first();
+    /// The typed path up to its last slash, and the rest. A lone `~` is the home folder.
+    fn split(&self) -> (&str, &str) {
+        let typed = self.input.value();
+        let name = typed.rfind('/').map_or(0, |slash| slash + 1);
+        if typed == "~" { (typed, "") } else { typed.split_at(name) }
     }
 
     // The part of a name to search for below and among the examples; hidden names are only searched
     // in this folder.
-    fn wanted(&self) -> Option<String> {
+    fn searches_below(&self) -> bool {
         let wanted = self.split().1;
-        (!wanted.is_empty() && !wanted.starts_with(['.', '~'])).then(|| wanted.to_lowercase())
+        !wanted.is_empty() && !wanted.starts_with(['.', '~'])
     }
 
-    fn own_below(&self) -> Option<&SearchResult> {
-        self.below.as_ref().filter(|below| below.asked == self.asks())
-    }
-
-    // Selects the first line that is not the parent folder, if any.
-    fn mark_first(&mut self) {
-        let folder = self.count_of_folder();
-        let is_recent = self.count_of_recents() > 0 && (self.prefers_recents || folder == 0);
-        self.marked = if is_recent {
-            folder
-        } else {
-            usize::from(self.has_up() && !self.fitting.is_empty()) + self.best()
-        };
-    }
-
-    // The index of the entry with the typed name, otherwise of one that begins with it.
-    fn best(&self) -> usize {
-        let wanted = self.split().1.to_lowercase();
-        let at = |is_it: &dyn Fn(&Entry) -> bool| self.entries().position(is_it);
-        let begins = || at(&|entry| entry.folded.starts_with(&wanted));
-        if wanted.is_empty() {
-            0
-        } else {
-            at(&|entry| entry.folded == wanted).or_else(begins).unwrap_or(0)
+    /// Shows a listing if it belongs to the present folder.
+    pub(crate) fn take(&mut self, listing: Listing) {
+        if listing.asked != self.asked() {
+            return;
         }
+        let found = listing.entries.iter().flatten().cloned();
+        self.listing = Some(listing.clone());
+        let up = Entry::up(self.above());
+        self.entries[Folder as usize] = std::iter::once(up).chain(found).collect();
+        self.refit();
+        let came_from = self.came_from.take();
+        let is_it = |entry: &Entry| match &entry.target {
+            Target::File(path) | Target::Folder(path) => {
+                !entry.folded.is_empty() && path.file_name() == came_from.as_deref()
+            }
+            Target::Example(_) => false,
+        };
+        let at = self.in_folder().position(is_it).filter(|_| !self.prefers_recents);
+        self.selected = at.unwrap_or(self.selected);
+    }
+
+    /// Shows the cases in the folders below; a selection before them does not change.
+    pub(crate) fn take_below(&mut self, below: SearchResult) {
+        let selected = self.selected;
+        let is_above = self.source() == Some(Folder);
+        self.entries[Below as usize].clone_from(&below.cases);
+        self.below = Some(below);
+        self.refit();
+        self.selected = if is_above { selected } else { self.selected };
+    }
+
+    /// Shows the recent cases.
+    pub fn remember(&mut self, recents: Vec<Entry>) {
+        self.entries[Recents as usize] = recents;
+        self.refit();
+    }
+
+    fn is_searched(&self) -> bool {
+        self.below.as_ref().is_some_and(|below| below.asked == self.asked())
+    }
+
+    /// The matching lines of the folder itself.
+    fn in_folder(&self) -> impl Iterator<Item = &Entry> {
+        let own = self.matches.iter().take_while(|(source, _)| *source == Folder);
+        own.map(|&(_, at)| &self.entries[Folder as usize][at])
+    }
+
+    fn entry(&self, at: usize) -> Option<&Entry> {
+        let &(source, at) = self.matches.get(at)?;
+        self.entries[source as usize].get(at)
+    }
+
+    /// The number of lines before the recent cases.
+    fn before_recents(&self) -> usize {
+        self.matches.partition_point(|(source, _)| *source != Recents)
+    }
+
+    fn source(&self) -> Option<Source> {
+        self.matches.get(self.selected).map(|(source, _)| *source)
+    }
+
+    /// The target of the selected line.
+    fn target(&self) -> Option<&Target> {
+        self.entry(self.selected).map(|entry| &entry.target)
+    }
+
+    // Hidden entries match only if the user types their dot.
+    fn refit(&mut self) {
+        let (wanted, typed) = (self.split().1.to_lowercase(), self.input.value().to_lowercase());
+        let (is_below, has_dot) = (self.searches_below(), wanted.starts_with('.'));
+        let is_own = self.is_searched();
+        let fits = |source: Source, entry: &Entry| match source {
+            Folder => {
+                (has_dot || !entry.folded.starts_with('.')) && entry.folded.contains(&wanted)
+            }
+            Below => is_own && is_below && entry.folded.contains(&wanted),
+            Examples => is_below && entry.folded.contains(&typed),
+            Recents => entry.folded.contains(&typed),
+        };
+        let sources = [Folder, Below, Examples, Recents].into_iter();
+        let all = sources.flat_map(|source| {
+            self.entries[source as usize].iter().enumerate().map(move |one| (source, one))
+        });
+        let fitting = all.filter(|(source, (_, entry))| fits(*source, entry));
+        self.matches = fitting.map(|(source, (at, _))| (source, at)).collect();
+        self.select_first();
+    }
+
+    // Selects the entry with the typed name, otherwise one that begins with it, otherwise the first
+    // one that is not the parent folder.
+    fn select_first(&mut self) {
+        let wanted = self.split().1.to_lowercase();
+        let at = |is_it: &dyn Fn(&str) -> bool| {
+            self.in_folder().position(|entry| is_it(entry.folded.as_str()))
+        };
+        let best = at(&|name| name == wanted && !name.is_empty())
+            .or_else(|| at(&|name| !name.is_empty() && name.starts_with(&wanted)))
+            .unwrap_or(0);
+        let recents = self.before_recents();
+        let is_recent = self.prefers_recents || recents == 0;
+        self.selected = if is_recent && recents < self.matches.len() { recents } else { best };
+    }
+
+    // The folder, and the recent cases with their title below it.
+    fn lists(&self, area: Rect) -> [Rect; 2] {
+        let recents = self.matches.len() - self.before_recents();
+        let recents = recents.min(RECENTS).min(usize::from(area.height) / 3);
+        let height = if recents == 0 { 0 } else { recents as u16 + 1 };
+        let above = Rect { height: area.height - height, ..area };
+        [above, Rect { y: above.bottom(), height, ..area }]
+    }
+
+    fn draw_lists(&self, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+        let [above, below] = self.lists(area);
+        let recents = self.before_recents();
+        let name = |at: usize| {
+            let name = self.entry(at).map_or("", |entry| &entry.name);
+            let is_path = name.trim_end_matches('/').contains('/') && at < recents;
+            if is_path { text::cut_front(name, area.width.saturating_sub(2).into()) } else { name.to_owned() }
+        };
+        boxes::draw_window(recents, name, Some(self.selected), above, theme, buffer);
+        self.draw_state(above, theme, buffer);
+        if !below.is_empty() {
+            let area = text::titled("Recent cases", below, theme, buffer);
+            let name = |at: usize| name(recents + at);
+            let count = self.matches.len() - recents;
+            let selected = self.selected.checked_sub(recents);
+            boxes::draw_window(count, name, selected, area, theme, buffer);
+        }
+    }
+
+    // Why the folder has no more lines, below them.
+    fn draw_state(&self, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+        let count = self.before_recents();
+        let state = match &self.listing {
+            None => "reading ...",
+            Some(listing) => match &listing.entries {
+                Err(reason) => reason,
+                Ok(_) if listing.is_cut() => "The list is not complete.",
+                Ok(entries) if entries.is_empty() => "No folders and no *.toml here.",
+                Ok(_) if count > 0 => return,
+                Ok(_) if self.searches_below() && !self.is_searched() => "Searching below ...",
+                Ok(_) => "No match here or below.",
+            },
+        };
+        let lines: Vec<_> = boxes::said(state, theme.note, area.width).collect();
+        let above = (count as u16).min(area.height.saturating_sub(3));
+        let below = Rect { y: area.y + above, height: area.height - above, ..area };
+        Clear.render(Rect { height: below.height.min(lines.len() as u16), ..below }, buffer);
+        text::draw_lines(&lines, below, buffer);
+    }
+
+    fn preview_lines(&self, width: u16, theme: &Theme) -> Vec<Words<'static>> {
+        let mut lines = Vec::new();
+        if let (Some(Target::File(path)), Some(Recents)) = (self.target(), self.source()) {
+            let path = text::cut_front(&path.display().to_string(), width.into());
+            lines.push(Words::styled(path, theme.faint));
+        }
+        lines.extend(self.preview.lines(width, theme));
+        lines
     }
 }
 
@@ -335,27 +318,45 @@ impl Dialog for Browser {
         Place::BROWSE
     }
 
-    fn input(&mut self) -> Option<&mut Text> {
+    fn input(&mut self) -> Option<&mut Line> {
         Some(&mut self.input)
     }
 
     fn typed(&mut self) -> Vec<Job> {
         self.is_accepting = false;
-        let list = self.follow().then(|| self.list());
-        let below = self.seek().map(|asked| Job::Search(asked, self.place()));
-        list.into_iter().chain(below).collect()
+        let mut jobs = Vec::new();
+        let folder = self.split().0.to_owned();
+        if folder != self.typed_folder {
+            (self.typed_folder, self.listing) = (folder, None);
+            self.entries[Folder as usize].clear();
+            jobs.push(self.list());
+        }
+        self.refit();
+        // At most one search for each folder.
+        if self.searches_below() && self.sought.as_ref() != Some(&self.asked()) {
+            self.sought = Some(self.asked());
+            jobs.push(Job::Search(self.asked(), place_of(&self.base, &self.typed_folder)));
+        }
+        jobs
     }
 
     fn step(&mut self, by: isize, _: &Surroundings<'_>) {
-        self.mark(by);
+        let last = self.matches.len().saturating_sub(1);
+        self.selected = self.selected.saturating_add_signed(by).min(last);
     }
 
-    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.mark(by * boxes::page_height(around.screen));
-    }
-
-    fn click(&mut self, at: Position, screen: Size) -> bool {
-        line_at(self, screen, at).is_some_and(|line| boxes::select(&mut self.marked, line))
+    fn click(&mut self, at: Position, screen: Rect) -> bool {
+        let [above, below] = self.lists(boxes::halves(body(boxes::inside(SIZE, screen)))[0]);
+        let recents = self.before_recents();
+        let selected = Some(self.selected).filter(|&selected| selected < recents);
+        let in_folder = boxes::line_at(recents, selected, above, at);
+        let below = Rect { y: below.y + 1, height: below.height.saturating_sub(1), ..below };
+        let recent = || {
+            let count = self.matches.len() - recents;
+            boxes::line_at(count, self.selected.checked_sub(recents), below, at)
+        };
+        let line = in_folder.or_else(|| recent().map(|line| recents + line));
+        line.is_some_and(|line| boxes::select(&mut self.selected, line))
     }
 
     // Without a match, opens the typed path.
@@ -365,261 +366,43 @@ impl Dialog for Browser {
             self.is_accepting = true;
             return Outcome::none();
         }
-        match self.marked_sight() {
-            Some(Viewport::Folder(_)) => Outcome::Jobs(self.complete()),
-            Some(Viewport::File(path)) => Outcome::Open(path),
-            Some(Viewport::Example(example)) => Outcome::Pick(Pick::Begin(example)),
+        match self.target() {
+            Some(Target::Folder(_)) => Outcome::Jobs(self.complete()),
+            Some(Target::File(path)) => Outcome::Open(path.clone()),
+            Some(Target::Example(example)) => Outcome::Pick(Pick::Begin(example)),
             None if self.input.value().is_empty() => Outcome::none(),
-            None => Outcome::Open(self.typed_path()),
+            None => Outcome::Open(beneath(&self.base, self.input.value())),
         }
     }
 
     fn preview(&mut self, units: System) -> Option<Job> {
-        Some(Job::Preview(self.look()?, units))
+        let target = self.target().cloned();
+        self.preview.request(target, units)
+    }
+
+    fn show(&mut self, target: &Target, preview: Preview) {
+        self.preview.show(target, preview);
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        draw(self, area, around.look.theme, buffer)
+        let theme = around.look.theme;
+        let inner = boxes::frame("Open a case", SIZE, area, theme, buffer);
+        let folder = self.listing.as_ref().map(|listing| listing.folder.display().to_string());
+        let width = usize::from(inner.width);
+        let folder = text::cut_front(&folder.unwrap_or_default(), width);
+        buffer.set_stringn(inner.x, inner.y, folder, width, theme.title);
+        let [left, right] = boxes::halves(body(inner));
+        self.draw_lists(left, theme, buffer);
+        boxes::draw_details(|width| self.preview_lines(width, theme), right, buffer);
+        let line = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1).min(1), ..inner };
+        if self.input.value().is_empty() {
+            let how = "  type part of a name or a path; ~ is the home folder";
+            buffer.set_stringn(line.x, line.y, how, width, theme.faint);
+        }
+        text::edited(&self.input, line, theme.focus, buffer)
     }
 }
 
-/// A folder and the recent cases.
-#[derive(Debug, Clone, Default)]
-pub struct Browser {
-    /// The typed text: a part of a name, or a path.
-    pub(crate) input: Text,
-    /// The content of the folder; `None` while it is being read.
-    pub(crate) listing: Option<Listing>,
-    /// The recent cases.
-    pub(crate) recents: Vec<Recent>,
-    /// The index of the selected line among the matches: first those of the folder, then the recent
-    /// cases.
-    pub(crate) marked: usize,
-    /// The preview of the selected line, once it is read.
-    pub(crate) preview: Option<(Viewport, Preview)>,
-    /// The start folder or the entered folder, relative to the working directory if possible.
-    base: PathBuf,
-    /// The folder part of the typed path, which the listing belongs to.
-    typed_folder: String,
-    /// Indices of the matching entries of the listing.
-    fitting: Vec<usize>,
-    /// The cases in the folders below, once a search is requested.
-    below: Option<SearchResult>,
-    /// The folder of that search.
-    sought: Option<(PathBuf, String)>,
-    /// Indices of the matching cases in the folders below.
-    fitting_below: Vec<usize>,
-    /// Indices of the matching examples.
-    fitting_examples: Vec<usize>,
-    /// Indices of the matching recent cases.
-    fitting_recents: Vec<usize>,
-    /// Whether to select a recent case rather than one of the folder.
-    prefers_recents: bool,
-    /// The entry to select: the present case, or the folder from which the user went up.
-    came_from: Option<OsString>,
-    /// The last requested preview.
-    looked_at: Option<Viewport>,
-    /// Whether Enter waits for the listing of the typed folder.
-    is_accepting: bool,
-}
-
-/// A line that can be selected.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Line<'b> {
-    /// The parent folder.
-    Up,
-    /// An entry of the folder.
-    Entry(&'b Entry),
-    /// A case in a folder below.
-    Found(&'b folder::FoundCase),
-    /// An example.
-    Example(&'static Example),
-    /// A recent case.
-    Recent(&'b Recent),
-}
-
-fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
-    let inner = boxes::frame("Open a case", SIZE, screen, theme, buffer);
-    let folder = browser
-        .listing
-        .as_ref()
-        .map_or_else(String::new, |listing| listing.folder.display().to_string());
-    let width = usize::from(inner.width);
-    buffer.set_stringn(inner.x, inner.y, text::cut_front(&folder, width), width, theme.title);
-    let body = below_line(inner);
-    let (left, right) = boxes::halves(body, buffer);
-    draw_lists(browser, left, theme, buffer);
-    draw_preview(browser, right, theme, buffer);
-    let line = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1).min(1), ..inner };
-    if browser.input.value().is_empty() {
-        buffer.set_stringn(
-            line.x + 1,
-            line.y,
-            " type part of a name or a path; ~ is the home folder",
-            width - 1,
-            theme.faint,
-        );
-    }
-    text::edited(&browser.input, line, theme.focus, buffer)
-}
-
-// The index of the line of the lists at a cell, if any.
-fn line_at(browser: &Browser, screen: Size, at: Position) -> Option<usize> {
-    let inner = boxes::inside(SIZE, Rect::from((Position::ORIGIN, screen)));
-    let (above, below) = stacked(browser, boxes::parted(below_line(inner)).0);
-    let first = browser.count_of_folder();
-    let in_folder =
-        boxes::line_at(first, Some(browser.marked).filter(|&marked| marked < first), above, at);
-    let recents = Rect { y: below.y + 1, height: below.height.saturating_sub(1), ..below };
-    let recent = || {
-        boxes::line_at(browser.count_of_recents(), browser.marked.checked_sub(first), recents, at)
-    };
-    in_folder.or_else(|| recent().map(|line| first + line))
-}
-
-fn below_line(inner: Rect) -> Rect {
+fn body(inner: Rect) -> Rect {
     Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner }
-}
-
-// Splits an area into the folder and, below it, the recent cases with their title, if any.
-fn stacked(browser: &Browser, area: Rect) -> (Rect, Rect) {
-    let recents = browser.count_of_recents().min(RECENTS).min(usize::from(area.height) / 3);
-    let height = if recents == 0 { 0 } else { recents as u16 + 1 };
-    let above = Rect { height: area.height - height, ..area };
-    (above, Rect { y: above.bottom(), height, ..area })
-}
-
-fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let (above, below) = stacked(browser, area);
-    draw_folder(browser, above, theme, buffer);
-    if !below.is_empty() {
-        let area = text::titled("Recent cases", below, theme, buffer);
-        let first = browser.count_of_folder();
-        let name = |at: usize| line_of(browser, first + at);
-        let marked = browser.marked.checked_sub(first);
-        boxes::draw_window(browser.count_of_recents(), name, marked, area, theme, buffer);
-    }
-}
-
-fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let count = browser.count_of_folder();
-    let marked = Some(browser.marked).filter(|&marked| marked < count);
-    let room = usize::from(area.width).saturating_sub(2);
-    let line = |at: usize| match browser.line(at) {
-        Some(Line::Found(case)) => text::cut_front(&case.name, room),
-        _ => line_of(browser, at),
-    };
-    boxes::draw_window(count, line, marked, area, theme, buffer);
-    let said = match &browser.listing {
-        None => "reading ...",
-        Some(listing) => match &listing.entries {
-            Err(reason) => reason,
-            Ok(_) if listing.is_cut => "The list is not complete.",
-            Ok(entries) if entries.is_empty() => "No folders and no *.toml here.",
-            Ok(_) if count == 0 && browser.is_seeking() => "Searching below ...",
-            Ok(_) if count == 0 => "No match here or below.",
-            Ok(_) => return,
-        },
-    };
-    let from = area.y + u16::try_from(count).unwrap_or(u16::MAX).min(area.height.saturating_sub(3));
-    for (line, y) in text::wrap(said, area.width.into()).iter().zip(from..area.bottom()) {
-        buffer.set_stringn(
-            area.x,
-            y,
-            format!("{line:<0$}", usize::from(area.width)),
-            area.width.into(),
-            theme.note,
-        );
-    }
-}
-
-fn line_of(browser: &Browser, at: usize) -> String {
-    match browser.line(at) {
-        None => String::new(),
-        Some(Line::Up) => "../".to_owned(),
-        Some(Line::Entry(entry)) if entry.is_folder => format!("{}/", entry.name),
-        Some(Line::Entry(entry)) => entry.name.clone(),
-        Some(Line::Found(case)) => case.name.clone(),
-        Some(Line::Example(example)) => format!("{}  (example)", example.name),
-        Some(Line::Recent(recent)) => {
-            let name = recent
-                .path
-                .file_name()
-                .map(|name| name.to_string_lossy().into_owned())
-                .unwrap_or_default();
-            let folder = recent
-                .path
-                .parent()
-                .and_then(Path::file_name)
-                .map(|name| name.to_string_lossy().into_owned());
-            let missing = if recent.is_missing { "  (missing)" } else { "" };
-            let folder = folder.map_or_else(String::new, |folder| format!("  in {folder}/"));
-            format!("{name}{missing}{folder}")
-        }
-    }
-}
-
-fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let Some(sight) = browser.marked_sight() else {
-        return;
-    };
-    let is_missing =
-        matches!(browser.line(browser.marked), Some(Line::Recent(recent)) if recent.is_missing);
-    let preview =
-        browser.preview.as_ref().filter(|(own, _)| *own == sight).map(|(_, preview)| preview);
-    let mut lines = Vec::new();
-    if let (Viewport::File(path), true) = (&sight, browser.marks_recent()) {
-        lines.push((text::cut_front(&path.display().to_string(), area.width.into()), theme.faint));
-    }
-    match preview {
-        _ if is_missing => {
-            lines.push(("The file does not exist any more.".to_owned(), theme.problem));
-        }
-        None => lines.push(("reading ...".to_owned(), theme.faint)),
-        Some(preview) => lines.extend(lines_of(preview, area.width.into(), theme)),
-    }
-    for ((line, style), y) in lines.iter().zip(area.top()..area.bottom()) {
-        buffer.set_stringn(area.x, y, line, area.width.into(), *style);
-    }
-}
-
-fn lines_of(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Style)> {
-    match preview {
-        Preview::Case(case, is_newer) => {
-            let newer =
-                is_newer.then(|| ("Newer format: opens read-only.".to_owned(), theme.problem));
-            newer.into_iter().chain(boxes::digest_lines(case, width, theme)).collect()
-        }
-        Preview::Folder(cases, folders) => {
-            let counted = |count: usize, one: &str| {
-                if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
-            };
-            vec![(
-                format!(
-                    "A folder with {}, {}.",
-                    counted(*cases, "case"),
-                    counted(*folders, "folder")
-                ),
-                Style::new(),
-            )]
-        }
-        Preview::Draft(fields) => {
-            let head = text::wrap("Required values are missing:", width)
-                .into_iter()
-                .map(|line| (line, theme.note));
-            let fields = fields.iter().map(|field| (text::cut(field, width), Style::new()));
-            head.chain(fields).collect()
-        }
-        Preview::Faults(faults, more) => {
-            let head = text::wrap("It cannot be opened:", width)
-                .into_iter()
-                .map(|line| (line, theme.problem));
-            let faults = faults
-                .iter()
-                .flat_map(|fault| text::wrap(fault, width))
-                .map(|line| (line, Style::new()));
-            let more = (*more > 0).then(|| (format!("and {more} more"), Style::new()));
-            head.chain(faults).chain(more).collect()
-        }
-    }
 }

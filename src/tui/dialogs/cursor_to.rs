@@ -1,13 +1,13 @@
 //! The dialog for the roll angle, time or point of the cursor.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
+use ratatui::text::Span;
 use unicode_width::UnicodeWidthStr;
 
 use super::{Dialog, Outcome, Surroundings, boxes};
 use crate::case::units::{self, Dimension};
-use crate::model::Solution;
 use crate::numeric::decimal::{shortest, significant};
 use crate::report::graphs::GRAPHS;
 use crate::tui::keys::Place;
@@ -23,8 +23,6 @@ const WIDTH: u16 = 62;
 const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
     or a point (D, E, B, L, peak).";
 
-/// Digits of an angle and of a time.
-const DIGITS: (usize, usize) = (5, 4);
 /// Frames of the animation: four seconds at twelve frames a second.
 const PICTURES: f64 = 48.0;
 /// The start of the animation in the teeth pane, before D, as a multiple of the angle from D to E.
@@ -55,47 +53,21 @@ impl Dialog for CursorTo {
         Outcome::CursorTo(angle)
     }
 
-    fn draw(
-        &self,
-        around: &Surroundings<'_>,
-        screen: Rect,
-        buffer: &mut Buffer,
-    ) -> Option<Position> {
-        let (input, scope) = (&self.input, &around.cursor);
-        let theme = around.look.theme;
-        let how = text::wrap(HOW, usize::from(WIDTH.min(boxes::room(screen.as_size()).width)));
-        let inner = boxes::frame(
-            "Cursor to",
-            Size::new(WIDTH, how.len() as u16 + 2),
-            screen,
-            theme,
-            buffer,
-        );
-        let (meant, style) = match parse_cursor(scope, input.value()) {
-            _ if input.value().trim().is_empty() => (String::new(), theme.faint),
+    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        let (input, scope, theme) = (&self.input, &around.cursor, around.look.theme);
+        let typed = input.value();
+        let width = WIDTH.min(boxes::room(area).width);
+        let (meant, style) = match parse_cursor(scope, typed) {
+            _ if typed.trim().is_empty() => (String::new(), theme.faint),
             Ok(angle) => (format!("= {}", describe(scope, angle)), theme.note),
             Err(reason) => (reason, theme.faint),
         };
-        let lines =
-            std::iter::once((meant, style)).chain(how.into_iter().map(|line| (line, Style::new())));
-        for ((line, style), y) in lines.zip(inner.top() + 1..inner.bottom()) {
-            buffer.set_stringn(
-                inner.x,
-                y,
-                text::cut(&line, inner.width.into()),
-                inner.width.into(),
-                style,
-            );
-        }
-        let line = Rect { height: inner.height.min(1), ..inner };
-        let cursor = text::edited(input, line, theme.focus, buffer);
-        text::ending(
-            ending(scope, input.value()).as_deref(),
-            input.value().width(),
-            line,
-            theme,
-            buffer,
-        );
+        let meant = Span::styled(text::cut(&meant, width.into()), style).into();
+        let lines: Vec<_> =
+            std::iter::once(meant).chain(boxes::said(HOW, Style::new(), width)).collect();
+        let (line, cursor) =
+            boxes::input_box("Cursor to", WIDTH, input, &lines, theme, (area, buffer));
+        text::ending(ending(scope, typed).as_deref(), typed.width(), line, theme, buffer);
         cursor
     }
 }
@@ -151,7 +123,7 @@ impl Reach {
 
 /// The completion of a typed angle or time.
 #[must_use]
-pub(in crate::tui) fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
+fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
     let dimensions = [Dimension::Angle, Dimension::Time];
     if units::parse(typed, Dimension::Number, "").is_ok() {
         let unit = scope.charts.ruler().1.unit;
@@ -199,56 +171,49 @@ pub(in crate::tui) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     Some(Reach { start, run_from, run_to, most: before, least, column: shown / columns })
 }
 
-/// Parses an angle before E, a time or a point; returns the driver's angle before E, in rad.
+/// Parses an angle before E, a time or the name of a point; returns the driver's angle before E, in
+/// rad.
 ///
 /// # Errors
 /// Returns an error if the text is not valid, or if the angle is out of range.
 fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
-    let solution = scope.charts.solution().ok_or("no valid results for a cursor")?;
-    let reach = cursor_range(scope).ok_or("no valid results for a cursor")?;
-    let angle = match place(scope, solution, typed.trim()) {
-        Some(place) => place?,
-        None => measured(scope, typed)?,
+    const UNSOLVED: &str = "no valid results for a cursor";
+    let solution = scope.charts.solution().ok_or(UNSOLVED)?;
+    let reach = cursor_range(scope).ok_or(UNSOLVED)?;
+    let geometry = &solution.geometry;
+    let angle = match typed.trim().to_lowercase().as_str() {
+        "d" => first_contact(solution).ok_or("no corner contact, so no D")?,
+        "e" => 0.0,
+        "b" => (geometry.start - geometry.end) / geometry.driver.base,
+        "l" => last_contact(solution)
+            .ok_or("only static and dynamic compute the last contact L")?,
+        "peak" => peak(scope).ok_or("the chart has no curve, so no peak")?,
+        _ => measured(scope, typed)?,
     };
     let slack = 1e-9 * reach.column;
     if (reach.least - slack..=reach.most + slack).contains(&angle) {
         return Ok(reach.held(angle));
     }
-    let ends = [reach.most, reach.least].map(|end| describe(scope, end));
-    Err(format!("{} is out of range: from {} to {}", describe(scope, angle), ends[0], ends[1]))
+    let [angle, most, least] = [angle, reach.most, reach.least].map(|end| describe(scope, end));
+    Err(format!("{angle} is out of range: from {most} to {least}"))
 }
 
 /// An angle as text, with its time from E.
 #[must_use]
 fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
-    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
-    let side = if angle < 0.0 { "after" } else { "before" };
-    let micros = 1e6 * angle.abs() / speed;
-    let time = if micros.is_finite() {
-        format!(" ({} us)", short(micros, DIGITS.1))
-    } else {
-        String::new()
+    let short = |number: f64, digits| {
+        let rounded = significant(number, digits);
+        rounded.parse().map_or(rounded, shortest)
     };
-    format!("{} deg{time} {side} E", short(angle.abs().to_degrees(), DIGITS.0))
+    let side = if angle < 0.0 { "after" } else { "before" };
+    let micros = 1e6 * angle.abs() / speed(scope);
+    let time =
+        if micros.is_finite() { format!(" ({} us)", short(micros, 4)) } else { String::new() };
+    format!("{} deg{time} {side} E", short(angle.abs().to_degrees(), 5))
 }
 
-fn short(number: f64, digits: usize) -> String {
-    let rounded = significant(number, digits);
-    rounded.parse().map_or(rounded, shortest)
-}
-
-// A point by its name; `None` if the text is not a name.
-fn place(scope: &CursorScope<'_>, solution: &Solution, name: &str) -> Option<Result<f64, String>> {
-    let geometry = &solution.geometry;
-    let found = |angle: Option<f64>, why: &str| angle.ok_or_else(|| why.to_owned());
-    Some(match name.to_lowercase().as_str() {
-        "d" => found(first_contact(solution), "no corner contact, so no D"),
-        "e" => Ok(0.0),
-        "b" => Ok((geometry.start - geometry.end) / geometry.driver.base),
-        "l" => found(last_contact(solution), "only static and dynamic compute the last contact L"),
-        "peak" => found(peak(scope), "the chart has no curve, so no peak"),
-        _ => return None,
-    })
+fn speed(scope: &CursorScope<'_>) -> f64 {
+    scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed)
 }
 
 // The angle at which the curve of the active method in the selected chart is farthest from 0.
@@ -264,8 +229,8 @@ fn peak(scope: &CursorScope<'_>) -> Option<f64> {
 fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     let whole = [typed, &ending(scope, typed).unwrap_or_default()].concat();
     let angle = units::parse(&whole, Dimension::Angle, "deg");
-    let speed = scope.charts.answer.map_or(0.0, |answer| answer.inputs.speed);
-    let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed);
+    let time =
+        || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed(scope));
     angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
         Err(misread) if typed.contains(',') => misread.fix.to_string(),
         _ => format!("{} is not an angle, time or point", typed.trim()),

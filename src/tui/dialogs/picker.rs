@@ -3,23 +3,25 @@
 use std::cmp::Reverse;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Constraint, Layout, Position, Rect, Size};
 use ratatui::style::Style;
+use ratatui::text::Span;
+use ratatui::widgets::{Block, Borders, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::boxes::{self, draw_window, frame, halves, inside, line_at, parted};
+use super::boxes::{self, PreviewPane};
 use super::{Dialog, Outcome, Surroundings};
-use crate::case::fields::Kind;
+use crate::case::fields::{Field, Kind};
+use crate::case::units::System;
 use crate::case::{EXAMPLES, Example, FIELDS};
 use crate::model::{QUANTITIES, Quantity};
-use crate::report::digest::Digest;
-use crate::report::graphs::{GRAPHS, Graph};
-use crate::tui::ascii::symbol;
+use crate::report::graphs::GRAPHS;
 use crate::tui::form_aids::materials::{self, Material};
-use crate::tui::form_aids::{search, search_results};
+use crate::tui::form_aids::{COMMAND, Entry, HELP, LABEL, query};
 use crate::tui::jobs::{Job, WorkerChart};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
+use crate::tui::store::folder::{Preview, Target};
 use crate::tui::text;
 use crate::tui::theme::Theme;
 
@@ -30,59 +32,15 @@ const KEYS: usize = 14;
 
 /// Prefix of the name of a variant in the list of commands.
 pub(crate) const VARIANT: &str = "variant";
-/// The rank of a word that occurs only in the description.
-const DESCRIBED: usize = 100;
 
-/// Least similarity of a name that is listed when no name contains the typed words.
-const LIKENESS: f64 = 0.75;
-/// The least score per word of a field or a result whose name matches.
-const NAMED: u32 = 65;
 /// Penalty of fields without effect: they follow similar fields, but a typed symbol still finds
 /// them first.
 const IDLE: u32 = 9;
 /// The most frequent choice among fields with equal scores.
 const FOREMOST: &str = "driven.tip_relief";
-/// Longer texts are not compared with names.
-const LONGEST_NAME: usize = 64;
-
-impl Dialog for Picker {
-    fn place(&self) -> Place {
-        Place::PICK
-    }
-
-    fn input(&mut self) -> Option<&mut Line> {
-        Some(&mut self.input)
-    }
-
-    fn typed(&mut self) -> Vec<Job> {
-        self.marked = 0;
-        Vec::new()
-    }
-
-    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
-        self.mark(by);
-    }
-
-    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.mark(by * boxes::page_height(around.screen));
-    }
-
-    fn click(&mut self, at: Position, screen: Size) -> bool {
-        item_at(self, screen, at).is_some_and(|line| boxes::select(&mut self.marked, line))
-    }
-
-    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
-        let item = self.fitting().into_iter().nth(self.marked);
-        item.map_or_else(Outcome::none, |item| Outcome::Pick(item.pick))
-    }
-
-    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        draw(self, area, around.look.theme, buffer)
-    }
-}
 
 /// The effect of a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) enum Pick {
     /// Run the command with this name.
     Run(&'static str),
@@ -90,12 +48,12 @@ pub(crate) enum Pick {
     Chart(usize),
     /// Go to a field.
     Go(usize),
-    /// Go to a result, by its key.
-    Show(&'static str),
+    /// Go to a result.
+    Show(&'static Quantity),
     /// Give the gears a material.
     Make(&'static [&'static str], &'static Material),
     /// Set a limit on a quantity.
-    Limit(&'static str),
+    Limit(&'static Quantity),
     /// Keep the edits as the variant with the typed name.
     Variant,
     /// Choose the second field of a map.
@@ -105,7 +63,7 @@ pub(crate) enum Pick {
 }
 
 /// A line of a list.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Item {
     /// The effect of Enter.
     pub(crate) pick: Pick,
@@ -116,17 +74,28 @@ pub struct Item {
     pub(crate) keys: String,
 }
 
+/// A line with the texts that find it.
+#[derive(Debug, Clone)]
+struct Candidate {
+    item: Item,
+    entry: Entry,
+    /// Penalty in the score.
+    loss: u32,
+    /// The order of candidates with equal scores.
+    order: usize,
+}
+
 /// A list with an input line.
 #[derive(Debug, Clone)]
 pub struct Picker {
-    /// The contents.
-    pub(crate) list: List,
+    title: &'static str,
+    candidates: Vec<Candidate>,
     /// The typed text.
     pub(crate) input: Line,
     /// The index of the selected line among the matches.
-    pub(crate) marked: usize,
-    /// The focused pane and field, and the results and fields of the case.
-    pub(crate) context: Context,
+    selected: usize,
+    /// The preview beside the list of examples.
+    preview: Option<PreviewPane>,
 }
 
 /// The focused pane and field, and the results and fields of the case, which decide the order of a
@@ -143,410 +112,310 @@ pub(crate) struct Context {
     pub(crate) commands: Vec<Item>,
 }
 
-/// The contents of a list.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum List {
-    /// Every command.
-    Commands,
-    /// Every field of the form, and every result.
-    Places,
-    /// Every material, for these gears.
-    Materials(&'static [&'static str]),
-    /// Every quantity that may have a limit.
-    Limits,
-    /// Every field that a map can vary.
-    SecondField,
-    /// The examples, each with its digest once it is solved.
-    Examples(Vec<Digest>),
-}
-
 impl Picker {
-    /// The whole list.
-    #[must_use]
-    pub(crate) fn new(list: List) -> Picker {
-        Picker { list, input: Line::default(), marked: 0, context: Context::default() }
+    fn new(title: &'static str, candidates: Vec<Candidate>) -> Picker {
+        Picker { title, candidates, input: Line::default(), selected: 0, preview: None }
     }
 
-    /// The whole list, in the order of a context.
-    #[must_use]
-    pub(crate) fn over(list: List, context: Context) -> Picker {
-        Picker { context, ..Picker::new(list) }
+    /// Every command; a typed word also finds fields and results.
+    pub(crate) fn commands(context: &Context) -> Picker {
+        let listed = context.commands.iter().cloned().map(Candidate::of_command);
+        let graphs = GRAPHS.iter().map(|graph| {
+            let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
+            let about = format!("Show {} over the driver's roll angle.", symbols.join(", "));
+            (graph.label, about)
+        });
+        let of_worker = WorkerChart::ALL.into_iter();
+        let of_worker = of_worker.map(|chart| {
+            let [name, about, _] = chart.words();
+            (name, about.to_owned())
+        });
+        let charts = graphs.chain(of_worker).enumerate().map(|(at, (label, about))| {
+            let name = format!("chart: {}", label.to_lowercase());
+            let keys = String::new();
+            Candidate::of_command(Item { pick: Pick::Chart(at), name, about, keys })
+        });
+        Picker::new("Commands", listed.chain(charts).chain(places(context)).collect())
     }
 
-    #[must_use]
-    pub(crate) fn title(&self) -> &'static str {
-        match self.list {
-            List::Commands => "Commands",
-            List::Places => "Go to a field or a result",
-            List::Materials(["driver"]) => "Material of the driver",
-            List::Materials(["driven"]) => "Material of the driven gear",
-            List::Materials(_) => "Material of both gears",
-            List::Limits => "Set a limit on a result",
-            List::SecondField => "Second field of the map",
-            List::Examples(_) => "New case from an example",
-        }
+    /// Every field of the form, and every result.
+    pub(crate) fn places(context: &Context) -> Picker {
+        Picker::new("Go to a field or a result", places(context).collect())
     }
 
-    /// The lines that contain every typed word, matches in the name first; if there are none, the
-    /// lines with the most similar names.
+    /// Every material, for these gears.
+    pub(crate) fn materials(gears: &'static [&'static str]) -> Picker {
+        let title = match gears {
+            ["driver"] => "Material of the driver",
+            ["driven"] => "Material of the driven gear",
+            _ => "Material of both gears",
+        };
+        let of_material = |material: &'static Material| {
+            let Material { name, group, young, poisson, density, source, .. } = material;
+            let about = format!("{young}, {poisson}, {density}, {group}; {source}");
+            Candidate::named(Pick::Make(gears, material), name.clone(), about)
+        };
+        Picker::new(title, materials::all().iter().map(of_material).collect())
+    }
+
+    /// Every quantity that may have a limit.
+    pub(crate) fn limits() -> Picker {
+        let of_quantity = |quantity: &'static Quantity| {
+            let about = format!("{} {}", quantity.symbol, quantity.label.trim_start());
+            let entry = Entry::of_result(quantity);
+            Candidate::new(Pick::Limit(quantity), quantity.key.to_owned(), about, entry)
+        };
+        Picker::new("Set a limit on a result", QUANTITIES.iter().map(of_quantity).collect())
+    }
+
+    /// Every field that a map can vary.
+    pub(crate) fn second_field() -> Picker {
+        let numbers = FIELDS.iter().enumerate();
+        let numbers = numbers.filter(|(_, field)| !matches!(field.kind, Kind::Text));
+        let numbers = numbers.map(|(at, field)| Candidate::of_field(Pick::Second(at), field));
+        Picker::new("Second field of the map", numbers.collect())
+    }
+
+    /// The examples, with a preview of the selected one.
+    pub(crate) fn examples() -> Picker {
+        let of_example = |example: &'static Example| {
+            let title = example.document().case.title().to_owned();
+            Candidate::named(Pick::Begin(example), example.name.to_owned(), title)
+        };
+        let candidates = EXAMPLES.iter().map(of_example).collect();
+        let picker = Picker::new("New case from an example", candidates);
+        Picker { preview: Some(PreviewPane::default()), ..picker }
+    }
+
+    /// The lines that match every typed word, the best first.
     #[must_use]
     pub fn fitting(&self) -> Vec<Item> {
-        if self.list == List::Places {
-            return self.places().into_iter().map(|place| place.item).collect();
-        }
         if let Some(name) = self.variant_name() {
-            return vec![variant(name)];
+            let about = format!("Keep the edits as variant {name}, or show that variant in the form.");
+            let name = format!("{VARIANT} {name}");
+            return vec![Candidate::named(Pick::Variant, name, about).item];
         }
-        let typed = self.input.value().to_lowercase();
-        let words: Vec<&str> = typed.split_whitespace().collect();
-        let items = self.items();
-        let mut fitting: Vec<_> =
-            items.iter().filter_map(|item| Some((rank(item, &words)?, item))).collect();
-        let places = if self.list == List::Commands && !words.is_empty() {
-            self.places()
-        } else {
-            Vec::new()
-        };
-        if fitting.is_empty() && places.is_empty() && typed.len() <= LONGEST_NAME {
-            let likeness = |item: &Item| strsim::jaro_winkler(&typed, &item.name.to_lowercase());
-            let alike = items
-                .iter()
-                .map(|item| (likeness(item), item))
-                .filter(|(likeness, _)| *likeness > LIKENESS);
-            fitting =
-                alike.map(|(likeness, item)| (((1.0 - likeness) * 1e3) as usize, item)).collect();
+        let typed = self.input.value().trim();
+        let words = query(typed);
+        let has_commands = self.has_commands();
+        let mut found: Vec<_> = self
+            .candidates
+            .iter()
+            .filter(|candidate| {
+                let is_command = matches!(candidate.item.pick, Pick::Run(_) | Pick::Chart(_));
+                !typed.is_empty() || !has_commands || is_command
+            })
+            .filter_map(|candidate| Some((candidate.rank(typed, &words)?, &candidate.item)))
+            .collect();
+        if !words.is_empty() {
+            found.sort_by_key(|(rank, _)| *rank);
         }
-        fitting.sort_by_key(|(rank, _)| *rank);
-        // Matches in the name rank before matches in the description.
-        let (named, described): (Vec<_>, Vec<_>) =
-            fitting.into_iter().partition(|(rank, _)| *rank < DESCRIBED);
-        let is_named = |place: &MatchPlace| place.score >= NAMED * words.len() as u32;
-        let (named_places, described_places): (Vec<_>, Vec<_>) =
-            places.into_iter().partition(is_named);
-        let command = |(_, item): (usize, &Item)| item.clone();
-        let place = |place: MatchPlace| place.item;
-        let named = named.into_iter().map(command);
-        let described = described.into_iter().map(command);
-        named
-            .chain(named_places.into_iter().map(place))
-            .chain(described)
-            .chain(described_places.into_iter().map(place))
-            .collect()
+        found.into_iter().map(|(_, item)| item.clone()).collect()
     }
 
     /// The name of a variant, typed after the command.
     #[must_use]
     pub(crate) fn variant_name(&self) -> Option<&str> {
         let (command, name) = self.input.value().trim_start().split_once(' ')?;
-        let is_meant = self.list == List::Commands && command == VARIANT;
+        let is_meant = command == VARIANT && self.has_commands();
         Some(name.trim()).filter(|name| is_meant && !name.is_empty())
     }
 
-    // The matching fields and results, the best first. Without a typed word they are in the order
-    // of form and results.
-    fn places(&self) -> Vec<MatchPlace> {
-        let typed = self.input.value();
-        let Context { results, are_results_first, idle, .. } = &self.context;
-        let words = typed.split_whitespace().count();
-        let more_words = |label: &str| label.split_whitespace().count().saturating_sub(words);
-        // A typed key ranks before all other matches.
-        let scored = |key: &str, score| {
-            let is_key = key.eq_ignore_ascii_case(typed.trim());
-            if is_key { u32::MAX } else { score }
-        };
-        let fields = search(typed).into_iter().map(|(at, score)| {
-            let score = scored(FIELDS[at].key, score);
-            let loss = if idle.contains(&at) { IDLE } else { 0 };
-            let order = (more_words(FIELDS[at].label), *are_results_first);
-            let is_later = FIELDS[at].key != FOREMOST;
-            let rank = (Reverse(score.saturating_sub(loss)), order, is_later);
-            MatchPlace::new(score, rank, field(at))
-        });
-        let known = |quantity: &&'static Quantity| results.contains(&quantity.key);
-        let found = search_results(typed)
-            .into_iter()
-            .filter_map(|(at, score)| Some((score, Some(&QUANTITIES[at]).filter(known)?)));
-        let found = found.map(|(score, quantity)| {
-            let score = scored(quantity.key, score);
-            let order = (more_words(quantity.label), !are_results_first);
-            let rank = (Reverse(score), order, true);
-            MatchPlace::new(score, rank, result(quantity))
-        });
-        let mut places: Vec<MatchPlace> = if *are_results_first {
-            found.chain(fields).collect()
-        } else {
-            fields.chain(found).collect()
-        };
-        if words > 0 {
-            places.sort_by_key(|place| place.rank);
-        }
-        places
+    fn has_commands(&self) -> bool {
+        matches!(self.candidates.first(), Some(first) if matches!(first.item.pick, Pick::Run(_)))
+    }
+}
+
+/// The fields of the form and the present results, in the order that the context prefers.
+fn places(context: &Context) -> impl Iterator<Item = Candidate> {
+    let Context { results, are_results_first, idle, .. } = context;
+    let (of_fields, of_results) = if *are_results_first { (2, 0) } else { (0, 2) };
+    let fields = FIELDS.iter().enumerate().map(|(at, field)| Candidate {
+        loss: if idle.contains(&at) { IDLE } else { 0 },
+        order: of_fields + usize::from(field.key != FOREMOST),
+        ..Candidate::of_field(Pick::Go(at), field)
+    });
+    let known = QUANTITIES.iter().filter(|quantity| results.contains(&quantity.key));
+    let known = known.map(|quantity| {
+        let Quantity { key, symbol, label, equation, .. } = quantity;
+        let about = format!("{symbol} {}, a result; {equation}", label.trim_start());
+        let entry = Entry::of_result(quantity);
+        let result = Candidate::new(Pick::Show(quantity), (*key).to_owned(), about, entry);
+        Candidate { order: of_results, ..result }
+    });
+    let mut places: Vec<_> = fields.chain(known).collect();
+    places.sort_by_key(|place| place.order / 2);
+    places.into_iter()
+}
+
+impl Candidate {
+    fn new(pick: Pick, name: String, about: String, entry: Entry) -> Candidate {
+        let item = Item { pick, name, about, keys: String::new() };
+        Candidate { item, entry, loss: 0, order: 0 }
     }
 
-    /// Moves the selection, within the list.
-    pub(crate) fn mark(&mut self, by: isize) {
+    fn named(pick: Pick, name: String, about: String) -> Candidate {
+        let entry = Entry::new("", &[(LABEL, &name), (HELP, &about)]);
+        Candidate::new(pick, name, about, entry)
+    }
+
+    fn of_command(item: Item) -> Candidate {
+        let entry = Entry::new("", &[(COMMAND, &item.name), (HELP, &item.about)]);
+        Candidate { item, entry, loss: 0, order: 0 }
+    }
+
+    fn of_field(pick: Pick, field: &Field) -> Candidate {
+        let about = format!("{} {}. {}", field.symbol, field.full_label(), field.help);
+        let about = about.trim_start().to_owned();
+        Candidate::new(pick, field.key.to_owned(), about, Entry::of_field(field))
+    }
+
+    /// Smaller is better; `None` unless every word matches. A typed name is the best match.
+    fn rank(&self, typed: &str, words: &[String]) -> Option<(Reverse<u32>, usize, usize)> {
+        let is_name = self.item.name.eq_ignore_ascii_case(typed);
+        let score = self.entry.score(words)?.saturating_sub(self.loss);
+        let score = if is_name { u32::MAX } else { score };
+        Some((Reverse(score), self.entry.untyped(words), self.order))
+    }
+}
+
+impl Dialog for Picker {
+    fn place(&self) -> Place {
+        Place::PICK
+    }
+
+    fn input(&mut self) -> Option<&mut Line> {
+        Some(&mut self.input)
+    }
+
+    fn typed(&mut self) -> Vec<Job> {
+        self.selected = 0;
+        Vec::new()
+    }
+
+    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
         let last = self.fitting().len().saturating_sub(1);
-        self.marked = self.marked.saturating_add_signed(by).min(last);
+        self.selected = self.selected.saturating_add_signed(by).min(last);
     }
 
-    fn items(&self) -> Vec<Item> {
-        match &self.list {
-            List::Commands => {
-                let of_worker = (GRAPHS.len()..).zip(WorkerChart::ALL).map(worker_chart);
-                let charts = GRAPHS.iter().enumerate().map(graph).chain(of_worker);
-                self.context.commands.iter().cloned().chain(charts).collect()
-            }
-            List::Places => Vec::new(),
-            List::Materials(gears) => {
-                materials::all().iter().map(|material| of_material(gears, material)).collect()
-            }
-            List::Limits => QUANTITIES.iter().map(quantity).collect(),
-            List::SecondField => (0..FIELDS.len())
-                .filter(|&at| !matches!(FIELDS[at].kind, Kind::Text))
-                .map(|at| Item { pick: Pick::Second(at), ..field(at) })
-                .collect(),
-            List::Examples(digests) => {
-                EXAMPLES.iter().enumerate().map(|(at, one)| example(one, digests.get(at))).collect()
-            }
-        }
+    fn click(&mut self, at: Position, screen: Rect) -> bool {
+        let items = self.fitting();
+        let (_, list, _) = self.areas(&items, boxes::inside(SIZE, screen));
+        boxes::line_at(items.len(), Some(self.selected), list, at)
+            .is_some_and(|line| boxes::select(&mut self.selected, line))
     }
-}
 
-fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
-    let inner = frame(picker.title(), SIZE, screen, theme, buffer);
-    let items = picker.fitting();
-    let list = below_line(inner);
-    if let List::Examples(digests) = &picker.list {
-        draw_examples(&items, digests, picker.marked, list, theme, buffer);
-    } else {
-        let above = above_detail(&items, list);
-        draw_items(&items, picker.marked, above, theme, buffer);
-        let below = Rect { y: above.bottom(), height: list.height - above.height, ..list };
-        draw_detail(items.get(picker.marked), below, theme, buffer);
+    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+        let item = self.fitting().into_iter().nth(self.selected);
+        item.map_or_else(Outcome::none, |item| Outcome::Pick(item.pick))
     }
-    text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
-}
 
-// The index of the line at a cell, if any.
-fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
-    let items = picker.fitting();
-    let list = below_line(inside(SIZE, Rect::from((Position::ORIGIN, screen))));
-    let area = if matches!(picker.list, List::Examples(_)) {
-        parted(list).0
-    } else {
-        above_detail(&items, list)
-    };
-    line_at(items.len(), Some(picker.marked), area, at)
-}
-
-fn below_line(inner: Rect) -> Rect {
-    Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner }
-}
-
-fn above_detail(items: &[Item], list: Rect) -> Rect {
-    Rect { height: list.height - detail_lines(items, list), ..list }
-}
-
-// Name, keys, and as much of the description as fits.
-fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let widest = |text: fn(&Item) -> &str, most: usize| {
-        items.iter().map(|item| text(item).width().min(most)).max().unwrap_or(0)
-    };
-    let keys = widest(|item| &item.keys, KEYS);
-    let name = widest(|item| &item.name, usize::from(area.width) * 2 / 5);
-    let line = |item: &Item| {
-        let keys =
-            if keys == 0 { String::new() } else { format!("  {}", text::padded(&item.keys, keys)) };
-        format!("{}{keys}  {}", text::padded(&item.name, name), item.about).trim_end().to_owned()
-    };
-    draw_window(items.len(), |at| line(&items[at]), Some(marked), area, theme, buffer);
-    say_if_none(items, area, theme, buffer);
-}
-
-// The number of lines that the longest description needs, including a rule above it, so that the
-// list does not move.
-fn detail_lines(items: &[Item], list: Rect) -> u16 {
-    let lines = |item: &Item| text::wrap(&detail(item), list.width.into()).len();
-    let most = items.iter().map(lines).max().unwrap_or(0) as u16 + 1;
-    most.min(list.height / 3)
-}
-
-fn detail(item: &Item) -> String {
-    let keys = if item.keys.is_empty() { String::new() } else { format!(" ({})", item.keys) };
-    format!("{}{keys}: {}", item.name, item.about)
-}
-
-fn draw_detail(item: Option<&Item>, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let Some(item) = item.filter(|_| area.height > 1) else {
-        return;
-    };
-    buffer.set_stringn(
-        area.x,
-        area.y,
-        "─".repeat(area.width.into()),
-        area.width.into(),
-        theme.rule,
-    );
-    for (line, y) in
-        text::wrap(&detail(item), area.width.into()).iter().zip(area.y + 1..area.bottom())
-    {
-        buffer.set_stringn(area.x, y, line, area.width.into(), Style::new());
-    }
-}
-
-// The names on the left, the digest of the selected one on the right.
-fn draw_examples(
-    items: &[Item],
-    digests: &[Digest],
-    marked: usize,
-    area: Rect,
-    theme: &Theme,
-    buffer: &mut Buffer,
-) {
-    let (left, right) = halves(area, buffer);
-    draw_window(items.len(), |at| items[at].name.clone(), Some(marked), left, theme, buffer);
-    say_if_none(items, left, theme, buffer);
-    let at = items
-        .get(marked)
-        .and_then(|item| EXAMPLES.iter().position(|example| example.name == item.name));
-    let lines = at
-        .and_then(|at| digests.get(at))
-        .map(|digest| boxes::digest_lines(digest, right.width.into(), theme));
-    for ((line, style), y) in lines.unwrap_or_default().iter().zip(right.top()..right.bottom()) {
-        buffer.set_stringn(right.x, y, line, right.width.into(), *style);
-    }
-}
-
-fn say_if_none(items: &[Item], area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    if items.is_empty() && !area.is_empty() {
-        buffer.set_stringn(area.x, area.y, "No match.", area.width.into(), theme.faint);
-    }
-}
-
-fn variant(name: &str) -> Item {
-    Item {
-        pick: Pick::Variant,
-        name: format!("{VARIANT} {name}"),
-        about: format!("Keep the edits as variant {name}, or show that variant in the form."),
-        keys: String::new(),
-    }
-}
-
-fn graph((place, graph): (usize, &Graph)) -> Item {
-    let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
-    Item {
-        pick: Pick::Chart(place),
-        name: format!("chart: {}", graph.label.to_lowercase()),
-        about: format!("Show {} over the driver's roll angle.", symbols.join(", ")),
-        keys: String::new(),
-    }
-}
-
-fn worker_chart((place, chart): (usize, WorkerChart)) -> Item {
-    let [name, about, _] = chart.words();
-    Item {
-        pick: Pick::Chart(place),
-        name: format!("chart: {}", name.to_lowercase()),
-        about: about.to_owned(),
-        keys: String::new(),
-    }
-}
-
-fn field(index: usize) -> Item {
-    let field = &FIELDS[index];
-    Item {
-        pick: Pick::Go(index),
-        name: field.key.to_owned(),
-        about: format!("{} {}. {}", field.symbol, field.full_label(), field.help)
-            .trim_start()
-            .to_owned(),
-        keys: String::new(),
-    }
-}
-
-fn of_material(gears: &'static [&'static str], material: &'static Material) -> Item {
-    let Material { name, group, young, poisson, density, source, .. } = material;
-    Item {
-        pick: Pick::Make(gears, material),
-        name: name.clone(),
-        about: format!("{young}, {poisson}, {density}, {group}; {source}"),
-        keys: String::new(),
-    }
-}
-
-fn result(quantity: &'static Quantity) -> Item {
-    let Quantity { key, symbol, label, equation, .. } = quantity;
-    let about = format!("{symbol} {}, a result; {equation}", label.trim_start());
-    Item { pick: Pick::Show(key), name: (*key).to_owned(), about, keys: String::new() }
-}
-
-fn quantity(quantity: &'static Quantity) -> Item {
-    Item {
-        pick: Pick::Limit(quantity.key),
-        name: quantity.key.to_owned(),
-        about: format!("{} {}", quantity.symbol, quantity.label.trim_start()),
-        keys: String::new(),
-    }
-}
-
-fn example(example: &'static Example, digest: Option<&Digest>) -> Item {
-    let about =
-        digest.map_or_else(String::new, |digest| format!("{}: {}", digest.title, digest.verdict()));
-    Item { pick: Pick::Begin(example), name: example.name.to_owned(), about, keys: String::new() }
-}
-
-// The rank of a line, smaller is better; `None` if a word does not match. Symbols may be typed in
-// ASCII.
-fn rank(item: &Item, words: &[&str]) -> Option<usize> {
-    let name = item.name.to_lowercase();
-    let about = item.about.to_lowercase();
-    let written_out = symbol(&item.about, true).to_lowercase();
-    let rank_of = |word: &&str| {
-        let begins = name.split(['.', '_', ' ', '/']).any(|part| part.starts_with(*word));
-        let occurs = about.contains(*word) || written_out.contains(*word);
-        match (name.starts_with(*word), begins, name.contains(*word), occurs) {
-            (true, ..) => Some(0),
-            (_, true, ..) => Some(1),
-            (_, _, true, _) => Some(2),
-            (.., true) => Some(DESCRIBED),
+    fn preview(&mut self, units: System) -> Option<Job> {
+        let example = self.fitting().get(self.selected).and_then(|item| match item.pick {
+            Pick::Begin(example) => Some(Target::Example(example)),
             _ => None,
+        });
+        self.preview.as_mut()?.request(example, units)
+    }
+
+    fn show(&mut self, target: &Target, preview: Preview) {
+        if let Some(pane) = &mut self.preview {
+            pane.show(target, preview);
         }
-    };
-    words.iter().map(rank_of).sum()
+    }
+
+    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        let theme = around.look.theme;
+        let items = self.fitting();
+        let inner = boxes::frame(self.title, SIZE, area, theme, buffer);
+        let (line, list, details) = self.areas(&items, inner);
+        if let Some(preview) = &self.preview {
+            let name = |at: usize| items[at].name.clone();
+            boxes::draw_window(items.len(), name, Some(self.selected), list, theme, buffer);
+            boxes::draw_details(|width| preview.lines(width, theme), details, buffer);
+        } else {
+            self.draw_items(&items, list, theme, buffer);
+            if let Some(item) = items.get(self.selected) {
+                let rule = Block::new().borders(Borders::TOP).border_style(theme.rule);
+                let inner = rule.inner(details);
+                let lines: Vec<_> =
+                    boxes::said(&item.in_full(), Style::new(), inner.width).collect();
+                rule.render(details, buffer);
+                text::draw_lines(&lines, inner, buffer);
+            }
+        }
+        if items.is_empty() {
+            Span::styled("No match.", theme.faint).render(list, buffer);
+        }
+        text::edited(&self.input, line, theme.focus, buffer)
+    }
 }
 
-/// A field or a result that matches.
-struct MatchPlace {
-    score: u32,
-    rank: Rank,
-    item: Item,
+impl Picker {
+    // The input line, the list, and the details: beside the list of examples, otherwise below. The
+    // longest description has room, so that the list does not move.
+    fn areas(&self, items: &[Item], inner: Rect) -> (Rect, Rect, Rect) {
+        let [line, list] = boxes::input_above(inner);
+        if self.preview.is_some() {
+            let [left, right] = boxes::halves(list);
+            return (line, left, right);
+        }
+        let lines = |item: &Item| text::wrap(&item.in_full(), list.width.into()).len();
+        let most = items.iter().map(lines).max().unwrap_or(0) as u16 + 1;
+        let details = Constraint::Length(most.min(list.height / 3));
+        let [list, details] = Layout::vertical([Constraint::Fill(1), details]).areas(list);
+        (line, list, details)
+    }
+
+    // Name, keys, and as much of the description as fits.
+    fn draw_items(&self, items: &[Item], area: Rect, theme: &Theme, buffer: &mut Buffer) {
+        let widest = |text: fn(&Item) -> &str, most: usize| {
+            items.iter().map(|item| text(item).width().min(most)).max().unwrap_or(0)
+        };
+        let keys = widest(|item| &item.keys, KEYS);
+        let name = widest(|item| &item.name, usize::from(area.width) * 2 / 5);
+        let line = |at: usize| {
+            let item: &Item = &items[at];
+            let name = text::padded(&item.name, name);
+            let keys = match keys {
+                0 => String::new(),
+                _ => format!("  {}", text::padded(&item.keys, keys)),
+            };
+            format!("{name}{keys}  {}", item.about).trim_end().to_owned()
+        };
+        boxes::draw_window(items.len(), line, Some(self.selected), area, theme, buffer);
+    }
 }
 
-/// The score, then the number of label words that are not typed, then the kind that the focused
-/// pane prefers, then the more frequent choice.
-type Rank = (Reverse<u32>, (usize, bool), bool);
-
-impl MatchPlace {
-    fn new(score: u32, rank: Rank, item: Item) -> MatchPlace {
-        MatchPlace { score, rank, item }
+impl Item {
+    fn in_full(&self) -> String {
+        let keys = if self.keys.is_empty() { String::new() } else { format!(" ({})", self.keys) };
+        format!("{}{keys}: {}", self.name, self.about)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use crate::tui::store;
     use crate::tui::theme::Look;
     use crate::tui::update::{commands, opened};
+
+    type List = fn(&Context) -> Picker;
 
     fn context() -> Context {
         let app = opened(store::built_in(), None, Look::FULL, Size::new(80, 24));
         Context { commands: commands::items(&app), ..Context::default() }
     }
 
+    fn found(list: List, context: &Context, typed: &str) -> Vec<String> {
+        let picker = Picker { input: typed.into(), ..list(context) };
+        picker.fitting().into_iter().map(|item| item.name).collect()
+    }
+
     fn first(list: List, typed: &str) -> Option<String> {
-        let picker = Picker { input: typed.into(), ..Picker::over(list, context()) };
-        picker.fitting().into_iter().next().map(|item| item.name)
+        found(list, &context(), typed).into_iter().next()
     }
 
     #[test]
@@ -558,7 +427,7 @@ mod tests {
             ("themme", "theme"),
             ("colours", "theme"),
         ] {
-            assert_eq!(first(List::Commands, typed).as_deref(), Some(name), "{typed}");
+            assert_eq!(first(Picker::commands, typed).as_deref(), Some(name), "{typed}");
         }
         for (typed, name) in [
             ("next tab", "next case"),
@@ -569,18 +438,11 @@ mod tests {
             ("method", "method"),
         ] {
             let results = QUANTITIES.iter().map(|quantity| quantity.key).collect();
-            let picker = Picker {
-                input: typed.into(),
-                ..Picker::over(
-                    List::Commands,
-                    Context { results, are_results_first: true, ..context() },
-                )
-            };
-            let found =
-                picker.fitting().into_iter().take(3).map(|item| item.name).collect::<Vec<_>>();
-            assert!(found.contains(&name.to_owned()), "{typed}: {found:?}");
+            let context = Context { results, are_results_first: true, ..context() };
+            let found = found(Picker::commands, &context, typed);
+            assert!(found[..3].contains(&name.to_owned()), "{typed}: {found:?}");
         }
-        assert_eq!(first(List::Commands, "xyzzy"), None);
+        assert_eq!(first(Picker::commands, "xyzzy"), None);
     }
 
     #[test]
@@ -592,7 +454,7 @@ mod tests {
             ("backl", "deviations.backlash"),
             ("ca1", "driver.tip_relief"),
         ] {
-            assert_eq!(first(List::Places, typed).as_deref(), Some(key), "{typed}");
+            assert_eq!(first(Picker::places, typed).as_deref(), Some(key), "{typed}");
         }
     }
 
@@ -607,11 +469,8 @@ mod tests {
             ("driver tip relief", "driver.tip_relief"),
             ("ca1", "driver.tip_relief"),
         ] {
-            let picker = Picker {
-                input: typed.into(),
-                ..Picker::over(List::Places, Context { idle: idle.clone(), ..Context::default() })
-            };
-            assert_eq!(picker.fitting()[0].name, key, "{typed}");
+            let context = Context { idle: idle.clone(), ..context() };
+            assert_eq!(found(Picker::places, &context, typed)[0], key, "{typed}");
         }
     }
 
@@ -621,7 +480,7 @@ mod tests {
             let context = Context {
                 results: QUANTITIES.iter().map(|quantity| quantity.key).collect(),
                 are_results_first,
-                ..Context::default()
+                ..context()
             };
             for (typed, name) in [
                 ("tip rel", "driven.tip_relief"),
@@ -631,10 +490,8 @@ mod tests {
                     ["model.deflection", "combined_deflection"][usize::from(are_results_first)],
                 ),
             ] {
-                for list in [List::Commands, List::Places] {
-                    let picker =
-                        Picker { input: typed.into(), ..Picker::over(list, context.clone()) };
-                    assert_eq!(picker.fitting()[0].name, name, "{typed}");
+                for list in [Picker::commands, Picker::places] {
+                    assert_eq!(found(list, &context, typed)[0], name, "{typed}");
                 }
             }
         }
@@ -649,19 +506,17 @@ mod tests {
                 results: results.clone(),
                 are_results_first,
                 idle: (0..FIELDS.len()).collect(),
-                ..Context::default()
+                ..context()
             };
             for key in fields.clone().chain(results.iter().copied()) {
-                let picker =
-                    Picker { input: key.into(), ..Picker::over(List::Places, context.clone()) };
-                assert_eq!(picker.fitting()[0].name, key);
+                assert_eq!(found(Picker::places, &context, key)[0], key);
             }
         }
     }
 
     #[test]
     fn a_list_of_fields_names_the_gear() {
-        let items = Picker::new(List::Places).fitting();
+        let items = Picker::places(&context()).fitting();
         for gear in ["driver", "driven"] {
             let own = items.iter().filter(|item| item.name.starts_with(gear));
             assert!(own.clone().count() > 10);
@@ -674,9 +529,9 @@ mod tests {
 
     #[test]
     fn an_empty_filter_shows_the_whole_list() {
-        let all = Picker::over(List::Commands, context()).fitting();
+        let all = Picker::commands(&context()).fitting();
         let charts = GRAPHS.len() + WorkerChart::ALL.len();
         assert_eq!(all.len(), context().commands.len() + charts);
-        assert_eq!(Picker::new(List::Places).fitting().len(), FIELDS.len());
+        assert_eq!(Picker::places(&context()).fitting().len(), FIELDS.len());
     }
 }

@@ -9,31 +9,30 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::boxes::{extent, frame, inside, room};
-use super::{Dialog, Outcome, Surroundings};
+use super::{Dialog, Outcome, Surroundings, boxes};
 use crate::case::stamp::Stamp;
 use crate::tui::keys::Place;
 use crate::tui::session::save::{self, Found, Next, Offer};
 use crate::tui::text;
-use crate::tui::theme::Theme;
 
 /// Width of brackets, marks and gap around the name of a button.
 const BESIDE_NAME: u16 = 7;
 
 const EXPORT_RUNS: &str = "An export runs";
+const EXISTS: &str = "The file exists";
+const UNSAVED: &str = "Unsaved edits";
 
 /// A question with buttons.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Question {
-    /// The title.
-    pub(crate) title: &'static str,
+    title: &'static str,
     /// The question.
-    pub(crate) text: String,
+    text: String,
     /// Details, one line each.
-    pub(crate) details: Vec<String>,
+    details: Vec<String>,
     /// The answers. The first letter of each selects it.
-    pub(crate) buttons: Vec<(&'static str, Choice)>,
-    pub(crate) marked: usize,
+    buttons: Vec<(&'static str, Choice)>,
+    selected: usize,
 }
 
 /// An answer to a question.
@@ -60,68 +59,60 @@ pub(crate) enum Choice {
 }
 
 impl Question {
-    /// Asks before the edits of one case are discarded. An accidental Enter neither saves nor
-    /// discards them.
+    /// A question whose last button is selected, so that an accidental Enter changes nothing.
+    fn new(
+        title: &'static str,
+        text: String,
+        buttons: impl Into<Vec<(&'static str, Choice)>>,
+    ) -> Question {
+        let buttons = buttons.into();
+        let selected = buttons.len() - 1;
+        Question { title, text, details: Vec::new(), buttons, selected }
+    }
+
+    /// Asks before the edits of one case are discarded.
     #[must_use]
     pub(crate) fn unsaved(name: &str, next: &Next) -> Question {
-        let text = if matches!(next, Next::Load(_)) {
-            format!("{name} has unsaved edits. Discard reads the file again without the edits.")
-        } else {
-            format!("{name} has unsaved edits.")
+        let reload = match next {
+            Next::Load(_) => " Discard reads the file again without the edits.",
+            _ => "",
         };
-        Question {
-            title: "Unsaved edits",
-            text,
-            details: Vec::new(),
-            buttons: vec![
-                ("Save", Choice::Save(next.clone())),
-                ("Discard", Choice::Proceed(next.clone())),
-                ("Cancel", Choice::Cancel),
-            ],
-            marked: 2,
-        }
+        let buttons = [
+            ("Save", Choice::Save(next.clone())),
+            ("Discard", Choice::Proceed(next.clone())),
+            ("Cancel", Choice::Cancel),
+        ];
+        Question::new(UNSAVED, format!("{name} has unsaved edits.{reload}"), buttons)
     }
 
     /// Asks before the edits of several cases are discarded.
     pub(crate) fn all_unsaved(names: &[String]) -> Question {
-        Question {
-            title: "Unsaved edits",
-            text: format!("{} cases have unsaved edits: {}.", names.len(), names.join(", ")),
-            details: Vec::new(),
-            buttons: vec![
-                ("Save all", Choice::Proceed(Next::SaveRest)),
-                ("Discard all", Choice::Proceed(Next::Quit)),
-                ("Cancel", Choice::Cancel),
-            ],
-            marked: 2,
-        }
+        let text = format!("{} cases have unsaved edits: {}.", names.len(), names.join(", "));
+        let buttons = [
+            ("Save all", Choice::Proceed(Next::SaveRest)),
+            ("Discard all", Choice::Proceed(Next::Quit)),
+            ("Cancel", Choice::Cancel),
+        ];
+        Question::new(UNSAVED, text, buttons)
     }
 
     /// Asks before overwriting an existing file.
     #[must_use]
     pub(crate) fn exists(path: &Path, found: Found, next: &Next) -> Question {
-        Question {
-            title: "The file exists",
-            text: format!("{} exists. Overwrite replaces it with the form.", path.display()),
-            details: found.lines,
-            buttons: vec![
-                ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
-                ("Save as", Choice::SaveAs(next.clone())),
-                ("Cancel", Choice::Cancel),
-            ],
-            marked: 2,
-        }
+        let text = format!("{} exists. Overwrite replaces it with the form.", path.display());
+        let buttons = [
+            ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
+            ("Save as", Choice::SaveAs(next.clone())),
+            ("Cancel", Choice::Cancel),
+        ];
+        Question { details: found.lines, ..Question::new(EXISTS, text, buttons) }
     }
 
     /// Asks before the workbench ends while an export runs.
     pub(crate) fn export_runs(path: &Path) -> Question {
-        Question {
-            title: EXPORT_RUNS,
-            text: format!("The export to {} still runs.", path.display()),
-            details: Vec::new(),
-            buttons: vec![("Wait", Choice::Cancel), ("Quit without the export", Choice::Leave)],
-            marked: 0,
-        }
+        let text = format!("The export to {} still runs.", path.display());
+        let buttons = [("Wait", Choice::Cancel), ("Quit without the export", Choice::Leave)];
+        Question { selected: 0, ..Question::new(EXPORT_RUNS, text, buttons) }
     }
 
     /// Whether the question is about a running export.
@@ -131,99 +122,87 @@ impl Question {
 
     /// Asks before an export replaces an existing file.
     pub(crate) fn export_exists(path: &Path) -> Question {
-        Question {
-            title: "The file exists",
-            text: format!("{} exists. Overwrite replaces it with the export.", path.display()),
-            details: Vec::new(),
-            buttons: vec![
-                ("Overwrite", Choice::ExportOver(path.to_owned())),
-                ("Cancel", Choice::Cancel),
-            ],
-            marked: 1,
-        }
+        let text = format!("{} exists. Overwrite replaces it with the export.", path.display());
+        let buttons =
+            [("Overwrite", Choice::ExportOver(path.to_owned())), ("Cancel", Choice::Cancel)];
+        Question::new(EXISTS, text, buttons)
     }
 
     /// Asks after another program wrote the file.
     #[must_use]
     pub(crate) fn changed(path: &Path, found: Found, next: &Next) -> Question {
-        Question {
-            title: "The file has changed on disk",
-            text: format!(
-                "{} was changed after it was opened here. Reload discards the edits in the form.",
-                path.display()
-            ),
-            details: found.lines,
-            buttons: vec![
-                ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
-                ("Save as", Choice::SaveAs(next.clone())),
-                ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
-                ("Cancel", Choice::Cancel),
-            ],
-            marked: 3,
-        }
+        let text = format!(
+            "{} was changed after it was opened here. Reload discards the edits in the form.",
+            path.display()
+        );
+        let buttons = [
+            ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
+            ("Save as", Choice::SaveAs(next.clone())),
+            ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
+            ("Cancel", Choice::Cancel),
+        ];
+        let question = Question::new("The file has changed on disk", text, buttons);
+        Question { details: found.lines, ..question }
     }
 
     /// Reports that another session has the file open.
     #[must_use]
     pub(crate) fn held(path: &Path, holder: &str, next: &Next) -> Question {
-        Question {
-            title: "Open elsewhere",
-            text: format!(
-                "{} is not saved: another session has it open: {holder}.",
-                path.display()
-            ),
-            details: Vec::new(),
-            buttons: vec![("Save as", Choice::SaveAs(next.clone())), ("Cancel", Choice::Cancel)],
-            marked: 0,
-        }
+        let text =
+            format!("{} is not saved: another session has it open: {holder}.", path.display());
+        let buttons = [("Save as", Choice::SaveAs(next.clone())), ("Cancel", Choice::Cancel)];
+        Question { selected: 0, ..Question::new("Open elsewhere", text, buttons) }
     }
 
     /// Offers edits that an earlier session could not save.
     #[must_use]
     pub fn recover(name: &str, offer: Offer) -> Question {
         let changed = if offer.is_file_changed { " The file has changed since." } else { "" };
-        Question {
-            title: "Unsaved edits found",
-            text: format!(
-                "Unsaved edits of {name}, {} old.{changed} Value in the file -> edited value:",
-                offer.age
-            ),
-            details: offer.changes.iter().map(save::line).collect(),
-            buttons: vec![
-                ("Discard", Choice::Forget(vec![offer.journal.clone()])),
-                ("Recover", Choice::Recover(Box::new(offer))),
-                ("Later", Choice::Cancel),
-            ],
-            marked: 1,
-        }
+        let text = format!(
+            "Unsaved edits of {name}, {} old.{changed} Value in the file -> edited value:",
+            offer.age
+        );
+        let details = offer.changes.iter().map(save::line).collect();
+        let buttons = [
+            ("Discard", Choice::Forget(vec![offer.journal.clone()])),
+            ("Recover", Choice::Recover(Box::new(offer))),
+            ("Later", Choice::Cancel),
+        ];
+        let question = Question::new("Unsaved edits found", text, buttons);
+        Question { details, selected: 1, ..question }
     }
 
     /// Lists the journals of ended sessions.
     pub(crate) fn journals(journals: Vec<(PathBuf, String)>) -> Question {
         let (places, details) = journals.into_iter().unzip();
-        Question {
-            title: "Unsaved edits",
-            text: "Sessions ended with these unsaved edits. A case offers its edits when it is \
-                opened."
-                .to_owned(),
-            details,
-            buttons: vec![("Delete all", Choice::Forget(places)), ("Close", Choice::Cancel)],
-            marked: 1,
-        }
+        let text = "Sessions ended with these unsaved edits. A case offers its edits when it is \
+                    opened.";
+        let buttons = [("Delete all", Choice::Forget(places)), ("Close", Choice::Cancel)];
+        Question { details, ..Question::new(UNSAVED, text.to_owned(), buttons) }
     }
 
-    /// Selects the next or previous button, wrapping around.
-    pub(crate) fn mark(&mut self, by: isize) {
-        let count = self.buttons.len().max(1);
-        self.marked = (self.marked + count).saturating_add_signed(by) % count;
+    // The lines above the buttons. The buttons must be visible: details that do not fit are
+    // omitted, one line each.
+    fn lines(&self, room: Size) -> Vec<Line<'static>> {
+        let mut lines: Vec<_> = boxes::said(&self.text, Style::new(), room.width).collect();
+        let left = usize::from(room.height).saturating_sub(lines.len() + 2);
+        let count = self.details.len();
+        let shown = if count <= left { count } else { left.saturating_sub(1) };
+        let cut = |line: &String| Line::from(text::cut(&format!("  {line}"), room.width.into()));
+        lines.extend(self.details[..shown].iter().map(cut));
+        lines.extend((shown < count && left > 0).then(|| format!("  and {} more", count - shown).into()));
+        // An empty line, and the line of the buttons.
+        lines.extend([Line::default(), Line::default()]);
+        lines
     }
 
-    /// The answer whose name begins with the letter.
-    pub(crate) fn by_letter(&self, letter: char) -> Option<Choice> {
-        let fits = |name: &str| {
-            name.chars().next().is_some_and(|first| first.eq_ignore_ascii_case(&letter))
-        };
-        self.buttons.iter().find(|(name, _)| fits(name)).map(|(_, choice)| choice.clone())
+    // The row of the buttons; empty if there is no room.
+    fn button_row(lines: &[Line<'_>], inner: Rect) -> Rect {
+        inner.rows().nth(lines.len() - 1).unwrap_or_default()
+    }
+
+    fn choose(button: Option<&(&'static str, Choice)>) -> Outcome {
+        button.map_or_else(Outcome::none, |(_, choice)| Outcome::Choose(choice.clone()))
     }
 }
 
@@ -233,82 +212,52 @@ impl Dialog for Question {
     }
 
     fn letter(&mut self, letter: char) -> Option<Outcome> {
-        Some(self.by_letter(letter).map_or_else(Outcome::none, Outcome::Choose))
+        let fits = |(name, _): &(&str, Choice)| {
+            name.starts_with(|first: char| first.eq_ignore_ascii_case(&letter))
+        };
+        Some(Question::choose(self.buttons.iter().find(|button| fits(button))))
     }
 
+    // Wraps around.
     fn step(&mut self, by: isize, _: &Surroundings<'_>) {
-        self.mark(by);
+        let count = self.buttons.len();
+        self.selected = (self.selected + count).saturating_add_signed(by) % count;
     }
 
     fn wheel(&mut self, _: isize, _: &Surroundings<'_>) {}
 
-    fn click(&mut self, at: Position, screen: Size) -> bool {
-        let button = button_at(self, screen, at);
-        self.marked = button.unwrap_or(self.marked);
+    fn click(&mut self, at: Position, screen: Rect) -> bool {
+        let lines = self.lines(boxes::room(screen));
+        let row = Question::button_row(&lines, boxes::inside(boxes::extent(&lines), screen));
+        let mut right = row.x;
+        // The gap before the next button is not part of a button.
+        let button = self.buttons.iter().position(|(name, _)| {
+            right += name.width() as u16 + BESIDE_NAME;
+            at.x + 1 < right
+        });
+        let button = button.filter(|_| row.contains(at));
+        self.selected = button.unwrap_or(self.selected);
         button.is_some()
     }
 
     fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
-        let button = self.buttons.get(self.marked);
-        button.map_or_else(Outcome::none, |(_, choice)| Outcome::Choose(choice.clone()))
+        Question::choose(self.buttons.get(self.selected))
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        draw_question(self, area, around.look.theme, buffer);
+        let theme = around.look.theme;
+        let lines = self.lines(boxes::room(area));
+        let inner = boxes::frame(self.title, boxes::extent(&lines), area, theme, buffer);
+        text::draw_lines(&lines, inner, buffer);
+        let buttons = self.buttons.iter().enumerate().flat_map(|(at, (name, _))| {
+            let button = if at == self.selected {
+                Span::styled(format!("[> {name} <]"), theme.key)
+            } else {
+                Span::raw(format!("[  {name}  ]"))
+            };
+            [button, Span::raw(" ")]
+        });
+        buttons.collect::<Line<'_>>().render(Question::button_row(&lines, inner), buffer);
         None
     }
-}
-
-fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let lines = question_lines(question, room(screen.as_size()));
-    let inner = frame(question.title, extent(&lines, 2), screen, theme, buffer);
-    for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
-        buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
-    }
-    let row = button_row(&lines, inner);
-    let buttons = question.buttons.iter().enumerate().flat_map(|(index, (name, _))| {
-        let marked = index == question.marked;
-        let (text, style) = if marked {
-            (format!("[> {name} <]"), theme.key)
-        } else {
-            (format!("[  {name}  ]"), Style::new())
-        };
-        [Span::styled(text, style), Span::raw(" ")]
-    });
-    buttons.collect::<Line<'_>>().render(row, buffer);
-}
-
-// The index of the button at a cell, if any.
-fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
-    let lines = question_lines(question, room(screen));
-    let row = button_row(&lines, inside(extent(&lines, 2), Rect::from((Position::ORIGIN, screen))));
-    let mut right = row.x;
-    let ends = question.buttons.iter().map(|(name, _)| {
-        right += name.width() as u16 + BESIDE_NAME;
-        right
-    });
-    let ends: Vec<_> = ends.collect();
-    // The gap before the next button is not part of a button.
-    ends.iter().position(|&end| at.x + 1 < end).filter(|_| row.contains(at))
-}
-
-// The row below the lines and an empty line; empty if there is no room.
-fn button_row(lines: &[String], inner: Rect) -> Rect {
-    let below = u16::try_from(lines.len()).unwrap_or(u16::MAX).saturating_add(1);
-    if below < inner.height { Rect { y: inner.y + below, height: 1, ..inner } } else { Rect::ZERO }
-}
-
-// The lines above the buttons. The buttons must be visible: details that do not fit are omitted,
-// one line each.
-fn question_lines(question: &Question, room: Size) -> Vec<String> {
-    let width = usize::from(room.width);
-    let mut lines = text::wrap(&question.text, width);
-    let left = usize::from(room.height).saturating_sub(lines.len() + 2);
-    let details = &question.details;
-    let shown = if details.len() <= left { details.len() } else { left.saturating_sub(1) };
-    lines.extend(details[..shown].iter().map(|line| text::cut(&format!("  {line}"), width)));
-    if shown < details.len() && left > 0 {
-        lines.push(format!("  and {} more", details.len() - shown));
-    }
-    lines
 }

@@ -1,16 +1,15 @@
 //! The dialog that searches for the tip relief to specify.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
-use ratatui::style::Style;
+use ratatui::layout::{Constraint, Layout, Position, Rect};
+use ratatui::text::{Line as Words, Span};
+use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::boxes::{frame, page_height, room};
-use super::{Dialog, Outcome, Surroundings};
+use super::{Dialog, Outcome, Surroundings, boxes};
 use crate::model::Inputs;
 use crate::report::relief::{ReliefReport, settings};
 use crate::study::relief::{Demand, Specification};
-use crate::tui::ascii::printable;
 use crate::tui::jobs::{Job, ReliefRequest};
 use crate::tui::keys::Place;
 use crate::tui::line::Line;
@@ -79,44 +78,28 @@ impl ReliefDialog {
         self.answer = Some(found);
     }
 
-    /// The specification for the typed demand.
-    fn found(&self) -> Option<&Specification> {
-        let typed = Demand::parse(self.input.value()).ok();
-        let is_current = typed.is_some() && typed == self.searched;
-        let answer = self.answer.as_ref().filter(|_| is_current)?;
-        answer.as_ref().ok().map(|found| &**found)
+    /// Whether the last search is for the typed demand.
+    fn is_searched(&self) -> bool {
+        self.searched.is_some() && Demand::parse(self.input.value()).ok() == self.searched
     }
 
     fn state(&self) -> String {
-        let typed = Demand::parse(self.input.value()).ok();
-        match (&self.problem, &self.answer) {
-            (Some(problem), _) => format!("! {problem}"),
-            (None, None) => "Searching. Esc ends the search.".to_owned(),
-            (None, Some(_)) if typed != self.searched => "Enter searches again.".to_owned(),
+        let state = match (&self.problem, &self.answer) {
+            (Some(problem), _) => return format!("! {problem}"),
+            (None, None) => "Searching. Esc ends the search.",
+            (None, Some(_)) if !self.is_searched() => "Enter searches again.",
             (None, Some(Ok(_))) => {
-                "Enter writes the relief into the case; Down and PageDown scroll.".to_owned()
+                "Enter writes the relief into the case; Down and PageDown scroll."
             }
-            (None, Some(Err(_))) => "No relief is found.".to_owned(),
-        }
+            (None, Some(Err(_))) => "No relief is found.",
+        };
+        state.to_owned()
     }
 
-    fn wrapped(&self, width: usize) -> impl Iterator<Item = String> {
-        let lines = self.lines.iter();
-        // Rows of tables keep their spaces.
-        lines.flat_map(move |line| {
-            if line.width() <= width {
-                vec![printable(line).to_string()]
-            } else {
-                text::wrap(line, width)
-            }
-        })
-    }
-
-    fn scroll(&mut self, by: isize, around: &Surroundings<'_>) {
-        let room = room(around.screen);
-        let shown = usize::from(room.height.saturating_sub(HEAD));
-        let last = self.wrapped(room.width.into()).count().saturating_sub(shown);
-        self.top = self.top.saturating_add_signed(by).min(last);
+    // Rows of tables keep their spaces.
+    fn wrapped(&self, screen: Rect) -> Vec<Words<'static>> {
+        let width = boxes::room(screen).width;
+        self.lines.iter().flat_map(|line| boxes::wrapped(line, width)).map(Words::from).collect()
     }
 }
 
@@ -135,45 +118,40 @@ impl Dialog for ReliefDialog {
     }
 
     fn step(&mut self, by: isize, around: &Surroundings<'_>) {
-        self.scroll(by, around);
+        let count = self.wrapped(around.screen).len() + usize::from(HEAD);
+        self.top = boxes::scrolled(self.top, by, count, around.screen);
     }
 
     fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
-        let page = page_height(around.screen) - HEAD.cast_signed() as isize;
-        self.scroll(by * page.max(1), around);
+        let page = boxes::page_height(around.screen) - HEAD.cast_signed() as isize;
+        self.step(by * page.max(1), around);
     }
 
     fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
-        if let Some(found) = self.found() {
-            return Outcome::Relief(settings(&found.chosen().reliefs));
+        match &self.answer {
+            _ if !self.is_searched() => Outcome::Jobs(self.search()),
+            Some(Ok(found)) => Outcome::Relief(settings(&found.chosen().reliefs)),
+            _ => Outcome::none(),
         }
-        let typed = Demand::parse(self.input.value()).ok();
-        if typed.is_some() && typed == self.searched {
-            return Outcome::none();
-        }
-        Outcome::Jobs(self.search())
     }
 
     fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         let theme = around.look.theme;
-        let inner = frame("Tip relief", room(area.as_size()), area, theme, buffer);
-        let width = usize::from(inner.width);
-        let below = inner.top() + HEAD.min(inner.height)..inner.bottom();
-        for (line, y) in self.wrapped(width).skip(self.top).zip(below) {
-            buffer.set_stringn(inner.x, y, line, width, Style::new());
-        }
-        if inner.height > 1 {
-            let state = text::cut(&self.state(), width);
-            buffer.set_stringn(inner.x, inner.y + 1, state, width, theme.note);
-        }
-        buffer.set_stringn(inner.x, inner.y, LABEL, width, Style::new());
-        let label = (LABEL.width() as u16).min(inner.width);
-        let line = Rect {
-            x: inner.x + label,
-            width: inner.width - label,
-            height: inner.height.min(1),
-            ..inner
-        };
+        let inner = boxes::frame("Tip relief", boxes::room(area), area, theme, buffer);
+        let [line, state, _, below] = Layout::vertical([
+            Constraint::Length(1),
+            Constraint::Length(1),
+            Constraint::Length(1),
+            Constraint::Fill(1),
+        ])
+        .areas(inner);
+        let lines = self.wrapped(area);
+        text::draw_lines(lines.get(self.top..).unwrap_or_default(), below, buffer);
+        Span::styled(text::cut(&self.state(), inner.width.into()), theme.note).render(state, buffer);
+        let [label, line] =
+            Layout::horizontal([Constraint::Length(LABEL.width() as u16), Constraint::Fill(1)])
+                .areas(line);
+        Span::raw(LABEL).render(label, buffer);
         text::edited(&self.input, line, theme.focus, buffer)
     }
 }

@@ -1,10 +1,8 @@
-//! Search for a field or a result by symbol, label, key, a word of the help, or the name of a Greek
-//! letter.
+//! Search for a field, a result or a command by symbol, label, key, a word of the help, or the name
+//! of a Greek letter.
 
-use std::sync::LazyLock;
-
-use crate::case::fields::{FIELDS, Field, GROUPS};
-use crate::model::{QUANTITIES, Quantity};
+use crate::case::fields::{Field, GROUPS};
+use crate::model::Quantity;
 
 /// Greek letters and their names.
 const GREEK: [(char, &str); 14] = [
@@ -26,102 +24,97 @@ const GREEK: [(char, &str); 14] = [
 
 /// Least similarity of a mistyped word.
 const LIKE: f64 = 0.75;
+/// Longer words are not compared by similarity.
+const LONGEST: usize = 64;
 
-/// The searched texts of a field or a result, with the weight of each.
-struct Entry {
+/// Weights of the texts of an entry.
+pub(crate) const COMMAND: u32 = 60;
+pub(crate) const LABEL: u32 = 41;
+const KEY: u32 = 30;
+const GROUP: u32 = 20;
+pub(crate) const HELP: u32 = 10;
+
+/// The searched texts of a line of a list.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
     /// The symbol, complete and without the number of the gear.
     symbols: [String; 2],
-    /// Words with their weights, the greatest first.
-    words: [(u32, Vec<String>); 4],
+    /// Words with their weights.
+    words: Vec<(u32, String)>,
+    /// Number of words of the label.
+    length: usize,
 }
 
-static ENTRIES: LazyLock<Vec<Entry>> =
-    LazyLock::new(|| FIELDS.iter().map(Entry::of_field).collect());
-static RESULTS: LazyLock<Vec<Entry>> =
-    LazyLock::new(|| QUANTITIES.iter().map(Entry::of_result).collect());
-
-/// Fields that match every word of the query, the best first, each with its score; equal ones in
-/// the order of the form. Case and underscores are ignored. Greek letters may be spelled out, and
-/// words may be shortened or slightly mistyped. An empty query matches all fields equally.
-#[must_use]
-pub(crate) fn search(query: &str) -> Vec<(usize, u32)> {
-    search_in(&ENTRIES, query)
-}
-
-/// Results that match every word of the query, by their index in the table of quantities, as
-/// [`search`] finds fields.
-#[must_use]
-pub(crate) fn search_results(query: &str) -> Vec<(usize, u32)> {
-    search_in(&RESULTS, query)
-}
-
-fn search_in(entries: &[Entry], query: &str) -> Vec<(usize, u32)> {
-    let sought: Vec<String> = query
-        .split(|c: char| c.is_whitespace() || c == '.')
-        .map(plain)
-        .filter(|word| !word.is_empty())
-        .collect();
-    let score = |entry: &Entry| sought.iter().map(|word| entry.score(word)).sum::<Option<u32>>();
-    let mut found: Vec<(usize, u32)> =
-        entries.iter().enumerate().filter_map(|(at, entry)| Some((at, score(entry)?))).collect();
-    found.sort_by_key(|&(at, score)| (std::cmp::Reverse(score), at));
-    found
+/// The words of a query. Case and underscores are ignored; Greek letters may be spelled out.
+pub(crate) fn query(typed: &str) -> Vec<String> {
+    let words = typed.split(|c: char| c.is_whitespace() || c == '.').map(plain);
+    words.filter(|word| !word.is_empty()).collect()
 }
 
 impl Entry {
-    fn of_field(field: &Field) -> Entry {
-        let group =
-            GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
-        Entry::new(field.symbol, field.label, field.name(), group, field.help)
-    }
-
-    fn of_result(quantity: &Quantity) -> Entry {
-        Entry::new(quantity.symbol, quantity.label, quantity.key, "result", quantity.equation)
-    }
-
-    fn new(symbol: &str, label: &str, name: &str, group: &str, help: &str) -> Entry {
+    /// An entry of a label and other texts, each with its weight.
+    pub(crate) fn new(symbol: &str, texts: &[(u32, &str)]) -> Entry {
         let symbol = plain(symbol);
         let stem = symbol.trim_end_matches(['1', '2']).to_owned();
-        let name = words(name).into_iter().chain([plain(name)]).collect();
-        Entry {
-            symbols: [symbol, stem],
-            words: [
-                (41, words(label).into_iter().chain([plain(label)]).collect()),
-                (30, name),
-                (20, words(group)),
-                (10, words(help)),
-            ],
-        }
+        let weighted = texts.iter().flat_map(|&(weight, text)| {
+            let whole = (weight >= KEY).then(|| plain(text));
+            words(text).into_iter().chain(whole).map(move |word| (weight, word))
+        });
+        let length = texts.first().map_or(0, |(_, label)| label.split_whitespace().count());
+        Entry { symbols: [symbol, stem], words: weighted.collect(), length }
     }
 
-    /// The score of the entry for one word of the query; `None` without a match.
-    fn score(&self, sought: &str) -> Option<u32> {
+    pub(crate) fn of_field(field: &Field) -> Entry {
+        let group =
+            GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
+        let texts =
+            [(LABEL, field.label), (KEY, field.name()), (GROUP, group), (HELP, field.help)];
+        Entry::new(field.symbol, &texts)
+    }
+
+    pub(crate) fn of_result(quantity: &Quantity) -> Entry {
+        let Quantity { symbol, label, key, equation, .. } = quantity;
+        let texts = [(LABEL, *label), (KEY, *key), (GROUP, "result"), (HELP, *equation)];
+        Entry::new(symbol, &texts)
+    }
+
+    /// The score, the greater the better; `None` unless every word of the query matches. Words may
+    /// be shortened or slightly mistyped.
+    pub(crate) fn score(&self, query: &[String]) -> Option<u32> {
+        query.iter().map(|word| self.score_of(word)).sum()
+    }
+
+    /// Number of words of the label that the query lacks.
+    pub(crate) fn untyped(&self, query: &[String]) -> usize {
+        self.length.saturating_sub(query.len())
+    }
+
+    fn score_of(&self, sought: &str) -> Option<u32> {
         let [whole, stem] = &self.symbols;
-        let symbol = if whole == sought { Some(101) } else { (stem == sought).then_some(100) };
-        let begun = self.symbols[0].starts_with(sought).then_some(60);
-        let word = self.words.iter().filter_map(|(weight, words)| {
-            let best = words.iter().filter_map(|word| fit(sought, word)).max()?;
-            Some(weight + best)
-        });
-        word.chain(symbol).chain(begun).max()
+        let symbol = match sought {
+            _ if whole == sought => Some(101),
+            _ if stem == sought => Some(100),
+            _ => whole.starts_with(sought).then_some(60),
+        };
+        let words = self.words.iter().filter_map(|(weight, word)| Some(weight + fit(sought, word)?));
+        words.chain(symbol).max()
     }
 }
 
 /// The quality of a match: whole, prefix, substring, similar, or shortened.
 fn fit(sought: &str, word: &str) -> Option<u32> {
     let long = sought.len() > 2;
-    if word == sought {
-        Some(50)
-    } else if word.starts_with(sought) {
-        Some(40)
-    } else if long && word.contains(sought) {
-        Some(25)
-    } else if sought.len() > 3 && strsim::normalized_damerau_levenshtein(sought, word) >= LIKE {
-        Some(20)
-    } else if long && is_shortened(sought, word) {
-        Some(5)
-    } else {
-        None
+    let is_alike = || {
+        (4..=LONGEST).contains(&sought.len())
+            && strsim::normalized_damerau_levenshtein(sought, word) >= LIKE
+    };
+    match () {
+        () if word == sought => Some(50),
+        () if word.starts_with(sought) => Some(40),
+        () if long && word.contains(sought) => Some(25),
+        () if is_alike() => Some(20),
+        () if long && is_shortened(sought, word) => Some(5),
+        () => None,
     }
 }
 
@@ -156,10 +149,20 @@ fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::FIELDS;
+    use crate::model::QUANTITIES;
     use proptest::prelude::*;
 
-    fn keys(query: &str) -> Vec<&'static str> {
-        search(query).into_iter().map(|(field, _)| FIELDS[field].key).collect()
+    fn best<'e>(entries: impl Iterator<Item = (&'e str, Entry)>, typed: &str) -> Vec<&'e str> {
+        let words = query(typed);
+        let mut found: Vec<_> =
+            entries.filter_map(|(key, entry)| Some((entry.score(&words)?, key))).collect();
+        found.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
+        found.into_iter().map(|(_, key)| key).collect()
+    }
+
+    fn keys(typed: &str) -> Vec<&'static str> {
+        best(FIELDS.iter().map(|field| (field.key, Entry::of_field(field))), typed)
     }
 
     #[test]
@@ -215,10 +218,9 @@ mod tests {
             ("contact ratio", "contact_ratio"),
             ("epsilon", "contact_ratio"),
         ] {
-            let found = search_results(query).first().map(|&(at, _)| QUANTITIES[at].key);
-            assert_eq!(found, Some(key), "{query}");
+            let results = QUANTITIES.iter().map(|result| (result.key, Entry::of_result(result)));
+            assert_eq!(best(results, query).first(), Some(&key), "{query}");
         }
-        assert!(search_results("xyzzy").is_empty());
     }
 
     #[test]
@@ -226,12 +228,6 @@ mod tests {
         assert!(keys("module relief").is_empty());
         assert!(keys("xyzzy").is_empty());
         assert!(keys("driven").iter().all(|key| !key.starts_with("pair")));
-    }
-
-    #[test]
-    fn an_empty_query_fits_all_in_the_order_of_the_form() {
-        let all: Vec<usize> = search("  ").into_iter().map(|(field, _)| field).collect();
-        assert_eq!(all, (0..FIELDS.len()).collect::<Vec<_>>());
     }
 
     #[test]
@@ -251,9 +247,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_query_panics_and_the_best_matches_are_first(query in ".{0,12}") {
-            let found = search(&query);
-            prop_assert!(found.is_sorted_by(|a, b| a.1 >= b.1));
+        fn no_query_panics(typed in ".{0,12}") {
+            keys(&typed);
         }
     }
 }

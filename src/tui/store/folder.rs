@@ -1,17 +1,19 @@
 //! What the file browser shows: the content of a folder, the cases found below it, and previews.
 
 use std::collections::VecDeque;
-use std::ffi::OsString;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{self, Path, PathBuf};
 use std::time::{Duration, Instant};
+
+use ratatui::style::Style;
 
 use super::{at_home, load, without_name};
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::{Document, Example, rexs};
+use crate::case::{Document, EXAMPLES, Example, rexs};
 use crate::report::digest::Digest;
 use crate::report::solve;
+use crate::tui::theme::Theme;
 
 /// Greatest number of listed entries.
 const MOST: usize = 50_000;
@@ -28,17 +30,26 @@ const LONGEST: Duration = Duration::from_secs(2);
 /// Greatest number of shown faults; further faults are counted.
 const MOST_FAULTS: usize = 20;
 
-/// An entry of a folder.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+/// A line of the file browser.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// Folders sort after cases.
-    pub(crate) is_folder: bool,
-    /// Its name as text.
-    pub(crate) name: String,
-    /// The name in lower case.
+    /// The shown name.
+    pub name: String,
+    /// The text that typing finds, in lower case.
     pub(crate) folded: String,
-    /// Its name, which need not be valid text.
-    pub(crate) file: OsString,
+    /// What it opens.
+    pub(crate) target: Target,
+}
+
+/// What a line of the file browser opens.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Target {
+    /// A case file.
+    File(PathBuf),
+    /// A folder.
+    Folder(PathBuf),
+    /// An example.
+    Example(&'static Example),
 }
 
 /// The content of a folder.
@@ -50,39 +61,6 @@ pub struct Listing {
     pub(crate) folder: PathBuf,
     /// The entries, including hidden ones; or the error of reading.
     pub entries: Result<Vec<Entry>, String>,
-    /// Whether the list is incomplete.
-    pub(crate) is_cut: bool,
-}
-
-impl Entry {
-    /// Whether a file with this name is a case, or a model that can be imported as a case.
-    #[must_use]
-    pub(crate) fn is_case(file: &Path) -> bool {
-        let is_toml = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("toml");
-        file.extension().is_some_and(is_toml) || rexs::is_model(file)
-    }
-
-    fn of(entry: &fs::DirEntry) -> Option<Entry> {
-        let file = entry.file_name();
-        let kind = entry.file_type().ok()?;
-        // Only a link needs another system call.
-        let is_folder = kind.is_dir() || kind.is_symlink() && entry.path().is_dir();
-        let is_case = !is_folder && Entry::is_case(Path::new(&file));
-        let name = sanitize(&file.to_string_lossy());
-        (is_folder || is_case).then(|| Entry { is_folder, folded: name.to_lowercase(), name, file })
-    }
-}
-
-/// A case in a folder below.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FoundCase {
-    /// Depth of its folder below the start.
-    pub(crate) depth: usize,
-    /// The relative path as text.
-    pub name: String,
-    /// The path in lower case.
-    pub(crate) folded: String,
-    pub(crate) way: PathBuf,
 }
 
 /// The result of a search.
@@ -91,57 +69,74 @@ pub struct SearchResult {
     /// The folder of the browser, and the folders typed after it.
     pub asked: (PathBuf, String),
     /// The cases, the nearest first.
-    pub cases: Vec<FoundCase>,
+    pub cases: Vec<Entry>,
     /// Whether the search ended at a limit.
     pub is_cut: bool,
 }
 
-impl FoundCase {
-    fn of(way: PathBuf, depth: usize) -> FoundCase {
-        let name = sanitize(&way.to_string_lossy());
-        FoundCase { depth, folded: name.to_lowercase(), name, way }
+/// The preview of a line: texts, each with its style.
+pub(crate) type Preview = Vec<(String, Tone)>;
+
+/// A style of any theme.
+pub(crate) type Tone = fn(&Theme) -> Style;
+
+const PLAIN: Tone = |_| Style::new();
+const PROBLEM: Tone = |theme| theme.problem;
+
+impl Entry {
+    pub(super) fn new(name: String, matched: &str, target: Target) -> Entry {
+        Entry { name, folded: matched.to_lowercase(), target }
+    }
+
+    /// The parent folder, which no typed text finds.
+    pub(crate) fn up(folder: PathBuf) -> Entry {
+        Entry::new("../".to_owned(), "", Target::Folder(folder))
+    }
+
+    /// The examples.
+    pub(crate) fn examples() -> Vec<Entry> {
+        let entry = |example: &'static Example| {
+            let name = format!("{}  (example)", example.name);
+            Entry::new(name, example.name, Target::Example(example))
+        };
+        EXAMPLES.iter().map(entry).collect()
+    }
+
+    pub(crate) fn is_folder(&self) -> bool {
+        matches!(self.target, Target::Folder(_))
+    }
+
+    // Only a link needs another system call.
+    fn of(entry: &fs::DirEntry, shown: &Path) -> Option<Entry> {
+        let file = entry.file_name();
+        let kind = entry.file_type().ok()?;
+        let is_folder = kind.is_dir() || kind.is_symlink() && entry.path().is_dir();
+        let (name, path) = (sanitize(&file.to_string_lossy()), shown.join(&file));
+        if is_folder {
+            return Some(Entry::new(format!("{name}/"), &name, Target::Folder(path)));
+        }
+        is_case(Path::new(&file)).then(|| Entry::new(name.clone(), &name, Target::File(path)))
     }
 }
 
-impl SearchResult {
-    /// The path of a case, relative to the browser.
-    #[must_use]
-    pub(crate) fn path(&self, case: &FoundCase) -> PathBuf {
-        beneath(&self.asked.0, &self.asked.1).join(&case.way)
-    }
+/// Whether a file with this name is a case, or a model that can be imported as a case.
+fn is_case(file: &Path) -> bool {
+    file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) || rexs::is_model(file)
 }
 
-/// The target of a preview.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Viewport {
-    /// A case file.
-    File(PathBuf),
-    /// A folder.
-    Folder(PathBuf),
-    /// An example.
-    Example(&'static Example),
-}
-
-/// The preview of a file or a folder.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Preview {
-    /// A case, and whether it has a newer format.
-    Case(Digest, bool),
-    /// The required values that are missing from a case.
-    Draft(Vec<String>),
-    /// The first faults of a file, and the number of further ones.
-    Faults(Vec<String>, usize),
-    /// A folder, with its numbers of cases and folders.
-    Folder(usize, usize),
-}
-
-/// Lists a folder.
+/// Lists a folder with this path.
 #[must_use]
 pub fn list(asked: (PathBuf, String), place: PathBuf) -> Listing {
-    let folder = fs::canonicalize(&place).or_else(|_| std::path::absolute(&place)).unwrap_or(place);
-    let found = entries(&folder);
-    let is_cut = found.as_ref().is_ok_and(|entries| entries.len() >= MOST);
-    Listing { asked, folder, entries: found, is_cut }
+    let folder = fs::canonicalize(&place).or_else(|_| path::absolute(&place)).unwrap_or(place);
+    let entries = entries(&folder, &beneath(&asked.0, &asked.1));
+    Listing { asked, folder, entries }
+}
+
+impl Listing {
+    /// Whether the list is incomplete.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.entries.as_ref().is_ok_and(|entries| entries.len() >= MOST)
+    }
 }
 
 /// The typed folder; by default the present folder.
@@ -156,20 +151,17 @@ pub fn beneath(base: &Path, typed: &str) -> PathBuf {
     if typed.starts_with('~') { PathBuf::from(typed) } else { base.join(typed) }
 }
 
-/// The folders and cases of a folder, sorted by name.
-///
-/// # Errors
-/// The error of reading, as text.
-pub(crate) fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
+// The cases and then the folders of a folder, sorted by name; their paths begin with `shown`.
+fn entries(folder: &Path, shown: &Path) -> Result<Vec<Entry>, String> {
     let found =
         fs::read_dir(folder).map_err(|error| format!("This folder cannot be read: {error}."))?;
-    let mut entries: Vec<_> =
-        found.flatten().filter_map(|entry| Entry::of(&entry)).take(MOST).collect();
-    entries.sort();
+    let found = found.flatten().filter_map(|entry| Entry::of(&entry, shown));
+    let mut entries: Vec<_> = found.take(MOST).collect();
+    entries.sort_by(|a, b| (a.is_folder(), &a.name).cmp(&(b.is_folder(), &b.name)));
     Ok(entries)
 }
 
-/// Searches for cases; returns `None` if `go_on` returns false. Skips hidden folders and does not
+/// Searches for cases below a folder with this path; returns `None` if `go_on` returns false. Skips hidden folders and does not
 /// follow links.
 #[must_use]
 pub fn find(
@@ -177,6 +169,7 @@ pub fn find(
     top: &Path,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<SearchResult> {
+    let shown = beneath(&asked.0, &asked.1);
     let (began, mut entries) = (Instant::now(), 0);
     let (mut cases, mut is_cut) = (Vec::new(), false);
     let mut ahead = VecDeque::from([(PathBuf::new(), 0)]);
@@ -188,77 +181,82 @@ pub fn find(
             is_cut = true;
             break;
         }
-        for entry in look(&top.join(&way)).take(MOST_ENTRIES - entries) {
+        let found = fs::read_dir(top.join(&way)).into_iter().flatten().flatten();
+        for entry in found.take(MOST_ENTRIES - entries) {
             entries += 1;
-            let way = way.join(entry.file_name());
-            match kind_of(&entry) {
-                EntryKind::Folder if depth < DEEPEST => ahead.push_back((way, depth + 1)),
-                EntryKind::Case if depth > 0 => cases.push(FoundCase::of(way, depth)),
-                EntryKind::Folder => is_cut = true,
-                EntryKind::Case | EntryKind::Other => (),
+            let name = entry.file_name();
+            let Ok(kind) = entry.file_type() else { continue };
+            let way = way.join(&name);
+            if name.as_encoded_bytes().starts_with(b".") {
+            } else if kind.is_dir() && depth < DEEPEST {
+                ahead.push_back((way, depth + 1));
+            } else if kind.is_dir() {
+                is_cut = true;
+            } else if kind.is_file() && depth > 0 && is_case(&way) {
+                cases.push((depth, sanitize(&way.to_string_lossy()), way));
             }
         }
     }
     cases.sort();
     cases.truncate(MOST_CASES);
+    let entry = |(_, name, way): (usize, String, PathBuf)| {
+        Entry::new(name.clone(), &name, Target::File(shown.join(way)))
+    };
+    let cases = cases.into_iter().map(entry).collect();
     Some(SearchResult { asked, cases, is_cut })
 }
 
 /// Computes a preview; returns `None` if `go_on` returns false.
 #[must_use]
 pub(crate) fn preview(
-    sight: &Viewport,
+    target: &Target,
     system: System,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Preview> {
-    match sight {
-        Viewport::File(path) => of_file(&at_home(path), system, go_on),
-        Viewport::Folder(path) => Some(of_folder(&at_home(path))),
-        Viewport::Example(example) => {
+    match target {
+        Target::File(path) => match load(&at_home(path)) {
+            Ok(document) => of_document(&document, &at_home(path), system, go_on),
+            Err(faults) => Some(of_faults(faults)),
+        },
+        Target::Folder(path) => Some(match entries(&at_home(path), path) {
+            Ok(entries) => {
+                let folders = entries.iter().filter(|entry| entry.is_folder()).count();
+                let counted = |count: usize, one: &str| {
+                    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
+                };
+                let cases = counted(entries.len() - folders, "case");
+                vec![(format!("A folder with {cases}, {}.", counted(folders, "folder")), PLAIN)]
+            }
+            Err(reason) => of_faults(vec![reason]),
+        }),
+        Target::Example(example) => {
             of_document(&example.document(), Path::new(example.name), system, go_on)
         }
     }
 }
 
-enum EntryKind {
-    Folder,
-    Case,
-    Other,
-}
-
-fn look(folder: &Path) -> impl Iterator<Item = fs::DirEntry> {
-    fs::read_dir(folder).into_iter().flatten().flatten()
-}
-
-fn kind_of(entry: &fs::DirEntry) -> EntryKind {
-    let is_hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
-    match entry.file_type() {
-        Ok(kind) if kind.is_dir() && !is_hidden => EntryKind::Folder,
-        Ok(kind)
-            if kind.is_file() && !is_hidden && Entry::is_case(Path::new(&entry.file_name())) =>
-        {
-            EntryKind::Case
-        }
-        _ => EntryKind::Other,
+fn of_digest(digest: &Digest) -> Preview {
+    let title = if digest.title.is_empty() { "without a title" } else { &digest.title };
+    let mut lines: Preview = vec![
+        (title.to_owned(), |theme| theme.title),
+        (digest.pair.clone(), PLAIN),
+        (digest.load.clone(), PLAIN),
+        (format!("method {}", digest.method), PLAIN),
+        (String::new(), PLAIN),
+        (digest.outcome.clone(), |theme| theme.focus),
+    ];
+    for (standing, text) in &digest.limits {
+        let tone = if standing.holds() { PLAIN } else { PROBLEM };
+        lines.push((format!("{} {text}", standing.word()), tone));
     }
-}
-
-fn of_folder(path: &Path) -> Preview {
-    match entries(path) {
-        Ok(entries) => {
-            let cases = entries.iter().filter(|entry| !entry.is_folder).count();
-            Preview::Folder(cases, entries.len() - cases)
-        }
-        Err(reason) => Preview::Faults(vec![reason], 0),
+    if digest.limits.is_empty() {
+        lines.push(("No limits.".to_owned(), PLAIN));
     }
-}
-
-fn of_file(path: &Path, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
-    let document = match load(path) {
-        Ok(document) => document,
-        Err(faults) => return Some(first_of(faults)),
-    };
-    of_document(&document, path, system, go_on)
+    for note in &digest.notes {
+        lines.push((String::new(), PLAIN));
+        lines.push((format!("Note: {note}"), |theme| theme.note));
+    }
+    lines
 }
 
 fn of_document(
@@ -267,26 +265,30 @@ fn of_document(
     system: System,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Preview> {
-    match document.case.inputs() {
+    let is_newer = document.is_newer();
+    Some(match document.case.inputs() {
         Ok(inputs) => {
             let digest = solve::digest(&document.case, &inputs, system, go_on)?;
-            Some(Preview::Case(digest, document.is_newer()))
+            let newer = is_newer.then(|| ("Newer format: opens read-only.".to_owned(), PROBLEM));
+            newer.into_iter().chain(of_digest(&digest)).collect()
         }
-        Err(problems) if !document.is_newer() => {
-            let fields = problems.iter().map(|problem| problem.for_form().field);
-            Some(Preview::Draft(fields.collect()))
+        Err(problems) if !is_newer => {
+            let head: (String, Tone) =
+                ("Required values are missing:".to_owned(), |theme| theme.note);
+            let fields = problems.iter().map(|problem| (problem.for_form().field, PLAIN));
+            std::iter::once(head).chain(fields).collect()
         }
         Err(problems) => {
-            let faults = problems
-                .into_iter()
-                .map(|problem| without_name(path, &document.fault(problem).to_string()));
-            Some(first_of(faults.collect()))
+            let fault = |problem| without_name(path, &document.fault(problem).to_string());
+            of_faults(problems.into_iter().map(fault).collect())
         }
-    }
+    })
 }
 
-fn first_of(mut faults: Vec<String>) -> Preview {
+fn of_faults(mut faults: Vec<String>) -> Preview {
     let more = faults.len().saturating_sub(MOST_FAULTS);
     faults.truncate(MOST_FAULTS);
-    Preview::Faults(faults, more)
+    faults.extend((more > 0).then(|| format!("and {more} more")));
+    let head = ("It cannot be opened:".to_owned(), PROBLEM);
+    std::iter::once(head).chain(faults.into_iter().map(|fault| (fault, PLAIN))).collect()
 }

@@ -14,7 +14,7 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Action, Binding, Effect};
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::page::Page;
-use crate::tui::dialogs::picker::{Context, Item, List, Pick, Picker};
+use crate::tui::dialogs::picker::{Context, Item, Pick, Picker};
 use crate::tui::keys::{
     self, ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with,
 };
@@ -286,7 +286,7 @@ pub static BINDINGS: &[Binding] = &[
         "Go to the previous page of the tolerance."),
     shown(Place::STUDY.or(Place::TOLERANCE), &[letter('d')], study::tolerance, "tolerance",
         "Sample the distributions of [spread], or show the curve again."),
-    shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter('/')], |app| list(app, List::Places, ""), "search",
+    shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter('/')], |app| list(app, Picker::places, ""), "search",
         "Find a field or a result by name, symbol, key or a word of its help."),
     shown_in(Place::FIELD, Place::WORK, &[alt('g')], edit::ask_material, "material",
         "Give this gear, or both gears, a material of the catalogue."),
@@ -294,7 +294,7 @@ pub static BINDINGS: &[Binding] = &[
         "Show the outcome, the limits and every note in full."),
     shown_in(Place::RESULTS, Place::WORK, &[alt('l')], edit::ask_limit, "limit",
         "Set a limit on the selected result, or on a result from a list."),
-    shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter(':')], |app| list(app, List::Commands, ""), "commands",
+    shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter(':')], |app| list(app, Picker::commands, ""), "commands",
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there."),
     shown(Place::OUTSIDE, &[letter('q')], files::quit, "quit", "Quit; asks if there are unsaved edits."),
@@ -333,7 +333,7 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::WORK, &[function(1), alt('h')], help_page, "help", "Show this page."),
     shown(Place::WORK, &[ctrl('s')], |app| files::save(app, Next::Stay), "save",
         "Save the case; the file keeps its comments and order."),
-    shown(Place::WORK, &[ctrl('p')], |app| list(app, List::Commands, ""), "commands",
+    shown(Place::WORK, &[ctrl('p')], |app| list(app, Picker::commands, ""), "commands",
         "List commands, fields and results: type a few letters; Enter runs the command or goes \
             there."),
     shown(Place::WORK, &[ctrl('o')], |app| dialogs::open_browser(app, false), "open", "Open another case in a tab."),
@@ -388,7 +388,7 @@ pub static BINDINGS: &[Binding] = &[
     helped(Place::WORK, &[alt('7')], |app| files::go_to_tab(app, 6), ""),
     helped(Place::WORK, &[alt('8')], |app| files::go_to_tab(app, 7), ""),
     helped(Place::WORK, &[alt('9')], |app| files::go_to_tab(app, 8), ""),
-    listed(Place::WORK, &[], |app| list(app, List::Commands, "variant "), "variant",
+    listed(Place::WORK, &[], |app| list(app, Picker::commands, "variant "), "variant",
         "Save the edits since the last save as a variant: type variant NAME. Without edits, load \
             that variant into the form."),
     listed(Place::WORK, &[alt('e')], navigation::fault, "next error",
@@ -526,7 +526,7 @@ fn help_page(app: &mut App) {
 }
 
 /// Opens a list with a typed text, in the order of the focused pane and field.
-fn list(app: &mut App, list: List, typed: &str) {
+fn list(app: &mut App, list: fn(&Context) -> Picker, typed: &str) {
     let inputs = &app.tab.inputs_so_far;
     let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
     let context = Context {
@@ -535,7 +535,8 @@ fn list(app: &mut App, list: List, typed: &str) {
         idle: (0..FIELDS.len()).filter(idle).collect(),
         commands: items(app),
     };
-    let picker = Picker { input: typed.into(), ..Picker::over(list, context) };
+    let mut picker = list(&context);
+    picker.input = typed.into();
     app.prompts.push(Prompt::Pick(picker));
 }
 

@@ -3,7 +3,7 @@
 
 use super::{edit, export, files, panes, run, study, variants};
 use crate::case::units::System;
-use crate::model::{self, Quantity, Refusal, Stages};
+use crate::model::{self, Refusal, Stages};
 use crate::report;
 use crate::report::explain;
 use crate::study::relief::{NoRelief, specify};
@@ -87,13 +87,17 @@ pub fn work_of(job: Job) -> Work {
             move |running| folder::find(asked, &place, &|_| running.is_wanted()),
             |app, found| in_browser(app, |browser| browser.take_below(found)),
         ),
-        Job::Preview(sight, system) => Work::new(
+        Job::Preview(target, system) => Work::new(
             slot,
             move |running| {
-                let preview = folder::preview(&sight, system, &|_| running.is_wanted())?;
-                Some((sight, preview))
+                let preview = folder::preview(&target, system, &|_| running.is_wanted())?;
+                Some((target, preview))
             },
-            |app, (sight, preview)| in_browser(app, |browser| browser.show(sight, preview)),
+            |app, (target, preview)| {
+                if let Some(prompt) = app.prompts.last_mut() {
+                    prompt.dialog_mut().show(&target, preview);
+                }
+            },
         ),
         Job::Recents => Work::new(
             slot,
@@ -141,9 +145,7 @@ pub(super) fn open_recent(app: &mut App) {
 /// Goes to the parent folder.
 pub(super) fn browse_up(app: &mut App) {
     if let Some(browser) = browser(app) {
-        let above = browser.above();
-        browser.enter(above);
-        let job = browser.list();
+        let job = browser.leave();
         app.start_job(job);
     }
 }
@@ -274,13 +276,9 @@ fn pick(app: &mut App, pick: Pick) {
         Pick::Chart(at) => panes::select_chart(app, at),
         Pick::Begin(example) => files::begin_example(app, example),
         Pick::Make(gears, material) => edit::make_of_material(app, gears, material),
-        Pick::Limit(key) => {
-            if let Some(quantity) = Quantity::find(key) {
-                edit::hold_limit(app, quantity);
-            }
-        }
+        Pick::Limit(quantity) => edit::hold_limit(app, quantity),
         Pick::Second(field) => study::choose(app, field),
-        Pick::Show(key) => panes::show_result(app, key),
+        Pick::Show(quantity) => panes::show_result(app, quantity.key),
         Pick::Go(field) => panes::go_to(app, field),
     }
 }

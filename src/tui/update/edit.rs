@@ -7,20 +7,16 @@ use tui_input::InputRequest;
 
 use super::dialogs::{browse_up, is_in_empty_line, line_changed};
 use crate::case::fields::{Absent, Kind, index_of};
-use crate::case::{Case, EXAMPLES, FIELDS, Field, Limit, changes};
+use crate::case::{Case, FIELDS, Field, Limit, changes};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::report;
-use crate::report::digest::Digest;
-use crate::report::solve;
 use crate::tui::app::App;
-use crate::tui::app::actions::{Running, Work};
 use crate::tui::ascii::{self, symbol};
-use crate::tui::dialogs::picker::{List, Picker};
+use crate::tui::dialogs::picker::Picker;
 use crate::tui::dialogs::{Prompt, ReliefDialog};
 use crate::tui::form_aids::materials::{self, Material};
 use crate::tui::form_aids::step_limit;
-use crate::tui::jobs::Slot;
 use crate::tui::layout::Pane;
 use crate::tui::line::Line;
 use crate::tui::rows::{self, Row};
@@ -196,27 +192,12 @@ pub(super) fn ask_material(app: &mut App) {
         Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
         _ => &["driver", "driven"],
     };
-    app.prompts.push(Prompt::Pick(Picker::new(List::Materials(gears))));
+    app.prompts.push(Prompt::Pick(Picker::materials(gears)));
 }
 
 /// Opens the list of examples.
 pub(super) fn ask_example(app: &mut App) {
-    app.prompts.push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
-    let system = app.settings.units;
-    let digests = move |running: &Running<'_>| {
-        let digest = |case: &Case| match case.inputs() {
-            Ok(inputs) => solve::digest(case, &inputs, system, &|_| running.is_wanted()),
-            Err(_) => Some(Digest::default()),
-        };
-        EXAMPLES.iter().map(|example| digest(&example.document().case)).collect()
-    };
-    app.start(Work::new(Slot::Examples, digests, |app, found: Vec<Digest>| {
-        if let Some(Prompt::Pick(Picker { list: List::Examples(digests), .. })) =
-            app.prompts.last_mut()
-        {
-            *digests = found;
-        }
-    }));
+    app.prompts.push(Prompt::Pick(Picker::examples()));
 }
 
 /// Sets the material of the gears as one edit, which undo reverts.
@@ -239,7 +220,7 @@ pub(super) fn ask_limit(app: &mut App) {
     if let Some(quantity) = app.results().marked().filter(|_| app.layout.focus() == Pane::Results) {
         return hold_limit(app, quantity);
     }
-    app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));
+    app.prompts.push(Prompt::Pick(Picker::limits()));
 }
 
 /// Goes to the limit of a quantity; a new limit starts with the present value of the quantity.

@@ -16,7 +16,7 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Effect, Running, Work};
 use crate::tui::ascii;
 use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::path::ExportTo;
+use crate::tui::dialogs::path::PathDialog;
 use crate::tui::dialogs::question::Question;
 use crate::tui::jobs::{Exporting, Job, Slot};
 use crate::tui::keys::Place;
@@ -40,7 +40,7 @@ pub(super) fn ask(app: &mut App) {
     };
     let beside = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
     let input = Line::named(beside.with_extension(ending).display().to_string());
-    app.prompts.push(Prompt::Export(ExportTo { input }));
+    app.prompts.push(Prompt::Path(PathDialog { input, save: None }));
 }
 
 /// Starts the export.

@@ -11,7 +11,7 @@ use crate::tui::app::App;
 use crate::tui::app::actions::{Effect, Work};
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::page::Page;
-use crate::tui::dialogs::path::SaveAs;
+use crate::tui::dialogs::path::PathDialog;
 use crate::tui::dialogs::question::{Choice, Question};
 use crate::tui::jobs::Slot;
 use crate::tui::layout::Pane;
@@ -72,7 +72,7 @@ pub(super) fn ask_where(app: &mut App, next: Next) {
         .as_ref()
         .map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
     let input = Line::named(path);
-    app.prompts.push(Prompt::SaveAs(SaveAs { input, next }));
+    app.prompts.push(Prompt::Path(PathDialog { input, save: Some(next) }));
 }
 
 /// Carries out the answer to a question.

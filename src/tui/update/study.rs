@@ -15,7 +15,7 @@ use crate::study::tolerance::{Samples, Size, Tolerance};
 use crate::tui::app::App;
 use crate::tui::app::actions::{Running, Work};
 use crate::tui::dialogs::Prompt;
-use crate::tui::dialogs::picker::{List, Picker};
+use crate::tui::dialogs::picker::Picker;
 use crate::tui::jobs::Slot;
 use crate::tui::layout::Pane;
 use crate::tui::panes::study::range::{MOST_ZOOM, RangeOf, Steps};
@@ -209,7 +209,7 @@ pub(super) fn reset_range(app: &mut App) {
 /// Chooses a second field, or leaves the map.
 pub(super) fn second(app: &mut App) {
     if app.study.second.take().is_none() {
-        app.prompts.push(Prompt::Pick(Picker::new(List::SecondField)));
+        app.prompts.push(Prompt::Pick(Picker::second_field()));
     }
 }
 

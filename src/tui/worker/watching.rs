@@ -1,15 +1,17 @@
 //! Watches the files of the open cases for changes by other programs.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{self, Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
 use super::Send;
-use crate::system::changes::{Bell, Changes, Places};
+use crate::system::changes::{Changes, Places};
 use crate::system::files;
 use crate::tui::app::actions::Action;
 use crate::tui::store::{self, WatchedFile};
@@ -23,7 +25,9 @@ const MOST_LINKS: usize = 40;
 /// The thread that watches the files; dropping this ends the thread.
 #[derive(Debug)]
 pub(super) struct Watcher {
-    watched: Arc<Watched>,
+    /// Sends the files to watch, or a change of any.
+    sender: Arc<Sender<Option<Vec<WatchedFile>>>>,
+    files: RefCell<Vec<WatchedFile>>,
 }
 
 impl Watcher {
@@ -32,80 +36,51 @@ impl Watcher {
     /// # Errors
     /// Returns an error if the system cannot start a thread or has no means to wait.
     pub(super) fn start(send: Send) -> io::Result<Watcher> {
-        let mut changes = Changes::new()?;
-        let watched = Arc::new(Watched { list: Mutex::default(), bell: Bell::new()? });
-        let theirs = Arc::clone(&watched);
+        let (sender, messages) = channel();
+        let sender = Arc::new(sender);
+        let bell = Arc::downgrade(&sender);
+        let changes =
+            Changes::start(move || bell.upgrade().is_some_and(|bell| bell.send(None).is_ok()))?;
         thread::Builder::new()
             .name("watch".to_owned())
-            .spawn(move || theirs.look(&mut changes, &send))?;
-        Ok(Watcher { watched })
+            .spawn(move || look(&messages, changes, &send))?;
+        Ok(Watcher { sender, files: RefCell::default() })
     }
 
     /// Watches these files and no others.
     pub(super) fn watch(&self, files: Vec<WatchedFile>) {
-        let mut list = self.watched.list();
-        if list.files != files {
-            list.files = files;
-            self.watched.bell.ring();
+        if *self.files.borrow() != files {
+            self.files.replace(files.clone());
+            // Without the thread nothing is watched.
+            let _ = self.sender.send(Some(files));
         }
     }
 }
 
-impl Drop for Watcher {
-    fn drop(&mut self) {
-        self.watched.list().is_closed = true;
-        self.watched.bell.ring();
-    }
-}
-
-#[derive(Debug)]
-struct Watched {
-    list: Mutex<List>,
-    bell: Bell,
-}
-
-#[derive(Debug, Default)]
-struct List {
-    files: Vec<WatchedFile>,
-    is_closed: bool,
-}
-
-impl Watched {
-    fn look(&self, changes: &mut Changes, send: &Send) {
-        let mut seen: HashMap<PathBuf, Option<Mark>> = HashMap::new();
-        while let Some(files) = self.files() {
-            seen.retain(|path, _| files.iter().any(|file| file.path == *path));
-            changes.follow(&places(&files));
-            for file in files {
-                let mark = Mark::of(&file.path);
-                let before = seen.insert(file.path.clone(), mark);
-                // A deleted file has no content; a new file may replace it.
-                let Some(mark) = mark.filter(|_| before != Some(mark)) else {
-                    continue;
-                };
-                let settled = settled(&file.path, mark);
-                seen.insert(file.path.clone(), settled);
-                let found = store::load(&file.path);
-                // A later change may restore the known content.
-                let is_first = before.is_none();
-                let is_known = matches!(&found, Ok(document) if file.is_of(document));
-                let is_news = settled.is_some() && !(is_first && is_known);
-                if is_news && !send(Action::FileChanged(file.path, found)) {
-                    return;
-                }
+fn look(messages: &Receiver<Option<Vec<WatchedFile>>>, mut changes: Changes, send: &Send) {
+    let (mut files, mut seen) = (Vec::new(), HashMap::<PathBuf, Option<Mark>>::new());
+    while let Ok(message) = messages.recv() {
+        files = message.unwrap_or(files);
+        seen.retain(|path, _| files.iter().any(|file| file.path == *path));
+        changes.follow(&places(&files));
+        for file in &files {
+            let mark = Mark::of(&file.path);
+            let before = seen.insert(file.path.clone(), mark);
+            // A deleted file has no content; a new file may replace it.
+            let Some(mark) = mark.filter(|_| before != Some(mark)) else {
+                continue;
+            };
+            let settled = settled(&file.path, mark);
+            seen.insert(file.path.clone(), settled);
+            let found = store::load(&file.path);
+            // A later change may restore the known content.
+            let is_first = before.is_none();
+            let is_known = matches!(&found, Ok(document) if file.is_of(document));
+            let is_news = settled.is_some() && !(is_first && is_known);
+            if is_news && !send(Action::FileChanged(file.path.clone(), found)) {
+                return;
             }
-            changes.wait(&self.bell);
         }
-    }
-
-    /// The files; `None` once the watcher is dropped.
-    fn files(&self) -> Option<Vec<WatchedFile>> {
-        let list = self.list();
-        (!list.is_closed).then(|| list.files.clone())
-    }
-
-    fn list(&self) -> MutexGuard<'_, List> {
-        self.list.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
