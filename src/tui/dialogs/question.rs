@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::{Dialog, Outcome, Surroundings, boxes};
 use crate::case::stamp::Stamp;
 use crate::tui::keys::Place;
-use crate::tui::session::save::{self, Found, Next, Offer};
+use crate::tui::session::save::{self, Found, Next, Offer, SaveFault};
 use crate::tui::text;
 
 /// Width of brackets, marks and gap around the name of a button.
@@ -96,16 +96,37 @@ impl Question {
         Question::new(UNSAVED, text, buttons)
     }
 
-    /// Asks before overwriting an existing file.
-    #[must_use]
-    pub(crate) fn exists(path: &Path, found: Found, next: &Next) -> Question {
-        let text = format!("{} exists. Overwrite replaces it with the form.", path.display());
-        let buttons = [
-            ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
-            ("Save as", Choice::SaveAs(next.clone())),
-            ("Cancel", Choice::Cancel),
-        ];
-        Question { details: found.lines, ..Question::new(EXISTS, text, buttons) }
+    /// Asks after a save that would overwrite a file or that has no lock; the error is another reason
+    /// of the failure.
+    pub(crate) fn refused(path: &Path, fault: SaveFault, next: &Next) -> Result<Question, String> {
+        let name = path.display();
+        let save_as = ("Save as", Choice::SaveAs(next.clone()));
+        let cancel = ("Cancel", Choice::Cancel);
+        let overwrite =
+            |stamp| ("Overwrite", Choice::Overwrite(path.to_owned(), stamp, next.clone()));
+        Ok(match fault {
+            SaveFault::Exists(Found { stamp, lines }) => {
+                let text = format!("{name} exists. Overwrite replaces it with the form.");
+                let question = Question::new(EXISTS, text, [overwrite(stamp), save_as, cancel]);
+                Question { details: lines, ..question }
+            }
+            SaveFault::Changed(Found { stamp, lines }) => {
+                let text = format!(
+                    "{name} was changed after it was opened here. Reload discards the edits in the \
+                     form."
+                );
+                let reload = ("Reload", Choice::Proceed(Next::Load(path.to_owned())));
+                let buttons = [reload, save_as, overwrite(stamp), cancel];
+                let question = Question::new("The file has changed on disk", text, buttons);
+                Question { details: lines, ..question }
+            }
+            SaveFault::Held(holder) => {
+                let text = format!("{name} is not saved: another session has it open: {holder}.");
+                let question = Question::new("Open elsewhere", text, [save_as, cancel]);
+                Question { selected: 0, ..question }
+            }
+            SaveFault::Failed(reason) => return Err(reason),
+        })
     }
 
     /// Asks before the workbench ends while an export runs.
@@ -126,32 +147,6 @@ impl Question {
         let buttons =
             [("Overwrite", Choice::ExportOver(path.to_owned())), ("Cancel", Choice::Cancel)];
         Question::new(EXISTS, text, buttons)
-    }
-
-    /// Asks after another program wrote the file.
-    #[must_use]
-    pub(crate) fn changed(path: &Path, found: Found, next: &Next) -> Question {
-        let text = format!(
-            "{} was changed after it was opened here. Reload discards the edits in the form.",
-            path.display()
-        );
-        let buttons = [
-            ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
-            ("Save as", Choice::SaveAs(next.clone())),
-            ("Overwrite", Choice::Overwrite(path.to_owned(), found.stamp, next.clone())),
-            ("Cancel", Choice::Cancel),
-        ];
-        let question = Question::new("The file has changed on disk", text, buttons);
-        Question { details: found.lines, ..question }
-    }
-
-    /// Reports that another session has the file open.
-    #[must_use]
-    pub(crate) fn held(path: &Path, holder: &str, next: &Next) -> Question {
-        let text =
-            format!("{} is not saved: another session has it open: {holder}.", path.display());
-        let buttons = [("Save as", Choice::SaveAs(next.clone())), ("Cancel", Choice::Cancel)];
-        Question { selected: 0, ..Question::new("Open elsewhere", text, buttons) }
     }
 
     /// Offers edits that an earlier session could not save.

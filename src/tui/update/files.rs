@@ -157,10 +157,10 @@ pub(super) fn saved(
             app.want(Effect::Remember(path));
             go(app, next);
         }
-        Err(SaveFault::Exists(found)) => ask(app, Question::exists(&path, found, &next)),
-        Err(SaveFault::Changed(found)) => ask(app, Question::changed(&path, found, &next)),
-        Err(SaveFault::Held(holder)) => ask(app, Question::held(&path, &holder, &next)),
-        Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
+        Err(fault) => match Question::refused(&path, fault, &next) {
+            Ok(question) => ask(app, question),
+            Err(reason) => app.complain(format!("not saved: {reason}")),
+        },
     }
 }
 
