@@ -308,7 +308,11 @@ impl App {
 
     /// The context of a dialog.
     pub(crate) fn surroundings(&self) -> Surroundings<'_> {
-        Surroundings { screen: Rect::from((Position::ORIGIN, self.layout.size())), look: self.look, cursor: self.cursor_scope() }
+        Surroundings {
+            screen: Rect::from((Position::ORIGIN, self.layout.size())),
+            look: self.look,
+            cursor: self.cursor_scope(),
+        }
     }
 
     /// The form with its case.

@@ -222,9 +222,7 @@ impl Browser {
         let (is_below, has_dot) = (self.searches_below(), wanted.starts_with('.'));
         let is_own = self.is_searched();
         let fits = |source: Source, entry: &Entry| match source {
-            Folder => {
-                (has_dot || !entry.folded.starts_with('.')) && entry.folded.contains(&wanted)
-            }
+            Folder => (has_dot || !entry.folded.starts_with('.')) && entry.folded.contains(&wanted),
             Below => is_own && is_below && entry.folded.contains(&wanted),
             Examples => is_below && entry.folded.contains(&typed),
             Recents => entry.folded.contains(&typed),
@@ -268,7 +266,11 @@ impl Browser {
         let name = |at: usize| {
             let name = self.entry(at).map_or("", |entry| &entry.name);
             let is_path = name.trim_end_matches('/').contains('/') && at < recents;
-            if is_path { text::cut_front(name, area.width.saturating_sub(2).into()) } else { name.to_owned() }
+            if is_path {
+                text::cut_front(name, area.width.saturating_sub(2).into())
+            } else {
+                name.to_owned()
+            }
         };
         boxes::draw_window(recents, name, Some(self.selected), above, theme, buffer);
         self.draw_state(above, theme, buffer);

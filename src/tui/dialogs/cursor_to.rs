@@ -185,8 +185,9 @@ fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
         "d" => first_contact(solution).ok_or("no corner contact, so no D")?,
         "e" => 0.0,
         "b" => (geometry.start - geometry.end) / geometry.driver.base,
-        "l" => last_contact(solution)
-            .ok_or("only static and dynamic compute the last contact L")?,
+        "l" => {
+            last_contact(solution).ok_or("only static and dynamic compute the last contact L")?
+        }
         "peak" => peak(scope).ok_or("the chart has no curve, so no peak")?,
         _ => measured(scope, typed)?,
     };
@@ -229,8 +230,7 @@ fn peak(scope: &CursorScope<'_>) -> Option<f64> {
 fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     let whole = [typed, &ending(scope, typed).unwrap_or_default()].concat();
     let angle = units::parse(&whole, Dimension::Angle, "deg");
-    let time =
-        || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed(scope));
+    let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed(scope));
     angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
         Err(misread) if typed.contains(',') => misread.fix.to_string(),
         _ => format!("{} is not an angle, time or point", typed.trim()),

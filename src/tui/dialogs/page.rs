@@ -93,7 +93,8 @@ impl Explanation {
     #[must_use]
     pub fn fields(&self) -> Vec<&'static str> {
         let effects = self.page.iter().flatten().flat_map(|page| &page.effects);
-        let (acting, idle): (Vec<_>, Vec<_>) = effects.partition(|effect| !effect.change.is_empty());
+        let (acting, idle): (Vec<_>, Vec<_>) =
+            effects.partition(|effect| !effect.change.is_empty());
         acting.into_iter().chain(idle).map(|effect| effect.key).collect()
     }
 
@@ -111,9 +112,10 @@ impl Explanation {
             Some(Err(reason)) => said(reason.clone()),
             Some(Ok(page)) => lines(page, &self.case, width.into()),
         };
-        let other_units = self.value.iter().flat_map(|value| {
-            said(format!("{value} in inch units; this page is in metric ones."))
-        });
+        let other_units = self
+            .value
+            .iter()
+            .flat_map(|value| said(format!("{value} in inch units; this page is in metric ones.")));
         let lines = other_units.chain(page);
         // Symbols spelled in ASCII may need another line.
         let in_ascii = |Line { kind, text }: Line| {

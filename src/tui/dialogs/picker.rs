@@ -191,7 +191,8 @@ impl Picker {
     #[must_use]
     pub fn fitting(&self) -> Vec<Item> {
         if let Some(name) = self.variant_name() {
-            let about = format!("Keep the edits as variant {name}, or show that variant in the form.");
+            let about =
+                format!("Keep the edits as variant {name}, or show that variant in the form.");
             let name = format!("{VARIANT} {name}");
             return vec![Candidate::named(Pick::Variant, name, about).item];
         }
@@ -440,7 +441,7 @@ mod tests {
             let results = QUANTITIES.iter().map(|quantity| quantity.key).collect();
             let context = Context { results, are_results_first: true, ..context() };
             let found = found(Picker::commands, &context, typed);
-            assert!(found[..3].contains(&name.to_owned()), "{typed}: {found:?}");
+            assert!(found.iter().take(3).any(|one| one == name), "{typed}: {found:?}");
         }
         assert_eq!(first(Picker::commands, "xyzzy"), None);
     }

@@ -185,7 +185,9 @@ impl Question {
         let shown = if count <= left { count } else { left.saturating_sub(1) };
         let cut = |line: &String| Line::from(text::cut(&format!("  {line}"), room.width.into()));
         lines.extend(self.details[..shown].iter().map(cut));
-        lines.extend((shown < count && left > 0).then(|| format!("  and {} more", count - shown).into()));
+        lines.extend(
+            (shown < count && left > 0).then(|| format!("  and {} more", count - shown).into()),
+        );
         // An empty line, and the line of the buttons.
         lines.extend([Line::default(), Line::default()]);
         lines

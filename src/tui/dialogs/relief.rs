@@ -147,7 +147,8 @@ impl Dialog for ReliefDialog {
         .areas(inner);
         let lines = self.wrapped(area);
         text::draw_lines(lines.get(self.top..).unwrap_or_default(), below, buffer);
-        Span::styled(text::cut(&self.state(), inner.width.into()), theme.note).render(state, buffer);
+        Span::styled(text::cut(&self.state(), inner.width.into()), theme.note)
+            .render(state, buffer);
         let [label, line] =
             Layout::horizontal([Constraint::Length(LABEL.width() as u16), Constraint::Fill(1)])
                 .areas(line);

@@ -67,8 +67,7 @@ impl Entry {
     pub(crate) fn of_field(field: &Field) -> Entry {
         let group =
             GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
-        let texts =
-            [(LABEL, field.label), (KEY, field.name()), (GROUP, group), (HELP, field.help)];
+        let texts = [(LABEL, field.label), (KEY, field.name()), (GROUP, group), (HELP, field.help)];
         Entry::new(field.symbol, &texts)
     }
 
@@ -96,7 +95,8 @@ impl Entry {
             _ if stem == sought => Some(100),
             _ => whole.starts_with(sought).then_some(60),
         };
-        let words = self.words.iter().filter_map(|(weight, word)| Some(weight + fit(sought, word)?));
+        let words =
+            self.words.iter().filter_map(|(weight, word)| Some(weight + fit(sought, word)?));
         words.chain(symbol).max()
     }
 }

@@ -121,7 +121,8 @@ impl Entry {
 
 /// Whether a file with this name is a case, or a model that can be imported as a case.
 fn is_case(file: &Path) -> bool {
-    file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) || rexs::is_model(file)
+    file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+        || rexs::is_model(file)
 }
 
 /// Lists a folder with this path.
