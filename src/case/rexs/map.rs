@@ -214,7 +214,11 @@ impl Values {
                 self.refusals.push(unread.words);
             }
             found => {
-                let names: Vec<_> = row.sources.iter().map(|source| source.attribute).collect();
+                let mut names: Vec<_> = row.sources.iter().map(|source| source.attribute).collect();
+                names.dedup();
+                if matches!(found, Ok(Some(_))) {
+                    self.fields.retain(|(other, _)| field.alternative != Some(*other));
+                }
                 self.put(field.key, found, &format!("the model gives no {}", names.join(" or ")));
             }
         }
