@@ -22,8 +22,9 @@ pub(crate) use table::{compared, label};
 
 /// Figures and notes get at most this part of the lines beside the outcome.
 const SENTENCES: usize = 2;
-/// Least number of visible quantities.
-const LEAST_ROWS: usize = 3;
+/// Least number of visible quantities, below the outcome and below a fault.
+const LEAST_ROWS: usize = 4;
+const LEAST_BELOW_FAULT: usize = 2;
 
 /// The state of the pane, separate for each open case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -174,8 +175,16 @@ fn parts(pane: &Results<'_>) -> (Vec<Line<'static>>, usize) {
     let (first, others) = sentences::of(pane);
     let mut head: Vec<_> = first.into_iter().flat_map(wrapped).collect();
     let others: Vec<_> = others.into_iter().map(wrapped).collect();
-    let most = if pane.answer.is_some() { height.saturating_sub(LEAST_ROWS + 2) } else { height };
-    head.truncate(most.max(1));
+    let has_fault = pane.refusal.is_some() || !pane.problems.is_empty();
+    let most = match pane.answer {
+        None => height,
+        Some(_) if has_fault => height.saturating_sub(LEAST_BELOW_FAULT + 2),
+        Some(_) => height.saturating_sub(LEAST_ROWS + 2),
+    };
+    if head.len() > most {
+        head.truncate(most);
+        head.iter_mut().last().into_iter().for_each(|line| line.push_span("…"));
+    }
     let mut room = height.saturating_sub(head.len() + 1) / SENTENCES;
     let all: usize = others.iter().map(Vec::len).sum();
     if all > room {

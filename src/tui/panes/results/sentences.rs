@@ -28,12 +28,7 @@ pub(super) fn of(pane: &Results<'_>) -> (Vec<Sentence>, Vec<Sentence>) {
     let fresh = |style: Style| if pane.is_stale { theme.faint } else { style };
     let mut outcome = Vec::new();
     if let Some(solution) = answer.of(answer.active) {
-        let unmet: Vec<String> = limits(pane, solution).filter(|text| is_unmet(text)).collect();
-        outcome.extend(unmet.first().map(|text| {
-            let more =
-                if unmet.len() > 1 { format!(" {} more.", unmet.len() - 1) } else { String::new() };
-            (format!("{text}{more}"), theme.problem)
-        }));
+        outcome.extend(warning(pane, solution).map(|warning| (warning, theme.problem)));
         outcome.push((sentence(pane, solution), fresh(theme.focus)));
     }
     let figures = figures(pane, answer).into_iter().map(|figure| (figure, fresh(Style::new())));
@@ -104,20 +99,41 @@ fn notes(pane: &Results<'_>, answer: &Answer) -> Vec<String> {
     notes.chain(refused).collect()
 }
 
+/// The first limit that is not met, with the number of further ones.
+fn warning(pane: &Results<'_>, solution: &Solution) -> Option<String> {
+    let mut unmet = written(pane, solution).into_iter().filter(|verdict| !is_met(verdict));
+    let (verdict, more) = (unmet.next()?, unmet.count());
+    let (limit, limited) = (&verdict.limit.text, verdict.quantity);
+    let above = |quantity: &Quantity, value| {
+        let value = report::shown_in(quantity, value, pane.units);
+        format!("{} {value} > {limit}", quantity.symbol)
+    };
+    let beside = verdict.beside.and_then(|beside| beside.own);
+    let words = match (verdict.standing.holds(), verdict.value, beside) {
+        (true, _, Some((own, Some(value)))) => {
+            format!("{}, the limit of {}", above(own, value), limited.symbol)
+        }
+        (_, Some(value), _) => format!("{}, its limit", above(limited, value)),
+        _ => format!("{} has no value; its limit is {limit}", limited.symbol),
+    };
+    let more = if more > 0 { format!("; {more} more") } else { String::new() };
+    Some(symbol(&format!("! {words}{more}"), pane.look.ascii).into_owned())
+}
+
+fn written<'a>(pane: &Results<'a>, solution: &Solution) -> Vec<Verdict<'a>> {
+    let mut verdicts = if pane.is_stale { Vec::new() } else { verdicts(pane.case, solution) };
+    verdicts.retain(|verdict| !verdict.limit.text.is_empty());
+    verdicts
+}
+
 /// The verdict on each limit; ! precedes a limit that is not met.
 fn limits(pane: &Results<'_>, solution: &Solution) -> impl Iterator<Item = String> {
-    let verdicts = if pane.is_stale { Vec::new() } else { verdicts(pane.case, solution) };
-    let written = verdicts.into_iter().filter(|verdict| !verdict.limit.text.is_empty());
-    written.map(|verdict| {
+    written(pane, solution).into_iter().map(|verdict| {
         let sign = if is_met(&verdict) { "" } else { "! " };
         let sentence =
             format!("{sign}Limit {}: {}.", verdict.standing.word(), verdict.sentence(pane.units));
         symbol(&sentence, pane.look.ascii).into_owned()
     })
-}
-
-fn is_unmet(limit: &str) -> bool {
-    limit.starts_with('!')
 }
 
 /// Whether the limit is met; also by the method's own quantity, unless that quantity has a limit.
