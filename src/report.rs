@@ -30,6 +30,7 @@ pub mod tolerance;
 pub mod trade;
 pub mod verdict;
 
+use self::results::Named;
 use crate::case::Case;
 use crate::case::fields::index_of;
 use crate::case::units::{self, System};
@@ -122,10 +123,10 @@ impl Report {
         Report { name, case, inputs, solution, notes, selection, others: Vec::new() }
     }
 
-    /// The title of the case, empty without one; not sanitized for a terminal.
+    /// The case by its name and its title; not sanitized for a terminal.
     #[must_use]
-    pub fn title(&self) -> &str {
-        self.case.title()
+    pub fn named(&self) -> Named<'_> {
+        Named { name: &self.name, title: self.case.title() }
     }
 
     /// The text of a field as the user wrote it, empty without one; not sanitized for a terminal.

@@ -38,7 +38,7 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let stages = solution.all_stages();
     let line = json!({
         "case": report.name,
-        "title": report.title(),
+        "title": report.case.title(),
         "format": FORMAT,
         "version": env!("CARGO_PKG_VERSION"),
         "method": solution.method.name(),

@@ -136,12 +136,11 @@ impl PageCase {
         let limits = limits.iter().map(|verdict| {
             (verdict.standing.holds(), verdict.standing.word(), verdict.to_string())
         });
-        let title = if report.title().is_empty() { &report.name } else { report.title() };
         let lines = without_comments(&subject.file);
         let longest = lines.split(|c| c != '`').map(str::len).max().unwrap_or(0);
         Some(PageCase {
             name: sanitize(&report.name),
-            title: sanitize(title),
+            title: report.named().heading(),
             method: report.solution.method.name(),
             notes_of_case: one_line(report.text("notes")),
             verdict: text::verdict(report),

@@ -59,7 +59,7 @@ pub fn render(report: &Report) -> String {
     };
     let notes = report.notes.iter().map(|note| sanitize(&note.message)).collect();
     let sections = [
-        heading(report),
+        report.named().headings(&format!("method {}", report.solution.method.name())),
         items("", verdict(report)),
         inputs(report),
         quantities(report),
@@ -69,15 +69,6 @@ pub fn render(report: &Report) -> String {
     ];
     let sections = sections.iter().filter(|lines| !lines.is_empty());
     sections.map(|lines| lines.join("\n") + "\n").collect::<Vec<_>>().join("\n")
-}
-
-fn heading(report: &Report) -> Vec<String> {
-    let title = if report.title().is_empty() { "Case without a title" } else { report.title() };
-    let name = sanitize(&report.name);
-    let words = [name.as_str(), "·", "method", report.solution.method.name()];
-    let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
-    lines.extend(flow(words, WIDTH));
-    lines
 }
 
 /// The verdict in sentences, with what other methods find.

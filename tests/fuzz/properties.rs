@@ -131,7 +131,7 @@ fn assert_json(report: &Report) {
     assert_safe(&line);
     assert_eq!(line.matches('\n').count(), 1);
     let value: Value = serde_json::from_str(&line).expect("JSON parses again");
-    assert_eq!(value["title"], report.title());
+    assert_eq!(value["title"], report.case.title());
     assert!(!line.contains("null"));
     let quantities = value["quantities"].as_object().expect("an object");
     assert_eq!(quantities.len(), report.values().count());
