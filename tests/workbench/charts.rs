@@ -598,7 +598,7 @@ fn the_baseline_is_in_every_chart_at_every_size() {
 }
 
 /// Checks every chart at several sizes: no panic, no invalid number, round ticks, and a name for
-/// every curve.
+/// every curve from 80x24 on.
 fn assert_charts(desk: &mut Desk) {
     desk.keys(&["Esc", "3"]);
     for (size, keys) in [(SMALL, "0"), (TINY, "v"), (LARGE, "+"), (HUGE, "t")] {
@@ -607,7 +607,9 @@ fn assert_charts(desk: &mut Desk) {
         for _ in GRAPHS {
             let screen = desk.screen();
             assert!(!["NaN", "inf ", "n/a"].iter().any(|none| screen.contains(none)), "{screen}");
-            assert_legends(desk);
+            if size != TINY {
+                assert_legends(desk);
+            }
             if size.height < HUGE.height {
                 let (below, beside) = labels(desk);
                 assert_round(&below, desk);

@@ -437,18 +437,21 @@ fn draw_panel(
 ) {
     let theme = charts.look.theme;
     let missing = charts.missing(graph, curves);
+    let width = usize::from(area.width).saturating_sub(2);
+    let rows = missing.as_ref().map_or(0, |words| text::wrap(words, width).len() as u16);
     if let Some(words) = &missing {
         text::draw_words(words, area, buffer);
     }
-    if plot.cells.is_empty() || curves.is_empty() || charts.window().is_empty() {
+    if curves.is_empty() || charts.window().is_empty() {
+        return;
+    }
+    let area = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
+    if Plot::new(area, MARGIN, (plot.across, plot.up)).cells.is_empty() {
         if missing.is_none() {
             text::draw_words("The pane is too small for a chart.", area, buffer);
         }
         return;
     }
-    let words = missing.map_or(0, |words| text::wrap(&words, usize::from(area.width) - 2).len());
-    let rows = (words as u16).min(area.height.saturating_sub(4));
-    let area = Rect { y: area.y + rows, height: area.height - rows, ..area };
     let is_compared = graph.by_model.is_some();
     let words = vec![("time ->".to_owned(), Style::new())];
     let drawn = TerminalChart { chart, looks, words, is_compared, theme };
