@@ -588,14 +588,19 @@ impl App {
         self.follow();
     }
 
+    /// The open cases in any order.
+    pub(super) fn tabs_mut(&mut self) -> impl Iterator<Item = &mut Tab> {
+        std::iter::once(&mut self.tab).chain(&mut self.others)
+    }
+
     /// The open case with this id.
     pub(super) fn tab_with(&mut self, id: usize) -> Option<&mut Tab> {
-        std::iter::once(&mut self.tab).chain(&mut self.others).find(|tab| tab.id == id)
+        self.tabs_mut().find(|tab| tab.id == id)
     }
 
     /// The tab that waits for the answer with this serial.
     pub(super) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
-        std::iter::once(&mut self.tab).chain(&mut self.others).find(|tab| tab.serial == serial)
+        self.tabs_mut().find(|tab| tab.serial == serial)
     }
 }
 

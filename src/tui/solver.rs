@@ -111,6 +111,12 @@ impl Answer {
         QUANTITIES.iter().map(|quantity| quantity.finite_value(solution?)).collect()
     }
 
+    /// The answer with the notes on its active result.
+    fn with_notes(self) -> Answer {
+        let notes = self.of(self.active).map(|solution| model::notes(&self.inputs, solution));
+        Answer { notes: notes.unwrap_or_default(), ..self }
+    }
+
     /// The refusal of the active method, if it refuses the case.
     #[must_use]
     pub(crate) fn refusal(&self) -> Option<&Refusal> {
@@ -217,11 +223,7 @@ pub(super) fn solved(
     }
     answer.methods.push((active, found));
     answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
-    answer.notes = answer
-        .of(active)
-        .map(|solution| model::notes(&request.inputs, solution))
-        .unwrap_or_default();
-    Some(answer)
+    Some(answer.with_notes())
 }
 
 /// The answer with the late stages, if they are requested and missing; `None` if `go_on` returns
@@ -248,11 +250,7 @@ pub(super) fn cleared(
     answer.cost.micros = micros(begun);
     answer.methods.retain(|(known, _)| *known != answer.active);
     answer.methods.push((answer.active, found));
-    answer.notes = answer
-        .of(answer.active)
-        .map(|solution| model::notes(&request.inputs, solution))
-        .unwrap_or_default();
-    Some(answer)
+    Some(answer.with_notes())
 }
 
 fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
@@ -272,7 +270,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         .map(|method| (method, evaluator.solve(&request.inputs, method, request.stages, &|_| true)))
         .collect();
     let pending = Some(asked).filter(|method| !Method::CLOSED_FORM.contains(method));
-    let mut answer = Answer {
+    let answer = Answer {
         serial: request.serial,
         stages: request.stages,
         requested: request.stages,
@@ -284,11 +282,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         notes: Vec::new(),
         stiffness: None,
     };
-    answer.notes = answer
-        .of(answer.active)
-        .map(|solution| model::notes(&request.inputs, solution))
-        .unwrap_or_default();
-    answer
+    answer.with_notes()
 }
 
 fn stages_run(methods: &[(Method, Result<Solution, Refusal>)]) -> usize {

@@ -263,10 +263,7 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     if let Access::Held(holder) = &access {
         app.complain(format!("read-only: open in {holder}; F2 saves under another name"));
     }
-    if let Some(tab) = std::iter::once(&mut app.tab)
-        .chain(&mut app.others)
-        .find(|tab| tab.id == id && tab.access != Access::Newer)
-    {
+    if let Some(tab) = app.tab_with(id).filter(|tab| tab.access != Access::Newer) {
         tab.access = access;
     }
     if !notices.is_empty() {
@@ -322,8 +319,8 @@ pub(super) fn ask_reload(app: &mut App) {
 
 /// Handles a possible change of the file of an open case: a case without edits is replaced.
 pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Document>, Vec<String>>) {
-    let mut tabs = std::iter::once(&mut app.tab).chain(&mut app.others);
-    let Some(tab) = tabs.find(|tab| tab.path.as_deref() == Some(path)) else {
+    let found_tab = app.tabs_mut().find(|tab| tab.path.as_deref() == Some(path));
+    let Some(tab) = found_tab else {
         return;
     };
     let (id, name) = (tab.id, ascii::printable(&tab.short_name()).into_owned());
@@ -357,7 +354,7 @@ pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Documen
     }
     app.last_serial += 1;
     let serial = app.last_serial;
-    if let Some(tab) = app.others.iter_mut().find(|tab| tab.id == id) {
+    if let Some(tab) = app.tab_with(id) {
         replace_unseen(tab, *document, serial);
     }
 }
