@@ -28,36 +28,32 @@ const SHARING: &[Method] = &[Method::Static, Method::Dynamic];
 const EVERY: &[Method] = &Method::ALL;
 const DYNAMIC: &[Method] = &[Method::Dynamic];
 
-macro_rules! column {
-    ($key:literal, $symbol:literal, $unit:literal, $shown:literal, $digits:literal, $methods:expr, $value:expr) => {
-        Column {
-            key: $key,
-            symbol: $symbol,
-            unit: $unit,
-            shown: $shown,
-            digits: $digits,
-            methods: $methods,
-            value: $value,
-        }
-    };
+const fn column(
+    (key, symbol): (&'static str, &'static str),
+    unit: &'static str,
+    (shown, digits): (&'static str, usize),
+    methods: &'static [Method],
+    value: fn(&Station) -> Option<f64>,
+) -> Column {
+    Column { key, symbol, unit, shown, digits, methods, value }
 }
 
 /// Every column, in the order of a row.
 #[rustfmt::skip]
 pub const COLUMNS: &[Column] = &[
-    column!("roll_angle_driver", "θ_1", "rad", "deg", 5, EVERY, |s| Some(s.roll_angle_driver)),
-    column!("roll_angle_driven", "u", "rad", "deg", 5, EVERY, |s| Some(s.roll_angle_driven)),
-    column!("time", "t", "s", "us", 5, DYNAMIC, |s| s.time),
-    column!("radius_driver", "O1J", "m", "mm", 5, CLOSED_FORM, |s| s.radius_driver),
-    column!("normal_velocity", "ΔV_n", "m/s", "m/s", 5, EVERY, |s| Some(s.normal_velocity)),
-    column!("sliding_velocity", "ΔV_τ", "m/s", "m/s", 5, EVERY, |s| Some(s.sliding_velocity)),
-    column!("impact_force", "F_S", "N", "N", 5, CLOSED_FORM, |s| s.radius_driver.map(|_| s.force)),
-    column!("force", "F", "N", "N", 5, SHARING, |s| s.load_share.map(|_| s.force)),
-    column!("load_share", "F/ΣF", "1", "1", 4, SHARING, |s| s.load_share),
-    column!("transmission_error", "x", "m", "um", 5, SHARING, |s| s.transmission_error),
-    column!("gap", "S", "m", "um", 5, EVERY, |s| Some(s.gap)),
-    column!("pair_compliance", "q_s", "m2/N", "um mm/N", 5, EVERY, |s| s.pair_compliance),
-    column!("impact_energy", "E_k", "J", "J", 5, CLOSED_FORM, |s| s.impact_energy),
+    column(("roll_angle_driver", "θ_1"), "rad", ("deg", 5), EVERY, |s| Some(s.roll_angle_driver)),
+    column(("roll_angle_driven", "u"), "rad", ("deg", 5), EVERY, |s| Some(s.roll_angle_driven)),
+    column(("time", "t"), "s", ("us", 5), DYNAMIC, |s| s.time),
+    column(("radius_driver", "O1J"), "m", ("mm", 5), CLOSED_FORM, |s| s.radius_driver),
+    column(("normal_velocity", "ΔV_n"), "m/s", ("m/s", 5), EVERY, |s| Some(s.normal_velocity)),
+    column(("sliding_velocity", "ΔV_τ"), "m/s", ("m/s", 5), EVERY, |s| Some(s.sliding_velocity)),
+    column(("impact_force", "F_S"), "N", ("N", 5), CLOSED_FORM, |s| s.radius_driver.map(|_| s.force)),
+    column(("force", "F"), "N", ("N", 5), SHARING, |s| s.load_share.map(|_| s.force)),
+    column(("load_share", "F/ΣF"), "1", ("1", 4), SHARING, |s| s.load_share),
+    column(("transmission_error", "x"), "m", ("um", 5), SHARING, |s| s.transmission_error),
+    column(("gap", "S"), "m", ("um", 5), EVERY, |s| Some(s.gap)),
+    column(("pair_compliance", "q_s"), "m2/N", ("um mm/N", 5), EVERY, |s| s.pair_compliance),
+    column(("impact_energy", "E_k"), "J", ("J", 5), CLOSED_FORM, |s| s.impact_energy),
 ];
 
 /// The columns of the stations of a method.
@@ -79,15 +75,8 @@ const RESOLUTION: f64 = 1e-12;
 
 /// The mesh stiffness over the path of contact. No station has this value: each compliance model
 /// has its own curve.
-pub static MESH_STIFFNESS: Column = Column {
-    key: "mesh_stiffness",
-    symbol: "k",
-    unit: "N/m",
-    shown: "N/um",
-    digits: 4,
-    methods: EVERY,
-    value: |_| None,
-};
+pub static MESH_STIFFNESS: Column =
+    column(("mesh_stiffness", "k"), "N/m", ("N/um", 4), EVERY, |_| None);
 
 impl Column {
     /// The value in SI; 0 below the resolution of the difference that it is computed from.
