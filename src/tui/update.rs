@@ -23,6 +23,8 @@ use super::panes::form;
 use super::theme::Look;
 use crate::case::Document;
 
+use dialogs::{browse_up, is_in_empty_line, line_changed};
+
 pub use dialogs::work_of;
 
 /// Applies an action to the state. Returns the effects to carry out.

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use tui_input::InputRequest;
 
-use super::dialogs::{browse_up, is_in_empty_line, line_changed};
+use super::{browse_up, is_in_empty_line, line_changed};
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS, Field, Limit, changes};
 use crate::model::Quantity;
