@@ -1,5 +1,5 @@
-//! The only place where the state changes. It uses no files, no clock and no threads, but requests
-//! them as effects.
+//! The only place where the state changes. Files, clocks and threads are left to its effects and to the
+//! work that it starts.
 
 pub(super) mod commands;
 mod dialogs;
