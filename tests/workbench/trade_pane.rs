@@ -130,7 +130,7 @@ fn esc_stops_a_benchmark_and_keeps_its_results() {
     let (number, work) = requested(desk.effects("m"), Slot::Benchmark).expect("a benchmark");
     assert!(desk.shows("0 % measuring; Esc cancels"), "{}", desk.screen());
     let mut all = results(number, work).into_iter();
-    all.by_ref().take(3).for_each(|action| desk.act(action));
+    all.by_ref().take(4).for_each(|action| desk.act(action));
     assert_eq!(count(&desk), 3);
     assert!(matches!(desk.effects("Esc")[..], [Effect::Cancel(Slot::Benchmark)]));
     assert!(desk.shows("the benchmark is stopped") && !desk.shows("measuring"));
