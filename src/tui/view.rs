@@ -118,7 +118,7 @@ pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
 
 fn too_small(area: Rect, buffer: &mut Buffer) {
     let words = format!(
-        "tipstrike needs {}x{}; this is {}x{}. Nothing is lost.",
+        "{}x{} cells needed; this is {}x{}. Nothing is lost.",
         SMALLEST.width, SMALLEST.height, area.width, area.height
     );
     let lines = text::wrap(&words, area.width.into()).into_iter().map(Line::raw);
