@@ -86,14 +86,20 @@ fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
     spans
 }
 
-/// The names of the open cases, and the range of names that fit around the current one.
+/// The names of the open cases, and the range of names that fit: from the current one on, then before
+/// it.
 fn shown_tabs(app: &App, width: u16) -> (Vec<String>, Range<usize>) {
     const OTHER_TEXT: usize = 15;
     let tabs = app.tabs().enumerate();
     let names: Vec<String> = tabs.map(|(at, tab)| tab_name(at, tab)).collect();
     let room = usize::from(width).saturating_sub(OTHER_TEXT);
-    let shown = window(&names, app.place_of_tab, room);
-    (names, shown)
+    let fits = |from: usize, to: usize| {
+        names[from..to].iter().map(|name| name.width() + 2).sum::<usize>() <= room
+    };
+    let at = app.place_of_tab;
+    let to = (at + 1..=names.len()).rev().find(|&to| fits(at, to)).unwrap_or(at + 1);
+    let from = (0..at).find(|&from| fits(from, to)).unwrap_or(at);
+    (names, from..to)
 }
 
 fn tab_name(at: usize, tab: &Tab) -> String {
@@ -104,21 +110,4 @@ fn tab_name(at: usize, tab: &Tab) -> String {
         if tab.is_unsaved() { "*" } else { "" },
         tab.marks()
     )
-}
-
-/// The range of names that fit, grown from the one in the middle.
-fn window(names: &[String], middle: usize, width: usize) -> Range<usize> {
-    let size = |at: usize| names.get(at).map_or(0, |name| name.width() + 2);
-    let (mut from, mut to, mut used) = (middle, middle + 1, size(middle));
-    loop {
-        if to < names.len() && used + size(to) <= width {
-            used += size(to);
-            to += 1;
-        } else if from > 0 && used + size(from - 1) <= width {
-            from -= 1;
-            used += size(from);
-        } else {
-            return from..to;
-        }
-    }
 }

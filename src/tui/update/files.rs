@@ -347,16 +347,12 @@ pub(super) fn file_changed(app: &mut App, path: &Path, found: Result<Box<Documen
         return;
     }
     app.say(format!("read {name} again: it changed on disk"));
-    if app.tab.id == id {
-        let case = document.case.clone();
-        take_over(&mut app.tab, *document);
-        return edit::replace(app, case);
-    }
-    app.last_serial += 1;
-    let serial = app.last_serial;
-    if let Some(tab) = app.tab_with(id) {
-        replace_unseen(tab, *document, serial);
-    }
+    let (shown, changed) = (app.place_of_tab, app.tabs().position(|tab| tab.id == id));
+    go_to_tab(app, changed.unwrap_or(shown));
+    let case = document.case.clone();
+    take_over(&mut app.tab, *document);
+    edit::replace(app, case);
+    go_to_tab(app, shown);
 }
 
 /// Ends the workbench, or asks if an export is running.
@@ -501,17 +497,4 @@ fn take_over(tab: &mut Tab, document: Document) {
     tab.saved = document.case.clone();
     tab.document = document;
     tab.is_outdated = false;
-}
-
-/// Replaces the case of a hidden tab; the worker solves it once the tab is shown.
-fn replace_unseen(tab: &mut Tab, document: Document, serial: u64) {
-    tab.history.end_visit();
-    let focus = tab.form.focus;
-    tab.before_edit(focus);
-    tab.case = document.case.clone();
-    tab.inputs_so_far = tab.case.read().0;
-    take_over(tab, document);
-    tab.problems.clear();
-    (tab.serial, tab.is_settled, tab.solving) = (serial, false, None);
-    tab.focus_on(focus);
 }
