@@ -42,12 +42,6 @@ const BATCH: Duration = Duration::from_millis(50);
 /// Lines per step of the mouse wheel.
 const WHEEL: isize = 3;
 
-impl Default for Events {
-    fn default() -> Events {
-        Events::new()
-    }
-}
-
 impl Events {
     /// A channel without senders.
     #[must_use]

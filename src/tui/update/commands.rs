@@ -140,11 +140,9 @@ enum Scope {
 
 /// The commands of the palette, those of the focused pane and field first.
 pub(crate) fn items(app: &App) -> Vec<Item> {
-    let mut names: Vec<&str> = Vec::new();
-    let listed = BINDINGS.iter().filter(|binding| is_listed(binding));
-    names.extend(listed.map(|binding| binding.name));
     let mut seen = BTreeSet::new();
-    names.retain(|name| seen.insert(*name));
+    let names = BINDINGS.iter().filter(|binding| is_listed(binding)).map(|binding| binding.name);
+    let mut names: Vec<&str> = names.filter(|name| seen.insert(*name)).collect();
     names.sort_by_key(|name| scope(app, name));
     names.into_iter().filter_map(item).collect()
 }
@@ -385,14 +383,14 @@ pub static BINDINGS: &[Binding] = &[
         "Close the case and its tab; asks if there are unsaved edits."),
     helped(Place::WORK, &[alt('1')], |app| files::go_to_tab(app, 0),
         "Switch to the first tab; Alt-2 to Alt-9 switch to the others."),
-    helped(Place::WORK, &[alt('2')], |app| files::go_to_tab(app, 1), ""),
-    helped(Place::WORK, &[alt('3')], |app| files::go_to_tab(app, 2), ""),
-    helped(Place::WORK, &[alt('4')], |app| files::go_to_tab(app, 3), ""),
-    helped(Place::WORK, &[alt('5')], |app| files::go_to_tab(app, 4), ""),
-    helped(Place::WORK, &[alt('6')], |app| files::go_to_tab(app, 5), ""),
-    helped(Place::WORK, &[alt('7')], |app| files::go_to_tab(app, 6), ""),
-    helped(Place::WORK, &[alt('8')], |app| files::go_to_tab(app, 7), ""),
-    helped(Place::WORK, &[alt('9')], |app| files::go_to_tab(app, 8), ""),
+    unlisted(&[alt('2')], |app| files::go_to_tab(app, 1)),
+    unlisted(&[alt('3')], |app| files::go_to_tab(app, 2)),
+    unlisted(&[alt('4')], |app| files::go_to_tab(app, 3)),
+    unlisted(&[alt('5')], |app| files::go_to_tab(app, 4)),
+    unlisted(&[alt('6')], |app| files::go_to_tab(app, 5)),
+    unlisted(&[alt('7')], |app| files::go_to_tab(app, 6)),
+    unlisted(&[alt('8')], |app| files::go_to_tab(app, 7)),
+    unlisted(&[alt('9')], |app| files::go_to_tab(app, 8)),
     listed(Place::WORK, &[], |app| list(app, Picker::commands, "variant "), "variant",
         "Save the edits since the last save as a variant: type variant NAME. Without edits, load \
             that variant into the form."),
@@ -649,6 +647,11 @@ const fn helped(
     sentence: &'static str,
 ) -> Binding {
     shown_in(Place::NONE, places, chords, run, "", sentence)
+}
+
+// A key that the sentence of another row describes.
+const fn unlisted(chords: &'static [Chord], run: fn(&mut App)) -> Binding {
+    helped(Place::WORK, chords, run, "")
 }
 
 fn help_line(binding: &Binding) -> Option<String> {
