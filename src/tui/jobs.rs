@@ -134,28 +134,18 @@ impl Traded {
     /// Whether the case has changed since the benchmark, apart from its setting.
     #[must_use]
     pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
-        let Inputs {
-            method,
-            tooth_compliance,
-            contact_compliance,
-            tolerance,
-            within,
-            stations,
-            station_tolerance,
-            accurate,
-            ..
-        } = inputs.clone();
-        Inputs {
-            method,
-            tooth_compliance,
-            contact_compliance,
-            tolerance,
-            within,
-            stations,
-            station_tolerance,
-            accurate,
+        let with_setting = Inputs {
+            method: inputs.method,
+            tooth_compliance: inputs.tooth_compliance,
+            contact_compliance: inputs.contact_compliance,
+            tolerance: inputs.tolerance,
+            within: inputs.within,
+            stations: inputs.stations,
+            station_tolerance: inputs.station_tolerance,
+            accurate: inputs.accurate,
             ..self.inputs.clone()
-        } != *inputs
+        };
+        with_setting != *inputs
     }
 }
 

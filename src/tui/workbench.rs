@@ -174,10 +174,10 @@ impl Workbench {
             if self.act(action)? {
                 return Ok(Some(End::Left));
             }
-            self.keep();
+            self.keep()?;
         }
         self.keep_settings();
-        if self.keep() || has_changed {
+        if self.keep()? || has_changed {
             self.screen.draw(&self.app)?;
         }
         self.autosave.keep_if_due(Instant::now());
@@ -238,18 +238,18 @@ impl Workbench {
     }
 
     // Returns whether there were claims.
-    fn keep(&mut self) -> bool {
+    fn keep(&mut self) -> io::Result<bool> {
         let claims = self.autosave.follow(&self.app.sheets(), Instant::now());
         let has_changed = !claims.is_empty();
         for claim in claims {
-            update(&mut self.app, claimed(claim));
+            self.act(claimed(claim))?;
         }
-        has_changed
+        Ok(has_changed)
     }
 
     // The journal is written first, because the suspension may last long.
     fn suspend(&mut self) -> io::Result<()> {
-        self.keep();
+        self.keep()?;
         self.autosave.keep();
         self.screen.suspend()
     }
