@@ -118,15 +118,24 @@ impl Pane {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
     size: Size,
-    panes: Panes,
+    focus: Pane,
+    /// The pane of the lower area that is shown if they do not all fit.
+    lower: Pane,
+    /// Whether the focused pane fills the screen.
+    is_zoomed: bool,
     plan: Plan,
 }
 
 impl Layout {
     /// The default panes on a terminal of a size.
     pub(crate) fn new(size: Size) -> Layout {
-        let panes = Panes::default();
-        Layout { size, panes, plan: plan(size, panes) }
+        Layout::of(size, Pane::Form, Pane::Chart, false)
+    }
+
+    fn of(size: Size, focus: Pane, lower: Pane, is_zoomed: bool) -> Layout {
+        let mut layout = Layout { size, focus, lower, is_zoomed, plan: Plan::default() };
+        layout.plan = layout.plan_on(size);
+        layout
     }
 
     /// The size of the terminal.
@@ -141,53 +150,64 @@ impl Layout {
         self.plan
     }
 
-    /// The areas on a terminal whose new size has not been reported yet.
-    pub(crate) fn plan_on(&self, size: Size) -> Plan {
-        if size == self.size { self.plan } else { plan(size, self.panes) }
-    }
-
     /// The pane with the focus.
     #[must_use]
     pub fn focus(&self) -> Pane {
-        self.panes.focus
+        self.focus
     }
 
     /// The pane of the lower area.
     pub(crate) fn lower(&self) -> Pane {
-        self.panes.lower
+        self.lower
     }
 
     /// Whether the focused pane fills the screen.
     pub(crate) fn is_zoomed(&self) -> bool {
-        self.panes.is_zoomed
+        self.is_zoomed
     }
 
     /// Adapts to a new size of the terminal.
     pub fn resize(&mut self, size: Size) {
-        self.size = size;
-        self.update();
+        *self = Layout::of(size, self.focus, self.lower, self.is_zoomed);
     }
 
     /// Moves the focus to a pane.
     pub(crate) fn focus_on(&mut self, pane: Pane) {
-        self.panes.focus = pane;
-        self.update();
+        *self = Layout::of(self.size, pane, self.lower, self.is_zoomed);
     }
 
     /// Shows a pane in the lower area.
     pub(crate) fn show_below(&mut self, pane: Pane) {
-        self.panes.lower = pane;
-        self.update();
+        *self = Layout::of(self.size, self.focus, pane, self.is_zoomed);
     }
 
     /// Makes the focused pane fill the screen, or restores the layout.
     pub(crate) fn zoom(&mut self, is_zoomed: bool) {
-        self.panes.is_zoomed = is_zoomed;
-        self.update();
+        *self = Layout::of(self.size, self.focus, self.lower, is_zoomed);
     }
 
-    fn update(&mut self) {
-        self.plan = plan(self.size, self.panes);
+    /// The areas on a terminal of a size, which may not have been reported yet.
+    pub(crate) fn plan_on(&self, size: Size) -> Plan {
+        if is_too_small(size) {
+            return Plan::default();
+        }
+        let rows = Layouts::vertical([Length(1), Fill(1), Length(2), Length(1)]);
+        let [header, body, hint, keys] = Rect::from(size).layout(&rows);
+        let mut plan = Plan { header, hint, keys, ..Plan::default() };
+        // The pane of the lower area beside the teeth, if these have an area of their own.
+        let beside = if self.lower == Pane::Teeth { Pane::Chart } else { self.lower };
+        if self.is_zoomed || (size.height < LOWER_FROM && self.focus.is_lower()) {
+            plan.place([(self.focus, body)]);
+        } else if size.height < LOWER_FROM {
+            plan.split_upper(body);
+        } else if holds(size, THREE_FROM) {
+            plan.three_columns(body, beside);
+        } else if holds(size, BESIDE_FROM) {
+            plan.two_rows(body, beside, true);
+        } else {
+            plan.two_rows(body, self.lower, false);
+        }
+        plan
     }
 }
 
@@ -246,102 +266,56 @@ impl Plan {
         self.place([(Pane::Form, form), (Pane::Results, results)]);
     }
 
-    fn two_rows(&mut self, body: Rect, panes: Panes, has_teeth_beside: bool) {
+    fn two_rows(&mut self, body: Rect, pane: Pane, has_teeth_beside: bool) {
         let height = (body.height.saturating_add(4) / 3).clamp(7, 20);
         let [upper, lower] = body.layout(&Layouts::vertical([Fill(1), Length(height)]));
         self.split_upper(upper);
         if !has_teeth_beside {
-            return self.place([(panes.lower, lower)]);
+            return self.place([(pane, lower)]);
         }
         let left = Length(lower.width * 60 / 100);
         let [beside, teeth] = lower.layout(&Layouts::horizontal([left, Fill(1)]));
-        self.place([(beside_teeth(panes), beside), (Pane::Teeth, teeth)]);
+        self.place([(pane, beside), (Pane::Teeth, teeth)]);
     }
 
-    fn three_columns(&mut self, body: Rect, panes: Panes) {
+    fn three_columns(&mut self, body: Rect, pane: Pane) {
         let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
         let columns = [Length(FORM_OF_THREE), Length(results), Fill(1)];
         let [form, results, right] = body.layout(&Layouts::horizontal(columns));
         let rows = [Length(right.height / 2), Fill(1)];
         let [teeth, below] = right.layout(&Layouts::vertical(rows));
         self.place([(Pane::Form, form), (Pane::Results, results), (Pane::Teeth, teeth)]);
-        self.place([(beside_teeth(panes), below)]);
+        self.place([(pane, below)]);
     }
-}
-
-/// The state that decides the visible panes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Panes {
-    /// The focused pane.
-    focus: Pane,
-    /// The pane of the lower area that is shown if they do not all fit.
-    lower: Pane,
-    /// Whether the focused pane fills the screen.
-    is_zoomed: bool,
-}
-
-impl Default for Panes {
-    fn default() -> Panes {
-        Panes { focus: Pane::Form, lower: Pane::Chart, is_zoomed: false }
-    }
-}
-
-/// The areas on a terminal of a size.
-fn plan(size: Size, panes: Panes) -> Plan {
-    if is_too_small(size) {
-        return Plan::default();
-    }
-    let rows = Layouts::vertical([Length(1), Fill(1), Length(2), Length(1)]);
-    let [header, body, hint, keys] = Rect::from(size).layout(&rows);
-    let mut plan = Plan { header, hint, keys, ..Plan::default() };
-    if panes.is_zoomed || (size.height < LOWER_FROM && panes.focus.is_lower()) {
-        plan.place([(panes.focus, body)]);
-    } else if size.height < LOWER_FROM {
-        plan.split_upper(body);
-    } else if holds(size, THREE_FROM) {
-        plan.three_columns(body, panes);
-    } else {
-        plan.two_rows(body, panes, holds(size, BESIDE_FROM));
-    }
-    plan
 }
 
 fn holds(size: Size, least: Size) -> bool {
     size.width >= least.width && size.height >= least.height
 }
 
-// The pane of the lower area beside the teeth, if these have an area of their own.
-fn beside_teeth(panes: Panes) -> Pane {
-    match panes.lower {
-        Pane::Trade | Pane::Study => panes.lower,
-        _ => Pane::Chart,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn seen(width: u16, height: u16, panes: Panes) -> Vec<Pane> {
-        let plan = plan(Size { width, height }, panes);
+    fn seen(size: (u16, u16), focus: Pane, lower: Pane, is_zoomed: bool) -> Vec<Pane> {
+        let plan = Layout::of(size.into(), focus, lower, is_zoomed).plan();
         Pane::ALL.into_iter().filter(|&pane| plan.shows(pane)).collect()
     }
 
     #[test]
     fn the_visible_panes_at_common_sizes() {
         use Pane::{Chart, Form, Results, Teeth, Trade};
-        let usual = Panes::default();
-        assert_eq!(seen(59, 16, usual), []);
-        assert_eq!(seen(60, 16, usual), [Form, Results]);
-        assert_eq!(seen(60, 16, Panes { focus: Teeth, ..usual }), [Teeth]);
-        assert_eq!(seen(80, 24, usual), [Form, Results, Chart]);
-        assert_eq!(seen(80, 24, Panes { lower: Teeth, ..usual }), [Form, Results, Teeth]);
-        assert_eq!(seen(140, 45, usual), [Form, Results, Chart, Teeth]);
-        assert_eq!(seen(140, 45, Panes { lower: Trade, ..usual }), [Form, Results, Teeth, Trade]);
-        assert_eq!(seen(240, 70, usual), [Form, Results, Chart, Teeth]);
-        assert_eq!(seen(240, 70, Panes { is_zoomed: true, ..usual }), [Form]);
-        assert_eq!(seen(80, 24, Panes { is_zoomed: true, focus: Results, ..usual }), [Results]);
-        assert_eq!(seen(240, 70, Panes { is_zoomed: true, focus: Trade, ..usual }), [Trade]);
+        assert_eq!(seen((59, 16), Form, Chart, false), []);
+        assert_eq!(seen((60, 16), Form, Chart, false), [Form, Results]);
+        assert_eq!(seen((60, 16), Teeth, Chart, false), [Teeth]);
+        assert_eq!(seen((80, 24), Form, Chart, false), [Form, Results, Chart]);
+        assert_eq!(seen((80, 24), Form, Teeth, false), [Form, Results, Teeth]);
+        assert_eq!(seen((140, 45), Form, Chart, false), [Form, Results, Chart, Teeth]);
+        assert_eq!(seen((140, 45), Form, Trade, false), [Form, Results, Teeth, Trade]);
+        assert_eq!(seen((240, 70), Form, Chart, false), [Form, Results, Chart, Teeth]);
+        assert_eq!(seen((240, 70), Form, Chart, true), [Form]);
+        assert_eq!(seen((80, 24), Results, Chart, true), [Results]);
+        assert_eq!(seen((240, 70), Trade, Chart, true), [Trade]);
     }
 
     #[test]
@@ -355,7 +329,8 @@ mod tests {
                 for (lower, is_zoomed) in
                     Pane::LOWER.into_iter().flat_map(|lower| [(lower, false), (lower, true)])
                 {
-                    let plan = plan(Size { width, height }, Panes { focus, lower, is_zoomed });
+                    let size = Size { width, height };
+                    let plan = Layout::of(size, focus, lower, is_zoomed).plan();
                     let parts = [plan.header, plan.hint, plan.keys];
                     let areas: Vec<Rect> = plan.panes.into_iter().chain(parts).collect();
                     let used: u32 = areas.iter().map(|area| area.area()).sum();
@@ -369,10 +344,7 @@ mod tests {
                         areas[at + 1..].iter().all(|two| !one.intersects(*two))
                     };
                     assert!(areas.iter().enumerate().all(apart), "{plan:?}");
-                    assert!(
-                        used == screen.area() || is_too_small(Size { width, height }),
-                        "{plan:?}"
-                    );
+                    assert!(used == screen.area() || is_too_small(size), "{plan:?}");
                 }
             }
         }
