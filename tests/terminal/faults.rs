@@ -337,7 +337,7 @@ fn entries(group: u16) -> Vec<u8> {
     const NOBODY_IN_PARTICULAR: u32 = u32::MAX;
     let entries: [(u16, u16, u32); 5] = [
         (1, 6, NOBODY_IN_PARTICULAR),
-        (2, 4, 65534),
+        (2, 4, 65533),
         (4, group, NOBODY_IN_PARTICULAR),
         (16, 4, NOBODY_IN_PARTICULAR),
         (32, 0, NOBODY_IN_PARTICULAR),
