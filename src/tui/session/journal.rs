@@ -308,7 +308,9 @@ impl JournalWriter {
         let changed: Vec<_> = entries
             .iter()
             .filter(|(_, entry)| {
-                entry.wanted.as_ref() != entry.written.as_ref().map(|(own, _)| own)
+                let written = entry.written.as_ref().map(|(journal, _)| journal);
+                // An earlier session may have written the file.
+                entry.wanted.is_none() || entry.wanted.as_ref() != written
             })
             .map(|(path, entry)| (path.clone(), entry.wanted.clone()))
             .collect();
