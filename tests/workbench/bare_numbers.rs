@@ -57,7 +57,8 @@ fn on_the_way_to_a_value_no_error_flickers() {
         for letter in whole.chars() {
             desk.keys(&[&letter.to_string()]);
             let typed = desk.app.tab.form.input.value().to_owned();
-            assert!(!desk.shows("  ! "), "{typed}:\n{}", desk.screen());
+            let screen = desk.screen();
+            assert!(!screen.lines().any(|line| line.starts_with("  ! ")), "{typed}:\n{screen}");
         }
         assert!(!desk.shows("Not yet:") && !desk.shows("LAST VALID"), "{key}:\n{}", desk.screen());
     }
