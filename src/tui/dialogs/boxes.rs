@@ -94,7 +94,8 @@ pub(super) fn page_box(
     theme: &Theme,
     (screen, buffer): (Rect, &mut Buffer),
 ) -> Rect {
-    let inner = frame(title, extent(lines), screen, theme, buffer);
+    let size = Size::new(WIDEST, extent(lines).height);
+    let inner = frame(title, size, screen, theme, buffer);
     text::draw_lines(lines.get(top..).unwrap_or_default(), inner, buffer);
     text::scroll_bar_beside(top, lines.len(), inner, buffer);
     inner
