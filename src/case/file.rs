@@ -184,7 +184,7 @@ impl Document {
         let parse = |bytes: Vec<u8>| {
             Document::of(&name, &bytes, is_newer).map_err(|mut faults| match &faults[..] {
                 [only] if &*only.problem.code == NEWER_FORMAT => {
-                    ReadError::NewerFormat(faults.remove(0))
+                    ReadError::NewerFormat(Box::new(faults.remove(0)))
                 }
                 _ => ReadError::Bad(faults),
             })

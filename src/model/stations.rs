@@ -378,8 +378,7 @@ fn needed<T>(samples: &[Sample<T>], allowed: f64) -> Vec<usize> {
 fn furthest<T>(samples: &[Sample<T>], from: usize, most: usize, allowed: f64) -> usize {
     let start = &samples[from];
     let (mut steepest, mut flattest, mut furthest) = (f64::INFINITY, f64::NEG_INFINITY, from + 1);
-    for at in from + 1..=most {
-        let sample = &samples[at];
+    for (at, sample) in samples.iter().enumerate().take(most + 1).skip(from + 1) {
         let way = (sample.place - start.place).abs();
         let slope = |aside: f64| (sample.height - start.height + aside) / way;
         if (flattest..=steepest).contains(&slope(0.0)) {

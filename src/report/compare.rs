@@ -282,7 +282,9 @@ impl Comparison {
         }
         if !has_labels {
             let least = super::table::widths(&tables)[0];
-            tables.iter_mut().for_each(|table| table.columns[0].least = least);
+            for table in &mut tables {
+                table.columns[0].least = least;
+            }
         }
         (tables, if has_labels { with_labels.max(1) } else { without })
     }

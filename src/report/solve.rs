@@ -134,7 +134,7 @@ pub fn subject(
             found => found.ok(),
         };
         let path = Some(source.path());
-        Solved { speeds, path, ..Solved::with_other_method(report) }
+        Solved { path, speeds, ..Solved::with_other_method(report) }
     };
     Ok(Subject { solved, variants, tolerance, file })
 }

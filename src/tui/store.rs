@@ -131,7 +131,7 @@ pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Entry> {
             name += "  (missing)";
         }
         if let Some(folder) = path.parent().and_then(Path::file_name) {
-            name += &format!("  in {}/", text(folder));
+            name = format!("{name}  in {}/", text(folder));
         }
         let whole = sanitize(&path.to_string_lossy());
         Entry::new(name, &whole, Target::File(path))

@@ -34,7 +34,7 @@ fn value(document: &Document, key: &str) -> Option<f64> {
 
 /// The refusal of a model, imported without a stage id.
 fn refusal_of(bytes: &[u8]) -> String {
-    import(Path::new("m.rexs"), bytes, None).unwrap_err().to_string()
+    import(Path::new("m.rexs"), bytes, None).unwrap_err().clone()
 }
 
 fn edited(name: &str, from: &str, to: &str) -> Vec<u8> {
@@ -112,7 +112,7 @@ fn of_several_spur_stages_one_must_be_chosen() {
     assert!(refusal_of(&both).contains("choose one with `tipstrike import --stage ID`"));
     assert!(import(Path::new("m.rexs"), &both, Some("6")).is_ok());
     let unknown = import(Path::new("m.rexs"), &both, Some("8")).unwrap_err();
-    assert!(unknown.to_string().contains("the model has no stage \"8\""));
+    assert!(unknown.clone().contains("the model has no stage \"8\""));
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn the_journal_of_recovered_edits_is_replaced_in_one_step() {
     autosave.follow(&app.sheets(), Instant::now());
     assert!(old.exists(), "no other file has the edits");
     autosave.keep();
-    assert_eq!(journals(folder.path()), [old.clone()]);
+    assert_eq!(journals(folder.path()), std::slice::from_ref(&old));
     assert!(fs::read_to_string(old).is_ok_and(|text| text.contains("6 mm")));
     autosave.end();
     assert!(journals(folder.path()).is_empty());

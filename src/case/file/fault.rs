@@ -88,7 +88,7 @@ pub enum ReadError {
     Model(String),
     /// The file has a newer format.
     #[error("{0}")]
-    NewerFormat(Fault),
+    NewerFormat(Box<Fault>),
 }
 
 /// The reason why a document was not saved. The file on disk is unchanged.

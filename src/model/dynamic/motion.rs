@@ -337,8 +337,11 @@ pub(super) struct Crossing {
     /// Stiffness and load of each stretch.
     actings: RefCell<Vec<(Stretch, Rc<Acting>)>>,
     /// Load sharing of a side by its touching pairs and the one of them that deviates.
-    shares: RefCell<Vec<((Flank, Touching, Option<usize>), Arc<Shares>)>>,
+    shares: RefCell<Vec<(SharesKey, Arc<Shares>)>>,
 }
+
+/// The side, its touching pairs and the one of them that deviates.
+type SharesKey = (Flank, Touching, Option<usize>);
 
 /// A part of the motion with the same touching pairs.
 #[derive(Debug, Clone, Copy)]

@@ -12,6 +12,10 @@ use crate::model::relief::Relief;
 use crate::model::{Refusal, Solution};
 use std::sync::Arc;
 
+/// The flanks, and what is known of the influence of neighbouring teeth: how to compute it, or the
+/// couplings, if any.
+type MeshParts<'a> = (&'a Arc<Flanks>, Option<&'a Neighbours<'a>>, Option<Option<Arc<Couplings>>>);
+
 impl Mesh {
     /// The mesh in the range where the gaps before E and after B are at most `reach`, in m.
     ///
@@ -76,11 +80,7 @@ impl Mesh {
     pub(crate) fn of_parts(
         inputs: &MeshInputs,
         geometry: &Geometry,
-        (flanks, neighbours, known): (
-            &Arc<Flanks>,
-            Option<&Neighbours<'_>>,
-            Option<Option<Arc<Couplings>>>,
-        ),
+        (flanks, neighbours, known): MeshParts,
         (force, error): (f64, f64),
         reach: f64,
     ) -> Result<Mesh, Refusal> {

@@ -48,11 +48,7 @@ pub fn teeth(inputs: &Inputs, solution: &Solution) -> String {
          <svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" overflow=\"hidden\">"
     );
     let listed = |points: &mut dyn Iterator<Item = Point2<f64>>| {
-        points
-            .map(|point| at(point))
-            .map(|(x, y)| format!("{x:.2},{y:.2}"))
-            .collect::<Vec<_>>()
-            .join(" ")
+        points.map(&at).map(|(x, y)| format!("{x:.2},{y:.2}")).collect::<Vec<_>>().join(" ")
     };
     let centres = [Point2::origin(), Point2::new(solution.geometry.centre_distance, 0.0)];
     for (gear, centre) in centres.into_iter().enumerate() {

@@ -74,7 +74,7 @@ impl Browser {
         let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         let came_from = path.and_then(Path::file_name).map(ToOwned::to_owned);
         let entries = [Vec::new(), Vec::new(), Entry::examples(), Vec::new()];
-        Browser { base, prefers_recents, came_from, entries, ..Browser::default() }
+        Browser { base, entries, prefers_recents, came_from, ..Browser::default() }
     }
 
     /// The job that lists the folder.
@@ -155,8 +155,8 @@ impl Browser {
         if listing.asked != self.asked() {
             return;
         }
-        let found = listing.entries.iter().flatten().cloned();
-        self.listing = Some(listing.clone());
+        let found: Vec<Entry> = listing.entries.iter().flatten().cloned().collect();
+        self.listing = Some(listing);
         let up = Entry::up(self.above());
         self.entries[Folder as usize] = std::iter::once(up).chain(found).collect();
         self.refit();

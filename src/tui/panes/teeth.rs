@@ -307,12 +307,16 @@ impl<'a> Painter<'a> {
         let marks = self.named(scene).into_iter().map(|(_, at)| (at, MARK));
         let contacts = scene.contacts.iter().filter(|at| self.window.sees(**at));
         for (at, style) in marks.chain(contacts.map(|at| (*at, CONTACT))) {
-            arms.into_iter().for_each(|arm| stroke(context, at - arm, at + arm, style));
+            for arm in arms {
+                stroke(context, at - arm, at + arm, style);
+            }
         }
         let (from, to) = self.bar().0;
         stroke(context, from, to, MARK);
         let up = Vector2::new(0.0, self.dot_height());
-        [from, to].into_iter().for_each(|end| stroke(context, end, end + up, MARK));
+        for end in [from, to] {
+            stroke(context, end, end + up, MARK);
+        }
     }
 
     /// Draws dashes and gaps of a length in dots; dashes of length 0 are dots.
@@ -380,7 +384,7 @@ impl<'a> Painter<'a> {
         let points = named.iter().map(|point| (*point, theme.focus));
         for ((name, at), style) in points.chain(scene.exits.iter().map(|exit| (*exit, theme.faint)))
         {
-            let width = name.width() as i32;
+            let width = i32::try_from(name.width()).unwrap_or_default();
             let sides = [(1, 0), (-width, 0), (2, -1), (2, 1), (-width - 1, -1), (-width - 1, 1)];
             let room = |(right, down): (i32, i32)| {
                 let at = self.cell(at)?;

@@ -180,7 +180,7 @@ impl Journals {
         for path in self.named(&stem(case)) {
             match read_file(&path) {
                 Ok(Some(Ok(journal))) if journal.is_of(case, stamp) => {
-                    journals.push((path, journal))
+                    journals.push((path, journal));
                 }
                 Ok(Some(Err(fault))) => notices.push(set_aside(&path, fault)),
                 Ok(_) => {}

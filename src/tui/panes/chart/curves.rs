@@ -59,7 +59,7 @@ pub struct Curve<'a> {
     solved: Option<(&'a Inputs, &'a Solution)>,
 }
 
-impl<'a> Curve<'a> {
+impl Curve<'_> {
     /// The curve with its name in the legend.
     pub(crate) fn series(&self, charts: &Charts) -> Series {
         let name = match self.source {
@@ -268,16 +268,13 @@ fn reading(graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
         Some((inputs, solution)) => {
             let interpolated = Interpolated::at(inputs, solution, cursor)?;
             let station = &interpolated.station;
-            match curve.source {
-                CurveSource::Bound(_) => {
-                    let is_between = interpolated.is_between;
-                    let digits = if is_between { DIGITS_BETWEEN } else { column.digits };
-                    ((graph.bound?.value)(solution, station)?, digits)
-                }
-                _ => {
-                    let value = column.resolved(column.of(station)?, inputs, solution);
-                    (value, column.digits_of(&interpolated))
-                }
+            if let CurveSource::Bound(_) = curve.source {
+                let is_between = interpolated.is_between;
+                let digits = if is_between { DIGITS_BETWEEN } else { column.digits };
+                ((graph.bound?.value)(solution, station)?, digits)
+            } else {
+                let value = column.resolved(column.of(station)?, inputs, solution);
+                (value, column.digits_of(&interpolated))
             }
         }
     };

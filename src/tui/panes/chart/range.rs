@@ -165,7 +165,7 @@ fn way_of(solution: &Solution) -> Span {
     [rows.first(), rows.last()]
         .into_iter()
         .flatten()
-        .map(|row| row.angle_after_e())
+        .map(crate::model::stations::Station::angle_after_e)
         .fold(Span::NONE, Span::with)
 }
 

@@ -113,7 +113,7 @@ impl TeethView {
     /// The visible part of the plane on a screen with a size and with so many dots per cell. The
     /// scale is the same in both directions, and as little as possible outside the pair is visible.
     pub(super) fn window(
-        &self,
+        self,
         inputs: &Inputs,
         solution: &Solution,
         size: Size,
@@ -152,12 +152,7 @@ impl TeethView {
     /// The factor is a round number that makes the deviation at most 10 % of the picture's height.
     /// The factor decreases far from the flank, so that the struck tooth does not move, and is 1
     /// after B.
-    pub(super) fn factor(
-        &self,
-        inputs: &Inputs,
-        solution: &Solution,
-        moment: &ContactState,
-    ) -> f64 {
+    pub(super) fn factor(self, inputs: &Inputs, solution: &Solution, moment: &ContactState) -> f64 {
         if self.has_true_gap || moment.phase == Phase::RunOut {
             return 1.0;
         }
