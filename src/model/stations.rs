@@ -63,6 +63,7 @@ impl Station {
         }
         let ((mut all, before), (after_start, after)) = (stations(first, 0.0), stations(0.0, last));
         all.extend(after_start.into_iter().skip(1));
+        all.shrink_to_fit();
         (all, before.or(after))
     }
 

@@ -151,6 +151,9 @@ impl Axis {
         label: fn(f64) -> String,
     ) -> Axis {
         let Span { from, to } = Span::of(logarithms);
+        if from > to {
+            return Axis::new(name, "");
+        }
         let (first, last) = (from.floor() as i32, to.ceil() as i32);
         let decades = first..=last.max(first + 1);
         let labels = decades.map(|power| (f64::from(power), label(10f64.powi(power))));

@@ -562,7 +562,7 @@ fn undo_reports_the_reverted_edit() {
     assert!(desk.shows("undo: driven tip relief: 48 um -> 0 um"), "{}", desk.screen());
     desk.keys(&["Ctrl-R"]);
     assert!(desk.shows("redo: driven tip relief: 0 um -> 48 um"), "{}", desk.screen());
-    desk.keys(&["Alt-G", "34crnimo", "Enter", "u"]);
+    desk.keys(&["Alt-G", "18crnimo", "Enter", "u"]);
     assert!(
         desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "),
         "{}",

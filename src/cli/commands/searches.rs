@@ -203,7 +203,7 @@ pub struct Trade {
     pub edits: Edits,
     /// Greatest error of the recommended setting, such as 5% or 0.05 (default: model.within of
     /// the case)
-    #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true, value_parser = part)]
     pub within: Option<f64>,
     /// Format of the output
     #[arg(long, default_value = "text", value_parser = formats([Format::Text, Format::Json]))]

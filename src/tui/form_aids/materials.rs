@@ -37,9 +37,7 @@ struct Catalogue {
 const TEXT: &str = include_str!("../../../assets/materials.toml");
 
 static ALL: LazyLock<Vec<Material>> = LazyLock::new(|| {
-    toml_edit::de::from_str::<Catalogue>(TEXT)
-        .map(|catalogue| catalogue.material)
-        .unwrap_or_default()
+    toml::from_str::<Catalogue>(TEXT).map(|catalogue| catalogue.material).unwrap_or_default()
 });
 
 /// The three values of each material in SI.

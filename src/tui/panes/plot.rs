@@ -155,14 +155,17 @@ impl Plot {
             .borders(Borders::LEFT | Borders::BOTTOM)
             .border_style(rule)
             .render(frame, buffer);
-        let mut last = None;
-        for (value, label) in beside(up, self.up, cells.height) {
-            let y = self.row(value);
-            if last.replace(y) != Some(y) {
-                let room = label.width() as u16 + 1;
-                buffer.set_string(left.saturating_sub(room), y, label, Style::new());
-                buffer.set_string(left, y, "┤", rule);
-            }
+        let mut labels = beside(up, self.up, cells.height);
+        // Where labels would share a row, those far from 0 are left out: the others stay evenly apart.
+        while labels.windows(2).any(|pair| self.row(pair[0].0) == self.row(pair[1].0)) {
+            let is_first_farther = labels.first().map(|label| label.0.abs())
+                > labels.last().map(|label| label.0.abs());
+            labels.remove(if is_first_farther { 0 } else { labels.len() - 1 });
+        }
+        for (value, label) in labels {
+            let (y, room) = (self.row(value), label.width() as u16 + 1);
+            buffer.set_string(left.saturating_sub(room), y, label, Style::new());
+            buffer.set_string(left, y, "┤", rule);
         }
         let unit = unit_of(across);
         let width = unit.width().min(left.into());

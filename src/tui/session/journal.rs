@@ -84,7 +84,7 @@ impl Journal {
         let case = self.case.as_deref();
         let text = case.and_then(Path::to_str);
         let bytes = case.filter(|_| text.is_none()).map(sharing::path_bytes);
-        let body = toml_edit::ser::to_string(&Body {
+        let body = toml::to_string(&Body {
             written: self.written,
             length: self.base_stamp.length,
             hash: format!("{:016x}", self.base_stamp.hash),
@@ -113,7 +113,7 @@ impl Journal {
         if checksum != format!("\"{:016x}\"", hash(body.as_bytes())) {
             return Err(DAMAGED);
         }
-        let body: Body = toml_edit::de::from_str(body).map_err(|_| DAMAGED)?;
+        let body: Body = toml::from_str(body).map_err(|_| DAMAGED)?;
         let hash = u64::from_str_radix(&body.hash, 16).map_err(|_| DAMAGED)?;
         let bytes = body.case_bytes.map(sharing::path_from_bytes);
         Ok(Journal {

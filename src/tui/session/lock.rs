@@ -109,7 +109,7 @@ impl Holder {
     }
 
     fn to_text(&self) -> String {
-        let toml = toml_edit::ser::to_string(self).unwrap_or_default();
+        let toml = toml::to_string(self).unwrap_or_default();
         format!("# tipstrike has this case open.\n{toml}")
     }
 
@@ -117,7 +117,7 @@ impl Holder {
         let mut text = String::new();
         file.rewind().ok()?;
         file.take(MOST_BYTES).read_to_string(&mut text).ok()?;
-        toml_edit::de::from_str(&text).ok()
+        toml::from_str(&text).ok()
     }
 }
 
