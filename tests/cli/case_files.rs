@@ -141,6 +141,35 @@ fn a_changed_value_changes_nothing_else() {
 }
 
 #[test]
+fn a_title_of_two_lines_keeps_the_comments_of_a_file_with_other_line_ends() {
+    let text = TABLE_1
+        .replace("title = \"Zhou & Chen 2014, Table 1\"", "title = \"a\\nb\"")
+        .replace('\n', "\r\n");
+    let mut document = parsed(&text);
+    document.case.set("driver.teeth", "23").unwrap();
+    assert_eq!(document.render(), text.replacen("teeth = 20", "teeth = 23", 1));
+    document.case.write(index_of("title").unwrap(), "c\nd");
+    let expected = text
+        .replacen("teeth = 20", "teeth = 23", 1)
+        .replace("title = \"a\\nb\"", "title = \"c\\nd\"");
+    assert_eq!(document.render(), expected);
+}
+
+#[test]
+fn an_edit_keeps_every_other_byte_of_any_file() {
+    let windows = TABLE_1
+        .replace("\"Zhou & Chen 2014, Table 1\"", "\"\"\"\nas printed:\n# 1\"\"\"")
+        .replace('\n', "\r\n");
+    let mixed = windows.replacen("\r\n", "\n", 20);
+    let dotted = TABLE_1.replace("[driver]\nteeth", "[driver]\n\"teeth\"");
+    for text in [&windows, &mixed, &dotted, &windows.trim_end().to_owned()] {
+        let mut document = parsed(text);
+        document.case.set("deviations.base_pitch", "18 um").unwrap();
+        assert_eq!(document.render(), text.replacen("\"16 um\"", "\"18 um\"", 1));
+    }
+}
+
+#[test]
 fn removing_a_field_removes_only_its_own_comment() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "model.deflection", "");
