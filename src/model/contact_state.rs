@@ -147,7 +147,7 @@ impl ContactState {
     /// Whether the pair touches.
     pub fn touches(&self) -> bool {
         let carries =
-            |one: &Interpolated| one.station.load_share.is_none() || one.station.force > 0.0;
+            |one: &Interpolated| one.station.load_share().is_none() || one.station.force > 0.0;
         self.opening <= 0.0 && self.interpolated.as_ref().is_none_or(carries)
     }
 
@@ -312,17 +312,17 @@ fn moving(mesh: &Mesh, stations: &[Station], roll_angle: f64) -> Option<Interpol
     let total = forces.iter().sum();
     let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
     let force = incoming.map_or(0.0, |incoming| forces[incoming]);
-    let station = Station::at(mesh, s, force, total, displacement, Some(time));
+    let station = Station::at(mesh, s, force, total, displacement, Some((time, None)));
     Some(Interpolated { station, is_between: true })
 }
 
 /// Displacement and time between two stations, by the cubic through value and slope at both
 /// stations.
 fn cubic(from: &Station, to: &Station, part: f64) -> Option<(f64, f64)> {
-    let (begin, end) = (from.time?, to.time?);
+    let (begin, end) = (from.time()?, to.time()?);
     let rest = 1.0 - part;
-    let values = from.transmission_error? * (1.0 + 2.0 * part) * rest * rest
-        + to.transmission_error? * (3.0 - 2.0 * part) * part * part;
-    let rates = part * rest * (end - begin) * (from.rate? * rest - to.rate? * part);
+    let values = from.transmission_error()? * (1.0 + 2.0 * part) * rest * rest
+        + to.transmission_error()? * (3.0 - 2.0 * part) * part * part;
+    let rates = part * rest * (end - begin) * (from.rate()? * rest - to.rate()? * part);
     Some((values + rates, begin + part * (end - begin)))
 }

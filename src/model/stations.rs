@@ -36,21 +36,73 @@ pub struct Station {
     /// Pair compliance q_s at the force, or with load sharing at the force along the line of action,
     /// in m²/N. `None` at E without load sharing, where the force is 0.
     pub pair_compliance: Option<f64>,
-    /// O₁J, in m; only without load sharing, as the energy.
-    pub radius_driver: Option<f64>,
-    /// Normal kinetic energy E_k of the whole width, in J.
-    pub impact_energy: Option<f64>,
-    /// Part of the sum of all forces; only with load sharing, as the displacement.
-    pub load_share: Option<f64>,
-    /// Displacement of the driver ahead along the line of action, in m.
-    pub transmission_error: Option<f64>,
-    /// Time since E, in s; only in the method `dynamic`, as the rate.
-    pub time: Option<f64>,
-    /// Rate of the displacement, in m/s.
-    pub rate: Option<f64>,
+    /// What only some methods compute.
+    pub own: Own,
+}
+
+/// What a station has by its method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Own {
+    /// The impact as if it occurred here, in `paper` and `exact`.
+    Impact {
+        /// O₁J, in m.
+        radius_driver: f64,
+        /// Normal kinetic energy E_k of the whole width, in J.
+        energy: f64,
+    },
+    /// The load shared with the other pairs, in `static` and `dynamic`.
+    Shared {
+        /// Part of the sum of all forces.
+        part: f64,
+        /// Displacement of the driver ahead along the line of action, in m.
+        displacement: f64,
+        /// Time since E, in s, and at a computed station the rate of the displacement, in m/s; only
+        /// in `dynamic`.
+        motion: Option<(f64, Option<f64>)>,
+    },
 }
 
 impl Station {
+    /// O₁J, in m; only without load sharing.
+    #[must_use]
+    pub fn radius_driver(&self) -> Option<f64> {
+        if let Own::Impact { radius_driver, .. } = self.own { Some(radius_driver) } else { None }
+    }
+
+    /// Normal kinetic energy E_k of the whole width, in J; only without load sharing.
+    #[must_use]
+    pub fn impact_energy(&self) -> Option<f64> {
+        if let Own::Impact { energy, .. } = self.own { Some(energy) } else { None }
+    }
+
+    /// Part of the sum of all forces; only with load sharing.
+    #[must_use]
+    pub fn load_share(&self) -> Option<f64> {
+        if let Own::Shared { part, .. } = self.own { Some(part) } else { None }
+    }
+
+    /// Displacement of the driver ahead along the line of action, in m; only with load sharing.
+    #[must_use]
+    pub fn transmission_error(&self) -> Option<f64> {
+        if let Own::Shared { displacement, .. } = self.own { Some(displacement) } else { None }
+    }
+
+    /// Time since E, in s; only in the method `dynamic`.
+    #[must_use]
+    pub fn time(&self) -> Option<f64> {
+        self.motion().map(|(time, _)| time)
+    }
+
+    /// Rate of the displacement, in m/s; only in the method `dynamic`.
+    #[must_use]
+    pub fn rate(&self) -> Option<f64> {
+        self.motion()?.1
+    }
+
+    fn motion(&self) -> Option<(f64, Option<f64>)> {
+        if let Own::Shared { motion, .. } = self.own { motion } else { None }
+    }
+
     /// Stations from `first` to E, which is at 0, and from E to `last`. Without contact before E,
     /// only from `first` to `last`.
     pub(super) fn through_start(
@@ -63,7 +115,6 @@ impl Station {
         }
         let ((mut all, before), (after_start, after)) = (stations(first, 0.0), stations(0.0, last));
         all.extend(after_start.into_iter().skip(1));
-        all.shrink_to_fit();
         (all, before.or(after))
     }
 
@@ -74,7 +125,7 @@ impl Station {
         force: f64,
         total: f64,
         displacement: f64,
-        time: Option<f64>,
+        motion: Option<(f64, Option<f64>)>,
     ) -> Station {
         let (own, slope) = mesh.incoming(s);
         let least = ROUNDING * total.max(mesh.force);
@@ -83,16 +134,15 @@ impl Station {
             roll_angle_driver: 0.0 - s / mesh.base_radii.0,
             roll_angle_driven: 0.0 - s / mesh.base_radii.1,
             force,
-            load_share: Some(if total > 0.0 { force / total } else { 0.0 }),
-            transmission_error: Some(displacement),
-            radius_driver: None,
-            impact_energy: None,
             normal_velocity: 0.0 - slope * mesh.speed,
             sliding_velocity: own.sliding,
             gap: own.gap,
             pair_compliance: Some(mesh.width / own.stiffness),
-            time,
-            rate: None,
+            own: Own::Shared {
+                part: if total > 0.0 { force / total } else { 0.0 },
+                displacement,
+                motion,
+            },
         }
     }
 }
@@ -156,17 +206,15 @@ pub fn station(
     Ok(Station {
         roll_angle_driver: angle * geometry.ratio,
         roll_angle_driven: angle,
-        radius_driver: Some(tip.radius_driver),
         normal_velocity: velocity.normal,
         sliding_velocity: velocity.sliding,
         force: struck.map_or(0.0, |impact| impact.force),
         gap: gap_without(LOSS, geometry, &tip),
         pair_compliance: struck.map(|impact| impact.pair_compliance),
-        impact_energy: Some(struck.map_or(0.0, |impact| impact.energy)),
-        load_share: None,
-        transmission_error: None,
-        time: None,
-        rate: None,
+        own: Own::Impact {
+            radius_driver: tip.radius_driver,
+            energy: struck.map_or(0.0, |impact| impact.energy),
+        },
     })
 }
 

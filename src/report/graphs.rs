@@ -48,7 +48,7 @@ macro_rules! graph {
 /// gap.
 const CLOSED: Bound = Bound {
     symbols: ["Δ", "x+Δf_0"],
-    value: |solution, station| match station.transmission_error {
+    value: |solution, station| match station.transmission_error() {
         None => Some(solution.deviation.total),
         Some(displacement) => Some(displacement + solution.mesh.as_ref()?.error),
     },

@@ -140,7 +140,7 @@ fn dynamic_quantities_and_curves_of_every_row() {
 /// The force at a time by the cubic through the four stations around it, with the spread of their
 /// forces; 0 outside the contact.
 fn between(stations: &[Station], time: f64) -> (f64, f64) {
-    let after = stations.partition_point(|station| station.time.unwrap() < time);
+    let after = stations.partition_point(|station| station.time().unwrap() < time);
     if after == 0 || after == stations.len() {
         return (0.0, 0.0);
     }
@@ -148,7 +148,7 @@ fn between(stations: &[Station], time: f64) -> (f64, f64) {
     let four = &stations[first..first + 4];
     let weight = |own: usize| {
         let others = (0..4).filter(|&other| other != own).map(|other| {
-            let (own, other) = (four[own].time.unwrap(), four[other].time.unwrap());
+            let (own, other) = (four[own].time().unwrap(), four[other].time().unwrap());
             (time - other) / (own - other)
         });
         others.product::<f64>()

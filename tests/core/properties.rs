@@ -101,7 +101,7 @@ fn examine(inputs: &Inputs, solution: &Solution) {
         let places = [
             station.roll_angle_driver,
             station.roll_angle_driven,
-            station.radius_driver.expect("an impact"),
+            station.radius_driver().expect("an impact"),
         ];
         assert!(forces.into_iter().chain(places).all(f64::is_finite), "{station:?}: {inputs:?}");
     }

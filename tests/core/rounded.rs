@@ -116,7 +116,7 @@ fn contact_on_the_line_of_action_begins_on_the_flank_and_not_on_the_arc() {
         let (mesh, station) = (rounded.mesh.as_ref().unwrap(), station_at_start(&rounded));
         let pairs = mesh.pair_set(0.0, 1e-7 * mesh.base_pitch);
         let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0).unwrap();
-        let force = pairs.forces(station.transmission_error.expect("a load"))[incoming];
+        let force = pairs.forces(station.transmission_error().expect("a load"))[incoming];
         assert!(
             force > 0.0 && (station.force / force - 1.0).abs() < 1e-9,
             "{method:?}: {} and {force}",

@@ -121,13 +121,13 @@ fn values(solution: &Solution) -> Vec<Value> {
     let free = solution.stations.iter().map(|station| {
         vec![
             ("roll_angle_driven", "rad", Some(station.roll_angle_driven)),
-            ("radius_driver", "m", station.radius_driver),
+            ("radius_driver", "m", station.radius_driver()),
             ("normal_velocity", "m/s", Some(station.normal_velocity)),
             ("sliding_velocity", "m/s", Some(station.sliding_velocity)),
             ("impact_force", "N", Some(station.force)),
             ("gap", "m", Some(station.gap)),
             ("pair_compliance", "m2/N", station.pair_compliance),
-            ("impact_energy", "J", station.impact_energy),
+            ("impact_energy", "J", station.impact_energy()),
         ]
     });
     let mesh = [
@@ -138,14 +138,14 @@ fn values(solution: &Solution) -> Vec<Value> {
         vec![
             ("roll_angle_driven", "rad", Some(station.roll_angle_driven)),
             ("force", "N", Some(station.force)),
-            ("load_share", "1", station.load_share),
-            ("transmission_error", "m", station.transmission_error),
+            ("load_share", "1", station.load_share()),
+            ("transmission_error", "m", station.transmission_error()),
             ("normal_velocity", "m/s", Some(station.normal_velocity)),
             ("sliding_velocity", "m/s", Some(station.sliding_velocity)),
             ("gap", "m", Some(station.gap)),
             ("pair_compliance", "m2/N", station.pair_compliance),
-            ("time", "s", station.time),
-            ("rate", "m/s", station.rate),
+            ("time", "s", station.time()),
+            ("rate", "m/s", station.rate()),
         ]
     });
     let rows: Vec<_> = free.chain(shared).collect();

@@ -114,7 +114,7 @@ fn assert_finite(solution: &Solution) {
 
 /// Without a force there is no compliance: at E in the closed forms.
 fn has_none(key: &str, station: &Station) -> bool {
-    key == "pair_compliance" && station.load_share.is_none() && station.force == 0.0
+    key == "pair_compliance" && station.load_share().is_none() && station.force == 0.0
 }
 
 /// Checks that a text has no NaN, no infinity and no number that cannot be printed.

@@ -59,7 +59,7 @@ fn values_at_d_and_at_the_stations_agree_with_the_solution() {
             );
             assert!(close(force(&moment).unwrap(), station.force), "{moment:?} {station:?}");
             assert!(
-                close(moment.radius_driver, station.radius_driver.unwrap()),
+                close(moment.radius_driver, station.radius_driver().unwrap()),
                 "{moment:?} {station:?}"
             );
         }

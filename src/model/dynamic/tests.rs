@@ -348,6 +348,6 @@ fn the_stations_include_every_peak() {
             "{highest} {}",
             dynamic.peak_force
         );
-        assert!(dynamic.stations.is_sorted_by(|one, other| one.time < other.time));
+        assert!(dynamic.stations.is_sorted_by(|one, other| one.time() < other.time()));
     }
 }

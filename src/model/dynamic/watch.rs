@@ -303,11 +303,11 @@ impl Watch {
         let mut all = Vec::with_capacity(stations.len());
         let mut rest = stations.into_iter().peekable();
         for &turn in turns {
-            let is_before = |station: &Station| station.time.is_some_and(|time| time < turn);
+            let is_before = |station: &Station| station.time().is_some_and(|time| time < turn);
             while let Some(station) = rest.next_if(is_before) {
                 all.push(station);
             }
-            let time = |station: Option<&Station>| station.and_then(|station| station.time);
+            let time = |station: Option<&Station>| station.and_then(|station| station.time());
             let ends = time(all.last()).zip(time(rest.peek()));
             let is_apart =
                 |(from, to): (f64, f64)| (turn - from).min(to - turn) > BESIDE * (to - from);
@@ -324,8 +324,7 @@ impl Watch {
     fn station(&self, motion: &Motion<'_>, t: f64) -> Option<Station> {
         let (course, state, force) = self.moment(motion, t)?;
         let (s, total) = (motion.place(t), course.total(t, state[0]));
-        let station = Station::at(motion.mesh, s, force, total, state[0], Some(t));
-        Some(Station { rate: Some(state[1]), ..station })
+        Some(Station::at(motion.mesh, s, force, total, state[0], Some((t, Some(state[1])))))
     }
 
     /// The motion at a time from the stored steps, and the force of the incoming tooth, in N.

@@ -43,7 +43,7 @@ fn mesh_stiffness(inputs: &Inputs) -> Option<Vec<(f64, f64)>> {
     let of = |station: &Station| {
         (
             -station.roll_angle_driver * geometry.driver.base / geometry.base_pitch,
-            PER_MICROMETRE * solution.mesh_force / station.transmission_error.expect("a load"),
+            PER_MICROMETRE * solution.mesh_force / station.transmission_error().expect("a load"),
         )
     };
     Some(solution.static_load?.stations.iter().map(of).collect())

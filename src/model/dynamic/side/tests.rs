@@ -233,8 +233,8 @@ fn compared<'a>(pair: &'a Rattling, found: &Dynamic, part: f64) -> (f64, Plain<'
     let length = part * pair.mesh.base_pitch / pair.mesh.speed;
     let mut worst = 0.0f64;
     for station in &found.stations {
-        plain.go_to(station.time.unwrap(), length);
-        worst = worst.max((station.transmission_error.unwrap() - plain.y[0]).abs() / scale);
+        plain.go_to(station.time().unwrap(), length);
+        worst = worst.max((station.transmission_error().unwrap() - plain.y[0]).abs() / scale);
     }
     (worst, plain)
 }

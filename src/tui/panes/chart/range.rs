@@ -132,7 +132,7 @@ pub(crate) struct Occasion {
 /// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
 /// `dynamic` have a last contact.
 pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
-    let last = solution.own_stations().last().filter(|station| station.load_share.is_some());
+    let last = solution.own_stations().last().filter(|station| station.load_share().is_some());
     last.map(|station| station.roll_angle_driver)
 }
 
