@@ -43,17 +43,17 @@ const fn column(
 pub const COLUMNS: &[Column] = &[
     column(("roll_angle_driver", "θ_1"), "rad", ("deg", 5), EVERY, |s| Some(s.roll_angle_driver)),
     column(("roll_angle_driven", "u"), "rad", ("deg", 5), EVERY, |s| Some(s.roll_angle_driven)),
-    column(("time", "t"), "s", ("us", 5), DYNAMIC, |s| s.time()),
-    column(("radius_driver", "O1J"), "m", ("mm", 5), CLOSED_FORM, |s| s.radius_driver()),
+    column(("time", "t"), "s", ("us", 5), DYNAMIC, Station::time),
+    column(("radius_driver", "O1J"), "m", ("mm", 5), CLOSED_FORM, Station::radius_driver),
     column(("normal_velocity", "ΔV_n"), "m/s", ("m/s", 5), EVERY, |s| Some(s.normal_velocity)),
     column(("sliding_velocity", "ΔV_τ"), "m/s", ("m/s", 5), EVERY, |s| Some(s.sliding_velocity)),
     column(("impact_force", "F_S"), "N", ("N", 5), CLOSED_FORM, |s| s.radius_driver().map(|_| s.force)),
     column(("force", "F"), "N", ("N", 5), SHARING, |s| s.load_share().map(|_| s.force)),
-    column(("load_share", "F/ΣF"), "1", ("1", 4), SHARING, |s| s.load_share()),
-    column(("transmission_error", "x"), "m", ("um", 5), SHARING, |s| s.transmission_error()),
+    column(("load_share", "F/ΣF"), "1", ("1", 4), SHARING, Station::load_share),
+    column(("transmission_error", "x"), "m", ("um", 5), SHARING, Station::transmission_error),
     column(("gap", "S"), "m", ("um", 5), EVERY, |s| Some(s.gap)),
     column(("pair_compliance", "q_s"), "m2/N", ("um mm/N", 5), EVERY, |s| s.pair_compliance),
-    column(("impact_energy", "E_k"), "J", ("J", 5), CLOSED_FORM, |s| s.impact_energy()),
+    column(("impact_energy", "E_k"), "J", ("J", 5), CLOSED_FORM, Station::impact_energy),
 ];
 
 /// The columns of the stations of a method.

@@ -307,7 +307,7 @@ impl Watch {
             while let Some(station) = rest.next_if(is_before) {
                 all.push(station);
             }
-            let time = |station: Option<&Station>| station.and_then(|station| station.time());
+            let time = |station: Option<&Station>| station.and_then(Station::time);
             let ends = time(all.last()).zip(time(rest.peek()));
             let is_apart =
                 |(from, to): (f64, f64)| (turn - from).min(to - turn) > BESIDE * (to - from);

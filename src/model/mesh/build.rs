@@ -475,7 +475,7 @@ mod tests {
         };
         let solution = solve(&inputs, Stages::of(Stage::Dynamic)).unwrap();
         let stations = &solution.dynamic.as_ref().unwrap().stations;
-        let most = stations.iter().filter_map(|station| station.transmission_error());
+        let most = stations.iter().filter_map(crate::model::Station::transmission_error);
         let most = most.fold(0.0, f64::max) + solution.deviation.equivalent_error;
         let motion = |reach: f64| {
             let load = (solution.mesh_force, solution.deviation.equivalent_error);

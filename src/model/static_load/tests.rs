@@ -84,7 +84,7 @@ fn no_station_exceeds_the_peaks() {
         let force = load.stations.iter().map(|station| station.force);
         let found = load.peak_force / force.fold(0.0, f64::max) - 1.0;
         assert!((-1e-12..1e-3).contains(&found), "{name}: {found:e}");
-        let displacements = load.stations.iter().filter_map(|station| station.transmission_error());
+        let displacements = load.stations.iter().filter_map(Station::transmission_error);
         let nothing = (f64::INFINITY, f64::NEG_INFINITY);
         let (least, most) =
             displacements.fold(nothing, |(least, most), x| (x.min(least), x.max(most)));
