@@ -302,7 +302,7 @@ impl ElasticGear {
     /// # Valid for
     /// A flank above the form circle. A load within 0.02 modules of the tip's corner acts at this
     /// distance. Under the mesh force the distance is at least the half-width of the contact, so that
-    /// the pressure ends at the corner ([`Teeth::under`]). An impact uses the 0.02 modules.
+    /// the pressure ends at the corner ([`Teeth::under`](super::compliance::Teeth::under)). An impact uses the 0.02 modules.
     ///
     /// # Errors
     /// [`Refusal::NoField`] if the gear has no field, and the refusals of its circles.

@@ -366,7 +366,7 @@ pub struct StaticSpectrum {
 /// of x is smooth.
 ///
 /// # Source
-/// The balance of [`static_load`](super::static_load::static_load). Gregory, Harris & Munro 1963
+/// The balance of [`static_load`]. Gregory, Harris & Munro 1963
 /// name the transmission error as the cause of whine.
 ///
 /// # Errors

@@ -103,7 +103,7 @@ impl Flanks {
     /// Both flanks, from the far end of the path of contact to the tip.
     ///
     /// # Errors
-    /// Those of the teeth, see [`Teeth`](super::Teeth).
+    /// Those of the teeth, see [`Teeth`].
     pub fn new(teeth: &Teeth) -> Result<Flanks, Refusal> {
         let Teeth { geometry, driver, driven, .. } = teeth;
         let contacts = [
