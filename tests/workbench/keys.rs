@@ -568,7 +568,7 @@ fn undo_reports_the_reverted_edit() {
         "{}",
         desk.screen()
     );
-    desk.keys(&["Esc", "2", "Down", "Alt-L", "Esc", "u"]);
+    desk.keys(&["u", "Esc", "2", "Down", "Alt-L", "Esc", "u"]);
     assert!(desk.shows("undo: limit of "), "{}", desk.screen());
 }
 
