@@ -119,7 +119,7 @@ impl ChartView {
     }
 }
 
-/// What the axes are fitted to. They are fitted anew when it changes, even if they still contain the
+/// What the axes are fitted to. They are fitted again when it changes, even if they still contain the
 /// values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Occasion {
