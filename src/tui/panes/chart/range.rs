@@ -119,8 +119,8 @@ impl ChartView {
     }
 }
 
-/// What the axes are fitted to. They are fitted again when it changes, even if they still contain the
-/// values.
+/// What the axes are fitted to. They are fitted again when it changes, even if they still contain
+/// the values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Occasion {
     /// The selected chart, the number of visible charts, and the units, for the value axes.
