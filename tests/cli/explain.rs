@@ -148,9 +148,7 @@ fn the_printed_numbers_make_the_printed_value() {
     let mut checked = 0;
     every_page(|name, page| {
         for work in &page.derivation {
-            let Some((shown, found)) = printed(work) else {
-                continue;
-            };
+            let Some((shown, found)) = printed(work) else { continue };
             // The terms of a difference of close numbers have ten digits.
             let lost = if work.formula.contains(" - ") { 1e-4 } else { 0.0 };
             let agree = (found - shown).abs() <= last_place(work).max(lost * shown.abs());

@@ -327,9 +327,7 @@ fn a_field_without_effect_has_a_reason() {
         };
         let Some(before) = solve(&case) else { continue };
         for (index, field) in FIELDS.iter().enumerate() {
-            let Kind::Number(..) = field.kind else {
-                continue;
-            };
+            let Kind::Number(..) = field.kind else { continue };
             let (Some(now), Some(text)) = (case.value(index), case.effective(index)) else {
                 continue;
             };

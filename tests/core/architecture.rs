@@ -216,9 +216,7 @@ fn update_names_no_view_and_a_component_does_not_name_the_workbench() {
     ];
     for source in sources("src/tui") {
         let modules = source.modules();
-        let Some((_, foreign)) = rules.iter().find(|(own, _)| modules[1] == *own) else {
-            continue;
-        };
+        let Some((_, foreign)) = rules.iter().find(|(own, _)| modules[1] == *own) else { continue };
         let named = source.neighbours_named(&["tui"]);
         let wrong: Vec<_> = foreign.iter().filter(|name| named.contains(**name)).collect();
         assert!(wrong.is_empty(), "{} names {wrong:?}", source.path.display());

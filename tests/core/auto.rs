@@ -2,8 +2,8 @@
 //!
 //! `TIPSTRIKE_PAIRS=600 cargo test --test core auto:: -- --nocapture` checks 600 pairs instead of
 //! 60.
-use crate::pairs;
-use crate::table;
+use crate::support::pairs_or;
+use crate::{pairs, table};
 
 use std::time::Instant;
 
@@ -112,11 +112,9 @@ fn off(inputs: &Inputs, method: Method, truth: &Answer) -> Option<f64> {
 
 #[test]
 fn auto_is_never_wrong_on_other_pairs_and_seldom_too_expensive() {
-    let count: u64 =
-        std::env::var("TIPSTRIKE_PAIRS").map_or(60, |count| count.parse().expect("a count"));
     let mut agreed = [0; WITHINS.len()];
     let (mut looked_at, mut wrong) = (0, Vec::new());
-    for number in 0..count {
+    for number in 0..pairs_or(60) {
         let inputs = pairs::numbered(number);
         let fine = Inputs {
             method: Method::Dynamic,
@@ -165,9 +163,7 @@ fn first_contact_and_peaks_converge_with_the_tolerance() {
             solved(&Inputs { tolerance, ..inputs.clone() })
                 .map(|solution| solution.dynamic.expect("the method"))
         };
-        let (Ok(coarse), Ok(fine)) = (at(1e-5), at(1e-9)) else {
-            continue;
-        };
+        let (Ok(coarse), Ok(fine)) = (at(1e-5), at(1e-9)) else { continue };
         let near = |coarse: f64, fine: f64| (coarse - fine).abs() <= 1e-3 * fine.abs();
         assert!(
             near(coarse.peak_force, fine.peak_force),

@@ -2,15 +2,13 @@
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core budget:: -- --nocapture` draws a
 //! million cases instead of 1,000 and prints the most expensive ones by counted work and by time.
-use crate::envelope;
-
 use std::collections::BTreeMap;
-use std::thread;
 use std::time::{Duration, Instant};
 
-use envelope::Random;
+use crate::envelope::Random;
+use crate::support::{inputs, on_all_cores, pairs_or};
+use tipstrike::case::Case;
 use tipstrike::case::fields::{AUTO, FIELDS, Kind, Range, index_of, key_of};
-use tipstrike::case::{Case, Document};
 use tipstrike::model::budget::{MOTION_WORK, SEARCH_TRIES, SEARCH_WORK};
 use tipstrike::model::compliance::{ElasticGear, model_of};
 use tipstrike::model::inputs::{Method, ToothCompliance};
@@ -28,22 +26,24 @@ const PRINTED: usize = 20;
 /// Numbers of fields that are changed from the ordinary pair.
 const MOVED: [usize; 7] = [1, 2, 3, 5, 8, 15, 45];
 
-fn cases() -> u64 {
-    std::env::var("TIPSTRIKE_PAIRS").map_or(1000, |cases| cases.parse().expect("a count"))
-}
-
 /// Everything that `solve` prints except the run over the speed, and the stations.
 fn every_quantity() -> Stages {
     let quick = QUANTITIES.iter().filter(|quantity| quantity.stage != Stage::SpeedRun);
     quick.fold(Stages::STATIONS, |stages, quantity| stages.and(Stages::of(quantity.stage)))
 }
 
+/// Table 1 with changed fields.
+fn changed(changes: &[(&str, &str)]) -> Case {
+    let mut case = Case::table_1();
+    for (key, text) in changes {
+        case.write(index_of(key).expect("a field"), text);
+    }
+    case
+}
+
 /// The pair of Table 1 with computed deflection.
 fn ordinary() -> Case {
-    let mut case = Case::table_1();
-    let deflection = index_of("model.deflection").expect("a field");
-    case.write(deflection, "");
-    case
+    changed(&[("model.deflection", "")])
 }
 
 /// One valid case of a numbered sequence, the same on every machine.
@@ -110,10 +110,8 @@ fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
         }
         let Ok(inputs) = case.inputs() else { continue };
         let gears = [&inputs.driver, &inputs.driven];
-        let refused = gears.into_iter().find_map(|gear| {
-            let gear = ElasticGear::of(&inputs, gear);
-            gear.build_field().err()
-        });
+        let refused =
+            gears.into_iter().find_map(|gear| ElasticGear::of(&inputs, gear).build_field().err());
         let served = model_of(&inputs);
         let what = refused.map_or("field", |refusal| refusal.code());
         *seen.entry(what).or_insert(0) += 1;
@@ -122,9 +120,7 @@ fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
             continue;
         };
         // A pair that no compliance solves has no such note.
-        let Ok(solution) = solve(&inputs, Stages::CLOSED_FORM) else {
-            continue;
-        };
+        let Ok(solution) = solve(&inputs, Stages::CLOSED_FORM) else { continue };
         if solution.withheld.is_some() {
             continue;
         }
@@ -232,62 +228,24 @@ fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> S
     }
 }
 
-/// Statistics of some cases: the number of each outcome, and the most expensive cases.
-#[derive(Default)]
-struct Summary {
-    outcomes: BTreeMap<String, u64>,
-    by_work: Vec<Taken>,
-    by_time: Vec<Taken>,
-    by_bytes: Vec<Taken>,
-}
-
-impl Summary {
-    fn with(mut self, taken: &Taken) -> Summary {
-        *self.outcomes.entry(taken.outcome.clone()).or_default() += 1;
-        keep(&mut self.by_work, taken, |taken| taken.work);
-        keep(&mut self.by_time, taken, |taken| taken.time);
-        keep(&mut self.by_bytes, taken, |taken| taken.bytes);
-        self
+/// Prints the number of each outcome, and the most expensive cases.
+fn print(all: &[Taken], outcomes: &BTreeMap<&str, u64>) {
+    for (outcome, count) in outcomes {
+        println!("{count:8} {outcome}");
     }
-
-    fn and(self, other: Summary) -> Summary {
-        let mut all = self;
-        for (outcome, count) in other.outcomes {
-            *all.outcomes.entry(outcome).or_default() += count;
+    let sizes: [(&str, fn(&Taken) -> u64); 3] = [
+        ("work", |taken| taken.work),
+        ("time", |taken| taken.time.as_nanos() as u64),
+        ("memory", |taken| taken.bytes),
+    ];
+    for (name, size) in sizes {
+        println!("\nmost {name}");
+        let mut costliest: Vec<&Taken> = all.iter().collect();
+        costliest.sort_by_key(|taken| std::cmp::Reverse(size(taken)));
+        for Taken { number, outcome, work, time, bytes } in costliest.into_iter().take(PRINTED) {
+            let (time, kilobytes, moved) = (time.as_secs_f64(), bytes / 1000, moved(*number));
+            println!("{work:9} units {time:7.3} s {kilobytes:6} kB  {outcome}: {moved}");
         }
-        other.by_work.iter().for_each(|taken| keep(&mut all.by_work, taken, |taken| taken.work));
-        other.by_time.iter().for_each(|taken| keep(&mut all.by_time, taken, |taken| taken.time));
-        other.by_bytes.iter().for_each(|taken| keep(&mut all.by_bytes, taken, |taken| taken.bytes));
-        all
-    }
-
-    fn print(&self) {
-        for (outcome, count) in &self.outcomes {
-            println!("{count:8} {outcome}");
-        }
-        let costliest =
-            [("work", &self.by_work), ("time", &self.by_time), ("memory", &self.by_bytes)];
-        for (name, costliest) in costliest {
-            println!("\nmost {name}");
-            for taken in costliest {
-                let (time, kilobytes) = (taken.time.as_secs_f64(), taken.bytes / 1000);
-                println!(
-                    "{:9} units {time:7.3} s {kilobytes:6} kB  {}: {}",
-                    taken.work,
-                    taken.outcome,
-                    moved(taken.number)
-                );
-            }
-        }
-    }
-}
-
-/// Keeps a case if it is among the largest.
-fn keep<T: Ord>(kept: &mut Vec<Taken>, taken: &Taken, size: impl Fn(&Taken) -> T) {
-    let at = kept.partition_point(|other| size(other) >= size(taken));
-    if at < PRINTED {
-        kept.insert(at, taken.clone());
-        kept.truncate(PRINTED);
     }
 }
 
@@ -304,24 +262,22 @@ fn moved(number: u64) -> String {
 
 #[test]
 fn a_valid_case_however_extreme_ends_within_its_budget() {
-    let threads = thread::available_parallelism().map_or(1, usize::from) as u64;
-    let share = move |first: u64| {
-        (first..cases()).step_by(threads as usize).fold(Summary::default(), |summary, number| {
-            let inputs = drawn(number).inputs().expect("a valid case");
-            summary.with(&taken(&format!("case {number}"), number, &inputs))
-        })
-    };
-    let shares: Vec<_> = (0..threads).map(|first| thread::spawn(move || share(first))).collect();
-    let summary = shares
-        .into_iter()
-        .map(|share| share.join().expect("no panic"))
-        .fold(Summary::default(), Summary::and);
-    summary.print();
-    let [answered, refused] = ["c", "refused"].map(|start| {
-        let of = summary.outcomes.iter().filter(|(outcome, _)| outcome.starts_with(start));
-        of.map(|(_, count)| count).sum::<u64>()
+    let all = on_all_cores(pairs_or(1000), |number| {
+        let inputs = drawn(number).inputs().expect("a valid case");
+        taken(&format!("case {number}"), number, &inputs)
     });
-    assert!(5 * answered > cases() && 5 * refused > cases(), "{answered} and {refused}");
+    let mut outcomes = BTreeMap::new();
+    for one in &all {
+        *outcomes.entry(one.outcome.as_str()).or_default() += 1;
+    }
+    print(&all, &outcomes);
+    let count = |start: &str| {
+        let all = outcomes.iter().filter(|(outcome, _)| outcome.starts_with(start));
+        all.map(|(_, count)| count).sum::<u64>()
+    };
+    let (answered, refused) = (count("c"), count("refused"));
+    let least = pairs_or(1000) / 5;
+    assert!(answered > least && refused > least, "{answered} and {refused}");
 }
 
 /// Cases that took more than 20 s in the past, from a random search: with their outcome, and the
@@ -345,10 +301,7 @@ const SLOW: [(&str, &str, &str); 13] = [
 #[test]
 fn cases_that_took_more_than_20_s_end_within_their_budget() {
     for (name, expected, relief) in SLOW {
-        let path = format!("{}/tests/slow/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).expect("a file");
-        let document = Document::parse(name, &text).expect("a case");
-        let inputs = document.case.inputs().expect("a valid case");
+        let inputs = inputs(&format!("tests/slow/{name}.toml"));
         assert_eq!(taken(name, 0, &inputs).outcome, expected, "{name}");
         let solution = solve(&inputs, Stages::of(Stage::Clearing)).expect("a solution");
         let found = solution.clearing.and_then(|clearing| clearing.relief);
@@ -375,9 +328,7 @@ fn next_to_no_load_and_next_to_no_relief_length_take_an_ordinary_search() {
         ("operation.power", "1e-12 W"),
         ("driven.tip_relief_length", "0.0001 mm"),
     ] {
-        let mut case = Case::table_1();
-        case.set(key, value).expect("a field");
-        case.set("model.method", "dynamic").expect("a field");
+        let case = changed(&[("model.method", "dynamic"), (key, value)]);
         let inputs = case.inputs().expect("a valid case");
         let solution = solve(&inputs, Stages::EVERY).expect("a solution");
         let clearing = solution.clearing.expect("the stage ran");
@@ -388,14 +339,8 @@ fn next_to_no_load_and_next_to_no_relief_length_take_an_ordinary_search() {
 
 #[test]
 fn a_search_that_exceeds_its_budget_prints_its_bracket_and_keeps_the_other_results() {
-    let mut case = Case::table_1();
-    for (key, value) in [
-        ("model.method", "dynamic"),
-        ("model.warmup_cycles", "10000"),
-        ("model.damping_ratio", "0"),
-    ] {
-        case.set(key, value).expect("a field");
-    }
+    let (cycles, damping) = (("model.warmup_cycles", "10000"), ("model.damping_ratio", "0"));
+    let case = changed(&[("model.method", "dynamic"), cycles, damping]);
     let inputs = case.inputs().expect("a valid case");
     let solution = solve(&inputs, Stages::EVERY).expect("a solution");
     assert!(solution.dynamic.is_some_and(|dynamic| dynamic.peak_force > 0.0));
@@ -408,15 +353,12 @@ fn a_search_that_exceeds_its_budget_prints_its_bracket_and_keeps_the_other_resul
 
 #[test]
 fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
-    let mut case = Case::table_1();
-    for (key, value) in [
+    let case = changed(&[
         ("model.method", "dynamic"),
         ("operation.power", ""),
         ("operation.torque", "71.6 N m"),
         ("operation.speed", "0.25 rpm"),
-    ] {
-        case.write(index_of(key).expect("a field"), value);
-    }
+    ]);
     let inputs = case.inputs().expect("a valid case");
     let outcome = taken("0.25 rpm", 0, &inputs).outcome;
     assert_eq!(outcome, "refused: motion-too-large");

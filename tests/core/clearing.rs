@@ -4,6 +4,7 @@
 //! `TIPSTRIKE_PAIRS=600 cargo test --test core clearing:: -- --nocapture` checks 600 pairs instead
 //! of 40.
 use crate::pairs;
+use crate::support::pairs_or;
 
 use tipstrike::case::EXAMPLES;
 use tipstrike::case::units::{Dimension, System, factor, parse};
@@ -30,10 +31,6 @@ fn built(number: u64) -> Inputs {
         _ => {}
     }
     inputs
-}
-
-fn pairs_to_look_at() -> u64 {
-    std::env::var("TIPSTRIKE_PAIRS").map_or(40, |count| count.parse().expect("a count"))
 }
 
 /// A solve of the stages for outcome and required relief.
@@ -104,12 +101,10 @@ fn the_required_relief_prevents_contact_and_less_does_not_for_any_shape_and_leng
 #[test]
 fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_stop_it_too() {
     let (mut runs, mut looked_at, mut returned) = (0, 0, 0);
-    for number in 0..pairs_to_look_at() {
+    for number in 0..pairs_or(40) {
         for method in METHODS {
             let inputs = Inputs { method, ..built(number) };
-            let Some(solution) = solved(&inputs) else {
-                continue;
-            };
+            let Some(solution) = solved(&inputs) else { continue };
             if rattles(&solution) {
                 continue;
             }
@@ -148,9 +143,7 @@ fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
         let inputs = Inputs { method: Method::Dynamic, ..pairs::numbered(number) };
         let solution = solved(&inputs).expect("a solution");
         assert!(rattles(&solution), "pair {number}");
-        let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else {
-            continue;
-        };
+        let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else { continue };
         looked_at += 1;
         let tried = (0..=50).map(|step| 1.0 + 0.02 * f64::from(step));
         let touching: Vec<f64> = tried
@@ -175,7 +168,7 @@ fn figures(sentence: &str) -> (String, Option<String>) {
 fn the_required_relief_prevents_contact_when_it_is_typed_in() {
     let mut looked_at = 0;
     for (number, method) in
-        (0..pairs_to_look_at()).flat_map(|number| METHODS.map(|method| (number, method)))
+        (0..pairs_or(40)).flat_map(|number| METHODS.map(|method| (number, method)))
     {
         for given in [0.0, 1e-6, 3.217e-6] {
             let mut inputs = Inputs { method, ..pairs::numbered(number) };
@@ -184,9 +177,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
                 continue;
             };
             for system in System::ALL {
-                let Some(words) = relief_words(&solution, &[], system) else {
-                    continue;
-                };
+                let Some(words) = relief_words(&solution, &[], system) else { continue };
                 let read = |text: &str| {
                     parse(text, Dimension::Length, "")
                         .unwrap_or_else(|error| panic!("{words:?}: {error:?}"))
@@ -244,7 +235,7 @@ fn the_required_relief_in_full_digits_is_enough_in_every_unit() {
     let mut looked_at = [0; METHODS.len()];
     let mut failed = Vec::new();
     for (at, (method, count)) in METHODS.into_iter().zip([300, 300, 250, 36]).enumerate() {
-        let count = count.max(pairs_to_look_at());
+        let count = count.max(pairs_or(40));
         for number in 0..count {
             let mut inputs = Inputs { method, ..built(number) };
             let module = inputs.module;

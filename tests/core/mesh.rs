@@ -1,13 +1,11 @@
 //! Methods `static` and `dynamic`, compared with an independent computation of the same pairs.
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use serde_json::Value;
-use tipstrike::case::file::Document;
+
+use crate::support::{cases_with_answers, off, value};
 use tipstrike::model::inputs::Method;
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
-use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, Station, solve};
+use tipstrike::model::{Inputs, Outcome, Solution, Stages, Station, solve};
 
 /// A pair of the reference with its answers.
 struct Row {
@@ -17,22 +15,8 @@ struct Row {
 }
 
 fn rows() -> Vec<Row> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/mesh");
-    let files =
-        fs::read_dir(folder).expect("the rows").map(|entry| entry.expect("an entry").path());
-    let mut cases: Vec<PathBuf> =
-        files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
-    cases.sort();
-    cases.iter().map(|path| row(path)).collect()
-}
-
-fn row(path: &Path) -> Row {
-    let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-    let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
-    let inputs =
-        document.case.inputs().unwrap_or_else(|problems| panic!("{name}: {}", problems[0]));
-    let answers = fs::read_to_string(path.with_extension("json")).expect("answers");
-    Row { name, inputs, answers: serde_json::from_str(&answers).expect("JSON") }
+    let row = |(name, inputs, answers)| Row { name, inputs, answers };
+    cases_with_answers("tests/reference/mesh").into_iter().map(row).collect()
 }
 
 impl Row {
@@ -52,11 +36,8 @@ impl Row {
 
     /// The relative error of a quantity; an absent quantity must be absent in both.
     fn off(&self, solution: &Solution, key: &str) -> f64 {
-        let found =
-            (Quantity::find(key).unwrap_or_else(|| panic!("no quantity {key}")).value)(solution);
-        match (found, self.answer(key)) {
-            (Some(found), Some(0.0)) => found.abs(),
-            (Some(found), Some(expected)) => (found / expected - 1.0).abs(),
+        match (value(solution, key), self.answer(key)) {
+            (Some(found), Some(expected)) => off(found, expected),
             (None, None) => 0.0,
             (found, expected) => panic!("{}: {key} is {found:?} and not {expected:?}", self.name),
         }
@@ -84,22 +65,16 @@ fn static_quantities_and_curves_of_every_row() {
         let worst = row.worst(&solution, &STATIC);
         assert!(worst < 1e-11, "{}: off by {worst:e}", row.name);
         let mean = solution.mesh.as_ref().expect("a mesh").mean_stiffness();
-        assert!(
-            (mean / row.answer("mean_mesh_stiffness").unwrap() - 1.0).abs() < 1e-12,
-            "{}: {mean}",
-            row.name
-        );
+        let expected = row.answer("mean_mesh_stiffness").unwrap();
+        assert!(off(mean, expected) < 1e-12, "{}: {mean}", row.name);
         let (force, error) = (solution.mesh_force, solution.deviation.equivalent_error);
         let mesh = Mesh::new(&row.inputs.mesh(), &solution.geometry, (force, error), 1e-3, None)
             .expect("a mesh");
         for (angle, expected) in row.samples("static_samples") {
             let s = -angle * mesh.base_radii.1;
             let found = balance(&mesh, s, s).force;
-            assert!(
-                (found - expected).abs() < 1e-11 * force,
-                "{}: {found} and not {expected} at {angle}",
-                row.name
-            );
+            let is_near = (found - expected).abs() < 1e-11 * force;
+            assert!(is_near, "{}: {found} and not {expected} at {angle}", row.name);
         }
     }
 }
@@ -117,22 +92,14 @@ fn dynamic_quantities_and_curves_of_every_row() {
         let worst = row.worst(&solution, &DYNAMIC);
         assert!(worst < 1e-9, "{}: off by {worst:e}", row.name);
         let dynamic = solution.dynamic.as_ref().unwrap();
-        assert_eq!(
-            Some(dynamic.contact_lost),
-            row.answers["dynamic_contact_lost"].as_bool(),
-            "{}",
-            row.name
-        );
+        assert_eq!(row.answers["dynamic_contact_lost"], dynamic.contact_lost, "{}", row.name);
         for (time, expected) in row.samples("dynamic_samples") {
             let (found, spread) = between(&dynamic.stations, time);
             // At a corner of the curve, where a pair enters or leaves, the accuracy of the cubic is
             // limited by the distance of the stations.
             let allowed = 1e-8 * solution.mesh_force + 0.05 * spread;
-            assert!(
-                (found - expected).abs() < allowed,
-                "{}: {found} and not {expected} at {time}",
-                row.name
-            );
+            let is_near = (found - expected).abs() < allowed;
+            assert!(is_near, "{}: {found} and not {expected} at {time}", row.name);
         }
     }
 }
@@ -183,11 +150,7 @@ fn friction_work_of_a_vanishing_coefficient_is_the_integral_of_force_and_sliding
         };
         let work = solve(&inputs, Stages::EVERY).unwrap().dynamic.unwrap().friction_work.unwrap();
         let expected = COEFFICIENT * row.answer("sliding_integral").unwrap();
-        assert!(
-            (work - expected).abs() <= 1e-6 * expected,
-            "{}: {work} and not {expected}",
-            row.name
-        );
+        assert!(off(work, expected) <= 1e-6, "{}: {work} and not {expected}", row.name);
     }
 }
 

@@ -71,9 +71,7 @@ fn a_quantity_has_one_value_in_every_command() {
     let (mut compared, mut evaluator) = (0, Evaluator::default());
     for number in 0..CASES {
         let case = drawn(number);
-        let Some((method, outcome, whole)) = solved(&case, &table) else {
-            continue;
-        };
+        let Some((method, outcome, whole)) = solved(&case, &table) else { continue };
         let inputs = case.inputs().expect("a valid case");
         for _ in 0..SELECTIONS {
             let only: Vec<&Quantity> = (0..3).map(|_| random.one_of(&table)).collect();

@@ -4,21 +4,21 @@
 //! instead of 25,000.
 use crate::envelope;
 use crate::scaling::{factor, scaled};
+use crate::support::{off, on_all_cores, pairs_or, value};
 
 use std::collections::BTreeMap;
-use std::thread;
 
 use envelope::{Corner, Random, pair};
 use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use tipstrike::model::{
-    Inputs, Outcome, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages, geometry, notes, solve,
+    Geometry, Inputs, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages, geometry, notes, solve,
 };
 
 /// Every closed form except the stiffness spread, which builds the field of each gear.
 const WITHOUT_SPREAD: Stages = Stages::CLOSED_FORM.and(Stages::of(Stage::Stations));
 
 fn pairs() -> u64 {
-    std::env::var("TIPSTRIKE_PAIRS").map_or(25_000, |pairs| pairs.parse().expect("a count"))
+    pairs_or(25_000)
 }
 
 /// One pair of a numbered sequence, the same on every machine and on every thread.
@@ -36,10 +36,6 @@ fn numbered(number: u64) -> Inputs {
 /// The first `count` pairs for which `wanted` has an answer, with it.
 fn some<T>(count: usize, wanted: impl Fn(Inputs) -> Option<T>) -> Vec<T> {
     (0..).filter_map(|number| wanted(numbered(number))).take(count).collect()
-}
-
-fn value(solution: &Solution, key: &str) -> Option<f64> {
-    (Quantity::find(key).expect("a quantity").value)(solution)
 }
 
 /// The result of a pair: its outcome, or the name of the refusal.
@@ -83,27 +79,21 @@ fn examine(inputs: &Inputs, solution: &Solution) {
         let sound = (quantity.value)(solution).is_none_or(f64::is_finite);
         assert!(sound, "{} is not finite: {inputs:?}", quantity.key);
     }
-    for key in [
-        "normal_velocity",
-        "impact_force",
-        "pair_compliance",
-        "impact_duration",
-        "effective_mass",
-        "hertz_half_width",
-    ] {
-        assert!(
-            value(solution, key).is_none_or(|value| value > 0.0),
-            "{key} is not above 0: {inputs:?}"
-        );
+    for key in "normal_velocity impact_force pair_compliance impact_duration effective_mass \
+        hertz_half_width"
+        .split(' ')
+    {
+        let is_positive = value(solution, key).is_none_or(|value| value > 0.0);
+        assert!(is_positive, "{key} is not above 0: {inputs:?}");
     }
     for station in &solution.stations {
-        let forces = [station.normal_velocity, station.sliding_velocity, station.force];
-        let places = [
-            station.roll_angle_driver,
-            station.roll_angle_driven,
-            station.radius_driver().expect("an impact"),
-        ];
-        assert!(forces.into_iter().chain(places).all(f64::is_finite), "{station:?}: {inputs:?}");
+        let radius = station.radius_driver().expect("an impact");
+        let numbers = [station.normal_velocity, station.sliding_velocity, station.force, radius];
+        let angles = [station.roll_angle_driver, station.roll_angle_driven];
+        assert!(
+            numbers.iter().chain(&angles).all(|one| one.is_finite()),
+            "{station:?}: {inputs:?}"
+        );
     }
     for note in notes(inputs, solution) {
         assert!(is_sound(&note.message), "{}: {inputs:?}", note.message);
@@ -116,32 +106,13 @@ fn examine(inputs: &Inputs, solution: &Solution) {
 
 #[test]
 fn every_pair_is_solved_or_refused_by_name() {
-    let threads = thread::available_parallelism().map_or(1, |count| count.get() as u64);
-    let count_of = |first: u64| {
-        let mut verdicts = BTreeMap::<String, u64>::new();
-        (first..pairs())
-            .step_by(threads as usize)
-            .for_each(|number| *verdicts.entry(examined(number)).or_default() += 1);
-        verdicts
-    };
     let mut verdicts = BTreeMap::<String, u64>::new();
-    thread::scope(|scope| {
-        let workers: Vec<_> =
-            (0..threads).map(|first| scope.spawn(move || count_of(first))).collect();
-        for worker in workers {
-            worker
-                .join()
-                .expect("no panic")
-                .into_iter()
-                .for_each(|(verdict, count)| *verdicts.entry(verdict).or_default() += count);
-        }
-    });
+    for verdict in on_all_cores(pairs(), examined) {
+        *verdicts.entry(verdict).or_default() += 1;
+    }
     println!("{verdicts:#?}");
-    let rounded_too_far: u64 = verdicts
-        .iter()
-        .filter(|(verdict, _)| verdict.starts_with("tip-radius"))
-        .map(|(_, count)| count)
-        .sum();
+    let of_tips = verdicts.iter().filter(|(verdict, _)| verdict.starts_with("tip-radius"));
+    let rounded_too_far: u64 = of_tips.map(|(_, count)| count).sum();
     assert!(verdicts["corner-contact"] > (pairs() - rounded_too_far) * 2 / 5, "{verdicts:?}");
 }
 
@@ -155,18 +126,15 @@ fn default_path_is_nowhere_worse_than_1e_9() {
         let solved = solve(&inputs, Stages::CLOSED_FORM);
         let precise = solve(&Inputs { accurate: true, ..inputs.clone() }, Stages::CLOSED_FORM);
         assert_eq!(verdict(&solved), verdict(&precise), "{inputs:?}");
-        let (Ok(solved), Ok(precise)) = (solved, precise) else {
-            continue;
-        };
+        let (Ok(solved), Ok(precise)) = (solved, precise) else { continue };
         for quantity in QUANTITIES {
             let (Some(found), Some(expected)) =
                 ((quantity.value)(&solved), (quantity.value)(&precise))
             else {
                 continue;
             };
-            let off = if expected == 0.0 { found.abs() } else { (found / expected - 1.0).abs() };
-            if off > worst.0 {
-                worst = (off, format!("{}: {inputs:?}", quantity.key));
+            if off(found, expected) > worst.0 {
+                worst = (off(found, expected), format!("{}: {inputs:?}", quantity.key));
             }
         }
     }
@@ -184,20 +152,12 @@ fn quantities_scale_with_the_units() {
             for quantity in QUANTITIES {
                 let (was, is) = ((quantity.value)(&plain), (quantity.value)(&large));
                 let expected = was.map(|was| was * factor(quantity.unit, length, time));
-                let off = is.zip(expected).map(|(is, expected)| {
-                    if expected == 0.0 { is.abs() } else { (is / expected - 1.0).abs() }
-                });
-                assert_eq!(
-                    was.is_some(),
-                    is.is_some(),
-                    "{} times {length}, {time}: {inputs:?}",
-                    quantity.key
-                );
-                assert!(
-                    off.unwrap_or(0.0) < 1e-11,
-                    "{} {was:?} {is:?} times {length}, {time}: {inputs:?}",
-                    quantity.key
-                );
+                let is_scaled = match (is, expected) {
+                    (Some(is), Some(expected)) => off(is, expected) < 1e-11,
+                    (is, expected) => is == expected,
+                };
+                let key = quantity.key;
+                assert!(is_scaled, "{key} {was:?} {is:?} times {length}, {time}: {inputs:?}");
             }
         }
         plain.impact
@@ -219,16 +179,15 @@ fn swapped_gears_mirror_the_path_of_contact() {
         let there = geometry::geometry::<f64>(&swapped.shape()).ok()?;
         let close =
             |found: f64, expected: f64| (found - expected).abs() <= 1e-13 * here.tangent_length;
-        assert!(close(there.start, here.tangent_length - here.end), "{inputs:?}");
-        assert!(close(there.end, here.tangent_length - here.start), "{inputs:?}");
-        assert!(
-            close(there.approach_length, here.end - here.start - here.approach_length),
-            "{inputs:?}"
-        );
-        assert!(
-            close(there.contact_ratio * there.base_pitch, here.contact_ratio * here.base_pitch),
-            "{inputs:?}"
-        );
+        let path = |one: &Geometry| one.contact_ratio * one.base_pitch;
+        for (found, expected) in [
+            (there.start, here.tangent_length - here.end),
+            (there.end, here.tangent_length - here.start),
+            (there.approach_length, here.end - here.start - here.approach_length),
+            (path(&there), path(&here)),
+        ] {
+            assert!(close(found, expected), "{found} {expected}: {inputs:?}");
+        }
         Some(())
     });
 }
@@ -281,9 +240,7 @@ fn angle_velocity_energy_and_mostly_force_rise_with_the_deviation() {
                 break;
             };
             for (key, last) in keys.iter().zip(&mut last) {
-                let Some(value) = value(&solution, key) else {
-                    continue;
-                };
+                let Some(value) = value(&solution, key) else { continue };
                 assert!(value > *last, "{key} falls from {last:e} to {value:e}: {inputs:?}");
                 *last = value;
             }
@@ -329,22 +286,14 @@ fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
             let shrunk = 10f64.powi(exponent + 18);
             let ratio = value(&small, "approach_angle_driven").expect("an angle") / angle;
             let expected = 0.9 * shrunk.powf(2.0 / 3.0)..=1.1 * shrunk.sqrt();
-            assert!(
-                expected.contains(&ratio),
-                "u shrinks to {ratio:e} at 1e{exponent} m: {exact:?}"
-            );
-            assert!(
-                value(&small, "impact_force").expect("a force") < 10.0 * force * shrunk.cbrt(),
-                "{exact:?}"
-            );
+            assert!(expected.contains(&ratio), "u falls to {ratio:e} at 1e{exponent} m: {exact:?}");
+            let small = value(&small, "impact_force").expect("a force");
+            assert!(small < 10.0 * force * shrunk.cbrt(), "{exact:?}");
         }
         for none in [0.0, -0.0, -1e-300, -1e-6] {
             let solution = at(none).expect("an outcome");
-            assert_eq!(
-                (solution.outcome, solution.position),
-                (Outcome::NoCornerContact, None),
-                "{exact:?}"
-            );
+            let found = (solution.outcome, solution.position);
+            assert_eq!(found, (Outcome::NoCornerContact, None), "{exact:?}");
         }
         Some(())
     });
@@ -377,16 +326,8 @@ fn stations_fall_to_zero_at_the_end_and_stay_when_doubled() {
 fn same_bits_on_one_thread_and_on_many() {
     const PAIRS: u64 = 400;
     let solved = |number: u64| format!("{:?}", solve(&numbered(number), WITHOUT_SPREAD));
-    let alone: Vec<String> = (0..PAIRS).map(solved).collect();
-    thread::scope(|scope| {
-        let workers: Vec<_> = (0..4)
-            .map(|first| {
-                scope.spawn(move || (first..PAIRS).step_by(4).map(solved).collect::<Vec<_>>())
-            })
-            .collect();
-        for (first, worker) in workers.into_iter().enumerate() {
-            let found = worker.join().expect("no panic");
-            assert!(found.iter().eq(alone.iter().skip(first).step_by(4)));
-        }
-    });
+    let mut alone: Vec<String> = (0..PAIRS).map(solved).collect();
+    let mut shared = on_all_cores(PAIRS, solved);
+    (alone.sort(), shared.sort());
+    assert!(alone == shared);
 }

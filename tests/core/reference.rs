@@ -1,44 +1,24 @@
 //! Independent answers in 50-digit arithmetic: rows of positions, whole cases, and Table 1.
-use std::path::{Path, PathBuf};
-
 use serde_json::Value;
-use tipstrike::case::file::Document;
+
+use crate::support::{case, cases_with_answers, off, path, value};
 use tipstrike::model::geometry::geometry;
 use tipstrike::model::impact::friction;
 use tipstrike::model::inputs::Method;
-use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, solve};
-
-fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name)
-}
-
-fn inputs_of(name: &str, text: &str) -> Inputs {
-    let document = Document::parse(name, text).unwrap_or_else(|faults| panic!("{}", faults[0]));
-    document.case.inputs().unwrap_or_else(|problems| panic!("{name}: {}", problems[0].cause))
-}
-
-fn value(solution: &Solution, key: &str) -> Option<f64> {
-    let quantity = Quantity::find(key).unwrap_or_else(|| panic!("no quantity {key}"));
-    (quantity.value)(solution)
-}
-
-/// Relative difference; the absolute difference from 0.
-fn off(found: f64, expected: f64) -> f64 {
-    if expected == 0.0 { found.abs() } else { (found / expected - 1.0).abs() }
-}
+use tipstrike::model::{Inputs, Outcome, Solution, Stages, solve};
 
 fn decimal(value: &Value) -> f64 {
     value.as_str().expect("a decimal").parse().expect("a number")
 }
 
 fn rows() -> Vec<Value> {
-    let text = std::fs::read_to_string(folder("geometry.json")).expect("the rows");
+    let text = std::fs::read_to_string(path("tests/reference/geometry.json")).expect("the rows");
     serde_json::from_str(&text).expect("rows")
 }
 
 /// Table 1 with the module, pressure angle and tooth numbers of a row, and without bores.
 fn row_inputs(row: &Value, method: Method) -> Inputs {
-    let table_1 = inputs_of("Table 1", include_str!("../../cases/zhou-chen-2014.toml"));
+    let table_1 = case("zhou-chen-2014");
     let mut inputs = Inputs { method, module: row["m"].as_f64().expect("module"), ..table_1 };
     inputs.pressure_angle = decimal(&row["alpha_rad_f64"]);
     for (gear, key) in [(&mut inputs.driver, "z1"), (&mut inputs.driven, "z2")] {
@@ -56,12 +36,8 @@ fn every_row_of_positions_within_1e_11() {
         let mut inputs = row_inputs(row, Method::Exact);
         inputs.base_pitch_deviation = 0.0;
         inputs.deflection = row["delta"].as_f64();
-        for accurate in [false, true] {
-            row_within(
-                row,
-                &Inputs { accurate, ..inputs.clone() },
-                if accurate { 1e-14 } else { 1e-12 },
-            );
+        for (accurate, bound) in [(false, 1e-12), (true, 1e-14)] {
+            row_within(row, &Inputs { accurate, ..inputs.clone() }, bound);
         }
     }
 }
@@ -84,17 +60,11 @@ fn row_within(row: &Value, inputs: &Inputs, bound: f64) {
     ];
     for (key, found) in found {
         let off = off(found, decimal(&row[key]));
-        assert!(
-            off < bound,
-            "{key} off by {off:e} at z {}/{}, Delta {}",
-            row["z1"],
-            row["z2"],
-            row["delta"]
-        );
+        assert!(off < bound, "{key} off by {off:e}: {row}");
     }
     for (key, found) in [("N1E", geometry.start), ("gamma2", geometry.start_angle_driven)] {
         let off = off(found, decimal(&row[key]));
-        assert!(off < 1e-13, "{key} off by {off:e} at z {}/{}", row["z1"], row["z2"]);
+        assert!(off < 1e-13, "{key} off by {off:e}: {row}");
     }
 }
 
@@ -110,38 +80,15 @@ fn printed_position_of_every_row() {
         let position =
             solve(&inputs, Stages::CLOSED_FORM).expect("a solution").position.expect("a position");
         let off = off(position.approach_angle_driver, decimal(&row["theta1_paper_split_half"]));
-        assert!(
-            off < 1e-12,
-            "off by {off:e} at z {}/{}, Delta {}",
-            row["z1"],
-            row["z2"],
-            row["delta"]
-        );
+        assert!(off < 1e-12, "off by {off:e}: {row}");
     }
 }
 
-/// Each case of a folder with its answers.
+/// Each case of a folder with its answers, with ten stations.
 fn cases(name: &str) -> Vec<(String, Inputs, Value)> {
-    let mut paths: Vec<_> = std::fs::read_dir(folder(name))
-        .expect("the folder")
-        .map(|entry| entry.expect("an entry").path())
-        .collect();
-    paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
-    paths.sort();
-    let read = |path: &Path| std::fs::read_to_string(path).expect("a file");
-    paths
-        .iter()
-        .map(|path| {
-            let name = path.display().to_string();
-            let mut inputs = inputs_of(&name, &read(path));
-            inputs.stations = Some(10);
-            (
-                name,
-                inputs,
-                serde_json::from_str(&read(&path.with_extension("json"))).expect("answers"),
-            )
-        })
-        .collect()
+    let mut all = cases_with_answers(&format!("tests/reference/{name}"));
+    all.iter_mut().for_each(|(_, inputs, _)| inputs.stations = Some(10));
+    all
 }
 
 #[test]
@@ -181,29 +128,15 @@ fn hold(name: &str, solution: &Solution, key: &str, expected: &Value) {
 /// other quantities are withheld.
 #[test]
 fn every_case_beyond_the_fit_within_1e_10() {
-    const HELD: [&str; 16] = [
-        "outcome",
-        "equivalent_error",
-        "combined_deflection",
-        "total_deviation",
-        "contact_ratio",
-        "base_pitch",
-        "mesh_force",
-        "working_pressure_angle",
-        "centre_distance",
-        "approach_angle_driven",
-        "approach_angle_driver",
-        "contact_radius_driver",
-        "contact_normal_radius_driven",
-        "normal_velocity",
-        "sliding_velocity",
-        "transit_time",
-    ];
+    const HELD: &str = "outcome equivalent_error combined_deflection total_deviation \
+        contact_ratio base_pitch mesh_force working_pressure_angle centre_distance \
+        approach_angle_driven approach_angle_driver contact_radius_driver \
+        contact_normal_radius_driven normal_velocity sliding_velocity transit_time";
     let all = cases("geometry");
     assert_eq!(all.len(), 8);
     for (name, inputs, answers) in all {
         let solution = solve(&inputs, Stages::ALL).expect("a solution");
-        for key in HELD {
+        for key in HELD.split(' ') {
             hold(&name, &solution, key, &answers[key]);
         }
         let outside = [&inputs.driver, &inputs.driven]
@@ -215,11 +148,7 @@ fn every_case_beyond_the_fit_within_1e_10() {
 
 /// Table 1 by one of the methods, with ten stations.
 fn table_1(method: Method) -> Solution {
-    let inputs = Inputs {
-        method,
-        stations: Some(10),
-        ..inputs_of("Table 1", include_str!("../../cases/zhou-chen-2014.toml"))
-    };
+    let inputs = Inputs { method, stations: Some(10), ..case("zhou-chen-2014") };
     solve(&inputs, Stages::ALL).expect("a solution")
 }
 
@@ -249,11 +178,7 @@ fn table_1_by_the_printed_equations() {
     printed(&solution, "friction_ratio", 1.0, 3, "0.452");
     angles(&solution, "7.01959", "31.63883", 5);
     let closed = solution.position.expect("a position").closed_gap;
-    assert_eq!(
-        format!("{:.3}", closed * 1e6),
-        "0.073",
-        "the tip has closed almost none of the gap"
-    );
+    assert_eq!(format!("{:.3}", closed * 1e6), "0.073", "almost none of the gap");
 }
 
 #[test]
@@ -281,22 +206,13 @@ fn table_1_at_the_exact_position() {
 /// published 0.1811.
 #[test]
 fn table_1_friction_ratio_by_the_printed_end() {
-    let inputs = inputs_of("Table 1", include_str!("../../cases/zhou-chen-2014.toml"));
+    let inputs = case("zhou-chen-2014");
     let solution = solve(&inputs, Stages::CLOSED_FORM).expect("a solution");
-    let (position, velocity, impact) = (
-        solution.position.expect("a position"),
-        solution.velocity.expect("velocities"),
-        solution.impact.expect("an impact"),
-    );
+    let contact = solution.position.expect("a position").contact;
+    let (velocity, impact) = (solution.velocity.expect("velocities"), solution.impact.expect("it"));
     let printed_end = Inputs { method: Method::Paper, ..inputs };
-    let mixed = friction(
-        &printed_end,
-        &solution.geometry,
-        &position.contact,
-        &velocity,
-        &impact,
-        solution.reduced_mass,
-    );
+    let (geometry, mass) = (&solution.geometry, solution.reduced_mass);
+    let mixed = friction(&printed_end, geometry, &contact, &velocity, &impact, mass);
     assert_eq!(format!("{:.3}", mixed.ratio.expect("a ratio")), "0.367");
 }
 
@@ -305,20 +221,15 @@ fn angles(solution: &Solution, driver: &str, driven: &str, digits: usize) {
     let contact = solution.position.expect("a position").contact;
     let beta1 = contact.curvature_driver.atan2(solution.geometry.driver.base).to_degrees();
     let beta2 = contact.normal_length_driven.atan2(contact.normal_radius_driven).to_degrees();
-    assert_eq!(
-        (format!("{beta1:.digits$}").as_str(), format!("{beta2:.digits$}").as_str()),
-        (driver, driven)
-    );
+    let found = [beta1, beta2].map(|angle| format!("{angle:.digits$}"));
+    assert_eq!(found, [driver, driven]);
 }
 
 #[test]
 fn table_1_force_over_roll_angle() {
-    let forces: Vec<String> = table_1(Method::Exact)
-        .stations
-        .iter()
-        .rev()
-        .map(|station| format!("{:.3}", station.force))
-        .collect();
+    let solution = table_1(Method::Exact);
+    let forces = solution.stations.iter().rev().map(|station| format!("{:.3}", station.force));
+    let forces: Vec<String> = forces.collect();
     let expected = [
         "0.000", "219.977", "438.944", "657.011", "874.677", "1092.364", "1310.415", "1529.104",
         "1748.652", "1969.240", "2191.016",

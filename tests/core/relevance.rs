@@ -102,9 +102,7 @@ fn hold(
     for case in samples {
         let mut case = case.clone();
         case.set("model.method", method).unwrap();
-        let (Ok(inputs), Some(before)) = (case.inputs(), solve(&case)) else {
-            continue;
-        };
+        let (Ok(inputs), Some(before)) = (case.inputs(), solve(&case)) else { continue };
         for (index, field) in FIELDS.iter().enumerate() {
             let acting = relevance(index, &inputs);
             if acting == Acting::Yes {

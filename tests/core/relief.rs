@@ -1,17 +1,16 @@
 //! The tip relief to specify, compared with whole solves and with every relief of a grid.
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use crate::support;
+
+use tipstrike::case::Case;
 use tipstrike::case::fields::key_of;
-use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::{Drive, Gear, Method, ReliefShape, ToothCompliance};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, solve};
 use tipstrike::study::relief::{AMOUNT_STEP, Demand, NoRelief, Specification, TipReliefs, specify};
 
 fn inputs(path: &str) -> Inputs {
-    let path = format!("{}/{path}.toml", env!("CARGO_MANIFEST_DIR"));
-    let document = Document::read(path.as_ref()).unwrap_or_else(|error| panic!("{error}"));
-    let inputs = document.case.inputs().expect("a valid case");
-    Inputs { method: Method::Static, ..inputs }
+    Inputs { method: Method::Static, ..support::inputs(&format!("{path}.toml")) }
 }
 
 fn specified(inputs: &Inputs, demand: &Demand) -> Specification {

@@ -2,10 +2,9 @@
 //! a pair written in inches, psi and horsepower.
 //!
 //! `TIPSTRIKE_PAIRS=20000 cargo test --test core scaling:: -- --nocapture` checks 20,000 pairs.
-use std::thread;
-
 use crate::envelope::Random;
 use crate::pairs;
+use crate::support::{on_all_cores, pairs_or};
 
 use tipstrike::case::units::{Dimension, factor as unit_factor};
 use tipstrike::case::{Case, Document, FIELDS, fields};
@@ -200,10 +199,6 @@ fn differences(
     found
 }
 
-fn count() -> u64 {
-    std::env::var("TIPSTRIKE_PAIRS").map_or(2000, |pairs| pairs.parse().expect("a count"))
-}
-
 fn solved(inputs: &Inputs, stages: Stages) -> Result<Solution, String> {
     solve(inputs, stages).map_err(|refusal| refusal.code().to_owned())
 }
@@ -257,17 +252,7 @@ fn check(other: impl Fn(&Inputs, &mut Random) -> (Inputs, (f64, f64)) + Sync) {
         }
         found
     };
-    let threads = thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let found: Vec<String> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads as u64)
-            .map(|first| {
-                scope.spawn(move || {
-                    (first..count()).step_by(threads).flat_map(of).collect::<Vec<_>>()
-                })
-            })
-            .collect();
-        workers.into_iter().flat_map(|worker| worker.join().expect("no panic")).collect()
-    });
+    let found = on_all_cores(pairs_or(2000), of).concat();
     for line in &found {
         println!("{line}");
     }

@@ -20,9 +20,7 @@ fn two_ways_to_the_motion_agree() {
     for path in table::cases() {
         let inputs = table::inputs(&path);
         let inputs = Setting::usual(Method::Dynamic, &inputs).best().inputs(&inputs);
-        let Ok(solution) = solve(&inputs, Stages::of(Stage::Dynamic)) else {
-            continue;
-        };
+        let Ok(solution) = solve(&inputs, Stages::of(Stage::Dynamic)) else { continue };
         let first = solution.dynamic.as_ref().expect("a motion");
         let second = match independent_solution(&inputs, &solution) {
             Err(Refusal::TooSlow { .. }) => continue,

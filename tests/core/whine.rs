@@ -2,23 +2,14 @@
 //! integrator of fixed steps.
 use std::f64::consts::TAU;
 
-use tipstrike::case::Document;
+use crate::support::{case, range, value};
 use tipstrike::model::dynamic::speeds::SPEEDS;
 use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::solve::speeds;
 use tipstrike::model::static_load::HARMONICS;
 use tipstrike::model::static_load::balance;
-use tipstrike::model::{Inputs, Note, QUANTITIES, Refusal, Solution, Stages, Steady, notes, solve};
-
-fn case(name: &str) -> Inputs {
-    let path = format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    Document::read(path.as_ref())
-        .unwrap_or_else(|error| panic!("{error}"))
-        .case
-        .inputs()
-        .expect("a valid case")
-}
+use tipstrike::model::{Inputs, Note, Refusal, Solution, Stages, Steady, notes, solve};
 
 fn solved(inputs: &Inputs) -> Solution {
     let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
@@ -44,11 +35,6 @@ fn amplitudes(samples: &[f64]) -> Vec<f64> {
     (1..=HARMONICS).map(amplitude).collect()
 }
 
-fn range(samples: &[f64]) -> f64 {
-    let least = samples.iter().copied().fold(f64::INFINITY, f64::min);
-    samples.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
-}
-
 #[test]
 fn harmonics_at_rest_are_those_of_many_samples() {
     const SAMPLES: usize = 1 << 14;
@@ -62,10 +48,8 @@ fn harmonics_at_rest_are_those_of_many_samples() {
         let found = solution.static_spectrum.unwrap().unwrap().spectrum;
         let scale = found.peak_to_peak;
         for (order, (own, other)) in (1..).zip(found.amplitudes.iter().zip(amplitudes(&samples))) {
-            assert!(
-                (own - other).abs() < 1e-6 * scale,
-                "{name}, harmonic {order}: {own:e} and {other:e}"
-            );
+            let is_near = (own - other).abs() < 1e-6 * scale;
+            assert!(is_near, "{name}, harmonic {order}: {own:e} and {other:e}");
         }
         assert!((range(&samples) / scale - 1.0).abs() < 1e-4, "{name}");
     }
@@ -123,7 +107,7 @@ fn the_steady_motion_is_that_of_plain_steps() {
     {
         let inputs = Inputs {
             speed: part * resonance,
-            drive: tipstrike::model::inputs::Drive::Torque(table_1.torque()),
+            drive: Drive::Torque(table_1.torque()),
             damping_ratio,
             tooth_compliance: Some(ToothCompliance::KUANG_YANG),
             ..table_1.clone()
@@ -136,10 +120,8 @@ fn the_steady_motion_is_that_of_plain_steps() {
         let scale = found.spectrum.peak_to_peak;
         let pairs = found.spectrum.amplitudes.iter().zip(amplitudes(&samples));
         for (order, (own, other)) in (1..).zip(pairs) {
-            assert!(
-                (own - other).abs() < 2e-5 * scale,
-                "{part}, harmonic {order}: {own:e} and {other:e}"
-            );
+            let is_near = (own - other).abs() < 2e-5 * scale;
+            assert!(is_near, "{part}, harmonic {order}: {own:e} and {other:e}");
         }
         for (own, other) in
             [(scale, range(&samples)), (found.mesh_force, of_mesh), (found.tooth_force, of_tooth)]
@@ -166,10 +148,6 @@ fn a_pair_with_little_damping_rattles_across_its_backlash() {
         speed: 400.0 * std::f64::consts::PI,
         damping_ratio: 0.02,
         ..case("fzg-type-c")
-    };
-    let value = |solution: &Solution, key: &str| {
-        let quantity = QUANTITIES.iter().find(|known| known.key == key).unwrap();
-        quantity.finite_value(solution)
     };
     let keys = [
         "dynamic_back_strikes",

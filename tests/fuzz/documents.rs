@@ -92,13 +92,9 @@ fn a_save_keeps_edits_and_comments() {
     let edited = Cell::new(0u32);
     let texts = prop_oneof![texts::written(), texts::mutated()];
     hold(1500, &(texts, comments, edits()), |(text, comments, edits)| {
-        let Ok(plain) = Document::parse("case", &text) else {
-            return;
-        };
+        let Ok(plain) = Document::parse("case", &text) else { return };
         let commented = with_comments(&text, &comments);
-        let Ok(mut document) = Document::parse("case", &commented) else {
-            return;
-        };
+        let Ok(mut document) = Document::parse("case", &commented) else { return };
         let is_same = document.case == plain.case;
         for edit in &edits {
             edit.apply(&mut document.case);
@@ -149,9 +145,7 @@ fn a_saved_case_is_read_unchanged() {
     let path = folder.path().join("case.toml");
     hold(60, &(texts::written(), edits()), |(text, edits)| {
         fs::write(&path, &text).expect("room on the disk");
-        let Ok(mut document) = Document::read(&path) else {
-            return;
-        };
+        let Ok(mut document) = Document::read(&path) else { return };
         for edit in &edits {
             edit.apply(&mut document.case);
         }

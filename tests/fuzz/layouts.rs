@@ -237,9 +237,7 @@ impl Other {
             Other::Remove(at) if *at < case.variants.len() => drop(case.variants.remove(*at)),
             Other::Remove(_) => {}
             Other::Override(at, field, text) => {
-                let Some(variant) = case.variants.get(*at) else {
-                    return;
-                };
+                let Some(variant) = case.variants.get(*at) else { return };
                 let (name, mut edited) = (variant.name.clone(), case.with(variant));
                 let is_set = edited.set(FIELDS[*field].key, text).is_ok();
                 let variant = Variant::between(&name, case, &edited);

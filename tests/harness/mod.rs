@@ -4,6 +4,7 @@
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
+use std::fmt::Debug;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -243,6 +244,23 @@ impl Desk {
 
     pub(crate) fn shows(&self, text: &str) -> bool {
         self.rows(self.app.layout.size()).join("\n").contains(text)
+    }
+
+    /// Checks a condition; a failure prints the screen.
+    #[track_caller]
+    pub(crate) fn assert(&self, holds: bool) {
+        assert!(holds, "{}", self.screen());
+    }
+
+    /// Checks a condition at a step of a test.
+    #[track_caller]
+    pub(crate) fn assert_at(&self, step: impl Debug, holds: bool) {
+        assert!(holds, "{step:?}\n{}", self.screen());
+    }
+
+    #[track_caller]
+    pub(crate) fn assert_shows(&self, text: &str) {
+        self.assert_at(text, self.shows(text));
     }
 
     fn rows(&self, size: Size) -> Vec<String> {

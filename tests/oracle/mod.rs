@@ -82,13 +82,9 @@ pub(crate) fn answers_with_conditions(
             continue;
         }
         *field = &*field * (1 + &step);
-        let Some(moved) = of_given(&moved) else {
-            continue;
-        };
+        let Some(moved) = of_given(&moved) else { continue };
         for (key, condition) in &mut conditions {
-            let Some(value) = moved.get(key) else {
-                continue;
-            };
+            let Some(value) = moved.get(key) else { continue };
             if rounded(&plain[key]) != 0.0 {
                 *condition += rounded(&((value / &plain[key] - 1) / &step)).abs();
             }

@@ -31,9 +31,7 @@ const REFUSED: i32 = 5;
 /// the result.
 #[test]
 fn saver() {
-    let Some(path) = env::var_os(TARGET).map(std::path::PathBuf::from) else {
-        return;
-    };
+    let Some(path) = env::var_os(TARGET).map(std::path::PathBuf::from) else { return };
     let Ok(mut document) = Document::read(&path) else { std::process::exit(REFUSED) };
     document.case.write(fields::index_of("pair.module").expect("a field"), "6 mm");
     let result = document.save(&path);

@@ -306,9 +306,7 @@ fn decoded(text: Option<&str>) -> String {
     const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let (mut bits, mut count, mut bytes) = (0_u32, 0, Vec::new());
     for letter in text.unwrap_or_default().bytes() {
-        let Some(value) = LETTERS.iter().position(|&known| known == letter) else {
-            continue;
-        };
+        let Some(value) = LETTERS.iter().position(|&known| known == letter) else { continue };
         (bits, count) = ((bits << 6 | value as u32) & 0xffff, count + 6);
         if count >= 8 {
             count -= 8;

@@ -146,9 +146,7 @@ impl Launch {
                 let pace = their_pace.load(Ordering::Relaxed);
                 let most =
                     if pace == 0 { buffer.len() } else { (pace / BEATS).clamp(1, buffer.len()) };
-                let Ok(count @ 1..) = reader.read(&mut buffer[..most]) else {
-                    return;
-                };
+                let Ok(count @ 1..) = reader.read(&mut buffer[..most]) else { return };
                 if sender.send(buffer[..count].to_vec()).is_err() {
                     return;
                 }

@@ -304,6 +304,6 @@ fn the_cases_by_their_numbers() {
     assert_eq!(desk.app.tabs().count(), 9);
     for number in 1..=9 {
         desk.keys(&[&format!("Alt-{number}")]);
-        assert!(desk.shows(&format!("[{number} ")), "{}", desk.screen());
+        desk.assert_shows(&format!("[{number} "));
     }
 }

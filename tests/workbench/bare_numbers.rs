@@ -13,22 +13,14 @@ fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
 fn a_bare_number_gets_its_unit_during_typing() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "48");
-    assert!(
-        desk.shows("Unit added: um.") && desk.shows("base pitch deviation 48 um"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("Unit added: um.") && desk.shows("base pitch deviation 48 um"));
     assert!(!desk.shows("LAST VALID") && !desk.shows("2191.0"), "the results are those of 48 um");
     assert_eq!(
         (desk.app.tab.form.input.value(), text(&desk, "deviations.base_pitch")),
         ("48", "48 um")
     );
     desk.keys(&["Down"]);
-    assert!(
-        desk.shows("base pitch deviation 48 um") && !desk.shows("Unit added"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("base pitch deviation 48 um") && !desk.shows("Unit added"));
     desk.keys(&["Ctrl-S"]);
     assert_eq!(desk.read("case.toml"), TABLE_1.replace("16 um", "48 um"));
     desk.keys(&["Up", "Esc"]);
@@ -85,25 +77,20 @@ fn the_unit_is_the_written_one_or_else_the_displayed_one() {
 fn a_typed_unit_is_never_replaced() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "48 m");
-    assert!(desk.shows("Not yet: 48 m is above the limit of"), "{}", desk.screen());
+    desk.assert_shows("Not yet: 48 m is above the limit of");
     assert_eq!(text(&desk, "deviations.base_pitch"), "48 m");
     desk.keys(&["Down"]);
-    assert!(
+    desk.assert_at(
+        "after the user leaves the field the value is invalid:",
         desk.shows("! 48 m is above the limit of"),
-        "after the user leaves the field the value is invalid:\n{}",
-        desk.screen()
     );
     desk.keys(&["Ctrl-S"]);
     assert!(desk.shows("not saved"));
     desk.fill("driver.young", "200 M");
     assert_eq!(text(&desk, "driver.young"), "200 M", "MPa or Mpsi");
-    assert!(desk.shows("Not yet: unknown unit M"), "{}", desk.screen());
+    desk.assert_shows("Not yet: unknown unit M");
     desk.fill("driver.poisson", "0.9");
-    assert!(
-        desk.shows("! 0.9 is above the limit of 0.499"),
-        "no digit fixes it:\n{}",
-        desk.screen()
-    );
+    desk.assert_at("no digit fixes it:", desk.shows("! 0.9 is above the limit of 0.499"));
 }
 
 #[test]

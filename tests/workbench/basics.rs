@@ -72,22 +72,16 @@ fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
     let path = desk.path("pair.toml");
     let path = path.to_str().expect("a name in UTF-8");
     desk.keys(&["Ctrl-N", "4", "Ctrl-S", "Ctrl-U", path, "Enter"]);
-    assert!(
-        desk.shows("; 6 required values are missing") && !desk.app.tab.is_unsaved(),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("; 6 required values are missing") && !desk.app.tab.is_unsaved());
     assert!(desk.read("pair.toml").contains("\nmodule = \"4 mm\"  # required"));
     desk.keys(&["Alt-W", "Ctrl-O", "Ctrl-U", path]);
-    assert!(
+    desk.assert(
         desk.shows("Required values are missing:") && desk.shows("the driver's number of teeth"),
-        "{}",
-        desk.screen()
     );
     desk.keys(&["Enter"]);
-    assert!(desk.shows("! 6 required values are missing"), "{}", desk.screen());
+    desk.assert_shows("! 6 required values are missing");
     desk.go_to("driver.teeth").keys(&["17.5", "Ctrl-S"]);
-    assert!(desk.shows("not saved: fix the fields marked with ! first"), "{}", desk.screen());
+    desk.assert_shows("not saved: fix the fields marked with ! first");
 }
 
 fn listed(desk: &Desk) -> Vec<Item> {
@@ -116,9 +110,9 @@ fn the_palette_lists_commands_of_the_focused_pane_and_field_first() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2", ":", "tip rel"]);
     assert_eq!(first(&desk), "driven.tip_relief");
-    assert!(desk.shows("Ca2 driven tip relief."), "{}", desk.screen());
+    desk.assert_shows("Ca2 driven tip relief.");
     desk.keys(&["Ctrl-U", "unlikely words"]);
-    assert!(desk.shows("No match."), "{}", desk.screen());
+    desk.assert_shows("No match.");
 }
 
 #[test]
@@ -129,14 +123,14 @@ fn the_first_line_names_the_last_case_and_the_key_of_table_1() {
         let mut desk = Desk::on(size, &format!("{name}.toml"), TABLE_1);
         desk.app.tab.origin = Origin::LastCase;
         let first = |desk: &Desk| desk.screen().lines().next().unwrap_or_default().to_owned();
-        assert!(first(&desk).contains("(last case; Alt-T: Table 1)"), "{}", desk.screen());
+        desk.assert(first(&desk).contains("(last case; Alt-T: Table 1)"));
         desk.keys(&["Alt-T"]);
-        assert!(first(&desk).starts_with("tipstrike  built-in Table 1"), "{}", desk.screen());
+        desk.assert(first(&desk).starts_with("tipstrike  built-in Table 1"));
     }
     let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
     assert!(!desk.shows("last case"));
     desk.keys(&["Alt-T", "Ctrl-PageUp", "Alt-T"]);
-    assert!(desk.shows("1 pair.toml [2 built-in Table 1]"), "{}", desk.screen());
+    desk.assert_shows("1 pair.toml [2 built-in Table 1]");
 }
 
 #[test]
@@ -172,7 +166,7 @@ fn tab_cycles_the_panes_whose_letters_are_commands() {
     for pane in [Pane::Results, Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study, Pane::Form] {
         desk.keys(&["Tab"]);
         assert_eq!(desk.app.layout.focus(), pane);
-        assert!(desk.shows(&format!("▸ {}", pane.number())), "{}", desk.screen());
+        desk.assert_shows(&format!("▸ {}", pane.number()));
         desk.keys(&["xwv0"]).act(Action::Paste("999".to_owned()));
         assert!(!desk.app.tab.is_unsaved());
     }
@@ -374,11 +368,7 @@ fn the_baseline_is_pinned_and_the_difference_is_shown_beside_it() {
             .map(str::to_owned)
             .expect("it is in sight")
     };
-    assert!(
-        desk.shows("against built-in Table 1") && line(&desk, "ΔV_n").contains("-5.0 %"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("against built-in Table 1") && line(&desk, "ΔV_n").contains("-5.0 %"));
     assert!(line(&desk, "p_b ").trim_end().ends_with("unchanged"), "{}", line(&desk, "p_b "));
     desk.act(Action::Resize(SMALL));
     assert!(desk.shows("-5.0 %"), "where there is no room the other method gives way");
@@ -394,7 +384,7 @@ fn the_baseline_is_common_to_tabs_and_has_its_curve_even_if_no_chart_was_visible
     assert_eq!(pinned.name, "one.toml");
     assert!(pinned.answer.stages.covers(Stages::EVERY));
     desk.fill("driven.tip_relief", "20 um").keys(&["Esc", "2", "z"]);
-    assert!(desk.shows(" baseline") && desk.shows(" %"), "{}", desk.screen());
+    desk.assert(desk.shows(" baseline") && desk.shows(" %"));
     desk.fill("operation.speed", "bad").keys(&["Esc", "b", "b"]);
     assert!(desk.shows("no valid results to pin"));
 }
@@ -404,16 +394,12 @@ fn comparisons_with_the_baseline_are_readable_at_every_size() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Esc", "b", "2"]);
-        assert!(desk.shows(" baseline\n") || desk.shows(" baseline "), "{}", desk.screen());
+        desk.assert(desk.shows(" baseline\n") || desk.shows(" baseline "));
         desk.fill("operation.speed", "3000 rpm");
         desk.keys(&["Esc", "2"]);
-        assert!(desk.shows(" %") && desk.shows("; baseline: "), "{}", desk.screen());
+        desk.assert(desk.shows(" %") && desk.shows("; baseline: "));
         desk.keys(&["Ctrl-T"]);
-        assert!(
-            desk.shows("was none") && desk.shows("baseline (exact): none"),
-            "{}",
-            desk.screen()
-        );
+        desk.assert(desk.shows("was none") && desk.shows("baseline (exact): none"));
     }
 }
 
@@ -428,7 +414,7 @@ fn a_verdict_is_beside_its_limit_which_is_not_cut() {
             .find(|line| line.starts_with("▸ F_S"))
             .unwrap_or_default()
             .to_owned();
-        assert!(line.contains(" 2000 N") && line.contains(" ! 110 %"), "{}", desk.screen());
+        desk.assert(line.contains(" 2000 N") && line.contains(" ! 110 %"));
     }
 }
 
@@ -535,12 +521,12 @@ fn notes_are_never_off_the_screen() {
         let mut desk = Desk::new(size);
         assert!(desk.shows("(Esc n)") || desk.shows("Note: "), "{size}");
         desk.keys(&["Esc", "2", "G"]);
-        assert!(desk.shows("(n)") || desk.shows("Note: "), "{}", desk.screen());
+        desk.assert(desk.shows("(n)") || desk.shows("Note: "));
         desk.keys(&["n"]);
         if size == TINY {
             desk.keys(&["PageDown"]);
         }
-        assert!(desk.shows("the impact lasts"), "{}", desk.screen());
+        desk.assert_shows("the impact lasts");
     }
 }
 
@@ -549,11 +535,7 @@ fn notes_are_never_off_the_screen() {
 #[test]
 fn the_required_relief_has_a_placeholder_until_it_is_present() {
     let mut desk = Desk::new(LARGE);
-    assert!(
-        desk.shows("Required tip relief of the driven gear: exact 47.4 um"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert_shows("Required tip relief of the driven gear: exact 47.4 um");
     let effects = update(&mut desk.app, harness::run("method"));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {
         panic!("it asks for a solve")
@@ -568,11 +550,7 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         solution.clearing = None;
     }
     desk.act(Action::Solved(Box::new(first)));
-    assert!(
-        desk.shows("Required tip relief of the driven gear: static ... um"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert_shows("Required tip relief of the driven gear: static ... um");
     let mut stopped = desk.app.clone();
     let cancel = of_key(harness::event("Ctrl-C"), stopped.place()).expect("a key");
     let effects = update(&mut stopped, cancel);
@@ -582,10 +560,8 @@ fn the_required_relief_has_a_placeholder_until_it_is_present() {
         "it is waited for no more"
     );
     desk.act(Action::Solved(Box::new(whole)));
-    assert!(
+    desk.assert(
         desk.shows("Required tip relief of the driven gear: static 40.1 um") && !desk.shows("..."),
-        "{}",
-        desk.screen()
     );
 }
 
@@ -600,16 +576,10 @@ fn a_slow_solve_shows_its_progress_and_esc_stops_it() {
     let half = Answer { active: Method::Exact, pending: Some(Method::Static), ..whole };
     desk.act(Action::Solved(Box::new(half)));
     desk.act(Action::Solving(request.serial, 0.25));
-    assert!(
-        desk.shows("25 % solving static; Ctrl-C cancels") && desk.shows("static pending"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("25 % solving static; Ctrl-C cancels") && desk.shows("static pending"));
     desk.keys(&["Ctrl-C"]);
-    assert!(
+    desk.assert(
         desk.has_cancelled && desk.shows("method static is stopped") && !desk.shows("pending"),
-        "{}",
-        desk.screen()
     );
     assert!(desk.app.has_line(), "the field keeps the keys");
     desk.act(Action::Solving(request.serial, 0.5));
@@ -662,7 +632,7 @@ fn torque_replaces_power_and_restores_it() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.torque", "7");
     let notice = "power 15 kW replaced by the torque";
-    assert!(desk.shows(notice), "{}", desk.screen());
+    desk.assert_shows(notice);
     desk.keys(&["0 N m"]);
     assert!(desk.shows(notice), "as long as it is typed\n{}", desk.screen());
     assert!(!desk.shows("both given") && desk.app.tab.problems.is_empty());

@@ -122,11 +122,7 @@ fn entering_and_leaving_folders_selects_the_previous_folder() {
     for _ in 0..40 {
         desk.keys(&["Alt-Up"]);
     }
-    assert!(
-        desk.screen().lines().nth(2).is_some_and(|line| line.contains("│ / ")),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.screen().lines().nth(2).is_some_and(|line| line.contains("│ / ")));
 }
 
 #[test]
@@ -205,11 +201,7 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
         .expect("a case in it");
     for start in ["z1", "z2", "z3", "z4"] {
         desk.keys(&["Ctrl-O", start]);
-        assert!(
-            preview(&desk).contains("Corner contact: θ_1 = 1.366 deg"),
-            "{start}\n{}",
-            desk.screen()
-        );
+        desk.assert_at(start, preview(&desk).contains("Corner contact: θ_1 = 1.366 deg"));
         assert!(desk.screen().chars().all(|letter| letter == '\n' || is_safe(letter)), "{start}");
         desk.keys(&["Enter"]);
         assert!(desk.shows("opened "), "{start}\n{}", desk.screen());
@@ -218,7 +210,7 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
     desk.keys(&["Ctrl-O", "z5", "Enter"]);
     assert_eq!(marked(&desk), "in.toml", "{}", desk.screen());
     desk.keys(&["Enter"]);
-    assert!(desk.shows("opened "), "{}", desk.screen());
+    desk.assert_shows("opened ");
 }
 
 #[test]
@@ -240,27 +232,20 @@ fn a_file_that_is_no_case_is_refused_with_a_message() {
         ("q-empty", "format"),
     ] {
         desk.keys(&["Ctrl-O", file]);
-        assert!(
+        desk.assert_at(
+            file,
             preview(&desk).contains("It cannot be opened:") && preview(&desk).contains(expected),
-            "{file}\n{}",
-            desk.screen()
         );
         desk.keys(&["Enter"]);
-        assert!(
-            desk.shows(" cannot be opened ") && desk.shows(expected),
-            "{file}\n{}",
-            desk.screen()
-        );
+        desk.assert_at(file, desk.shows(" cannot be opened ") && desk.shows(expected));
         desk.keys(&["Esc", "Esc"]);
     }
     desk.keys(&["Ctrl-O", "nowhere/"]);
-    assert!(
+    desk.assert(
         desk.shows("This folder cannot be read: No such") && desk.shows("file or directory"),
-        "{}",
-        desk.screen()
     );
     desk.keys(&["Ctrl-U", "case.toml/"]);
-    assert!(desk.shows("This folder cannot be read: Not a"), "{}", desk.screen());
+    desk.assert_shows("This folder cannot be read: Not a");
 }
 
 #[test]
@@ -288,7 +273,7 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_requests_at_most_one_preview(
         previews + searches == asked.len() && previews <= keys.len() && searches == 1,
         "{asked:?}"
     );
-    assert!(desk.shows("99"), "{}", desk.screen());
+    desk.assert_shows("99");
 }
 
 #[test]
@@ -370,7 +355,7 @@ fn typing_searches_the_folders_below_and_the_examples() {
     symlink(desk.folder.path(), desk.path("sub/round and round")).expect("a link");
     desk.keys(&["Ctrl-O", "pinion"]);
     assert_eq!(marked(&desk), "sub/gearbox/stage 2/Pinion.toml", "{}", desk.screen());
-    assert!(preview(&desk).contains("777 rpm") && !desk.shows("hidden"), "{}", desk.screen());
+    desk.assert(preview(&desk).contains("777 rpm") && !desk.shows("hidden"));
     desk.keys(&["Enter"]);
     assert_eq!(
         desk.app.tab.path.as_deref(),
@@ -378,15 +363,13 @@ fn typing_searches_the_folders_below_and_the_examples() {
     );
     desk.keys(&["Ctrl-O", "fzg"]);
     assert_eq!(marked(&desk), "fzg-type-c  (example)", "{}", desk.screen());
-    assert!(preview(&desk).contains("FZG"), "{}", desk.screen());
+    desk.assert(preview(&desk).contains("FZG"));
     desk.keys(&["Enter"]);
-    assert!(
+    desk.assert(
         desk.app.prompts.is_empty() && desk.shows("new case from fzg-type-c; it has no file yet"),
-        "{}",
-        desk.screen()
     );
     desk.keys(&["Ctrl-O", "no such"]);
-    assert!(desk.shows("No match here or below."), "{}", desk.screen());
+    desk.assert_shows("No match here or below.");
 }
 
 #[test]
@@ -410,11 +393,11 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
         asked.extend(requested(update(&mut desk.app, Action::Insert(letter)), Slot::Search));
     }
     assert_eq!(asked.len(), 1);
-    assert!(desk.shows("Searching below ..."), "{}", desk.screen());
+    desk.assert_shows("Searching below ...");
     fs::remove_dir_all(desk.path("1")).expect("our own folder");
     let (number, work) = asked.remove(0);
     desk.take(results(number, work));
-    assert!(desk.shows("No match here or below."), "{}", desk.screen());
+    desk.assert_shows("No match here or below.");
 }
 
 #[test]
@@ -429,5 +412,5 @@ fn enter_waits_for_the_listing_of_the_typed_folder() {
     assert!(!desk.app.prompts.is_empty(), "it is not listed yet");
     let (number, work) = requested(asked, Slot::Folder).expect("a listing");
     desk.take(results(number, work));
-    assert!(desk.app.prompts.is_empty() && desk.shows("sub/deep.toml"), "{}", desk.screen());
+    desk.assert(desk.app.prompts.is_empty() && desk.shows("sub/deep.toml"));
 }

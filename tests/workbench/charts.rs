@@ -107,7 +107,7 @@ fn charts_are_selected_by_key_and_by_name() {
         "Transmission error, amplitude in um",
         "Dynamic factor: force / that at rest",
     ] {
-        assert!(desk.shows(title), "{}", desk.screen());
+        desk.assert_shows(title);
         desk.keys(&["j"]);
     }
     assert_title(&desk, &GRAPHS[0]);
@@ -173,9 +173,9 @@ fn the_units_of_both_axes_are_in_sight_from_80x24_on() {
                     let (title, labels) = quantities(desk.keys(&[key]));
                     let unit = graph.all_columns().next().map_or("1", |column| column.shown);
                     let is_named = unit == "1" || title.contains(&format!(" in {unit}"));
-                    assert!(is_named, "{}", desk.screen());
+                    desk.assert(is_named);
                     let has_unit = units.iter().any(|unit| labels.trim_start().starts_with(unit));
-                    assert!(has_unit || labels.is_empty(), "{}", desk.screen());
+                    desk.assert(has_unit || labels.is_empty());
                 }
                 desk.keys(&["j"]);
             }
@@ -219,7 +219,7 @@ fn a_harmonic_without_amplitude_has_no_bar() {
 fn the_latest_request_for_a_chart_of_the_worker_wins() {
     let mut desk = at_method(SMALL, "exact");
     let (number, work) = requested(desk.effects("k"), Slot::Chart).expect("a request");
-    assert!(desk.shows("Computing"), "{}", desk.screen());
+    desk.assert_shows("Computing");
     assert!(requested(desk.effects("l"), Slot::Chart).is_none(), "the same pair");
     let all = results(number, work);
     desk.fill("operation.speed", "1900 rpm");
@@ -242,7 +242,7 @@ fn a_growing_curve_is_marked_as_unfinished() {
     let work = &mut desk.app.tab.chart_work;
     work.found.as_mut().expect("a curve").1 = speed_chart(&[("", &curve)]);
     work.is_running = true;
-    assert!(desk.shows("computing: Dynamic factor"), "{}", desk.screen());
+    desk.assert_shows("computing: Dynamic factor");
 }
 
 #[test]
@@ -278,11 +278,7 @@ fn a_chart_names_the_methods_that_have_the_curve() {
     assert!(desk.shows("Method exact does not compute the load share; static and dynamic do."));
     let mut desk = at_method(LARGE, "static");
     desk.keys(&[":", "chart: impact", "Enter"]);
-    assert!(
-        desk.shows("Method static does not compute the impact energy; paper and exact do."),
-        "{}",
-        desk.screen()
-    );
+    desk.assert_shows("Method static does not compute the impact energy; paper and exact do.");
     assert!(desk.shows("∘"), "those of the others are drawn");
 }
 
@@ -303,7 +299,7 @@ fn the_cursor_moves_beyond_e_and_the_readout_shows_every_value() {
     let mut desk = at_method(SMALL, "dynamic");
     desk.keys(&["0", "End", "L"]);
     let cursor = desk.app.cursor.expect("a cursor");
-    assert!(cursor < 0.0 && desk.shows("deg of the driver after E: F "), "{}", desk.screen());
+    desk.assert(cursor < 0.0 && desk.shows("deg of the driver after E: F "));
     for symbol in ["S ", "ΔV_τ ", "F/ΣF ", "q_s ", "x "] {
         assert!(desk.shows(symbol), "{symbol}\n{}", desk.screen());
     }
@@ -394,7 +390,7 @@ fn the_time_axis_shows_the_same_curve() {
     );
     assert_eq!(angle[1..angle.len() - 2], time[1..time.len() - 2], "the curves do not move");
     desk.keys(&["l"]);
-    assert!(desk.shows(" us: F "), "{}", desk.screen());
+    desk.assert_shows(" us: F ");
     assert_eq!(desk.kept, None, "the x axis is no setting");
     desk.keys(&["c", "t"]);
     assert_eq!(chart(&desk), angle);
@@ -493,11 +489,11 @@ fn the_baseline_is_drawn_in_the_same_chart() {
     desk.keys(&["b", "1"]).fill("operation.power", "12 kW");
     desk.keys(&["Esc", "3"]);
     for _ in 0..3 {
-        assert!(desk.shows("+ baseline"), "{}", desk.screen());
+        desk.assert_shows("+ baseline");
         desk.keys(&["j", "j"]);
     }
     desk.keys(&["jjjjjjjj", "l", "L"]);
-    assert!(desk.shows("baseline "), "{}", desk.screen());
+    desk.assert_shows("baseline ");
 }
 
 #[test]
@@ -512,7 +508,7 @@ fn a_large_pane_shows_several_charts() {
     let mut desk = at_method(LARGE, "exact");
     assert!(!desk.shows("─ Gap S in um"));
     desk.keys(&["z"]);
-    assert!(desk.shows("─ Gap S in um"), "{}", desk.screen());
+    desk.assert_shows("─ Gap S in um");
 }
 
 #[test]
@@ -559,11 +555,7 @@ fn assert_round(numbers: &[f64], desk: &Desk) {
     let steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     for step in &steps {
         let digit = step / 10f64.powf((step * (1.0 + 1e-6)).log10().floor());
-        assert!(
-            [1.0, 2.0, 5.0].iter().any(|round| (digit - round).abs() < 1e-6),
-            "{numbers:?}\n{}",
-            desk.screen()
-        );
+        desk.assert_at(numbers, [1.0, 2.0, 5.0].iter().any(|round| (digit - round).abs() < 1e-6));
         assert!((step - steps[0]).abs() < 1e-6 * step, "{numbers:?}\n{}", desk.screen());
     }
 }
@@ -805,16 +797,12 @@ fn the_tooth_compliance_has_a_curve_for_every_model_over_the_flank() {
     let request = desk.app.tab.chart_work.request.as_ref();
     let chart_of = |request: &ChartRequest| request.chart.key();
     assert_eq!(request.map(chart_of), Some("tooth_compliance_driven"));
-    assert!(desk.shows("C is the pitch circle"), "{}", desk.screen());
+    desk.assert_shows("C is the pitch circle");
     assert_snapshot!("tooth_compliance_80x24", chart(&desk).join("\n"));
     let mut outside =
         Desk::on(SMALL, "case.toml", &TABLE_1.replacen("teeth = 20", "teeth = 111", 1));
     outside.keys(&["Esc", ":", "chart: driver tooth", "Enter"]);
-    assert!(
-        outside.shows("kuang-yang (case) (no value)") && outside.shows("∘ beam"),
-        "{}",
-        outside.screen()
-    );
+    outside.assert(outside.shows("kuang-yang (case) (no value)") && outside.shows("∘ beam"));
 }
 
 #[test]
@@ -830,7 +818,7 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
     let answer = solver::answer(&request.expect("a request"));
     let without = Answer { stiffness: None, ..answer.clone() };
     desk.act(Action::Solved(Box::new(without)));
-    assert!(desk.shows("Computing the mesh stiffness."), "{}", desk.screen());
+    desk.assert_shows("Computing the mesh stiffness.");
     desk.act(Action::Solved(Box::new(answer)));
     let drawn = chart(&desk);
     desk.keys(&["3", "j", "k"]);
@@ -841,9 +829,9 @@ fn the_mesh_stiffness_appears_as_soon_as_it_is_computed() {
 fn a_chart_with_its_own_axes_offers_no_key_of_the_roll_angle() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&["k"]);
-    assert!(desk.shows("N is the mesh frequency over"), "{}", desk.screen());
-    assert!(desk.shows("j next chart") && !desk.shows("Space play"), "{}", desk.screen());
+    desk.assert_shows("N is the mesh frequency over");
+    desk.assert(desk.shows("j next chart") && !desk.shows("Space play"));
     desk.keys(&["l"]);
-    assert!(desk.shows("l is not a command in Chart"), "{}", desk.screen());
+    desk.assert_shows("l is not a command in Chart");
     assert_eq!(desk.app.cursor, None);
 }

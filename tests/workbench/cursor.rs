@@ -24,11 +24,7 @@ fn an_angle_in_any_unit_and_a_time_mean_the_same_place() {
     ] {
         let angle = at(&mut desk, typed).to_degrees();
         assert!((angle - 0.6).abs() < 1e-9, "{typed}: {angle}");
-        assert!(
-            desk.shows("cursor at 0.6000 deg of the driver before E: F_S "),
-            "{typed}\n{}",
-            desk.screen()
-        );
+        desk.assert_at(typed, desk.shows("cursor at 0.6000 deg of the driver before E: F_S "));
     }
     desk.keys(&["3", "t"]);
     assert!(
@@ -67,14 +63,14 @@ fn a_wrong_text_shows_the_reason_and_stays() {
     }
     let mut desk = Desk::on(SMALL, "case.toml", include_str!("../../cases/tip-relief-enough.toml"));
     desk.keys(&["Esc", "a", "D", "Enter"]);
-    assert!(desk.shows("no corner contact, so no D"), "{}", desk.screen());
+    desk.assert_shows("no corner contact, so no D");
 }
 
 #[test]
 fn the_chart_opens_if_no_pane_shows_the_cursor() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5", "a", "0.6", "Enter"]);
-    assert!(desk.shows("▸ 3 Force"), "{}", desk.screen());
+    desk.assert_shows("▸ 3 Force");
     desk.keys(&["4", "1", "a", "0.6", "Enter"]);
-    assert!(desk.shows("▸ 1 Form") && desk.shows("─ 4 "), "{}", desk.screen());
+    desk.assert(desk.shows("▸ 1 Form") && desk.shows("─ 4 "));
 }

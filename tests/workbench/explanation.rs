@@ -124,9 +124,9 @@ fn an_unfinished_page_is_marked_and_a_late_page_is_dropped() {
 fn a_refusal_and_an_invalid_value_are_explained_in_words() {
     let mut desk = Desk::new(SMALL);
     desk.fill("driven.addendum", "1.9").keys(&["Esc", "2", "Enter"]);
-    assert!(desk.shows("Not solved: ") && desk.shows("Correction: "), "{}", desk.screen());
+    desk.assert(desk.shows("Not solved: ") && desk.shows("Correction: "));
     desk.keys(&["Esc", "1"]).fill("driven.addendum", "x").keys(&["Esc", "2", "Enter"]);
-    assert!(desk.shows("these are the last valid results"), "{}", desk.screen());
+    desk.assert_shows("these are the last valid results");
 }
 
 #[test]
@@ -135,11 +135,7 @@ fn the_page_names_its_units() {
     desk.keys(&["Esc", "2", "Enter"]);
     assert!(!desk.shows("inch"));
     desk.keys(&["Esc", ":", "units", "Enter", "2", "Enter"]);
-    assert!(
-        desk.shows("492.56 lbf in inch units; this page is in metric ones."),
-        "{}",
-        desk.screen()
-    );
+    desk.assert_shows("492.56 lbf in inch units; this page is in metric ones.");
 }
 
 #[test]

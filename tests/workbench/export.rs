@@ -108,9 +108,9 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
     let effects = update(&mut desk.app, accept);
     assert!(matches!(effects.first(), Some(Effect::Job(_, Job::Export(_)))));
     desk.keys(&["Enter"]);
-    assert!(desk.shows("still runs: wait for its end"), "{}", desk.screen());
+    desk.assert_shows("still runs: wait for its end");
     desk.keys(&["Esc", "Esc", "Ctrl-S", "Ctrl-Q"]);
-    assert!(desk.shows("An export runs") && !desk.has_quit, "{}", desk.screen());
+    desk.assert(desk.shows("An export runs") && !desk.has_quit);
     desk.keys(&["w", "Ctrl-Q", "q"]);
     assert!(desk.has_quit);
 }
@@ -119,8 +119,8 @@ fn one_export_runs_at_a_time_and_quitting_asks_about_it() {
 fn a_picture_is_refused_by_name_if_no_chart_is_visible() {
     let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
     desk.keys(&["Esc", "6", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
-    assert!(desk.shows("not exported: no chart is visible"), "{}", desk.screen());
+    desk.assert_shows("not exported: no chart is visible");
     assert_eq!(names(&desk), ["pair.toml"]);
     desk.keys(&["Esc", "3", "Alt-X", "Ctrl-U", &desk_path(&desk, "a.svg"), "Enter"]);
-    assert!(desk.shows("exported the chart force to "), "{}", desk.screen());
+    desk.assert_shows("exported the chart force to ");
 }

@@ -32,7 +32,7 @@ fn a_value_steps_inside_a_field_and_outside() {
         "7 um",
         "a letter that is typed unseen changes no value"
     );
-    assert!(desk.shows("< is not a command in Form"), "{}", desk.screen());
+    desk.assert_shows("< is not a command in Form");
     desk.keys(&["Alt-Up", "Shift-Down"]);
     assert_eq!(text(&desk, "deviations.base_pitch"), "16 um");
     desk.keys(&["Shift-Up"]);
@@ -50,11 +50,11 @@ fn the_form_shows_the_given_size_and_the_value_of_its_alternative() {
     desk.go_to("driver.tip_diameter").type_in("109");
     assert_eq!(text(&desk, "driver.tip_diameter"), "109 mm");
     assert_eq!(text(&desk, "driver.addendum"), "");
-    assert!(line(&desk, "addendum").contains("(0.9)"), "{}", desk.screen());
+    desk.assert(line(&desk, "addendum").contains("(0.9)"));
     assert!(desk.shows("addendum 1.0 replaced by the tip diameter"));
     desk.go_to("pair.diametral_pitch").type_in("8");
     assert_eq!(text(&desk, "pair.diametral_pitch"), "8 1/in");
-    assert!(line(&desk, "module").contains("(3.175 mm)"), "{}", desk.screen());
+    desk.assert(line(&desk, "module").contains("(3.175 mm)"));
     desk.keys(&["Ctrl-U"]);
     assert_eq!(text(&desk, "pair.module"), "5 mm");
 }
@@ -74,7 +74,7 @@ fn an_impossible_step_is_reported_and_changes_nothing() {
 fn a_value_in_another_unit_is_shown_in_the_usual_unit() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.power", "20 hp");
-    assert!(desk.shows("= 14.914 kW."), "{}", desk.screen());
+    desk.assert_shows("= 14.914 kW.");
     desk.go_to("operation.speed");
     assert!(desk.shows("= 209.44 rad/s."));
 }
@@ -95,31 +95,25 @@ fn a_material_fills_three_fields_at_once_and_undo_reverts_it() {
     desk.go_to("driven.teeth").keys(&["Alt-G"]);
     assert!(desk.shows("Material of the driven gear"));
     desk.keys(&["42cr", "Enter"]);
-    assert!(desk.shows("driven: E 210 GPa, ν 0.3, ρ 7720 kg/m3 from 42CrMo4"), "{}", desk.screen());
+    desk.assert_shows("driven: E 210 GPa, ν 0.3, ρ 7720 kg/m3 from 42CrMo4");
     assert_eq!(
         (text(&desk, "driven.young"), text(&desk, "driven.density")),
         ("210 GPa", "7720 kg/m3")
     );
     assert_eq!(text(&desk, "driver.young"), "205 GPa");
-    assert!(desk.shows("Driven (gear 2), 42CrMo4"), "{}", desk.screen());
+    desk.assert_shows("Driven (gear 2), 42CrMo4");
     desk.go_to("driven.density");
-    assert!(
+    desk.assert(
         line(&desk, " *E2 ").contains("210 GPa") && line(&desk, "▸*ρ2 ").contains("7720 kg/m3"),
-        "{}",
-        desk.screen()
     );
-    assert!(
-        line(&desk, "  ν2 ").contains("0.3"),
-        "unchanged values have no mark:\n{}",
-        desk.screen()
-    );
+    desk.assert_at("unchanged values have no mark:", line(&desk, "  ν2 ").contains("0.3"));
     desk.go_to("driven.young");
-    assert!(desk.shows("42CrMo4: Deutsche Edelstahlwerke"), "{}", desk.screen());
+    desk.assert_shows("42CrMo4: Deutsche Edelstahlwerke");
     desk.keys(&["Ctrl-Z"]);
     assert!(!desk.app.tab.is_unsaved());
-    assert!(!desk.shows(" *E2 "), "{}", desk.screen());
+    desk.assert(!desk.shows(" *E2 "));
     desk.go_to("pair.module").keys(&["Alt-G", "PEEK", "Enter"]);
-    assert!(desk.shows("both gears: E 4 GPa"), "{}", desk.screen());
+    desk.assert_shows("both gears: E 4 GPa");
     assert_eq!((text(&desk, "driver.young"), text(&desk, "driven.young")), ("4 GPa", "4 GPa"));
 }
 
@@ -129,7 +123,7 @@ fn limits_are_a_group_of_the_form_with_their_verdicts() {
     desk.keys(&["Ctrl-End"]);
     assert!(line(&desk, "impact force         2500 N").contains("ok 88 %"));
     desk.keys(&["Ctrl-U", "2 kN"]);
-    assert!(line(&desk, "force         2 kN").contains("! 110 %"), "{}", desk.screen());
+    desk.assert(line(&desk, "force         2 kN").contains("! 110 %"));
     assert!(desk.shows("2191.0 N !"), "the result is marked too");
     desk.keys(&["Shift-Up"]);
     desk.keys(&["Ctrl-S"]);
@@ -140,13 +134,13 @@ fn limits_are_a_group_of_the_form_with_their_verdicts() {
 fn a_new_limit_starts_at_the_result_and_an_empty_one_is_removed() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Alt-L", "normal_vel", "Enter"]);
-    assert!(line(&desk, "ok 100 %").contains("0.82107 m/s"), "{}", desk.screen());
+    desk.assert(line(&desk, "ok 100 %").contains("0.82107 m/s"));
     desk.keys(&["Ctrl-U"]);
     assert!(desk.shows("(no limit)"));
     desk.keys(&["0.8"]);
-    assert!(desk.shows("Unit added: m/s.") && desk.shows("0.8 m/s"), "{}", desk.screen());
+    desk.assert(desk.shows("Unit added: m/s.") && desk.shows("0.8 m/s"));
     desk.keys(&[" m/s", "Ctrl-U", "Up"]);
-    assert!(!desk.shows("(no limit)") && !desk.app.tab.is_unsaved(), "{}", desk.screen());
+    desk.assert(!desk.shows("(no limit)") && !desk.app.tab.is_unsaved());
 }
 
 #[test]
@@ -162,10 +156,10 @@ fn a_limit_that_is_no_value_is_not_saved() {
 fn inch_units_are_shown_and_the_case_keeps_its_own_units() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "units", "Enter"]);
-    assert!(desk.shows("492.56 lbf") && desk.shows("thou"), "{}", desk.screen());
+    desk.assert(desk.shows("492.56 lbf") && desk.shows("thou"));
     assert!(desk.shows("5 mm") && !desk.app.tab.is_unsaved());
     desk.go_to("pair.module");
-    assert!(desk.shows("= 0.19685 in. m module, about 0.00197 to 1.97 in"), "{}", desk.screen());
+    desk.assert_shows("= 0.19685 in. m module, about 0.00197 to 1.97 in");
     desk.keys(&["Esc", ":", "units", "Enter"]);
     assert!(desk.shows("2191.0 N"));
 }
@@ -174,7 +168,7 @@ fn inch_units_are_shown_and_the_case_keeps_its_own_units() {
 fn a_form_speaks_of_labels_and_not_of_files() {
     let mut desk = Desk::new(LARGE);
     desk.fill("operation.speed", "fast");
-    assert!(desk.shows("such as 20 rpm") && !desk.shows("\"20 rpm\""), "{}", desk.screen());
+    desk.assert(desk.shows("such as 20 rpm") && !desk.shows("\"20 rpm\""));
 }
 
 #[test]

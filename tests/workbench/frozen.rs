@@ -34,13 +34,13 @@ fn a_newer_format_is_shown_and_never_written() {
     let mut desk = Desk::new(SMALL);
     let path = desk.write("newer.toml", &newer);
     desk.perform(Effect::Load(path.clone()));
-    assert!(desk.shows("*read-only*") && desk.shows("newer format"), "{}", desk.screen());
+    desk.assert(desk.shows("*read-only*") && desk.shows("newer format"));
     assert!(desk.shows("5 mm"), "what this version knows is shown");
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.shows("not saved: ") && desk.app.tab.is_unsaved(), "{}", desk.screen());
+    desk.assert(desk.shows("not saved: ") && desk.app.tab.is_unsaved());
     let other = desk.path("other.toml").display().to_string();
     desk.keys(&["F2", "Ctrl-U", &other, "Enter"]);
-    assert!(desk.shows("not saved: ") && !desk.path("other.toml").exists(), "{}", desk.screen());
+    desk.assert(desk.shows("not saved: ") && !desk.path("other.toml").exists());
     assert_eq!(desk.read("newer.toml"), newer);
     // An invalid text is not a newer case either.
     let path = desk.write("none.toml", "format = 2\n\u{1b}[2J");
@@ -58,6 +58,6 @@ fn a_save_deletes_temporary_files_that_a_killed_save_left_a_day_ago() {
         file.set_modified(now - Duration::from_secs(3600 * hours)).expect("our own file");
     }
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.shows("saved "), "{}", desk.screen());
+    desk.assert_shows("saved ");
     assert_eq!(names.map(|name| desk.path(name).exists()), [false, true, true]);
 }

@@ -54,14 +54,10 @@ fn the_method_is_a_field_and_a_key() {
 fn undo_and_redo_move_by_one_field() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.speed", "1500 rpm").keys(&["Tab", "0.1", "Ctrl-Z"]);
-    assert!(desk.shows("undo: friction coefficient: 0.1 -> (empty)"), "{}", desk.screen());
+    desk.assert_shows("undo: friction coefficient: 0.1 -> (empty)");
     assert!(desk.shows("1500 rpm"));
     desk.keys(&["Ctrl-Z"]);
-    assert!(
-        desk.shows("2000 rpm") && desk.shows("undo: speed: 1500 rpm -> 2000 rpm"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("2000 rpm") && desk.shows("undo: speed: 1500 rpm -> 2000 rpm"));
     assert!(!desk.app.tab.is_unsaved());
     desk.keys(&["Ctrl-Y"]);
     assert!(desk.shows("1500 rpm"));
@@ -73,19 +69,11 @@ fn undo_and_redo_move_by_one_field() {
 fn switching_through_methods_is_one_step_of_undo() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["6", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(desk.shows("method auto") && desk.shows("6 mm"), "{}", desk.screen());
+    desk.assert(desk.shows("method auto") && desk.shows("6 mm"));
     desk.keys(&["Ctrl-Z"]);
-    assert!(
-        desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "));
     desk.keys(&["Ctrl-T", "7", "Ctrl-Z"]);
-    assert!(
-        desk.shows("▸static") && desk.shows("6 mm"),
-        "later typing is a separate step\n{}",
-        desk.screen()
-    );
+    desk.assert_at("later typing is a separate step", desk.shows("▸static") && desk.shows("6 mm"));
 }
 
 #[test]
@@ -100,24 +88,16 @@ fn a_character_that_cannot_begin_a_value_is_a_command() {
         assert!(desk.keys(keys).shows(expected), "{keys:?}\n{}", desk.screen());
     }
     desk.keys(&["Esc"]).go_to("pair.module").keys(&["End", "/"]);
-    assert!(desk.shows("5 mm/") && desk.shows("! "), "{}", desk.screen());
+    desk.assert(desk.shows("5 mm/") && desk.shows("! "));
     desk.keys(&["Ctrl-Z"]).go_to("title").keys(&["/:"]);
-    assert!(
-        desk.shows("/:") && desk.app.prompts.is_empty(),
-        "a title is of any letters\n{}",
-        desk.screen()
-    );
+    desk.assert_at("a title is of any letters", desk.shows("/:") && desk.app.prompts.is_empty());
 }
 
 #[test]
 fn the_notes_open_from_every_pane() {
     for pane in ["1", "2", "3", "4", "5"] {
         let mut desk = Desk::new(LARGE);
-        assert!(
-            desk.keys(&["Esc", pane, "n"]).shows("Outcome, limits, notes"),
-            "{pane}\n{}",
-            desk.screen()
-        );
+        desk.keys(&["Esc", pane, "n"]).assert_shows("Outcome, limits, notes");
     }
 }
 
@@ -126,7 +106,7 @@ fn chart_and_teeth_copy_the_reading_at_the_cursor() {
     for pane in ["3", "4"] {
         let mut desk = Desk::new(LARGE);
         desk.keys(&["Esc", pane, "y"]);
-        assert!(desk.shows("no value to copy") && desk.copied.is_none(), "{}", desk.screen());
+        desk.assert(desk.shows("no value to copy") && desk.copied.is_none());
         desk.keys(&["l", "y"]);
         let copied = desk.copied.clone().unwrap_or_default();
         assert!(
@@ -134,7 +114,7 @@ fn chart_and_teeth_copy_the_reading_at_the_cursor() {
                 && copied.contains("F_S 2191.0 N"),
             "{copied}"
         );
-        assert!(desk.shows("copied 1.3663 deg of the driver before E"), "{}", desk.screen());
+        desk.assert_shows("copied 1.3663 deg of the driver before E");
     }
 }
 
@@ -198,11 +178,7 @@ fn an_invalid_form_is_never_marked_as_saved() {
     ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         desk.fill("operation.speed", "fast").keys(keys);
-        assert!(
-            desk.shows("not saved: fix") && desk.shows("*unsaved*"),
-            "{keys:?}\n{}",
-            desk.screen()
-        );
+        desk.assert_at(keys, desk.shows("not saved: fix") && desk.shows("*unsaved*"));
         assert!(
             desk.app.tab.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit,
             "{keys:?}"
@@ -219,11 +195,7 @@ fn an_invalid_form_is_never_marked_as_saved() {
     desk.keys(&["Ctrl-O", "Ctrl-U", name(&other), "Enter"])
         .fill("operation.speed", "fast")
         .keys(&["Ctrl-Q", "s"]);
-    assert!(
-        !desk.has_quit && desk.shows("not saved: fix") && desk.shows("[2 other.toml*]"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(!desk.has_quit && desk.shows("not saved: fix") && desk.shows("[2 other.toml*]"));
     assert!(desk.read("case.toml").contains("1500 rpm") && desk.read("other.toml") == TABLE_1);
 }
 
@@ -340,10 +312,8 @@ fn edits_are_not_lost_unasked() {
 fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_the_second_time() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Ctrl-C"]);
-    assert!(
+    desk.assert(
         !desk.has_quit && desk.app.prompts.is_empty() && desk.shows("Ctrl-C again to quit"),
-        "{}",
-        desk.screen()
     );
     desk.keys(&["Down", "Ctrl-C"]);
     assert!(!desk.has_quit, "another key between them");
@@ -427,7 +397,7 @@ fn every_field_can_be_reached_and_every_line_of_the_results() {
     }
     assert!(!desk.shows(" κ "));
     desk.keys(&["F4"; 13]);
-    assert!(desk.shows(" κ "), "{}", desk.screen());
+    desk.assert_shows(" κ ");
 }
 
 #[test]
@@ -472,14 +442,14 @@ fn the_first_digit_is_announced_with_the_keys_that_restore_the_value() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::new(size);
         let before = desk.app.tab.case.clone();
-        assert!(desk.shows("Esc 2 Results"), "{}", desk.screen());
+        desk.assert_shows("Esc 2 Results");
         desk.keys(&["2"]);
         let announced = "module: 2 replaces 5 mm. Ctrl-Z restores 5 mm; Esc 2 shows Results";
-        assert!(desk.shows(announced), "{}", desk.screen());
+        desk.assert_shows(announced);
         desk.keys(&["Ctrl-Z"]);
         assert_eq!(desk.app.tab.case, before);
         desk.keys(&["Esc", "2"]);
-        assert!(desk.shows("▸ 2 Results"), "{}", desk.screen());
+        desk.assert_shows("▸ 2 Results");
         assert_eq!(desk.app.tab.case, before);
     }
 }
@@ -515,31 +485,27 @@ fn keys_of_hints_work_from_a_field_also_while_work_runs() {
             desk.keys(&["Esc", "5"]).effects("m");
             desk.keys(&["1", "Enter"]);
         }
-        assert!(desk.shows("notes (Esc n)"), "{}", desk.screen());
+        desk.assert_shows("notes (Esc n)");
         desk.keys(&["Esc"]);
-        assert!(desk.shows("notes (n)"), "{}", desk.screen());
+        desk.assert_shows("notes (n)");
         desk.keys(&["n"]);
-        assert!(desk.shows("Outcome, limits, notes"), "{}", desk.screen());
+        desk.assert_shows("Outcome, limits, notes");
         assert_eq!(desk.app.tab.case, before);
     }
     let mut desk = Desk::new(SMALL);
     desk.keys(&["F5", "F5"]);
-    assert!(desk.shows("No benchmark yet: Esc 5 m"), "{}", desk.screen());
+    desk.assert_shows("No benchmark yet: Esc 5 m");
     desk.keys(&["Esc"]);
-    assert!(desk.shows("No benchmark yet: 5 m"), "{}", desk.screen());
+    desk.assert_shows("No benchmark yet: 5 m");
     desk.keys(&["5"]);
-    assert!(desk.shows("No benchmark yet: m runs"), "{}", desk.screen());
+    desk.assert_shows("No benchmark yet: m runs");
 }
 
 #[test]
 fn a_choice_field_names_the_way_to_a_pane() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("model.method").keys(&["3"]);
-    assert!(
-        desk.shows("no choice begins with 3. Esc leaves the field; then 3 shows Chart"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert_shows("no choice begins with 3. Esc leaves the field; then 3 shows Chart");
 }
 
 #[test]
@@ -551,7 +517,7 @@ fn an_unbound_key_is_reported() {
     ] {
         let mut desk = Desk::new(SMALL);
         desk.keys(&["Esc", pane, letter]);
-        assert!(desk.shows(expected), "{}", desk.screen());
+        desk.assert_shows(expected);
     }
 }
 
@@ -559,34 +525,26 @@ fn an_unbound_key_is_reported() {
 fn undo_reports_the_reverted_edit() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u"]);
-    assert!(desk.shows("undo: driven tip relief: 48 um -> 0 um"), "{}", desk.screen());
+    desk.assert_shows("undo: driven tip relief: 48 um -> 0 um");
     desk.keys(&["Ctrl-R"]);
-    assert!(desk.shows("redo: driven tip relief: 0 um -> 48 um"), "{}", desk.screen());
+    desk.assert_shows("redo: driven tip relief: 0 um -> 48 um");
     desk.keys(&["Alt-G", "18crnimo", "Enter", "u"]);
-    assert!(
-        desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "));
     desk.keys(&["u", "Esc", "2", "Down", "Alt-L", "Esc", "u"]);
-    assert!(desk.shows("undo: limit of "), "{}", desk.screen());
+    desk.assert_shows("undo: limit of ");
 }
 
 #[test]
 fn the_baseline_gets_the_name_of_its_saved_file() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "Alt-B"]);
-    assert!(desk.shows("for this session") && desk.shows("against built-in"), "{}", desk.screen());
+    desk.assert(desk.shows("for this session") && desk.shows("against built-in"));
     let path = desk.path("whine.toml");
     desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
-    assert!(desk.shows("against whine.toml"), "{}", desk.screen());
+    desk.assert_shows("against whine.toml");
     let path = desk.path("quiet.toml");
     desk.fill("driven.tip_relief", "48").keys(&["F2", "Ctrl-U", name(&path), "Enter", "Esc"]);
-    assert!(
-        desk.app.tab.short_name() == "quiet.toml" && desk.shows("against whine.toml"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.app.tab.short_name() == "quiet.toml" && desk.shows("against whine.toml"));
 }
 
 #[test]
@@ -599,11 +557,7 @@ fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
         name(&path),
         "Enter",
     ]);
-    assert!(
-        desk.app.tab.short_name() == "quiet.toml" && desk.shows("against built-in"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.app.tab.short_name() == "quiet.toml" && desk.shows("against built-in"));
 }
 
 #[test]

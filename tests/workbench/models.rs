@@ -12,12 +12,12 @@ fn a_model_opens_as_a_case_that_is_saved_beside_it() {
     let path = desk.write("gears.rexs", MODEL);
     let other = desk.write("other.rexs", &MODEL.replace("Stirnradstufe", "Another"));
     desk.perform(Effect::Load(path.clone()));
-    assert!(desk.shows("gears.toml") && desk.shows("3 mm"), "{}", desk.screen());
+    desk.assert(desk.shows("gears.toml") && desk.shows("3 mm"));
     desk.perform(Effect::Load(other));
-    assert!(desk.shows("other.toml"), "{}", desk.screen());
+    desk.assert_shows("other.toml");
     desk.perform(Effect::Load(path));
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.read("gears.toml").contains("speed = \"1500 rpm\""), "{}", desk.screen());
+    desk.assert(desk.read("gears.toml").contains("speed = \"1500 rpm\""));
     assert_eq!(desk.read("gears.rexs"), MODEL);
 }
 
@@ -29,7 +29,7 @@ fn a_model_by_another_path_is_saved_by_the_session_that_opened_it() {
     std::fs::create_dir(desk.path("sub")).unwrap();
     desk.perform(Effect::Load(desk.path("sub/../gears.rexs")));
     desk.keys(&["Ctrl-S"]);
-    assert!(desk.shows("saved"), "{}", desk.screen());
+    desk.assert_shows("saved");
     assert!(desk.read("gears.toml").contains("module = \"3 mm\""));
 }
 
@@ -38,6 +38,6 @@ fn a_model_without_a_spur_stage_is_refused_by_the_names_of_its_stages() {
     let mut desk = Desk::new(SMALL);
     let path = desk.write("m.rexs", &MODEL.replace("\"cylindrical_stage\"", "\"bevel_stage\""));
     desk.perform(Effect::Load(path));
-    assert!(desk.shows("m.rexs cannot be opened"), "{}", desk.screen());
-    assert!(desk.shows("is a bevel stage"), "{}", desk.screen());
+    desk.assert_shows("m.rexs cannot be opened");
+    desk.assert_shows("is a bevel stage");
 }

@@ -14,20 +14,18 @@ fn last_valid_results_show_their_reason_and_the_key_that_goes_there() {
         let mut desk = Desk::new(size);
         desk.fill("pair.module", "2 mm").keys(&["Down", "Down"]);
         let shown = desk.screen().replace('\n', " ");
-        assert!(
+        desk.assert(
             shown.contains("! rh1 bore radius")
                 && shown.contains("1 more")
                 && shown.contains("Alt-E"),
-            "{}",
-            desk.screen()
         );
         desk.keys(&["Alt-E"]);
         assert_eq!(desk.app.tab.case.text(desk.app.tab.form.focus), Some("20 mm"));
-        assert!(desk.shows("rh1 driver bore radius, "), "{}", desk.screen());
+        desk.assert_shows("rh1 driver bore radius, ");
         desk.keys(&["Alt-E"]);
-        assert!(desk.shows("rh2 driven bore radius, "), "{}", desk.screen());
+        desk.assert_shows("rh2 driven bore radius, ");
         desk.fill("pair.module", "5 mm").keys(&["Alt-E"]);
-        assert!(desk.shows("no field has an error") && !desk.shows("! rh"), "{}", desk.screen());
+        desk.assert(desk.shows("no field has an error") && !desk.shows("! rh"));
     }
 }
 
@@ -39,9 +37,9 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     assert_eq!(marked(&desk), Some("base_pitch"));
     let is_in_sight = |desk: &Desk| desk.shows("▸p_b ");
     desk.keys(&["j", "k", "Ctrl-T"]);
-    assert!(marked(&desk) == Some("base_pitch") && is_in_sight(&desk), "{}", desk.screen());
+    desk.assert(marked(&desk) == Some("base_pitch") && is_in_sight(&desk));
     desk.keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(marked(&desk) == Some("base_pitch") && is_in_sight(&desk), "{}", desk.screen());
+    desk.assert(marked(&desk) == Some("base_pitch") && is_in_sight(&desk));
     // A removed quantity is selected again when it returns.
     desk.keys(&["Ctrl-T"]).fill("operation.friction_coefficient", "0.1");
     let listed = desk.app.results().listed();
@@ -85,7 +83,7 @@ fn the_baseline_is_drawn_by_the_method_in_force() {
         shown(&desk)
     );
     desk.keys(&["Ctrl-T", "Ctrl-T", "3", "Home"]);
-    assert!(desk.shows("baseline (exact)"), "{}", desk.screen());
+    desk.assert_shows("baseline (exact)");
 }
 
 #[test]
@@ -93,9 +91,9 @@ fn the_mark_of_a_change_follows_the_unit_after_a_space() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::new(size);
         desk.fill("operation.speed", "1900 rpm");
-        assert!(desk.shows("2081.0 N ←"), "{}", desk.screen());
+        desk.assert_shows("2081.0 N ←");
         desk.keys(&["Esc", ":", "ascii", "Enter"]);
-        assert!(desk.shows("2081.0 N <"), "{}", desk.screen());
+        desk.assert_shows("2081.0 N <");
     }
 }
 
@@ -105,12 +103,10 @@ fn no_mark_touches_a_unit_and_no_name_is_cut_where_there_is_room() {
     let mut desk = Desk::on(size, "case.toml", TABLE_1);
     desk.keys(&["Esc", "b"]).fill("operation.speed", "1900 rpm");
     desk.keys(&["Esc"]);
-    assert!(desk.shows(" um mm/N ←"), "{}", desk.screen());
+    desk.assert_shows(" um mm/N ←");
     desk.keys(&["Esc", "b", "Ctrl-T", "Ctrl-T", "2", "z"]);
-    assert!(
+    desk.assert(
         desk.shows("m x'' + ΣF = F0") && !desk.shows("ΣF…") && !desk.shows("no contact b…"),
-        "{}",
-        desk.screen()
     );
 }
 
@@ -118,20 +114,16 @@ fn no_mark_touches_a_unit_and_no_name_is_cut_where_there_is_room() {
 fn the_angle_of_the_verdict_has_the_symbol_of_its_row_in_ascii_too() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "ascii", "Enter", "Ctrl-T", "Ctrl-T"]);
-    assert!(
-        desk.shows("Corner contact: theta_d = 1.279 deg") && desk.shows(" theta_d  "),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("Corner contact: theta_d = 1.279 deg") && desk.shows(" theta_d  "));
 }
 
 #[test]
 fn the_closed_forms_beside_another_method_are_named_free_impact() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", "2", "z"]);
-    assert!(!desk.shows("free"), "{}", desk.screen());
+    desk.assert(!desk.shows("free"));
     desk.keys(&["Ctrl-T", "G"]);
-    assert!(desk.shows(" free: "), "{}", desk.screen());
+    desk.assert_shows(" free: ");
 }
 
 #[test]
@@ -139,11 +131,11 @@ fn the_verdict_in_motion_has_the_overall_peak_at_every_size() {
     for (size, words) in [(TINY, "2003.0 N"), (SMALL, "2003.0 N overall."), (LARGE, "2003.0 N")] {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Ctrl-T", "Ctrl-T"]);
-        assert!(desk.shows(words), "{}", desk.screen());
+        desk.assert_shows(words);
         let is_unit_alone = |line: &str| {
             ["N", "um", "deg"].contains(&line.split('│').nth(1).unwrap_or_default().trim())
         };
-        assert!(!desk.screen().lines().any(is_unit_alone), "{}", desk.screen());
+        desk.assert(!desk.screen().lines().any(is_unit_alone));
     }
 }
 
@@ -152,7 +144,7 @@ fn values_have_their_units_on_the_smallest_screen() {
     let mut desk = Desk::new(TINY);
     assert!(desk.shows("(no backlash)"), "the value has the room: {}", desk.screen());
     desk.keys(&["Alt-B"]).fill("operation.speed", "1900 rpm");
-    assert!(desk.shows("2081.0 N ←") && desk.shows("▸exact"), "{}", desk.screen());
+    desk.assert(desk.shows("2081.0 N ←") && desk.shows("▸exact"));
 }
 
 #[test]
@@ -161,9 +153,9 @@ fn a_limit_with_a_long_name_keeps_symbol_value_and_verdict() {
     let mut desk =
         Desk::on(SMALL, "case.toml", &text.replace("method = \"exact\"", "method = \"dynamic\""));
     desk.keys(&["Esc", "1", "G"]);
-    assert!(desk.shows("▸ F_d,max dynamic: p") && desk.shows(" 2500 N"), "{}", desk.screen());
+    desk.assert(desk.shows("▸ F_d,max dynamic: p") && desk.shows(" 2500 N"));
     desk.act(Action::Resize(Size::new(70, 24)));
-    assert!(desk.shows("▸ F_d,max dyna") && desk.shows(" 80 %"), "{}", desk.screen());
+    desk.assert(desk.shows("▸ F_d,max dyna") && desk.shows(" 80 %"));
 }
 
 #[test]
@@ -171,11 +163,7 @@ fn rounding_errors_of_zero_are_zero_in_the_teeth() {
     let mut desk = Desk::new(LARGE);
     for _ in 0..3 {
         desk.keys(&["Esc", "4", "End"]);
-        assert!(
-            desk.shows("S 0 um") && desk.shows("ΔV_n 0 m/s") && !desk.shows("e-1"),
-            "{}",
-            desk.screen()
-        );
+        desk.assert(desk.shows("S 0 um") && desk.shows("ΔV_n 0 m/s") && !desk.shows("e-1"));
         desk.keys(&["Ctrl-T"]);
     }
 }
@@ -201,38 +189,32 @@ fn a_limit_that_is_not_met_is_in_the_verdict_and_every_limit_is_on_the_page() {
     let strict = TABLE_1.replace("\"2500 N\"", "\"1 kN\"");
     for size in [TINY, SMALL, LARGE] {
         let mut desk = Desk::on(size, "case.toml", &strict);
-        assert!(desk.shows("! F_S 2191.0 N > 1 kN"), "{}", desk.screen());
+        desk.assert_shows("! F_S 2191.0 N > 1 kN");
         desk.keys(&["Esc", "n"]);
-        assert!(desk.shows("Limit EXCEEDED: impact_force"), "{}", desk.screen());
+        desk.assert_shows("Limit EXCEEDED: impact_force");
         let desk = Desk::on(size, "case.toml", TABLE_1);
-        assert!(!desk.shows(" > 2500 N"), "{}", desk.screen());
+        desk.assert(!desk.shows(" > 2500 N"));
     }
     // The limit of the free impact is met, and the impact of the method exceeds it.
     let free = include_str!("../../cases/hydro-speed-up.toml");
     let dynamic = free.replace("method = \"exact\"", "method = \"dynamic\"");
     let mut desk = Desk::on(SMALL, "case.toml", &dynamic);
-    assert!(desk.shows("! F_d,DE 4405.8 N > 4 kN"), "{}", desk.screen());
+    desk.assert_shows("! F_d,DE 4405.8 N > 4 kN");
     desk.keys(&["Esc", "n"]);
-    assert!(
-        desk.shows("! Limit ok: impact_force") && desk.shows("Limit ok: normal_velocity"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("! Limit ok: impact_force") && desk.shows("Limit ok: normal_velocity"));
 }
 
 #[test]
 fn the_page_of_a_refused_case_begins_with_the_reason_and_alt_e_goes_to_the_field() {
     let mut desk = Desk::new(SMALL);
     desk.fill("pair.centre_distance", "5 mm").keys(&["Down"]);
-    assert!(desk.shows("!*a "), "{}", desk.screen());
+    desk.assert_shows("!*a ");
     desk.keys(&["Alt-E"]);
-    assert!(desk.shows("a centre distance, "), "{}", desk.screen());
+    desk.assert_shows("a centre distance, ");
     desk.keys(&["Esc", "n"]);
-    assert!(
+    desk.assert(
         desk.shows("│ ! Not solved: the centre distance jams the mesh")
             && desk.shows("│ LAST VALID: Corner contact"),
-        "{}",
-        desk.screen()
     );
 }
 
@@ -240,8 +222,8 @@ fn the_page_of_a_refused_case_begins_with_the_reason_and_alt_e_goes_to_the_field
 fn the_page_of_the_outcome_follows_later_results() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "n"]);
-    assert!(desk.shows("│ Note: "), "{}", desk.screen());
+    desk.assert_shows("│ Note: ");
     let answer = desk.app.tab.answer.clone().expect("an answer");
     desk.act(Action::Solved(Box::new(Answer { notes: Vec::new(), ..answer })));
-    assert!(desk.shows("│ Corner contact") && !desk.shows("│ Note: "), "{}", desk.screen());
+    desk.assert(desk.shows("│ Corner contact") && !desk.shows("│ Note: "));
 }

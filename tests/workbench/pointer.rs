@@ -37,22 +37,22 @@ fn a_first_click_selects_a_line_of_a_list_and_a_second_accepts_it() {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Ctrl-P", "m"]);
         press(&mut desk, "marker ");
-        assert!(desk.shows("▸ marker"), "{}", desk.screen());
+        desk.assert_shows("▸ marker");
         press(&mut desk, "marker ");
-        assert!(desk.shows("chart in halfblock"), "{}", desk.screen());
+        desk.assert_shows("chart in halfblock");
         desk.keys(&["Alt-G"]);
         press(&mut desk, "18CrNiMo7-6");
         press(&mut desk, "18CrNiMo7-6");
-        assert!(desk.app.prompts.is_empty() && desk.shows("from 18CrNiMo7-6"), "{}", desk.screen());
+        desk.assert(desk.app.prompts.is_empty() && desk.shows("from 18CrNiMo7-6"));
         desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
         desk.recents = vec![desk.path("other.toml")];
         desk.keys(&["Ctrl-O"]);
         press(&mut desk, "other.toml  in");
-        assert!(desk.shows("▸ other.toml  in"), "{}", desk.screen());
+        desk.assert_shows("▸ other.toml  in");
         press(&mut desk, "   other.toml ");
-        assert!(desk.shows("│ ▸ other.toml "), "{}", desk.screen());
+        desk.assert_shows("│ ▸ other.toml ");
         press(&mut desk, "▸ other.toml ");
-        assert!(desk.shows("opened "), "{}", desk.screen());
+        desk.assert_shows("opened ");
     }
 }
 
@@ -61,9 +61,9 @@ fn a_button_and_the_name_of_a_case_are_pressed() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.keys(&["Ctrl-N", "7"]);
     press(&mut desk, "1 case.toml");
-    assert!(desk.shows("[1 case.toml]"), "{}", desk.screen());
+    desk.assert_shows("[1 case.toml]");
     press(&mut desk, "2 new case");
-    assert!(desk.shows("[2 new case*]"), "{}", desk.screen());
+    desk.assert_shows("[2 new case*]");
     for (button, leaves) in [("Cancel", false), ("Discard", true)] {
         desk.keys(&["Ctrl-Q"]);
         press(&mut desk, button);
@@ -78,16 +78,12 @@ fn a_button_and_the_name_of_a_case_are_pressed() {
 fn a_first_click_focuses_a_field_and_a_second_edits_it() {
     let mut desk = Desk::new(LARGE);
     press(&mut desk, "number of teeth");
-    assert!(desk.shows("▸ z1") && !desk.app.has_line(), "{}", desk.screen());
+    desk.assert(desk.shows("▸ z1") && !desk.app.has_line());
     press(&mut desk, "number of teeth");
     desk.type_in("25");
-    assert!(desk.shows("number of teeth      25"), "{}", desk.screen());
+    desk.assert_shows("number of teeth      25");
     press(&mut desk, "impact duration");
-    assert!(desk.shows("▸T_S"), "{}", desk.screen());
+    desk.assert_shows("▸T_S");
     press(&mut desk, "impact duration");
-    assert!(
-        desk.shows("impact duration, by the method, T_S") || !desk.app.prompts.is_empty(),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("impact duration, by the method, T_S") || !desk.app.prompts.is_empty());
 }

@@ -133,10 +133,9 @@ fn a_typed_name_replaces_the_suggested_one() {
     ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         desk.keys(&["F2"]).keys(keys).keys(&["Enter"]);
-        assert!(
+        desk.assert_at(
+            format!("{keys:?} {file}"),
             desk.path(file).is_file() && desk.shows("saved "),
-            "{keys:?} {file}\n{}",
-            desk.screen()
         );
     }
 }
@@ -146,7 +145,7 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
     desk.keys(&["F2", "other", "Enter"]);
-    assert!(desk.shows("speed: 900 rpm in the file, 2000 rpm in the form"), "{}", desk.screen());
+    desk.assert_shows("speed: 900 rpm in the file, 2000 rpm in the form");
     desk.keys(&["Esc", "Ctrl-U", harness::name(&desk.path("case.toml")), "Enter"]);
     assert!(desk.shows("saved "), "its own file is not asked about: {}", desk.screen());
 }
@@ -155,11 +154,7 @@ fn the_dialog_names_the_file_that_a_save_would_replace() {
 fn typing_replaces_a_refused_angle() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "a", "0,5", "Enter"]);
-    assert!(desk.shows("write 0.5, not 0,5"), "{}", desk.screen());
+    desk.assert_shows("write 0.5, not 0,5");
     desk.keys(&["0.5", "Enter"]);
-    assert!(
-        desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"));
 }

@@ -46,10 +46,9 @@ fn each_step_of_the_walk_shows_its_sentences() {
         desk.keys(keys);
         assert!(!says.is_empty(), "{keys:?}");
         for says in says {
-            assert!(
+            desk.assert_at(
+                format!("{keys:?} must show {says:?}:"),
                 desk.screen().replace("DIR/", "").contains(says),
-                "{keys:?} must show {says:?}:\n{}",
-                desk.screen()
             );
         }
     }

@@ -21,7 +21,7 @@ fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
         "{amounts:?}"
     );
     assert!(text(&desk, "driven.tip_relief_length").ends_with(" mm"));
-    assert!(desk.shows("Ctrl-Z undoes"), "{}", desk.screen());
+    desk.assert_shows("Ctrl-Z undoes");
     desk.keys(&["Ctrl-Z"]);
     assert!(!desk.app.tab.is_unsaved(), "one edit");
 }
@@ -30,13 +30,13 @@ fn the_relief_to_specify_is_written_into_the_case_as_one_edit() {
 fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "relief", "Enter"]);
-    assert!(desk.shows("for 25 to 110 %"), "{}", desk.screen());
+    desk.assert_shows("for 25 to 110 %");
     desk.keys(&["Ctrl-U", "110..25 %", "Enter"]);
-    assert!(desk.shows("! the range is reversed: write a range"), "{}", desk.screen());
+    desk.assert_shows("! the range is reversed: write a range");
     desk.keys(&["Ctrl-U", "50..100 %, 2 um"]);
-    assert!(desk.shows("Enter searches again"), "{}", desk.screen());
+    desk.assert_shows("Enter searches again");
     desk.keys(&["Enter"]);
-    assert!(desk.shows("for 50 to 100 %") && desk.shows("tolerance 2 um"), "{}", desk.screen());
+    desk.assert(desk.shows("for 50 to 100 %") && desk.shows("tolerance 2 um"));
     desk.keys(&["PageDown", "Down", "Esc"]);
     assert!(!desk.app.tab.is_unsaved() && desk.app.prompts.is_empty());
 }
@@ -45,7 +45,7 @@ fn a_typed_demand_starts_a_search_and_an_invalid_one_gets_a_reason() {
 fn on_a_narrow_screen_sentences_are_wrapped_and_the_last_row_is_reached() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.keys(&["Esc", ":", "relief", "Enter"]);
-    assert!(desk.shows("because method exact does not share the load"), "{}", desk.screen());
+    desk.assert_shows("because method exact does not share the load");
     assert!(!desk.shows("corner contact at the greatest load, *"));
     desk.keys(&["PageDown"; 6]);
     let end = desk.screen();

@@ -50,11 +50,11 @@ fn a_pane_alone_leaves_no_other_in_sight() {
     for size in [TINY, SMALL, LARGE] {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.keys(&["Esc", "2", "z"]);
-        assert!(desk.shows("Corner contact: "), "{}", desk.screen());
-        assert!(!desk.shows("number of te"), "{}", desk.screen());
+        desk.assert_shows("Corner contact: ");
+        desk.assert(!desk.shows("number of te"));
         desk.keys(&["1"]);
-        assert!(desk.shows("number of teeth"), "{}", desk.screen());
-        assert!(!desk.shows("Corner contact: "), "{}", desk.screen());
+        desk.assert_shows("number of teeth");
+        desk.assert(!desk.shows("Corner contact: "));
         desk.keys(&["z"]);
         assert!(desk.shows("number of te") && desk.shows("orner contact: "));
     }
@@ -65,7 +65,7 @@ fn no_title_is_cut_for_names_that_have_no_room() {
     for keys in [&[][..], &["Esc"]] {
         let mut desk = Desk::on(TINY, "case.toml", TABLE_1);
         desk.keys(keys);
-        assert!(desk.shows("2 Results 1"), "{}", desk.screen());
+        desk.assert_shows("2 Results 1");
     }
 }
 
@@ -79,7 +79,7 @@ fn a_small_screen_keeps_four_quantities_in_sight_and_counts_the_hidden_lines() {
         }
     }
     let mut desk = hydro(SMALL, "static");
-    assert!(desk.shows("more notes (Esc n)"), "{}", desk.screen());
+    desk.assert_shows("more notes (Esc n)");
     desk.keys(&["Esc", "n"]);
     assert!(desk.shows("Free impact with other stiffness models"));
 }
@@ -104,7 +104,7 @@ fn a_map_fills_its_pane_and_has_a_legend_on_a_small_screen() {
         let mut desk = Desk::on(size, "case.toml", TABLE_1);
         desk.go_to("driven.tip_relief");
         desk.keys(&["Esc", "6", "s", "operation.speed", "Enter"]);
-        assert!(desk.shows("+ limit 2500"), "{}", desk.screen());
+        desk.assert_shows("+ limit 2500");
         let screen = desk.screen();
         let from = screen.find("6 Study").expect("the pane");
         let mut lines = screen[from..].lines();
@@ -119,18 +119,18 @@ fn a_map_fills_its_pane_and_has_a_legend_on_a_small_screen() {
 fn the_tolerance_shows_its_figures_first_and_how_to_scroll() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "d"]);
-    assert!(desk.shows("Tolerance 1 to "), "{}", desk.screen());
-    assert!(desk.shows("corner contact         100.00 %"), "{}", desk.screen());
-    assert!(desk.shows("j scroll  l next page"), "{}", desk.screen());
-    assert!(!desk.shows("narrower"), "{}", desk.screen());
+    desk.assert_shows("Tolerance 1 to ");
+    desk.assert_shows("corner contact         100.00 %");
+    desk.assert_shows("j scroll  l next page");
+    desk.assert(!desk.shows("narrower"));
     desk.keys(&["PageDown", "PageDown"]);
-    assert!(desk.shows(" | █"), "{}", desk.screen());
-    assert!(desk.shows("Tolerance 13 to "), "{}", desk.screen());
+    desk.assert_shows(" | █");
+    desk.assert_shows("Tolerance 13 to ");
     desk.keys(&["h", "h"]);
-    assert!(desk.shows("Tolerance 1 to "), "{}", desk.screen());
+    desk.assert_shows("Tolerance 1 to ");
     desk.keys(&["l"; 20]);
     let spread = "deviations.base_pitch  16 um";
-    assert!(desk.shows(spread), "{}", desk.screen());
+    desk.assert_shows(spread);
 }
 
 #[test]
@@ -138,8 +138,8 @@ fn with_inch_units_a_study_is_in_inches() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.go_to("pair.module");
     desk.keys(&["Esc", "6", ":", "units", "Enter"]);
-    assert!(desk.shows("over module in in"), "{}", desk.screen());
-    assert!(desk.shows("m = 0.19685 in:"), "{}", desk.screen());
+    desk.assert_shows("over module in in");
+    desk.assert_shows("m = 0.19685 in:");
     desk.keys(&["l", "Enter"]);
     let text = desk.app.tab.case.text(tipstrike::case::fields::index_of("pair.module").unwrap());
     assert!(text.is_some_and(|text| text.ends_with(" in")), "{text:?}");
@@ -173,7 +173,7 @@ fn the_values_under_the_teeth_keep_their_places_while_the_cursor_moves() {
         [" ΔV_n ", " ΔV_τ ", " open "].map(found)
     };
     let first = place(&desk);
-    assert!(first.iter().all(Option::is_some), "{}", desk.screen());
+    desk.assert(first.iter().all(Option::is_some));
     for _ in 0..25 {
         desk.keys(&["l"]);
         let rows = place(&desk).map(|place| place.map(|(row, _)| row));

@@ -39,7 +39,7 @@ fn the_focused_field_over_its_range() {
 #[test]
 fn a_gap_shows_where_no_tooth_strikes() {
     let desk = study(SMALL, "driven.tip_relief");
-    assert!(desk.shows("_ no contact"), "{}", desk.screen());
+    desk.assert_shows("_ no contact");
     let shown = desk.app.tab.study.shown.as_ref().expect("a study");
     let found = &shown.layers[0];
     assert!(found.values[0].is_some() && found.values[100].is_none());
@@ -50,8 +50,8 @@ fn a_gap_shows_where_no_tooth_strikes() {
 fn refused_points_are_counted_and_named() {
     let mut desk = study(SMALL, "driver.bore_radius");
     desk.keys(&["-", "-"]);
-    assert!(desk.shows("points refused:"), "{}", desk.screen());
-    assert!(desk.shows("! refused"), "{}", desk.screen());
+    desk.assert_shows("points refused:");
+    desk.assert_shows("! refused");
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
     };
     desk.fill("operation.power", "20 kW");
     assert_eq!(ends(&desk), ("operation.power", "10 kW".into(), "30 kW".into()));
-    assert!(desk.shows("+ baseline"), "{}", desk.screen());
+    desk.assert_shows("+ baseline");
     desk.keys(&["Esc", "6", "+"]);
     assert_eq!(ends(&desk).1, "15 kW");
     desk.keys(&["-", "-"]);
@@ -80,7 +80,7 @@ fn enter_uses_the_value_at_the_cursor_and_undo_reverts_it() {
     let mut desk = study(SMALL, "operation.speed");
     desk.keys(&["l", "l", "h", "Enter"]);
     assert_eq!(written(&desk, "operation.speed"), "2020 rpm");
-    assert!(desk.shows("speed = 2020 rpm; Ctrl-Z undoes"), "{}", desk.screen());
+    desk.assert_shows("speed = 2020 rpm; Ctrl-Z undoes");
     desk.keys(&["u"]);
     assert_eq!(written(&desk, "operation.speed"), "2000 rpm");
 }
@@ -90,7 +90,7 @@ fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
     for size in [SMALL, LARGE] {
         let mut desk = study(size, "driven.tip_relief");
         desk.keys(&["s", "operation.speed", "Enter"]);
-        assert!(desk.shows("+ limit 2500") && desk.shows("o edge of contact"), "{}", desk.screen());
+        desk.assert(desk.shows("+ limit 2500") && desk.shows("o edge of contact"));
         desk.keys(&["l", "k"]);
         if size == SMALL {
             assert_snapshot!("map_80x24", desk.screen());
@@ -101,7 +101,7 @@ fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
         assert_ne!(written(&desk, "driven.tip_relief"), "0 um");
         assert_eq!((cursor.0, desk.app.tab.study.cursor), (1, None));
         desk.keys(&["s"]);
-        assert!(!desk.shows("edge of contact"), "{}", desk.screen());
+        desk.assert(!desk.shows("edge of contact"));
     }
 }
 
@@ -109,11 +109,11 @@ fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
 fn the_tolerance_fills_its_page_and_needs_distributions() {
     let mut desk = study(SMALL, "operation.speed");
     desk.keys(&["d"]);
-    assert!(desk.shows("The case has no [spread]"), "{}", desk.screen());
+    desk.assert_shows("The case has no [spread]");
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "z", "d"]);
-    assert!(desk.shows("10000 samples"), "{}", desk.screen());
-    assert!(desk.shows("P50"), "{}", desk.screen());
+    desk.assert_shows("10000 samples");
+    desk.assert_shows("P50");
     let top = desk.screen();
     desk.keys(&["j", "j", "j"]);
     assert_ne!(desk.screen(), top);
@@ -132,10 +132,10 @@ fn escape_stops_the_study_and_its_results_stay() {
     let (number, work) = requested(desk.effects("d"), Slot::Study).expect("a study");
     let mut all = results(number, work).into_iter();
     desk.act(all.next().expect("a page"));
-    assert!(desk.shows("P50"), "{}", desk.screen());
+    desk.assert_shows("P50");
     assert!(desk.effects("Esc").iter().any(is_stop));
     all.for_each(|action| desk.act(action));
-    assert!(desk.shows("the study is stopped") && desk.shows("P50"), "{}", desk.screen());
+    desk.assert(desk.shows("the study is stopped") && desk.shows("P50"));
     assert!(requested(desk.effects("j"), Slot::Study).is_none());
 }
 
@@ -162,7 +162,7 @@ fn a_hidden_study_is_not_computed_and_a_late_result_is_ignored() {
 fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("driven.tip_relief", "48 um").keys(&["Esc", ":", "variant relieved", "Enter"]);
-    assert!(desk.shows("variant relieved now has 1 edit"), "{}", desk.screen());
+    desk.assert_shows("variant relieved now has 1 edit");
     assert_eq!(written(&desk, "driven.tip_relief"), "0 um");
     desk.keys(&["Ctrl-S"]);
     let saved = desk.read("case.toml");
@@ -171,7 +171,7 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     desk.keys(&[":", "variant relieved", "Enter"]);
     assert_eq!(written(&desk, "driven.tip_relief"), "48 um");
     desk.keys(&["u", ":", "variant other", "Enter"]);
-    assert!(desk.shows("no edits since the last save"), "{}", desk.screen());
+    desk.assert_shows("no edits since the last save");
 }
 
 #[test]
@@ -181,13 +181,9 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = Desk::on(size, "case.toml", &format!("{TABLE_1}{variants}"));
         desk.keys(&["Esc", "2", "v"]);
-        assert!(desk.shows("relieved") && desk.shows("-40.1 %"), "{}", desk.screen());
+        desk.assert(desk.shows("relieved") && desk.shows("-40.1 %"));
         assert_snapshot!(format!("variants_{name}"), desk.screen());
-        assert!(
-            !desk.shows("% N") && !desk.shows("um um") && desk.shows(", variants"),
-            "{}",
-            desk.screen()
-        );
+        desk.assert(!desk.shows("% N") && !desk.shows("um um") && desk.shows(", variants"));
         for _ in 0..3 {
             if desk.app.first_variant.is_some() {
                 desk.keys(&["v"]);
@@ -197,7 +193,7 @@ fn variants_are_shown_beside_the_case_with_their_differences() {
     }
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.keys(&["Esc", "2", "v"]);
-    assert!(desk.shows("the case has no variants"), "{}", desk.screen());
+    desk.assert_shows("the case has no variants");
 }
 
 #[test]
@@ -240,7 +236,7 @@ fn a_tolerance_that_fails_shows_the_reason() {
     shown.page.clear();
     shown.end = Some(End::Failed("the spread is too wide: narrow it".to_owned()));
     desk.keys(&["j"]);
-    assert!(!desk.shows("Sampling."), "{}", desk.screen());
+    desk.assert(!desk.shows("Sampling."));
     assert!(desk.shows("the spread is too wide: narrow it"));
 }
 
@@ -264,7 +260,7 @@ fn the_baseline_of_another_method_has_its_own_quantity() {
     desk.keys(&["Esc", "6", "b"]);
     desk.fill("operation.power", "20 kW").keys(&["Esc"]);
     desk.run("method dynamic");
-    assert!(desk.shows("+ baseline"), "{}", desk.screen());
+    desk.assert_shows("+ baseline");
 }
 
 #[test]
@@ -277,7 +273,7 @@ fn the_cursor_returns_to_the_present_value_on_other_axes_alone() {
     desk.keys(&["l", "l", "+"]);
     assert_eq!(desk.app.tab.study.cursor, None);
     desk.keys(&["Enter"]);
-    assert!(desk.shows("the cursor is at the present value"), "{}", desk.screen());
+    desk.assert_shows("the cursor is at the present value");
     assert_eq!(written(&desk, "operation.speed"), "2040 rpm");
     desk.keys(&["l"]);
     let cursor = desk.app.tab.study.cursor;
@@ -291,8 +287,8 @@ fn the_cursor_returns_to_the_present_value_on_other_axes_alone() {
 fn fields_that_exclude_each_other_make_no_map() {
     let mut desk = study(SMALL, "operation.power");
     desk.keys(&["s", "operation.torque", "Enter"]);
-    assert!(desk.shows("exclude each other"), "{}", desk.screen());
-    assert!(desk.shows("s in this pane leaves the map"), "{}", desk.screen());
+    desk.assert_shows("exclude each other");
+    desk.assert_shows("s in this pane leaves the map");
 }
 
 #[test]
@@ -335,15 +331,15 @@ fn variants_lost_to_another_tab_are_requested_again() {
 fn the_present_value_is_a_point_of_every_curve_and_map() {
     let mut desk = study(LARGE, "operation.speed");
     desk.fill("operation.speed", "2175 rpm").keys(&["Esc", "6"]);
-    assert!(desk.shows("n1 = 2175 rpm: exact"), "{}", desk.screen());
+    desk.assert_shows("n1 = 2175 rpm: exact");
     desk.keys(&["s", "damping", "Enter"]);
-    assert!(desk.shows("n1 = 2175 rpm, ζ = 0.07: "), "{}", desk.screen());
+    desk.assert_shows("n1 = 2175 rpm, ζ = 0.07: ");
     desk.keys(&["s"]);
     desk.go_to("pair.pressure_angle").keys(&["Esc", "6"]);
-    assert!(desk.shows("α = 20 deg: exact"), "{}", desk.screen());
+    desk.assert_shows("α = 20 deg: exact");
     // Without a centre distance the gears mesh without backlash.
     desk.go_to("pair.centre_distance").keys(&["Esc", "6"]);
-    assert!(desk.shows("a = 100 mm: exact"), "{}", desk.screen());
+    desk.assert_shows("a = 100 mm: exact");
 }
 
 #[test]
@@ -353,15 +349,11 @@ fn the_number_of_refused_points_is_that_of_the_marks() {
     let shown = desk.app.tab.study.shown.as_ref().expect("a study");
     let refused = shown.layers[0].values.iter().filter(|value| value.is_none());
     let count = refused.count();
-    assert!(
-        count > 1 && desk.shows(&format!(" {count} points refused")),
-        "{count}\n{}",
-        desk.screen()
-    );
+    desk.assert_at(count, count > 1 && desk.shows(&format!(" {count} points refused")));
 }
 
 #[test]
 fn both_ends_of_a_yes_or_no_field_have_their_name() {
     let desk = study(SMALL, "model.accurate");
-    assert!(desk.shows("false ") && desk.shows(" true"), "{}", desk.screen());
+    desk.assert(desk.shows("false ") && desk.shows(" true"));
 }

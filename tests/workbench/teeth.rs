@@ -231,20 +231,16 @@ fn keys_change_the_view_and_0_resets_it() {
     desk.keys(&["0"]);
     assert_eq!(desk.screen(), at_first);
     desk.keys(&["-"; 12]);
-    assert!(
-        desk.shows("the teeth pane shows the whole pair") && desk.shows("O1"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert(desk.shows("the teeth pane shows the whole pair") && desk.shows("O1"));
     desk.keys(&["+"; 40]);
-    assert!(desk.shows("closest zoom") && desk.shows("um "), "{}", desk.screen());
+    desk.assert(desk.shows("closest zoom") && desk.shows("um "));
 }
 
 #[test]
 fn a_run_starts_before_d_and_ends_at_e() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "4", "z", "Space"]);
-    assert!(desk.ticks && !desk.shows("open 0 um"), "{}", desk.screen());
+    desk.assert(desk.ticks && !desk.shows("open 0 um"));
     let mut screens = vec![desk.screen()];
     while desk.ticks {
         desk.act(Action::Tick);

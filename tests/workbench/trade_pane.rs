@@ -26,9 +26,9 @@ fn own(desk: &Desk) -> Setting {
 fn the_benchmark_runs_only_on_request() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    assert!(desk.shows("No benchmark yet: m runs"), "{}", desk.screen());
+    desk.assert_shows("No benchmark yet: m runs");
     desk.keys(&["Right", "Enter"]);
-    assert!(desk.shows("no benchmark yet: m runs it"), "{}", desk.screen());
+    desk.assert_shows("no benchmark yet: m runs it");
     assert!(desk.app.tab.traded.is_none());
 }
 
@@ -37,11 +37,7 @@ fn without_corner_contact_no_setting_is_recommended() {
     let case = include_str!("../../cases/tip-relief-enough.toml");
     let mut desk = Desk::on(LARGE, "case.toml", case);
     desk.keys(&["Esc", "5", "z", "m"]);
-    assert!(
-        desk.shows("No method finds corner contact: no setting is recommended"),
-        "{}",
-        desk.screen()
-    );
+    desk.assert_shows("No method finds corner contact: no setting is recommended");
     let traded = desk.app.tab.traded.as_ref().expect("a measurement");
     assert_eq!(traded.marked, None);
 }
@@ -51,8 +47,8 @@ fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
     let traded = desk.app.tab.traded.as_ref().expect("a measurement");
     assert_eq!(traded.marked.expect("a mark").method, Method::Dynamic);
-    assert!(desk.shows("Within 5.0 %: dynamic with"), "{}", desk.screen());
-    assert!(desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")), "{}", desk.screen());
+    desk.assert_shows("Within 5.0 %: dynamic with");
+    desk.assert(desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")));
     assert!(desk.shows("P") && desk.shows("1 ms") && !desk.app.is_busy(Slot::Benchmark));
 }
 
@@ -89,7 +85,7 @@ fn arrows_select_from_the_fastest_to_the_slowest() {
         assert!(seconds(&desk) >= last);
         last = seconds(&desk);
     }
-    assert!(desk.shows("not within 5.0 %"), "{}", desk.screen());
+    desk.assert_shows("not within 5.0 %");
 }
 
 #[test]
@@ -100,7 +96,7 @@ fn enter_uses_the_selected_setting_and_undo_reverts_it() {
     desk.keys(&["Enter"]);
     assert_eq!(own(&desk), marked);
     assert_eq!(desk.app.tab.answer.as_ref().unwrap().active, Method::Dynamic);
-    assert!(desk.shows(&format!("method {marked}; Ctrl-Z undoes")), "{}", desk.screen());
+    desk.assert_shows(&format!("method {marked}; Ctrl-Z undoes"));
     assert!(!desk.shows("OUTDATED"), "a setting makes no other case");
     desk.keys(&["u"]);
     assert_eq!(own(&desk), before);
@@ -112,9 +108,9 @@ fn another_case_makes_the_benchmark_outdated() {
     desk.keys(&["z"]);
     desk.fill("operation.speed", "1500 rpm");
     desk.keys(&["Esc", "5", "z"]);
-    assert!(desk.shows("OUTDATED, m runs it again"), "{}", desk.screen());
+    desk.assert_shows("OUTDATED, m runs it again");
     desk.keys(&["m"]);
-    assert!(!desk.shows("OUTDATED"), "{}", desk.screen());
+    desk.assert(!desk.shows("OUTDATED"));
 }
 
 /// The settings that are measured so far.
@@ -128,7 +124,7 @@ fn esc_stops_a_benchmark_and_keeps_its_results() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
     let (number, work) = requested(desk.effects("m"), Slot::Benchmark).expect("a benchmark");
-    assert!(desk.shows("0 % measuring; Esc cancels"), "{}", desk.screen());
+    desk.assert_shows("0 % measuring; Esc cancels");
     let mut all = results(number, work).into_iter();
     all.by_ref().take(4).for_each(|action| desk.act(action));
     assert_eq!(count(&desk), 3);
@@ -158,7 +154,7 @@ fn a_measurement_out_of_sight_stops() {
     desk.keys(&["Alt-T", "Esc", "5"]);
     desk.effects("m");
     desk.keys(&["Alt-W"]);
-    assert!(desk.has_cancelled && !desk.shows("measuring"), "{}", desk.screen());
+    desk.assert(desk.has_cancelled && !desk.shows("measuring"));
 }
 
 #[test]
@@ -170,7 +166,7 @@ fn the_results_of_a_replaced_benchmark_are_ignored_and_a_refusal_is_shown() {
     desk.take(results(number, work));
     assert!(count(&desk) == 0 && desk.shows("measuring"), "the second one runs");
     desk.fill("pair.centre_distance", "10 mm").keys(&["Esc", "5", "m"]);
-    assert!(desk.shows("no benchmark: ") && !desk.shows("measuring"), "{}", desk.screen());
+    desk.assert(desk.shows("no benchmark: ") && !desk.shows("measuring"));
 }
 
 #[test]
@@ -192,7 +188,7 @@ fn it_is_drawn_at_every_size() {
         }
     }
     desk.keys(&["Tab", "BackTab", "Right", "Left"]);
-    assert!(desk.shows("1 ms") || desk.shows("100 us"), "{}", desk.screen());
+    desk.assert(desk.shows("1 ms") || desk.shows("100 us"));
 }
 
 fn timed(size: Size) -> Desk {
@@ -219,11 +215,11 @@ fn v_shows_every_method_with_every_compliance_as_a_table() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = timed(size);
         desk.keys(&["v"]);
-        assert!(desk.shows("*kuang-yang logarithmic"), "{}", desk.screen());
-        assert!(desk.shows(" finite-element"), "{}", desk.screen());
+        desk.assert_shows("*kuang-yang logarithmic");
+        desk.assert_shows(" finite-element");
         assert_snapshot!(format!("table_{name}"), desk.screen());
         desk.keys(&["v"]);
-        assert!(desk.shows("└"), "{}", desk.screen());
+        desk.assert_shows("└");
     }
     let mut desk = timed(SMALL);
     desk.keys(&["v"]);

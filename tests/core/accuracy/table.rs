@@ -72,9 +72,7 @@ impl Table {
                 && row.inputs.driven.tip_radius.is_none()
         };
         for row in rows.iter().filter(plain) {
-            let Some(column) = DECADES.iter().position(|&of| of == decade(row)) else {
-                continue;
-            };
+            let Some(column) = DECADES.iter().position(|&of| of == decade(row)) else { continue };
             for (line, error) in errors_of(row).into_iter().flatten().enumerate() {
                 errors[line][column].extend(error);
             }
@@ -141,9 +139,7 @@ impl Table {
             assert_eq!(stored.quantity, made.quantity);
             for (stored, made) in stored.cells.iter().zip(&made.cells) {
                 assert_eq!(stored.is_some(), made.is_some(), "{name}");
-                let (Some(stored), Some(made)) = (stored, made) else {
-                    continue;
-                };
+                let (Some(stored), Some(made)) = (stored, made) else { continue };
                 for (stored, made) in
                     [(stored.median, made.median), (stored.greatest, made.greatest)]
                 {
@@ -181,9 +177,7 @@ fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
     ];
     let mut errors = [[None; 2]; 7];
     for ((errors, (_, key)), found) in errors.iter_mut().zip(QUANTITIES).zip(found).skip(1) {
-        let (Some(found), true) = (found, row.answers.contains_key(key)) else {
-            continue;
-        };
+        let (Some(found), true) = (found, row.answers.contains_key(key)) else { continue };
         let ours = (Quantity::find(key).expect("a quantity").value)(&solution).expect("a value");
         *errors = [Some(row.off(key, found)), Some(row.off(key, ours))];
     }
