@@ -13,6 +13,7 @@ pub mod deviation;
 pub mod dynamic;
 pub mod explanation;
 pub mod field;
+pub mod figures;
 pub mod geometry;
 pub mod impact;
 pub mod inputs;
@@ -42,6 +43,7 @@ pub use dynamic::Dynamic;
 pub use dynamic::speeds::SpeedCurve;
 pub use dynamic::steady::Steady;
 pub use explanation::Context;
+pub use figures::Figures;
 pub use geometry::Geometry;
 pub use impact::{Band, Friction, Impact};
 pub use inputs::Inputs;
@@ -61,6 +63,7 @@ use std::sync::Arc;
 
 use twofloat::TwoFloat;
 
+use figures::Hertz;
 use inputs::Method;
 use masses::Masses;
 
@@ -70,6 +73,7 @@ struct Kept {
     masses: Masses,
     /// The unrounded deviation.
     deviation: Deviation<TwoFloat>,
+    hertz: Hertz,
 }
 
 /// Whether the incoming tooth strikes.
@@ -119,6 +123,8 @@ pub struct Solution {
     pub deviation: Deviation,
     /// Intermediate results for the next solve.
     kept: Kept,
+    /// Figures of ISO 21771 and ISO 6336-1.
+    pub figures: Option<Figures>,
     /// The first contact of the tip with the flank.
     pub position: Option<Position>,
     /// Velocities at D.
@@ -174,6 +180,7 @@ impl Solution {
             reduced_mass: kept.masses.reduced(),
             deviation,
             kept,
+            figures: None,
             position: None,
             velocity: None,
             compliance: None,

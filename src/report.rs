@@ -227,7 +227,7 @@ pub struct Group {
 }
 
 /// Every group, in the order of a closed form.
-static GROUPS: [Group; 16] = [
+static GROUPS: [Group; 17] = [
     Group { title: "Geometry", stages: &[Stage::Geometry] },
     Group { title: "Load", stages: &[Stage::Load, Stage::Masses] },
     Group { title: "Deviation", stages: &[Stage::Deviation] },
@@ -237,6 +237,7 @@ static GROUPS: [Group; 16] = [
     Group { title: "Impact", stages: &[Stage::Compliance, Stage::Impact, Stage::Band] },
     Group { title: "Friction", stages: &[Stage::Friction] },
     Group { title: "From D to E", stages: &[Stage::Stations] },
+    Group { title: "Figures of ISO 21771 and ISO 6336-1", stages: &[Stage::Figures] },
     Group { title: "Mesh", stages: &[Stage::Mesh] },
     Group { title: "Load sharing", stages: &[Stage::Static] },
     Group { title: "Load sharing with inertia", stages: &[Stage::Dynamic] },

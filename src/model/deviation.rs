@@ -344,7 +344,17 @@ const MILLIMETRES: f64 = 1e3;
 /// # Source
 /// ISO 1328-1:2013, section 5.
 pub fn pitch_tolerance(class: u32, module: f64, diameter: f64) -> f64 {
-    let fifth = 0.001 * diameter * MILLIMETRES + 0.4 * module * MILLIMETRES + 5.0;
+    tolerance(class, 0.001 * diameter * MILLIMETRES + 0.4 * module * MILLIMETRES + 5.0)
+}
+
+/// Profile form tolerance f_fαT of a gear with the module m in m: (0.55 m + 5) 2^((A − 5)/2) in µm,
+/// with m in mm, rounded as f_pT. The result is in m (ISO 1328-1:2013, section 5).
+pub fn form_tolerance(class: u32, module: f64) -> f64 {
+    tolerance(class, 0.55 * module * MILLIMETRES + 5.0)
+}
+
+/// The tolerance of a class, in m, from that of class 5 in µm.
+fn tolerance(class: u32, fifth: f64) -> f64 {
     let exact = fifth * (0.5 * (f64::from(class) - 5.0)).exp2();
     let step = match exact {
         _ if exact > 10.0 => 1.0,

@@ -25,6 +25,8 @@ pub struct Impact {
     pub sliding_energy: f64,
     /// Hertz half-width at F_S, in m.
     pub hertz_half_width: f64,
+    /// Hertz pressure of the rounded tip edge at F_S, in Pa. `None` for a sharp edge.
+    pub corner_pressure: Option<f64>,
     /// Impact duration T_S of the method, in s.
     pub duration: f64,
     /// Impact duration by Eq. 32 as printed, in s.
@@ -78,13 +80,16 @@ pub fn impact(
     let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
     let is_printed = inputs.method == Method::Paper;
     let duration = if is_printed { duration_printed } else { duration_spring };
+    let half_width = spring.half_width(force);
+    let pressure = 2.0 * force / (PI * half_width * width);
     Ok(Impact {
         force,
         effective_mass,
         pair_compliance,
         energy: 0.5 * effective_mass * velocity.normal * velocity.normal,
         sliding_energy: 0.5 * effective_mass * velocity.sliding * velocity.sliding,
-        hertz_half_width: spring.half_width(force),
+        hertz_half_width: half_width,
+        corner_pressure: inputs.driven.tip_radius.map(|_| pressure),
         duration,
         duration_printed,
         duration_spring,

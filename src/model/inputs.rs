@@ -133,7 +133,8 @@ impl Method {
 
     /// The stages of the method.
     pub fn stages(self) -> Stages {
-        const IMPACT: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
+        const IMPACT: Stages =
+            Stages::CLOSED_FORM.with(Stage::Figures).with(Stage::Band).with(Stage::Clearing);
         const AT_REST: Stages = Stages::of(Stage::StaticSpectrum).with(Stage::Resonance);
         const STATIC: Stages = IMPACT.and(Stages::of(Stage::Static)).and(AT_REST);
         const DYNAMIC: Stages =

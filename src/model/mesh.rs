@@ -303,6 +303,15 @@ impl Mesh {
         (stiffness, gap - self.error_of(ahead))
     }
 
+    /// Greatest stiffness of one pair from E to B, in N/m.
+    pub fn single_stiffness(&self) -> f64 {
+        const PLACES: u32 = 32;
+        let stiffness = |s: f64| self.incoming(s).0.stiffness;
+        let place = |step| self.length * f64::from(step) / f64::from(PLACES);
+        let known: Vec<_> = (0..=PLACES).map(place).map(|s| (s, stiffness(s))).collect();
+        root::greatest(&known, stiffness).1
+    }
+
     /// Stiffness of the incoming pair just after E over its stiffness just before E.
     pub fn stiffness_step(&self) -> f64 {
         let beside = 1e-9 * self.base_pitch;

@@ -319,6 +319,19 @@ const ROWS: &[fn(&Context) -> Found] = &[
     |k| tip("driver", k, &k.inputs.driver, &k.solution.geometry.driver),
     |k| tip("driven gear", k, &k.inputs.driven, &k.solution.geometry.driven),
     form_circle,
+    |k| {
+        let [driver, driven] = k.solution.figures?.tip_clearance;
+        let (name, root, least) = match driver < driven {
+            true => ("driver", "driven gear", driver),
+            false => ("driven gear", "driver", driven),
+        };
+        let message = format!(
+            "the tip of the {name} runs into the root of the {root}: the tip clearance is {} mm and \
+                must be above 0",
+            milli(least)
+        );
+        (least <= 0.0).then_some(("no-tip-clearance", message))
+    },
 ];
 
 /// The normal backlash of a given centre distance, in m and over the module.
@@ -331,6 +344,9 @@ pub(super) fn backlash(k: &Context) -> Option<(f64, f64)> {
 /// Usual normal backlash over the module. A smaller backlash jams the teeth, a greater one opens the
 /// mesh.
 pub(super) const USUAL_BACKLASH: RangeInclusive<f64> = -1e-4..=0.1;
+
+/// Least thickness of a tip over the module.
+pub(super) const THIN_TIP: f64 = 0.2;
 
 /// Whether force and duration can belong to one impact.
 pub(super) fn is_possible(impulse_ratio: f64) -> bool {
@@ -356,9 +372,8 @@ fn undercut(name: &str, k: &Context, gear: &Gear) -> Found {
 
 /// The tip of a gear is pointed or thin.
 fn tip(name: &str, k: &Context, gear: &Gear, circles: &Circles) -> Found {
-    const THIN: f64 = 0.2;
     let thickness = Profile::of(&Rack::of(k.inputs, gear), circles).tip_thickness();
-    let (value, least) = (milli(thickness), THIN * k.inputs.module);
+    let (value, least) = (milli(thickness), THIN_TIP * k.inputs.module);
     if thickness <= 0.0 {
         let message = format!(
             "the {name}'s tip is pointed: its thickness would be {value} mm and must be above 0"

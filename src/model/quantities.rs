@@ -10,6 +10,7 @@ mod at_rest;
 mod checks;
 pub mod conditions;
 mod deviation;
+mod figures;
 mod friction;
 mod geometry;
 mod impact;
@@ -62,14 +63,25 @@ pub struct Quantity {
     pub variants: &'static [Variant],
     /// Whether the value can be negative.
     pub is_signed: bool,
-    /// Whether the quantity needs a friction coefficient.
-    pub needs_friction: bool,
-    /// Whether the quantity needs a backlash.
-    pub needs_backlash: bool,
+    /// What the case must give for the quantity.
+    pub needs: Need,
     /// The key of the result of `static` that corresponds to a quantity of the free impact.
     pub by_static: Option<&'static str>,
     /// The corresponding key for `dynamic`.
     pub by_dynamic: Option<&'static str>,
+}
+
+/// An input that is not required in a case but that a quantity needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Need {
+    /// None.
+    Nothing,
+    /// A friction coefficient.
+    Friction,
+    /// A backlash.
+    Backlash,
+    /// A tip radius.
+    TipRadius,
 }
 
 /// Default members of a row. A test requires all other members in each row.
@@ -91,8 +103,7 @@ const PLAIN: Quantity = Quantity {
     checks: &[],
     variants: &[],
     is_signed: false,
-    needs_friction: false,
-    needs_backlash: false,
+    needs: Need::Nothing,
     by_static: None,
     by_dynamic: None,
 };
@@ -202,8 +213,9 @@ const FREE_IMPACT: [Stage; 7] = [
 ];
 
 /// The rows by groups, in the order of the results.
-const GROUPS: [&[Quantity]; 8] = [
+const GROUPS: [&[Quantity]; 9] = [
     geometry::TABLE,
+    figures::TABLE,
     deviation::TABLE,
     position::TABLE,
     impact::TABLE,
@@ -241,6 +253,7 @@ pub static QUANTITIES: &[Quantity] = &{
 pub fn steps() -> impl Iterator<Item = &'static Step> {
     [
         geometry::STEPS,
+        figures::STEPS,
         deviation::STEPS,
         position::STEPS,
         impact::STEPS,

@@ -8,6 +8,7 @@ use super::deviation::{deflected, deviation};
 use super::dynamic::speeds::{SPEEDS, over_speed};
 use super::dynamic::steady::steady;
 use super::dynamic::{Settings, dynamic};
+use super::figures::{Figures, Hertz};
 use super::geometry::{geometry, mesh_force, precise};
 use super::inputs::{Inputs, Method};
 use super::masses::Masses;
@@ -108,6 +109,11 @@ pub(crate) fn solve_by_method(
     };
     let lazy = Lazy::default();
     let mut solution = run.begin(&lazy)?;
+    let figures = || {
+        let Solution { geometry, mesh_force, reduced_mass, .. } = &solution;
+        Ok(Figures::of(inputs, geometry, *mesh_force, *reduced_mass))
+    };
+    solution.figures = run.stage(Stage::Figures, |s| s.figures, figures)?;
     run.locate(&lazy, &mut solution)?;
     run.share(&mut solution)?;
     solution.clearing =
@@ -191,7 +197,8 @@ impl<'a> Run<'a> {
         let by_load = || deflected(inputs.method, &geometry, teeth, mesh_force);
         let deviation = || deviation(inputs, by_load);
         let deviation = self.result(Stage::Deviation, |s| Some(s.kept.deviation), deviation)?;
-        Ok(Solution::new(inputs.method, geometry, mesh_force, Kept { masses, deviation }))
+        let kept = Kept { masses, deviation, hertz: Hertz::of(inputs) };
+        Ok(Solution::new(inputs.method, geometry, mesh_force, kept))
     }
 
     /// D and all later stages of the impact.
@@ -488,6 +495,7 @@ impl Stage {
             Stage::Geometry => equal(cases, |i| (i.shape(), i.bores(), i.accurate)),
             Stage::Load => equal(cases, Inputs::torque),
             Stage::Masses => equal(cases, |i| (i.body(&i.driver), i.body(&i.driven))),
+            Stage::Figures => equal(cases, figured),
             // The load causes the deflection if the case does not give it.
             Stage::Deviation => {
                 equal(cases, given_deviations)
@@ -526,6 +534,15 @@ impl Stage {
             }
         }
     }
+}
+
+/// Inputs of the figures besides load and masses.
+fn figured(inputs: &Inputs) -> impl PartialEq + use<> {
+    let materials = [&inputs.driver, &inputs.driven].map(|gear| (gear.young, gear.poisson));
+    let classes = [&inputs.driver, &inputs.driven].map(|gear| inputs.class_of(gear));
+    let relief = [inputs.driven.tip_relief, inputs.driver.root_relief];
+    let width = inputs.common_width();
+    (inputs.shape(), inputs.speed, materials, classes, inputs.base_pitches(), relief, width)
 }
 
 /// Deviations, reliefs and deflection that the case gives. Only `paper` subtracts the backlash.

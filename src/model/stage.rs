@@ -1,8 +1,8 @@
 //! The stages of a solve in the order of the data flow, and sets of stages.
 
 use Stage::{
-    Band, Clearing, Compliance, Deviation, Dynamic, Friction, Geometry, Impact, Load, Masses, Mesh,
-    Position, Resonance, SpeedRun, Static, StaticSpectrum, SteadyMotion, Velocity,
+    Band, Clearing, Compliance, Deviation, Dynamic, Figures, Friction, Geometry, Impact, Load,
+    Masses, Mesh, Position, Resonance, SpeedRun, Static, StaticSpectrum, SteadyMotion, Velocity,
 };
 
 /// A stage of a solve.
@@ -15,6 +15,8 @@ pub enum Stage {
     Load,
     /// Masses of the gears at their base circles.
     Masses,
+    /// Figures of ISO 21771 and ISO 6336-1.
+    Figures,
     /// Deviation and deflection that make the tooth early.
     Deviation,
     /// First contact D of the tip on the flank.
@@ -51,10 +53,11 @@ pub enum Stage {
 
 /// Each stage with its name in a report and the stages whose results it or its quantities read, in
 /// order. Stages that the method does not have are ignored.
-const ROWS: [(Stage, &str, &[Stage]); 19] = [
+const ROWS: [(Stage, &str, &[Stage]); 20] = [
     (Geometry, "geometry", &[]),
     (Load, "load", &[Geometry]),
     (Masses, "masses", &[Geometry]),
+    (Figures, "figures", &[Geometry, Load, Masses]),
     (Deviation, "deviation", &[Geometry, Load]),
     (Position, "position", &[Geometry, Deviation]),
     (Velocity, "velocity", &[Geometry, Position]),
@@ -117,7 +120,7 @@ impl Stages {
     /// From geometry to friction: all results of one impact model at D.
     pub const CLOSED_FORM: Stages = Stages::of(Friction);
     /// Every stage of the methods `paper` and `exact` except the required relief.
-    pub const ALL: Stages = Stages::CLOSED_FORM.with(Band).with(Stage::Stations);
+    pub const ALL: Stages = Stages::CLOSED_FORM.with(Band).with(Stage::Stations).with(Figures);
     /// The stages that compute stations, in their methods.
     pub const STATIONS: Stages = Stages::of(Stage::Stations).and(Stages::of(Static)).with(Dynamic);
     /// Every stage except the motion over the speed, which takes a hundred times as long as the

@@ -27,6 +27,8 @@ pub struct StaticLoad {
     pub last_contact_angle: Option<f64>,
     /// Force of the incoming tooth at E, in N.
     pub force_at_start: f64,
+    /// Force of the incoming tooth at B, in N.
+    pub force_at_end: f64,
     /// Greatest force of the incoming tooth, in N.
     pub peak_force: f64,
     /// Difference of the greatest and the least displacement of the driver ahead while the incoming
@@ -131,6 +133,7 @@ fn load_within(
         first_contact_angle: (first < 0.0).then(|| -first / mesh.base_radii.1),
         last_contact_angle: (last > mesh.length).then(|| (last - mesh.length) / mesh.base_radii.0),
         force_at_start: balance(mesh, 0.0, 0.0).force,
+        force_at_end: balance(mesh, mesh.length, mesh.length).force,
         peak_force,
         transmission_error: peak(mesh, &balances, |balance| balance.displacement)
             + peak(mesh, &balances, |balance| -balance.displacement),

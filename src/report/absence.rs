@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
+use crate::model::quantities::Need;
 use crate::model::{Outcome, Quantity, Refusal, Solution, Stage};
 use crate::numeric::decimal::significant;
 
@@ -22,6 +23,8 @@ pub enum Absence {
     NoFriction,
     /// The quantity needs a backlash, and the case has none.
     NoBacklash,
+    /// The quantity needs a tip radius, and the tips are sharp.
+    NoTipRadius,
     /// The event does not occur.
     NotReached,
     /// The model withholds the quantity.
@@ -48,15 +51,22 @@ impl Absence {
         match (quantity.stage, solution.withheld) {
             _ if is_without && !solution.method.shares_load() => no_contact,
             (Stage::Static | Stage::Dynamic, _)
-                if quantity.needs_friction && !has_friction(solution) =>
+                if quantity.needs == Need::Friction && !has_friction(solution) =>
             {
                 Absence::NoFriction
             }
-            (Stage::Dynamic, _) if quantity.needs_backlash && solution.dynamic.is_some() => {
+            (Stage::Impact | Stage::Static | Stage::Dynamic, _)
+                if quantity.needs == Need::TipRadius && solution.has_sharp_tips() =>
+            {
+                Absence::NoTipRadius
+            }
+            (Stage::Dynamic, _)
+                if quantity.needs == Need::Backlash && solution.dynamic.is_some() =>
+            {
                 Absence::NoBacklash
             }
             (Stage::SteadyMotion, _)
-                if quantity.needs_backlash && matches!(solution.steady, Some(Ok(_))) =>
+                if quantity.needs == Need::Backlash && matches!(solution.steady, Some(Ok(_))) =>
             {
                 Absence::NoBacklash
             }
@@ -163,6 +173,9 @@ impl fmt::Display for Absence {
             Absence::NoFriction => f.write_str("the case has no operation.friction_coefficient"),
             Absence::NoBacklash => f.write_str(
                 "the case has no deviations.backlash; without it the back flanks are far away",
+            ),
+            Absence::NoTipRadius => f.write_str(
+                "the tip is sharp, and no pressure at an edge is finite; give driven.tip_radius",
             ),
             Absence::NotReached => f.write_str("the event does not occur"),
             Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.fix()),

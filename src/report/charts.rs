@@ -208,7 +208,7 @@ pub fn curve(
     };
     let value = |station: &Station| match bound {
         Some(bound) => (bound.value)(solution, station),
-        None => column.of(station),
+        None => column.of(solution, station),
     };
     let points = solution.own_stations().iter();
     let points = points.map(|one| (one.angle_after_e(), value(one).map(|value| value / factor)));

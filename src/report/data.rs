@@ -54,7 +54,9 @@ pub fn write_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 /// The stations of a solve.
 pub(super) fn stations(report: &Report) -> Table {
     let columns: Vec<_> = columns(report.solution.method).collect();
-    let row = |row| columns.iter().map(|column| Cell::number(column.of(row), "-")).collect();
+    let solution = &report.solution;
+    let row =
+        |row| columns.iter().map(|column| Cell::number(column.of(solution, row), "-")).collect();
     let cells = report.solution.own_stations().iter().map(row);
     let column = |known: &&super::stations::Column| {
         let title = format!("{} {}", known.symbol, known.shown);

@@ -60,6 +60,7 @@ pub const GRAPHS: &[Graph] = &[
     graph!("force", "Force", ["impact_force", "force"], None, true),
     graph!("gap", "Gap", ["gap"], Some(CLOSED), true),
     graph!("normal_velocity", "Approach velocity", ["normal_velocity"], None, true),
+    graph!("hertz_pressure", "Hertz pressure", ["hertz_pressure"], None, false),
     graph!("sliding_velocity", "Sliding velocity", ["sliding_velocity"], None, false),
     graph!("load_share", "Load share", ["load_share"], None, true),
     graph!("pair_compliance", "Pair compliance", ["pair_compliance"], None, false),

@@ -20,7 +20,7 @@ pub struct Column {
     /// The methods whose stations have this value.
     pub methods: &'static [Method],
     /// The value in SI.
-    pub value: fn(&Station) -> Option<f64>,
+    pub value: fn(&Solution, &Station) -> Option<f64>,
 }
 
 const CLOSED_FORM: &[Method] = &Method::CLOSED_FORM;
@@ -33,7 +33,7 @@ const fn column(
     unit: &'static str,
     (shown, digits): (&'static str, usize),
     methods: &'static [Method],
-    value: fn(&Station) -> Option<f64>,
+    value: fn(&Solution, &Station) -> Option<f64>,
 ) -> Column {
     Column { key, symbol, unit, shown, digits, methods, value }
 }
@@ -41,19 +41,20 @@ const fn column(
 /// Every column, in the order of a row.
 #[rustfmt::skip]
 pub const COLUMNS: &[Column] = &[
-    column(("roll_angle_driver", "θ_1"), "rad", ("deg", 5), EVERY, |s| Some(s.roll_angle_driver)),
-    column(("roll_angle_driven", "u"), "rad", ("deg", 5), EVERY, |s| Some(s.roll_angle_driven)),
-    column(("time", "t"), "s", ("us", 5), DYNAMIC, Station::time),
-    column(("radius_driver", "O1J"), "m", ("mm", 5), CLOSED_FORM, Station::radius_driver),
-    column(("normal_velocity", "ΔV_n"), "m/s", ("m/s", 5), EVERY, |s| Some(s.normal_velocity)),
-    column(("sliding_velocity", "ΔV_τ"), "m/s", ("m/s", 5), EVERY, |s| Some(s.sliding_velocity)),
-    column(("impact_force", "F_S"), "N", ("N", 5), CLOSED_FORM, |s| s.radius_driver().map(|_| s.force)),
-    column(("force", "F"), "N", ("N", 5), SHARING, |s| s.load_share().map(|_| s.force)),
-    column(("load_share", "F/ΣF"), "1", ("1", 4), SHARING, Station::load_share),
-    column(("transmission_error", "x"), "m", ("um", 5), SHARING, Station::transmission_error),
-    column(("gap", "S"), "m", ("um", 5), EVERY, |s| Some(s.gap)),
-    column(("pair_compliance", "q_s"), "m2/N", ("um mm/N", 5), EVERY, |s| s.pair_compliance),
-    column(("impact_energy", "E_k"), "J", ("J", 5), CLOSED_FORM, Station::impact_energy),
+    column(("roll_angle_driver", "θ_1"), "rad", ("deg", 5), EVERY, |_, s| Some(s.roll_angle_driver)),
+    column(("roll_angle_driven", "u"), "rad", ("deg", 5), EVERY, |_, s| Some(s.roll_angle_driven)),
+    column(("time", "t"), "s", ("us", 5), DYNAMIC, |_, s| s.time()),
+    column(("radius_driver", "O1J"), "m", ("mm", 5), CLOSED_FORM, |_, s| s.radius_driver()),
+    column(("normal_velocity", "ΔV_n"), "m/s", ("m/s", 5), EVERY, |_, s| Some(s.normal_velocity)),
+    column(("sliding_velocity", "ΔV_τ"), "m/s", ("m/s", 5), EVERY, |_, s| Some(s.sliding_velocity)),
+    column(("impact_force", "F_S"), "N", ("N", 5), CLOSED_FORM, |_, s| s.radius_driver().map(|_| s.force)),
+    column(("force", "F"), "N", ("N", 5), SHARING, |_, s| s.load_share().map(|_| s.force)),
+    column(("hertz_pressure", "p"), "Pa", ("MPa", 5), SHARING, Solution::pressure),
+    column(("load_share", "F/ΣF"), "1", ("1", 4), SHARING, |_, s| s.load_share()),
+    column(("transmission_error", "x"), "m", ("um", 5), SHARING, |_, s| s.transmission_error()),
+    column(("gap", "S"), "m", ("um", 5), EVERY, |_, s| Some(s.gap)),
+    column(("pair_compliance", "q_s"), "m2/N", ("um mm/N", 5), EVERY, |_, s| s.pair_compliance),
+    column(("impact_energy", "E_k"), "J", ("J", 5), CLOSED_FORM, |_, s| s.impact_energy()),
 ];
 
 /// The columns of the stations of a method.
@@ -76,7 +77,7 @@ const RESOLUTION: f64 = 1e-12;
 /// The mesh stiffness over the path of contact. No station has this value: each compliance model
 /// has its own curve.
 pub static MESH_STIFFNESS: Column =
-    column(("mesh_stiffness", "k"), "N/m", ("N/um", 4), EVERY, |_| None);
+    column(("mesh_stiffness", "k"), "N/m", ("N/um", 4), EVERY, |_, _| None);
 
 impl Column {
     /// The value in SI; 0 below the resolution of the difference that it is computed from.
@@ -101,14 +102,7 @@ impl Column {
 
     /// The value at a station in SI, if it is a number; zero has no sign.
     #[must_use]
-    pub fn of(&self, station: &Station) -> Option<f64> {
-        (self.value)(station).filter(|value| value.is_finite()).map(|value| value + 0.0)
-    }
-
-    /// The value at a station as text without the unit; a dash if it is absent.
-    #[must_use]
-    pub fn printed(&self, station: &Station) -> String {
-        (self.value)(station)
-            .map_or_else(|| "-".to_owned(), |value| super::number(value, self.shown, self.digits))
+    pub fn of(&self, solution: &Solution, station: &Station) -> Option<f64> {
+        (self.value)(solution, station).filter(|value| value.is_finite()).map(|value| value + 0.0)
     }
 }

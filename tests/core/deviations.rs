@@ -60,7 +60,8 @@ fn deviations_drawn_gear_by_gear_are_summed() {
 
 /// Every value that is not one of the back flanks.
 fn of_drive_flanks(solution: &Solution) -> Vec<Option<f64>> {
-    let of_drive = |quantity: &&Quantity| !quantity.needs_backlash;
+    let of_drive =
+        |quantity: &&Quantity| quantity.needs != tipstrike::model::quantities::Need::Backlash;
     QUANTITIES.iter().filter(of_drive).map(|quantity| quantity.finite_value(solution)).collect()
 }
 

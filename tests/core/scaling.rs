@@ -58,7 +58,7 @@ pub(crate) fn factor(unit: &str, length: f64, time: f64) -> f64 {
         "kg" => length * time.powi(2),
         "kg m2" => length.powi(3) * time.powi(2),
         "J" => length.powi(3),
-        "m2/N" | "1" | "rad" => 1.0,
+        "m2/N" | "1" | "rad" | "Pa" | "N/m2" => 1.0,
         _ => panic!("no factor for {unit}"),
     }
 }
@@ -116,7 +116,9 @@ fn values(solution: &Solution) -> Vec<Value> {
         let value = (quantity.value)(solution);
         (quantity.key.to_owned(), quantity.unit, value, 0.0)
     };
-    let mut all: Vec<Value> = QUANTITIES.iter().map(quantity).collect();
+    // The standard has constants with dimensions: 100 N/mm, 206 GPa.
+    let scales = |quantity: &&Quantity| !quantity.key.starts_with("iso_");
+    let mut all: Vec<Value> = QUANTITIES.iter().filter(scales).map(quantity).collect();
     let free = solution.stations.iter().map(|station| {
         vec![
             ("roll_angle_driven", "rad", Some(station.roll_angle_driven)),

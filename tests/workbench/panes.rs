@@ -43,7 +43,10 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     // A removed quantity is selected again when it returns.
     desk.keys(&["Ctrl-T"]).fill("operation.friction_coefficient", "0.1");
     let listed = desk.app.results().listed();
-    let of_friction = listed.iter().find(|known| known.needs_friction).map(|known| known.key);
+    let of_friction = listed
+        .iter()
+        .find(|known| known.needs == tipstrike::model::quantities::Need::Friction)
+        .map(|known| known.key);
     desk.app.tab.results.selected = of_friction;
     assert!(of_friction.is_some() && marked(&desk) == of_friction);
     desk.fill("operation.friction_coefficient", "");

@@ -200,6 +200,7 @@ fn same(stage: Stage, one: &Solution, other: &Solution) -> bool {
         Stage::Geometry => one.geometry == other.geometry,
         Stage::Load => one.mesh_force.to_bits() == other.mesh_force.to_bits(),
         Stage::Masses => one.reduced_mass.to_bits() == other.reduced_mass.to_bits(),
+        Stage::Figures => one.figures == other.figures,
         Stage::Deviation => one.deviation == other.deviation,
         Stage::Position => one.position == other.position,
         Stage::Velocity => one.velocity == other.velocity,

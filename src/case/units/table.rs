@@ -82,7 +82,7 @@ pub(super) static FAMILIES: [Family; 18] = [
         times("arcsec", &[], 4.84813681109536e-6, 9.320078015422868e-23),
     ]),
     family(Dimension::Pressure, "a pressure", &[
-        ten("GPa", &["kN/mm2"], 9),
+        ten("GPa", &["kN/mm2", "N/(mm um)"], 9),
         ten("MPa", &["N/mm2"], 6),
         ten("kPa", &[], 3),
         ten("Pa", &["N/m2"], 0),

@@ -1,7 +1,7 @@
 //! Rows of the static load sharing.
 
 use super::conditions::{always, friction_given};
-use super::{PLAIN, Quantity, Variant, checks, of_driver};
+use super::{Need, PLAIN, Quantity, Variant, checks, figures, of_driver};
 use crate::model::Stage::{Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::explanation::Formula::{self, Difference, Found, Made, Solved, Text, Words};
@@ -58,6 +58,42 @@ pub(super) const TABLE: &[Quantity] = &[
         ..PLAIN
     },
     Quantity {
+        key: "single_stiffness",
+        symbol: "c'_q",
+        label: "single stiffness",
+        unit: "N/m2",
+        shown: "N/(mm um)",
+        digits: 5,
+        equation: "max 1/q",
+        stage: Mesh,
+        value: |s| Some(s.mesh.as_ref()?.single_stiffness() / s.mesh.as_ref()?.width),
+        meaning: "The greatest stiffness of one pair per width between E and B, max 1/q, by the compliance \
+            of the case. iso_single_stiffness is that of ISO 6336-1.",
+        formula: Words("the greatest 1/q of a pair from E to B, contact under F_0"),
+        source: "Compliances of Zhou & Chen 2014, Eqs. 54-56, or by finite elements.",
+        assumptions: "The pair is alone, and the contact compliance is that under F_0.",
+        checks: &[checks::teeth],
+        ..PLAIN
+    },
+    Quantity {
+        key: "mesh_stiffness_per_width",
+        symbol: "c_m",
+        label: "mesh stiffness per width",
+        unit: "N/m2",
+        shown: "N/(mm um)",
+        digits: 5,
+        equation: "k_m/b",
+        stage: Mesh,
+        value: |s| Some(s.mesh.as_ref()?.mean_stiffness() / s.mesh.as_ref()?.width),
+        meaning: "The mean stiffness of the mesh per width, k_m/b, by the compliance of the case. \
+            iso_mesh_stiffness is that of ISO 6336-1.",
+        formula: Text("k_m/b"),
+        source: "Mean of b/q of a pair over its path of contact, see mesh_stiffness.",
+        assumptions: "As for mesh_stiffness.",
+        checks: &[checks::teeth],
+        ..PLAIN
+    },
+    Quantity {
         key: "static_first_contact_angle_driver",
         symbol: "θ_st",
         label: "static: driver angle",
@@ -100,6 +136,20 @@ pub(super) const TABLE: &[Quantity] = &[
         ..AT_REST
     },
     Quantity {
+        key: "static_force_at_end",
+        symbol: "F_st,B",
+        label: "static: force at B",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        value: |s| Some(s.static_load.as_ref()?.force_at_end),
+        meaning: "The force on the incoming tooth at the exit B at rest. A sufficient tip relief of the \
+            driver reduces this force to 0.",
+        formula: Found("F_k of the tooth at B, with Σ w_k F_k = F_0", SHARED),
+        corrections: &["Eq. 53", "Eq. 54"],
+        ..AT_REST
+    },
+    Quantity {
         key: "static_peak_force",
         symbol: "F_st,max",
         label: "static: peak force",
@@ -138,6 +188,8 @@ pub(super) const TABLE: &[Quantity] = &[
         ),
         ..AT_REST
     },
+    figures::STATIC_PEAK,
+    figures::STATIC_CORNER,
     Quantity {
         key: "static_transmission_error",
         symbol: "TE_st",
@@ -178,7 +230,7 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPRINGS,
         checks: &[checks::at_rest],
         is_signed: true,
-        needs_friction: true,
+        needs: Need::Friction,
         ..PLAIN
     },
 ];

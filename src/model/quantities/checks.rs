@@ -2,7 +2,9 @@
 
 use crate::model::compliance::model_of;
 use crate::model::explanation::{Context, Finding, four, micro, mm};
-use crate::model::notes::{USUAL_BACKLASH, backlash, inertia_at_rest, is_possible, sliding};
+use crate::model::notes::{
+    THIN_TIP, USUAL_BACKLASH, backlash, inertia_at_rest, is_possible, sliding,
+};
 use crate::model::profile::{Profile, Rack};
 
 /// No interference at the start of contact.
@@ -234,5 +236,69 @@ pub(super) fn contact_kept(k: &Context) -> Option<Finding> {
             value strongly",
         here,
         !lost,
+    )
+}
+
+/// The tips are not thin.
+pub(super) fn tips(k: &Context) -> Option<Finding> {
+    let least = THIN_TIP * k.inputs.module;
+    let [driver, driven] = k.solution.figures?.tip_thickness;
+    Finding::new(
+        "s_a >= 0.2 m: a thinner tip is brittle when hardened",
+        format!("s_a1 = {}, s_a2 = {}, 0.2 m = {}", mm(driver), mm(driven), mm(least)),
+        driver.min(driven) >= least,
+    )
+}
+
+/// The tips do not touch the roots.
+pub(super) fn clearance(k: &Context) -> Option<Finding> {
+    let [driver, driven] = k.solution.figures?.tip_clearance;
+    Finding::new(
+        "c > 0: the tips clear the roots",
+        format!("c_1 = {}, c_2 = {}", mm(driver), mm(driven)),
+        driver.min(driven) > 0.0,
+    )
+}
+
+/// The involutes begin below the active flanks.
+pub(super) fn form_diameters(k: &Context) -> Option<Finding> {
+    let geometry = &k.solution.geometry;
+    let active = [
+        geometry.driver.base.hypot(geometry.start),
+        geometry.driven.base.hypot(geometry.tangent_length - geometry.end),
+    ];
+    let gears = [(&k.inputs.driver, &geometry.driver), (&k.inputs.driven, &geometry.driven)];
+    let form =
+        gears.map(|(gear, circles)| Profile::of(&Rack::of(k.inputs, gear), circles).form_radius());
+    let [driver, driven] = form.map(|radius| mm(2.0 * radius));
+    Finding::new(
+        "d_Nf >= d_Ff: the involute begins at the root form diameter d_Ff, below the active flank",
+        format!("d_Ff1 = {driver}, d_Ff2 = {driven}"),
+        active.iter().zip(form).all(|(active, form)| *active >= form),
+    )
+}
+
+/// The range of the stiffness of ISO 6336-1.
+pub(super) fn iso_stiffness(k: &Context) -> Option<Finding> {
+    let shifts = k.inputs.driver.profile_shift + k.inputs.driven.profile_shift;
+    let load = k.solution.figures?.tangential_force / k.inputs.common_width() / 1e3;
+    Finding::new(
+        "-0.5 <= x1 + x2 <= 2 and F_t/b from 100 to 1600 N/mm",
+        format!("x1 + x2 = {}, F_t/b = {} N/mm", four(shifts), four(load)),
+        (-0.5..=2.0).contains(&shifts) && (100.0..=1600.0).contains(&load),
+    )
+}
+
+/// The range of method B for the dynamic factor.
+pub(super) fn iso_range(k: &Context) -> Option<Finding> {
+    const LEAST: f64 = 3.0;
+    let figures = k.solution.figures?;
+    let ratio = k.inputs.ratio();
+    let speed = figures.pitch_line_speed * f64::from(k.inputs.driver.teeth) / 100.0
+        * (ratio * ratio / (1.0 + ratio * ratio)).sqrt();
+    Finding::new(
+        "v z1/100 √(i²/(1 + i²)) >= 3 m/s: a slower pair has K_v near 1",
+        format!("{} m/s", four(speed)),
+        speed >= LEAST,
     )
 }

@@ -68,6 +68,21 @@ pub fn any_base_pitch(inputs: &Inputs) -> bool {
     inputs.has_own_base_pitch() || inputs.combination == Combination::Sum
 }
 
+/// The driver has more teeth than the driven gear.
+pub fn driver_larger(inputs: &Inputs) -> bool {
+    inputs.driver.teeth > inputs.driven.teeth
+}
+
+/// A flank tolerance class gives a base pitch deviation.
+pub fn any_class(inputs: &Inputs) -> bool {
+    [&inputs.driver, &inputs.driven].iter().any(|gear| inputs.class_of(gear).is_some())
+}
+
+/// A flank tolerance class is too coarse for the effect of a tip relief in ISO 6336-1.
+pub fn any_coarse(inputs: &Inputs) -> bool {
+    !inputs.counts_relief()
+}
+
 /// The driver's flank tolerance class gives its base pitch deviation.
 pub fn driver_graded(inputs: &Inputs) -> bool {
     inputs.base_pitch_of(&inputs.driver).1 == Origin::Grade

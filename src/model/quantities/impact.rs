@@ -3,7 +3,8 @@
 use super::conditions::{
     always, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline, paper,
 };
-use super::{PLAIN, Quantity, Variant, checks};
+use super::figures::PRESSURE;
+use super::{Need, PLAIN, Quantity, Variant, checks};
 use crate::model;
 use crate::model::Stage::{Band, Impact, Masses};
 use crate::model::explanation::Formula::{Cases, Given, Made, Text, Words};
@@ -312,6 +313,21 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "Smooth cylinders of the reduced radius at D over the full width.",
         checks: &[checks::contact_small, checks::edge],
         ..PLAIN
+    },
+    Quantity {
+        key: "corner_pressure",
+        symbol: "p_S",
+        label: "corner pressure",
+        stage: Impact,
+        value: |s| s.impact?.corner_pressure,
+        meaning: "The Hertz pressure of the rounded tip edge on the driver's flank under the impact force. \
+            A sharp edge has no finite pressure: this result needs the tip radius of the driven gear.",
+        formula: Text("2 F_S/(π a_H b)"),
+        checks: &[checks::contact_small, checks::edge],
+        needs: Need::TipRadius,
+        by_static: Some("static_corner_pressure"),
+        by_dynamic: Some("dynamic_corner_pressure"),
+        ..PRESSURE
     },
     Quantity {
         key: "impact_energy",

@@ -1,6 +1,6 @@
 //! Rows of the motion: load sharing with inertia, mesh frequency and natural frequency.
 
-use super::{PLAIN, Quantity, Variant, checks, conditions, of_driver};
+use super::{Need, PLAIN, Quantity, Variant, checks, conditions, figures, of_driver};
 use crate::model::Solution;
 use crate::model::Stage::{Dynamic, Resonance, SpeedRun};
 use crate::model::dynamic::speeds::SpeedCurve;
@@ -47,7 +47,7 @@ const BACK: Quantity = Quantity {
     source: RATTLE,
     assumptions: AT_BACK,
     checks: &[checks::teeth, checks::forgotten],
-    needs_backlash: true,
+    needs: Need::Backlash,
     ..PLAIN
 };
 
@@ -124,6 +124,8 @@ pub(super) const TABLE: &[Quantity] = &[
         )],
         ..IN_MOTION
     },
+    figures::DYNAMIC_PEAK,
+    figures::DYNAMIC_CORNER,
     Quantity {
         key: "dynamic_impact_duration",
         symbol: "T_d",
@@ -205,7 +207,7 @@ pub(super) const TABLE: &[Quantity] = &[
         source: "Coulomb friction along the motion, ∫μ F |v| dt with the sliding velocity v of \
             the pair, after Özgüven & Houser 1988.",
         corrections: &["Eq. 64"],
-        needs_friction: true,
+        needs: Need::Friction,
         ..IN_MOTION
     },
     Quantity {

@@ -1,7 +1,7 @@
 //! Rows of the first contact D and its velocities.
 
 use super::conditions::{always, driven_rounded, edge_given, paper};
-use super::{PLAIN, Quantity, Variant, checks};
+use super::{PLAIN, Quantity, Variant, checks, figures};
 use crate::model::Context;
 use crate::model::Stage::{Position, Velocity};
 use crate::model::explanation::Formula::{Cases, Difference, Solved, Text};
@@ -204,6 +204,8 @@ pub(super) const TABLE: &[Quantity] = &[
         checks: &[checks::gap_closed, checks::keeps_sliding],
         ..VELOCITY
     },
+    figures::AT_CONTACT[0],
+    figures::AT_CONTACT[1],
 ];
 
 const CONTACT: Equation = Equation {

@@ -2,7 +2,7 @@
 //! pitch deviations.
 
 use super::motion::AT_BACK;
-use super::{PLAIN, Quantity, checks};
+use super::{Need, PLAIN, Quantity, checks};
 use crate::model::Solution;
 use crate::model::Stage::{StaticSpectrum, SteadyMotion};
 use crate::model::dynamic::steady::Steady;
@@ -212,7 +212,7 @@ pub(super) const TABLE: &[Quantity] = &[
             are far away, and this result does not exist.",
         formula: Found("counted over the base pitches after which the motion repeats", STEADY),
         assumptions: AT_BACK,
-        needs_backlash: true,
+        needs: Need::Backlash,
         ..STEADY_MOTION
     },
     Quantity {
@@ -227,7 +227,7 @@ pub(super) const TABLE: &[Quantity] = &[
             without deviations.",
         formula: Found("max B over the base pitches after which the motion repeats", STEADY),
         assumptions: AT_BACK,
-        needs_backlash: true,
+        needs: Need::Backlash,
         ..STEADY_MOTION
     },
 ];

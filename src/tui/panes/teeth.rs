@@ -481,7 +481,8 @@ fn reading(
     system: System,
 ) -> Option<Reading> {
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
-    let interpolated = moment.interpolated.as_ref().and_then(|one| column.of(&one.station));
+    let interpolated =
+        moment.interpolated.as_ref().and_then(|one| column.of(solution, &one.station));
     let value = interpolated.or_else(|| without_contact(moment, key));
     if value.is_none() && !column.methods.contains(&solution.method) {
         return None;

@@ -273,7 +273,7 @@ fn reading(graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
                 let digits = if is_between { DIGITS_BETWEEN } else { column.digits };
                 ((graph.bound?.value)(solution, station)?, digits)
             } else {
-                let value = column.resolved(column.of(station)?, inputs, solution);
+                let value = column.resolved(column.of(solution, station)?, inputs, solution);
                 (value, column.digits_of(&interpolated))
             }
         }

@@ -11,6 +11,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::Results;
 use crate::model::inputs::Method;
+use crate::model::quantities::Need;
 use crate::model::{QUANTITIES, Quantity, Solution, Stages};
 use crate::report::compare::difference;
 use crate::report::verdict::{Standing, verdict};
@@ -103,7 +104,7 @@ pub(super) fn order(answer: &Answer) -> Vec<&'static Quantity> {
     let has_friction = answer.inputs.friction_coefficient.is_some();
     let first = FIRST.iter().filter_map(|key| Quantity::find(key));
     let rest = report::quantities(answer.active).filter(|quantity| {
-        !FIRST.contains(&quantity.key) && (has_friction || !quantity.needs_friction)
+        !FIRST.contains(&quantity.key) && (has_friction || quantity.needs != Need::Friction)
     });
     let listed = first.chain(rest).filter(|quantity| stages.has(quantity.stage));
     let has_value =
