@@ -422,7 +422,7 @@ mod tests {
         let (alpha, working) = (inputs.pressure_angle, solution.geometry.working_pressure_angle);
         let zone = (2.0 * working.cos() / (alpha.cos().powi(2) * working.sin())).sqrt();
         let elastic = (206e9 / (PI * 2.0 * (1.0 - 0.09))).sqrt();
-        let (force, diameter, ratio) = (100.0 / 0.05, 0.1, 31.0 / 20.0);
+        let (force, diameter, ratio) = (100.0 / 0.05, 0.1_f64, 31.0 / 20.0_f64);
         let stress = zone * elastic * (force / (diameter * 10e-3) * (ratio + 1.0) / ratio).sqrt();
         let figures = solution.figures.unwrap();
         assert_near(figures.pitch_pressure, stress, 12);
